@@ -13,19 +13,22 @@ enum {
 
 #define POLL_INTERVAL_S 0.02 /* s between two polls whether the batch is ending */
 
-/* Return the sample times of run i, s. */
-static inline const double *times_of(const Batch *b, long i) { return b->t + i * b->apart; }
-/* Return the last sample time of run i, s. */
-static inline double t_end_of(const Batch *b, long i) { return times_of(b, i)[b->wanted[i] - 1]; }
-/* Return the index of the first row of run i's samples. */
-static inline long rows_of(const Batch *b, long i) { return b->place[i] * b->samples; }
+/* Return the first of the sample times of run i, s. */
+static inline const double *times_of(const Batch *batch, long i) { return batch->t + i * batch->apart; }
+/* Return the last of the sample times of run i, s. */
+static inline double t_end_of(const Batch *batch, long i)
+{
+    return times_of(batch, i)[batch->wanted[i] - 1];
+}
+/* Return the row of the batch's arrays of samples at which those of run i begin. */
+static inline long rows_of(const Batch *batch, long i) { return batch->place[i] * batch->samples; }
 
 /* Functions of a single run, for the time loop of several runs in lanes. */
 typedef struct {
-    /* begin run i; others: n runs under way, -1: none; returns a status */
-    int (*begin)(const Batch *b, long i, const long *others, int n, void *run);
+    /* begin run i; candidates: n runs under way, -1: none; returns a status */
+    int (*begin)(const Batch *batch, long i, const long *candidates, int n, void *run);
     /* advance run i to its next step; returns GOES_ON, LISTS or RUN_OVER */
-    int (*advance_single)(const Batch *b, long i, int tried, void *run);
+    int (*advance_single)(const Batch *batch, long i, int trial_result, void *run);
     long (*unseen)(const void *run); /* steps before its next check of progress; 0: each is reported */
 } Single;
 

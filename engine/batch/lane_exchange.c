@@ -13,7 +13,7 @@ enum { ABREAST = 4 * LANES };
 
 /* Several runs under way in lanes: their integrators, numbers and next steps, and the data of the lanes. */
 typedef struct {
-    const Batch *b;
+    const Batch *batch;
     const Single *one;
     Integrator *run[ABREAST];
     long number[ABREAST]; /* -1: free */
@@ -34,26 +34,27 @@ typedef struct {
 #define FLOW_BEGINS sizeof(Flow)
 #endif
 
-/* Return whether place i has a run. */
+/* Return whether place i of the runs under way is in use. */
 static int has_run(const Flow *flow, int i) { return flow->number[i] >= 0; }
 
 /*
- * Load the parameters of run i into lane k. A lane without a run repeats another run, so that its numbers are regular.
+ * Load the parameters of the run in place i into lane k, unless they are there. If place i is free, the lane repeats
+ * another run under way, so that its numbers are finite; its results are not used.
  */
 static void load_parameters(Flow *flow, int k, int i)
 {
-    for (int other = 0; other < ABREAST && !has_run(flow, i); other++)
-        i = has_run(flow, other) ? other : i;
+    for (int j = 0; j < ABREAST && !has_run(flow, i); j++)
+        i = has_run(flow, j) ? j : i;
     if (flow->loaded[k] == i)
         return;
-    const double *p = flow->b->p_motion + flow->number[i] * flow->b->numbers;
-    for (long j = 0; j < flow->b->numbers; j++)
+    const double *p = flow->batch->p_motion + flow->number[i] * flow->batch->numbers;
+    for (long j = 0; j < flow->batch->numbers; j++)
         ((Lanes *)&flow->p)[j][k] = p[j];
     flow->loaded[k] = i;
 }
 
 #if IMPLICIT_STAGES && !TAYLOR
-/* Load the iteration history of a run into lane k: guesses of the stages follow from it. */
+/* Load the iteration history of a run into lane k: first guesses of the stages follow from it. */
 static void gather_past(LaneIntegrator *x, int k, Integrator *run)
 {
     update_iteration_history(run);
@@ -68,7 +69,10 @@ static void gather_past(LaneIntegrator *x, int k, Integrator *run)
 }
 #endif
 
-/* Load the state of lane k's run at the beginning of a step, and the length of the step. */
+/*
+ * Load the state of lane k's run at the beginning of a step, and the length of the step, into the lane. Does nothing if
+ * the lane holds the newest state, because it accepted the last step itself (lane_quiet.c).
+ */
 static void gather(Flow *flow, int k)
 {
     Integrator *run = flow->run[flow->loaded[k]];
@@ -77,7 +81,7 @@ static void gather(Flow *flow, int k)
     if (has_run(flow, k) && flow->quiet.here[k])
         return;
     if (has_run(flow, k))
-        load_quiet_lane(&flow->quiet, x, k, flow->b, flow->number[k], flow->one, run);
+        load_quiet_lane(&flow->quiet, x, k, flow->batch, flow->number[k], flow->one, run);
 #endif
     flow->h[k] = run->control.attempt.h;
     x->t[k] = run->t;
@@ -113,7 +117,10 @@ static void gather(Flow *flow, int k)
         x->discrete.event_sign[i][k] = run->discrete.event_sign[i];
 }
 
-/* Copy the right-hand side's outputs of lane k to a single run. */
+/*
+ * Copy the right-hand side's outputs of lane k to those of a single run, `rhs`. Outputs that lanes do not have become
+ * 0.
+ */
 static void scatter_rhs(const LaneRhsOutputs *x, int k, RhsOutputs *rhs)
 {
     for (int i = 0; i < N_LOOPS; i++)
@@ -137,7 +144,10 @@ static void scatter_rhs(const LaneRhsOutputs *x, int k, RhsOutputs *rhs)
         rhs->event[i] = x->event[i][k];
 }
 
-/* Copy an accepted step of lane k to its run, as the run itself would have made it. */
+/*
+ * Copy an accepted step of lane k to a single run's step, as that run itself would have computed it. Stages, values at
+ * stages and the dense output stay in the lane: the step points to them with the stride LANES.
+ */
 static void scatter_step(const Flow *flow, int k, Step *step)
 {
     const LaneStep *x = &flow->step;
@@ -169,7 +179,10 @@ static void scatter_step(const Flow *flow, int k, Step *step)
 }
 
 #if TAYLOR
-/* Copy counts and series of a trial in lane k to its run. */
+/*
+ * Copy the counts and the series of a trial step in lane k to its run; the terms stay in the lane. `method` is not
+ * used.
+ */
 static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
 {
     (void)method;
@@ -181,7 +194,10 @@ static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
     run->control.attempt.h = flow->step.h[k];
 }
 #else
-/* Copy counts and iteration data of a trial in lane k to its run, as the run itself would have counted them. */
+/*
+ * Copy the counts and iteration data of a trial step by `method` in lane k to its run, as the run itself would have
+ * counted them.
+ */
 static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
 {
     static const int of[LANE_KINDS] = {[BY_DOP853] = DOP853_STAGES, [BY_RK4] = RK4_STAGES, [BY_DOPRI5] = DOPRI5_STAGES,
@@ -202,7 +218,10 @@ static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
 }
 #endif
 
-/* Copy the result of a trial in lane k to its run. */
+/*
+ * Copy the result of a trial step by `method` in lane k to its run: time, length, error norm and counts. The stability
+ * and the step itself are copied only if the lane accepted it.
+ */
 static void scatter(const Flow *flow, int k, int method)
 {
     Integrator *run = flow->run[flow->loaded[k]];

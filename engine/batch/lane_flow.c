@@ -9,19 +9,19 @@
 enum { MIN_REPORTED = ABREAST / LANES }; /* runs reported at once: a call from Python is as long as several steps */
 
 /*
- * Update place i after its run returned `happened`; it is free if the run is over. Returns whether Python must be
- * called.
+ * Store the method that the run in place i needs next, after a call for that run returned `result`. If the run is over,
+ * the place becomes free. Return whether Python must be called: unless `result` is GOES_ON.
  */
-static int update_place(Flow *flow, int i, int happened)
+static int record_run_result(Flow *flow, int i, int result)
 {
-    if (happened == RUN_OVER)
+    if (result == RUN_OVER)
         flow->number[i] = -1;
-    flow->kind[i] = happened == RUN_OVER ? -1 : flow->run[i]->control.attempt.lane;
-    return happened != GOES_ON;
+    flow->kind[i] = result == RUN_OVER ? -1 : flow->run[i]->control.attempt.lane;
+    return result != GOES_ON;
 }
 
-/* Copy the state of a lane back to run i. */
-static void unload_lane(Flow *flow, int i)
+/* Copy the steps that lane i accepted itself to the run in place i, before the run is used; else do nothing. */
+static void flush_lane(Flow *flow, int i)
 {
 #if QUIET
     if (has_run(flow, i) && flow->quiet.here[i])
@@ -31,30 +31,37 @@ static void unload_lane(Flow *flow, int i)
 #endif
 }
 
-/* Advance run i to its next step; tried: what the lanes did of the last one. Returns whether Python must be called. */
-static int resume_run(Flow *flow, int i, int tried, int *lists)
+/*
+ * Advance the run in place i to its next attempt at a step, by completing or trying the last one. trial_result: what
+ * the lanes did of that step (NOT_TRIED, TRIED, MISSED). *lists_full is set if the run's lists are full. Return whether
+ * Python must be called.
+ */
+static int advance_run_to_next_step(Flow *flow, int i, int trial_result, int *lists_full)
 {
-    const int happened = flow->one->advance_single(flow->b, flow->number[i], tried, flow->run[i]);
-    *lists |= happened == LISTS;
-    return update_place(flow, i, happened);
+    const int result = flow->one->advance_single(flow->batch, flow->number[i], trial_result, flow->run[i]);
+    *lists_full |= result == LISTS;
+    return record_run_result(flow, i, result);
 }
 
-/* Return whether the next step of run i needs this method. */
+/* Return whether the next step of the run in place i is by this method (BY_...). */
 static int needs_method(const Flow *flow, int i, int method) { return flow->kind[i] == method; }
 
-/* Return the number of lanes with a run that needs this method. */
-static int lanes_of_method(const Flow *flow, int method)
+/* Return the number of lanes that have a run whose next step is by this method. Place i belongs to lane i % LANES. */
+static int count_lanes_of_method(const Flow *flow, int method)
 {
-    int some[LANES] = {0}, count = 0;
+    int has_lane[LANES] = {0}, count = 0;
     for (int i = 0; i < ABREAST; i++)
-        some[i % LANES] |= needs_method(flow, i, method);
+        has_lane[i % LANES] |= needs_method(flow, i, method);
     for (int k = 0; k < LANES; k++)
-        count += some[k];
+        count += has_lane[k];
     return count;
 }
 
-/* Load a run that needs this method into lane k, preferring the run that is there. Returns whether there is one. */
-static int load_lane(Flow *flow, int k, int method)
+/*
+ * Load a run whose next step is by this method into lane k, preferring the run that is there. If there is none, another
+ * run is repeated in the lane. Return whether the lane has a run that needs the step.
+ */
+static int load_run_into_lane(Flow *flow, int k, int method)
 {
     const int last = flow->loaded[k], is_own = last >= 0 && last % LANES == k && has_run(flow, last);
     int best = is_own ? last : k;
@@ -64,30 +71,37 @@ static int load_lane(Flow *flow, int k, int method)
     return flow->loaded[k] % LANES == k && needs_method(flow, flow->loaded[k], method);
 }
 
-/* Return whether a fixed step of lane k leads over an event; its run then repeats the step with its own branches. */
+/*
+ * Return whether a fixed step of lane k contains an event: an event function is negative at its end or at a stage. Its
+ * run then repeats the step with free branches. Always 0 for steps of variable length and series.
+ */
 static int leads_over(const Flow *flow, int k)
 {
-    int some = 0;
+    int has_event = 0;
 #if !TAYLOR
     Lanes event_functions[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
     if (!(flow->run[flow->loaded[k]]->control.fixed > 0.0))
         return 0;
     record_event_functions(&flow->x, &flow->step.rhs, event_functions);
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++)
-        some |= event_functions[j][k] < 0.0 || flow->step.lowest[j][k] < 0.0;
+        has_event |= event_functions[j][k] < 0.0 || flow->step.lowest[j][k] < 0.0;
 #else
     (void)flow, (void)k;
 #endif
-    return some;
+    return has_event;
 }
 
-/* Try one step of one run in each lane. Returns the number of runs that Python must be told of. */
-static int try_together(Flow *flow, int method, int *lists)
+/*
+ * Try one step by this method of one run in each lane, and advance those runs to their next steps. Lanes without such a
+ * run are computed, but ignored. Steps that fail in a lane or lead over an event are left to their runs. Return the
+ * number of runs that Python must be called for. *lists_full is set if the lists of one are full.
+ */
+static int try_lane_steps(Flow *flow, int method, int *lists_full)
 {
-    int some = 0, requested[LANES];
+    int n_reported = 0, requested[LANES];
     LaneBits quiet = {0};
     for (int k = 0; k < LANES; k++) {
-        requested[k] = load_lane(flow, k, method);
+        requested[k] = load_run_into_lane(flow, k, method);
         gather(flow, k);
     }
     try_lanes(&flow->x, method, flow->h, &flow->p, &flow->step);
@@ -98,50 +112,56 @@ static int try_together(Flow *flow, int method, int *lists)
         if (!requested[k] || quiet[k])
             continue;
         const int lost = flow->step.lost[k] || leads_over(flow, k);
-        unload_lane(flow, k);
+        flush_lane(flow, k);
         if (!lost)
             scatter(flow, k, method);
-        some += resume_run(flow, flow->loaded[k], lost ? NOT_TRIED : flow->step.missed[k] ? MISSED : TRIED, lists);
+        const int trial = lost ? NOT_TRIED : flow->step.missed[k] ? MISSED : TRIED;
+        n_reported += advance_run_to_next_step(flow, flow->loaded[k], trial, lists_full);
     }
-    return some;
+    return n_reported;
 }
 
 /*
- * Make a step of the runs that need the method most lanes have a run for; the other runs wait. If no two lanes share a
- * method, each run makes its own step. Returns the number of runs that Python must be told of.
+ * Advance the runs that need the method for which most lanes have a run by one step; the other runs wait. If no two
+ * lanes share a method, each run makes its own step outside the lanes. Return the number of runs that Python must be
+ * called for. *lists_full is set if the lists of one are full.
  */
-static int advance_lanes(Flow *flow, int *lists)
+static int advance_lanes(Flow *flow, int *lists_full)
 {
-    int some = 0, most = 0, count[LANE_KINDS];
+    int n_reported = 0, most = 0, count[LANE_KINDS];
     for (int method = 0; method < LANE_KINDS; method++) {
-        count[method] = lanes_of_method(flow, method);
+        count[method] = count_lanes_of_method(flow, method);
         most = count[method] > count[most] ? method : most;
     }
     if (count[most] > 1)
-        return try_together(flow, most, lists);
+        return try_lane_steps(flow, most, lists_full);
     for (int i = 0; i < ABREAST; i++) {
         if (!has_run(flow, i))
             continue;
-        unload_lane(flow, i);
-        some += resume_run(flow, i, NOT_TRIED, lists);
+        flush_lane(flow, i);
+        n_reported += advance_run_to_next_step(flow, i, NOT_TRIED, lists_full);
     }
-    return some;
+    return n_reported;
 }
 
-/* Begin or resume the run of place i, up to its next step. Returns whether Python must be called. */
-static int enter_run(Flow *flow, int i)
+/*
+ * Begin the run in place i if it is new, or resume it, up to its first attempt at a step. A failed start is stored in
+ * the batch's status. Return whether Python must be called.
+ */
+static int begin_or_resume_run(Flow *flow, int i)
 {
-    const Batch *b = flow->b;
+    const Batch *batch = flow->batch;
     const long run = flow->number[i];
-    if (b->phase[run] == NEW) {
-        b->status[run] = flow->one->begin(b, run, flow->number, ABREAST, flow->run[i]);
-        b->phase[run] = b->status[run] ? OVER : BEGUN;
+    if (batch->phase[run] == NEW) {
+        batch->status[run] = flow->one->begin(batch, run, flow->number, ABREAST, flow->run[i]);
+        batch->phase[run] = batch->status[run] ? OVER : BEGUN;
     }
-    return update_place(
-        flow, i, b->phase[run] == OVER ? RUN_OVER : flow->one->advance_single(b, run, NOT_YET, flow->run[i]));
+    if (batch->phase[run] == OVER)
+        return record_run_result(flow, i, RUN_OVER);
+    return record_run_result(flow, i, flow->one->advance_single(batch, run, NOT_YET, flow->run[i]));
 }
 
-/* Return the number of runs under way. */
+/* Return the number of places with a run under way. */
 static int count_runs(const Flow *flow)
 {
     int count = 0;
@@ -154,18 +174,19 @@ static int count_runs(const Flow *flow)
 int gudgeon_lane_count(void) { return ABREAST; }
 
 /*
- * Integrate the runs number[i] (ABREAST of them, -1: none), each with its own Integrator run[i]. Returns GOES_ON, to be
- * called again, if runs are over (number[i] = -1) or after `limit` steps; LISTS if the lists of a run are full;
- * ALL_OVER if fewer than two runs are left or the batch is ending. Unfinished runs then continue alone
- * (gudgeon_ensemble).
+ * Integrate the runs number[i] (ABREAST of them, -1: none) together in lanes, each with its own Integrator run[i].
+ * Return GOES_ON, to be called again, if runs are over (number[i] = -1) or after `limit` steps. Return LISTS if the
+ * lists of a run are full, ALL_OVER if fewer than two runs are left or the batch is ending. Unfinished runs then
+ * continue alone (gudgeon_ensemble). single: functions of gudgeon_single(). The wall time is shared equally by the
+ * runs.
  */
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
 {
     Flow flow;
     memset(&flow, 0, FLOW_BEGINS);
-    flow.b = batch, flow.one = single;
+    flow.batch = batch, flow.one = single;
     const double before = lane_seconds();
-    int some = 0, lists = 0, entered = 0;
+    int n_reported = 0, lists_full = 0, entered = 0;
     for (int i = 0; i < ABREAST; i++) {
         flow.run[i] = run[i];
         flow.number[i] = number[i];
@@ -176,20 +197,21 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
         flow.loaded[k] = -1;
     for (int i = 0; i < ABREAST; i++)
         if (has_run(&flow, i))
-            some += enter_run(&flow, i);
-    for (long left = flow.b->limit; some < MIN_REPORTED && !lists && left > 0 && !*flow.b->ending; left--) {
+            n_reported += begin_or_resume_run(&flow, i);
+    for (long left = flow.batch->limit; n_reported < MIN_REPORTED && !lists_full && left > 0
+        && !*flow.batch->ending; left--) {
         if (count_runs(&flow) < 2)
             break;
-        some += advance_lanes(&flow, &lists);
+        n_reported += advance_lanes(&flow, &lists_full);
     }
     const double fraction = (lane_seconds() - before) / (entered > 0 ? entered : 1);
     for (int i = 0; i < ABREAST; i++) {
-        unload_lane(&flow, i);
+        flush_lane(&flow, i);
         if (number[i] >= 0)
-            flow.b->seconds[number[i]] += fraction;
+            flow.batch->seconds[number[i]] += fraction;
         if (has_run(&flow, i))
-            flow.b->t_last[flow.number[i]] = flow.run[i]->t;
+            flow.batch->t_last[flow.number[i]] = flow.run[i]->t;
         number[i] = flow.number[i];
     }
-    return lists ? LISTS : (some || count_runs(&flow) > 1) && !*flow.b->ending ? GOES_ON : ALL_OVER;
+    return lists_full ? LISTS : (n_reported || count_runs(&flow) > 1) && !*flow.batch->ending ? GOES_ON : ALL_OVER;
 }

@@ -49,10 +49,13 @@ static inline Lanes lanes_period_branch(Lanes a, Lanes b)
 static inline Lanes lanes_just_ahead(Lanes x) { return x + 1e-9 * (1.0 + lanes_fabs(x)); }
 /* Return just_behind() of each lane. */
 static inline Lanes lanes_just_behind(Lanes x) { return x - 1e-9 * (1.0 + lanes_fabs(x)); }
-/* Return finite_slope() of each lane. */
-static inline Lanes lanes_finite_slope(Lanes derivative, Lanes ahead, Lanes behind, Lanes way)
+/*
+ * Return finite_slope() of each lane: the derivative if it is finite, else the difference quotient (ahead - behind) /
+ * distance.
+ */
+static inline Lanes lanes_finite_slope(Lanes derivative, Lanes ahead, Lanes behind, Lanes distance)
 {
-    return pick(lanes_fabs(derivative) < INFINITY, derivative, (ahead - behind) / way);
+    return pick(lanes_fabs(derivative) < INFINITY, derivative, (ahead - behind) / distance);
 }
 
 /* Return the square root of each lane. */
@@ -91,12 +94,14 @@ static inline Lanes lanes_sqrt(Lanes x)
 LANE_AFTER_LANE_FUNCTIONS(LANE_AFTER_LANE, LANE_AFTER_LANE_OF_TWO)
 
 typedef unsigned long long LaneWords __attribute__((vector_size(8 * LANES)));
-/* Return the bits of each lane. */
+/* Return the bits of the number in each lane. */
 static inline LaneWords lanes_bits_of(Lanes x) { return (LaneWords)x; }
-/* Return the numbers of given bits. */
+/* Return the numbers whose bits are given in each lane. */
 static inline Lanes lanes_of_bits(LaneWords bits) { return (Lanes)bits; }
-/* Return entry k of the rows of a table that the last seven bits of each lane select. */
-static inline Lanes lanes_entries(const double *table, int width, LaneWords bits, int k)
+/*
+ * Return for each lane entry k of the row of a table, of `width` columns, that the last seven bits of the lane select.
+ */
+static inline Lanes lanes_table_entries(const double *table, int width, LaneWords bits, int k)
 {
     Lanes found = {0.0};
     for (int lane = 0; lane < LANES; lane++)
@@ -107,7 +112,7 @@ static inline Lanes lanes_entries(const double *table, int width, LaneWords bits
 #define PARTS_BITS LaneWords
 #define PARTS_NAMED(name) lanes_##name
 #define PARTS_POWER(bits) __builtin_convertvector((LaneBits)(bits) >> 52, Lanes)
-#define PARTS_ENTRY(table, bits, k) lanes_entries(table[0], sizeof table[0] / sizeof(double), bits, k)
+#define PARTS_ENTRY(table, bits, k) lanes_table_entries(table[0], sizeof table[0] / sizeof(double), bits, k)
 #include "../scene/parts.h"
 #undef PARTS_OF
 #undef PARTS_BITS
@@ -115,7 +120,7 @@ static inline Lanes lanes_entries(const double *table, int width, LaneWords bits
 #undef PARTS_POWER
 #undef PARTS_ENTRY
 
-/* Return sin x of each lane. */
+/* Return sin x of each lane; lanes with |x| beyond TURN_LIMIT are computed by the C library. */
 static inline Lanes lanes_sin(Lanes x)
 {
     Lanes r, rest;
@@ -127,7 +132,7 @@ static inline Lanes lanes_sin(Lanes x)
     return found;
 }
 
-/* Return cos x of each lane. */
+/* Return cos x of each lane; lanes with |x| beyond TURN_LIMIT are computed by the C library. */
 static inline Lanes lanes_cos(Lanes x)
 {
     Lanes r, rest;
@@ -139,10 +144,10 @@ static inline Lanes lanes_cos(Lanes x)
     return found;
 }
 
-/* Return the lanes in which x is positive, finite and not subnormal. */
+/* Return the mask of the lanes in which x is positive, finite and not subnormal. */
 static inline LaneBits lanes_is_normal(Lanes x) { return (x >= DBL_MIN) & (x <= DBL_MAX); }
 
-/* Return exp x of each lane. */
+/* Return exp x of each lane; lanes with |x| of 700 and more are computed by the C library. */
 static inline Lanes lanes_exp(Lanes x)
 {
     const LaneBits fits = lanes_fabs(x) < 700.0;
@@ -152,7 +157,7 @@ static inline Lanes lanes_exp(Lanes x)
     return found;
 }
 
-/* Return ln x of each lane. */
+/* Return ln x of each lane; lanes in which x is not a positive normal number are computed by the C library. */
 static inline Lanes lanes_log(Lanes x)
 {
     const LaneBits fits = lanes_is_normal(x);
@@ -162,7 +167,10 @@ static inline Lanes lanes_log(Lanes x)
     return found;
 }
 
-/* Return x^y of each lane. */
+/*
+ * Return x^y of each lane. Exponents 0.5 and 1.5 are computed by square roots, unusual arguments by the C library. The
+ * result is 0 for x = 0 and y > 0, as in the law of an open contact.
+ */
 static inline Lanes lanes_pow(Lanes x, Lanes y)
 {
     const LaneBits none = ((LaneBits)x == 0) & (y > 0.0); /* as in a law of an open contact */
@@ -183,7 +191,9 @@ static inline Lanes lanes_pow(Lanes x, Lanes y)
     return found;
 }
 
-/* Compute sine and cosine of each lane; lanes with angles beyond TURN_LIMIT are marked as rare. */
+/*
+ * Compute sine and cosine of the angle in each lane; lanes with angles beyond TURN_LIMIT are added to the mask `rare`.
+ */
 static inline void sines_and_cosines(Lanes angle, Lanes *sine, Lanes *cosine, LaneBits *rare)
 {
 #define SINES_OF Lanes

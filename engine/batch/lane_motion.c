@@ -1,27 +1,35 @@
-/* Set the limits of pivots in all lanes; near a singular position the single runs make the step. */
-static inline void singular_thresholds(LaneDiscreteState *discrete)
+/* The right-hand side in lanes, the corrections that close the constraints, and the projection onto them. */
+
+/*
+ * Set the limits of small pivots in all lanes, as for a single run with detection of singular positions. Lanes below
+ * them are marked as rare: their single runs make the step.
+ */
+static inline void set_pivot_limits(LaneDiscreteState *discrete)
 {
     discrete->least = all_of(CONTINUES ? NEARBY : NEARLY_SINGULAR);
     discrete->least_size = all_of(CONTINUES ? NEARBY : VANISHING);
 }
 
-/* Compute the accelerations of all lanes; lanes with a vanishing pivot are marked as rare. */
-static inline int lane_dynamics(Lanes t, const Lanes *q, const Lanes *v, LaneDiscreteState *discrete,
+/*
+ * Compute the accelerations a and outputs rhs of all lanes by the reduced equations of motion. Return 0. Lanes with a
+ * vanishing pivot are marked in discrete->rare.
+ */
+static inline int compute_lane_accelerations(Lanes t, const Lanes *q, const Lanes *v, LaneDiscreteState *discrete,
     const LaneParameters *p, Lanes *a, LaneRhsOutputs *rhs)
 {
-    singular_thresholds(discrete);
+    set_pivot_limits(discrete);
     reduced_dynamics(t, q, v, discrete, p, a, rhs, &discrete->rare);
     return 0;
 }
 
 #define IN_BOTH static inline
 #define MOTION motion
-#define REDUCED_DYNAMICS lane_dynamics
+#define REDUCED_DYNAMICS compute_lane_accelerations
 #define CLOSURES(t, q, discrete, p, phi) closures(t, q, p, phi, &(discrete)->rare)
 #define CLOSURE_RATES(t, q, v, discrete, p, phi_dot) closure_rates(t, q, v, p, phi_dot, &(discrete)->rare)
 #include "../both/motion.h"
 
-/* Return the lanes in which a sum of n components of a (and b, if not NULL) is not finite. */
+/* Return the mask of the lanes in which the sum of n components of a (plus those of b, unless NULL) is not finite. */
 static LaneBits not_finite(const Lanes *a, const Lanes *b, int n)
 {
     Lanes sum = all_of(0.0);
@@ -32,7 +40,10 @@ static LaneBits not_finite(const Lanes *a, const Lanes *b, int n)
 
 #include "../both/states.h"
 
-/* Compute the rates dy of all lanes. */
+/*
+ * Compute the rates dy of the integrated state y and the outputs rhs of all lanes. Return 0. Lanes in which that fails
+ * are marked as rare.
+ */
 static int rates(LaneIntegrator *run, Lanes t, const Lanes *y, const LaneParameters *p, Lanes *dy, LaneRhsOutputs *rhs)
 {
     copy_inner_states(&run->discrete, y);
@@ -41,14 +52,17 @@ static int rates(LaneIntegrator *run, Lanes t, const Lanes *y, const LaneParamet
     return 0;
 }
 
-/* Compute the steps dq, dv to the closures; lanes without one are marked as rare. Returns `open`. */
-static LaneBits has_closing_step(LaneIntegrator *run, LaneBits open, Lanes t, const Lanes *y, const LaneParameters *p,
-    Lanes *dq, Lanes *dv, Lanes *worst)
+/*
+ * Compute the corrections dq, dv that close the constraints of all lanes, and their largest residuals. Return
+ * `is_active`. Active lanes without a finite correction are marked as rare.
+ */
+static LaneBits has_closing_step(LaneIntegrator *run, LaneBits is_active, Lanes t, const Lanes *y,
+    const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *residual)
 {
-    singular_thresholds(&run->discrete);
-    closing_step(t, y, y + N_X, &run->discrete, p, dq, dv, worst, &run->discrete.rare);
-    run->discrete.rare |= open & (not_finite(dq, NULL, N_X) | not_finite(dv, NULL, N_X));
-    return open;
+    set_pivot_limits(&run->discrete);
+    closing_step(t, y, y + N_X, &run->discrete, p, dq, dv, residual, &run->discrete.rare);
+    run->discrete.rare |= is_active & (not_finite(dq, NULL, N_X) | not_finite(dv, NULL, N_X));
+    return is_active;
 }
 
 #include "../both/project.h"

@@ -16,15 +16,21 @@ typedef struct {
     int here[LANES];                  /* whether the lane has the run's state */
 } Quiet;
 
-/* Load the part of run i's state into lane k that only steps accepted in the lanes need. */
+/*
+ * Load the part of run i's state into lane k that only steps accepted in the lane need: scales, limits, sample times.
+ * The lane may accept as many steps as single->unseen() returns; none with fixed steps or after a
+ * rejected attempt.
+ */
 static void load_quiet_lane(
-    Quiet *quiet, LaneIntegrator *x, int k, const Batch *b, long i, const Single *one, const Integrator *run)
+    Quiet *quiet, LaneIntegrator *x, int k, const Batch *batch, long i, const Single *single,
+    const Integrator *run)
 {
-    const double *t = times_of(b, i);
-    quiet->sample[k] = t[b->done[i]];
-    quiet->t_end[k] = t_end_of(b, i);
+    const double *t = times_of(batch, i);
+    quiet->sample[k] = t[batch->done[i]];
+    quiet->t_end[k] = t_end_of(batch, i);
     quiet->steps[k] = 0;
-    quiet->unseen[k] = run->control.fixed > 0.0 || run->control.attempt.again ? 0 : one->unseen(run);
+    quiet->unseen[k] = run->control.fixed > 0.0 || run->control.attempt.again ? 0
+        : single->unseen(run);
     quiet->open[k] = -(quiet->unseen[k] > 0);
     quiet->here[k] = 1;
     x->norm.energy_scale[k] = run->norm.energy_scale;
@@ -38,40 +44,48 @@ static void load_quiet_lane(
         x->norm.inverse_scale[j][k] = run->norm.inverse_scale[j];
 }
 
-/* Return the scale of the times of steps for rounding, s, as open_attempt() does. */
-static Lanes scale_of(const Quiet *quiet, const LaneIntegrator *x)
+/* Return the magnitude of the times in each lane, s, for rounding, as open_attempt() does for a single run. */
+static Lanes compute_time_scale(const Quiet *quiet, const LaneIntegrator *x)
 {
     return lanes_max_of(lanes_min_of(lanes_fabs(quiet->t_end), all_of(MAX_RUN_SCALE_S)), lanes_fabs(x->t));
 }
 
-/* Accept the tried steps that need no action of their run, and choose the next lengths h. Returns their lanes. */
+/*
+ * Accept the tried steps that need no action of their run, and set the next lengths h of these lanes. Return their
+ * mask. These steps end before the next sample and the end of the run, are not too short and are finite. State, speeds,
+ * energy scale and error weights of the lanes are updated as after a single step.
+ */
 static LaneBits accept_quiet_steps(Quiet *quiet, LaneIntegrator *x, const LaneStep *step, Lanes *h)
 {
     const Lanes t = x->t + step->h;
-    const LaneBits now = quiet->open & step->taken & (step->error <= x->control.accept) & (t < quiet->sample)
-        & (step->h < quiet->t_end - x->t) & (step->h >= SHORT_STEP_FRACTION * scale_of(quiet, x))
+    const LaneBits accepted = quiet->open & step->taken & (step->error <= x->control.accept)
+        & (t < quiet->sample) & (step->h < quiet->t_end - x->t)
+        & (step->h >= SHORT_STEP_FRACTION * compute_time_scale(quiet, x))
         & ~not_finite(step->y, step->dy, N_Y);
-    add_works(x, now, step->y);
+    add_works(x, accepted, step->y);
     for (int j = 0; j < N_Y; j++) {
-        x->y[j] = pick(now, step->y[j], x->y[j]);
-        x->dy[j] = pick(now, step->dy[j], x->dy[j]);
+        x->y[j] = pick(accepted, step->y[j], x->y[j]);
+        x->dy[j] = pick(accepted, step->dy[j], x->dy[j]);
     }
     for (int j = 0; j < N_WORK; j++)
-        x->rhs.power[j] = pick(now, step->rhs.power[j], x->rhs.power[j]);
-    x->t = pick(now, t, x->t);
+        x->rhs.power[j] = pick(accepted, step->rhs.power[j], x->rhs.power[j]);
+    x->t = pick(accepted, t, x->t);
     update_speeds(x);
     update_error_weights(x);
-    quiet->reach = pick(now, x->series.reach, quiet->reach);
+    quiet->reach = pick(accepted, x->series.reach, quiet->reach);
     const Lanes left = quiet->t_end - x->t, next = TAYLOR_AHEAD * x->series.reach;
-    *h = pick(now, pick(next > left * EQUAL_LENGTH_RATIO, left, next), *h);
+    *h = pick(accepted, pick(next > left * EQUAL_LENGTH_RATIO, left, next), *h);
     for (int k = 0; k < LANES; k++) {
-        quiet->steps[k] -= now[k];
+        quiet->steps[k] -= accepted[k];
         quiet->open[k] = -(quiet->steps[k] < quiet->unseen[k]);
     }
-    return now;
+    return accepted;
 }
 
-/* Copy the steps accepted in lane k to its run, which continues with a step of length h. */
+/*
+ * Copy the steps accepted in lane k to its run, with their counts, and open the run's next attempt with length h (s).
+ * Copies nothing if the lane has accepted no step since it was loaded.
+ */
 static void unload_quiet_lane(Quiet *quiet, const LaneIntegrator *x, int k, double h, Integrator *run)
 {
     const long steps = quiet->steps[k];
@@ -101,6 +115,6 @@ static void unload_quiet_lane(Quiet *quiet, const LaneIntegrator *x, int k, doub
     run->series.reach = quiet->reach[k];
     run->control.h = TAYLOR_AHEAD * run->series.reach;
     run->control.attempt = (Attempt){.h = h, .longest = h, .left = quiet->t_end[k] - run->t,
-        .far = scale_of(quiet, x)[k], .open = 1};
+        .far = compute_time_scale(quiet, x)[k], .open = 1};
 }
 #endif

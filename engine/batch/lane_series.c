@@ -4,18 +4,21 @@
 #define SeriesPart Lanes
 #include "../both/series.h"
 
-/* Reject the steps whose error, known only at their end, is too large. */
+/* Remove the lanes whose error, known only at the end of the step, is too large from the mask of accepting lanes. */
 static void reject_late(const LaneIntegrator *run, LaneStep *step)
 {
     step->taken &= ~(step->error > run->control.accept);
 }
 
-/* Do nothing: lanes store no end of a step. */
+/* Do nothing: lanes do not count the repeated evaluation at the end of a step. */
 static void discard_end(const LaneIntegrator *run) { (void)run; }
 
 #include "../both/taylor.h"
 
-/* Try a step by Taylor series in all lanes; singular positions are left to the single runs. */
+/*
+ * Try a step of length h (s) by Taylor series in all lanes. Return 0 or a status. Lanes at singular positions or with
+ * series that are not finite are marked as rare. `method` is not used.
+ */
 static int method_try(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
     SeriesRow(*const factors)[TAYLOR_ORDERS][SERIES_ROWS] = series_factors();

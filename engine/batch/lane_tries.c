@@ -5,7 +5,7 @@
 #include "lane_motion.c"
 #include "../both/distance.h"
 
-/* Discard the data of the stages of the previous step. */
+/* Discard what is stored of the stages of the previous step in all lanes: values, extrema, range of the state. */
 static void discard_stages(LaneStep *step)
 {
     step->n_seen = 0;
@@ -22,8 +22,8 @@ static void discard_stages(LaneStep *step)
 }
 
 /*
- * Determine the lanes that accept the step, that fail, and whose stages were not found. Returns whether none accepts
- * it.
+ * Set the masks of the lanes that accept the step, that fail, and whose stages were not found. Return whether no lane
+ * accepts it. Failing lanes (rare) leave the step to their run; the mark is then reset.
  */
 static int is_step_refused(LaneIntegrator *run, LaneStep *step)
 {
@@ -38,7 +38,10 @@ static int is_step_refused(LaneIntegrator *run, LaneStep *step)
     return !any_of(step->taken);
 }
 
-/* Project the end of a step and compute the rates there; failing lanes are marked as rare. Returns 0. */
+/*
+ * Project the end of a step onto the constraints and compute the rates there, in all lanes. Return 0. Lanes with a
+ * large projection or numbers that are not finite are marked as rare.
+ */
 static int finish_step(LaneIntegrator *run, LaneStep *step, const LaneParameters *p)
 {
     Lanes before[N_Y];
@@ -54,7 +57,10 @@ static int finish_step(LaneIntegrator *run, LaneStep *step, const LaneParameters
 #if TAYLOR
 #include "lane_series.c"
 #else
-/* Compute the event functions of all lanes, as evaluate_event_functions(): non-negative until an event. */
+/*
+ * Compute the event functions of all lanes into out, in the order of evaluate_event_functions(): non-negative until an
+ * event.
+ */
 static void record_event_functions(const LaneIntegrator *run, const LaneRhsOutputs *rhs, Lanes *out)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
@@ -67,13 +73,16 @@ static void record_event_functions(const LaneIntegrator *run, const LaneRhsOutpu
         out[N_CLEARANCES + N_SWITCHES + k] = run->discrete.event_sign[k] * rhs->event[k];
 }
 
-/* Return the squared force of joint i, N^2. */
-static Lanes square_of_force(const LaneRhsOutputs *rhs, int i)
+/* Return the squared contact force of joint i in all lanes, N^2. */
+static Lanes compute_squared_force(const LaneRhsOutputs *rhs, int i)
 {
     return rhs->clearance[i].F_n * rhs->clearance[i].F_n + rhs->clearance[i].F_t * rhs->clearance[i].F_t;
 }
 
-/* Store event functions, forces and rates of a stage at `node`, and their extrema. */
+/*
+ * Store event functions, squared forces and gap rates of a stage at fraction `node` of the step, and update their
+ * extrema.
+ */
 static void record_stage(const LaneIntegrator *run, LaneStep *step, const LaneRhsOutputs *rhs, double node)
 {
     Lanes *const seen = step->seen[step->n_seen];
@@ -85,12 +94,15 @@ static void record_stage(const LaneIntegrator *run, LaneStep *step, const LaneRh
         const Lanes rate = rhs->clearance[i].deltadot;
         step->rate[i][0] = lanes_min_of(step->rate[i][0], rate);
         step->rate[i][1] = lanes_max_of(step->rate[i][1], rate);
-        seen[STAGE_FORCES + i] = square_of_force(rhs, i);
+        seen[STAGE_FORCES + i] = compute_squared_force(rhs, i);
         seen[STAGE_GAP_RATES + i] = rate;
     }
 }
 
-/* Update the range of coordinates and velocities over the stages. */
+/*
+ * Extend the range of coordinates and velocities in the step by those of a stage y, in all lanes; only if functions are
+ * watched.
+ */
 static void record_stage_state(LaneStep *step, const Lanes *y)
 {
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
@@ -99,14 +111,17 @@ static void record_stage_state(LaneStep *step, const Lanes *y)
     }
 }
 
-/* Mark lanes whose error is not finite as rare. Returns 0. */
+/* Mark the lanes whose error norm is not finite as rare. Return 0, as the other lanes continue. */
 static int is_not_a_number(LaneIntegrator *run, Lanes error)
 {
     run->discrete.rare |= ~(lanes_fabs(error) <= DBL_MAX);
     return 0;
 }
 
-/* Linearize all lanes and factorize Newton's matrix for h gamma = hg. Returns 0. */
+/*
+ * Linearize the equations of all lanes and factorize Newton's matrix 1 - hg J, hg = h gamma in s. Return 0. Lanes with
+ * a vanishing pivot are marked as rare.
+ */
 static int factor_newton_matrix(LaneIntegrator *run, Lanes hg, const LaneParameters *p)
 {
     copy_inner_states(&run->discrete, run->y);
@@ -121,86 +136,92 @@ static int factor_newton_matrix(LaneIntegrator *run, Lanes hg, const LaneParamet
 #include "../both/rodas5p.h"
 
 #if IMPLICIT_STAGES
-/* Factorize Newton's matrix at a complex h gamma. Returns 0. */
-static int factor_complex_matrix(LaneIntegrator *run, Lanes eta, Lanes eta_i, LaneComplexLinear *pair)
+/*
+ * Factorize Newton's matrix at the complex number eta + i eta_i (s) in all lanes, into `matrix`. Return 0. Lanes with a
+ * vanishing pivot are marked as rare.
+ */
+static int factor_complex_matrix(LaneIntegrator *run, Lanes eta, Lanes eta_i, LaneComplexLinear *matrix)
 {
-    pair->p = run->newton.linear.p;
-    pair->value = run->newton.linear.value;
-    newton_factor_complex(eta, eta_i, pair, &run->discrete.rare);
+    matrix->p = run->newton.linear.p;
+    matrix->value = run->newton.linear.value;
+    newton_factor_complex(eta, eta_i, matrix, &run->discrete.rare);
     return 0;
 }
 
-/* Do nothing: gather_past() has loaded the iteration history. */
+/* Do nothing: gather_past() has loaded the iteration history of each lane. */
 static void load_iteration_history(LaneIntegrator *run) { (void)run; } /* gather_past has */
 
-/* Count n right-hand sides in the active lanes. */
-static void count_stage_rates(LaneIntegrator *run, LaneBits active, int n)
+/* Add n evaluations of the right-hand side to the counts of the active lanes. */
+static void count_stage_rates(LaneIntegrator *run, LaneBits is_active, int n)
 {
-    run->newton.evaluations += pick(active, all_of(n), all_of(0.0));
+    run->newton.evaluations += pick(is_active, all_of(n), all_of(0.0));
 }
 
-/* Begin an iteration of the stages: count n right-hand sides and reset the data of the stages in the active lanes. */
-static void begin_iteration(LaneIntegrator *run, LaneStep *step, LaneBits active, int n)
+/* Begin an iteration of n stages: count n evaluations and discard the data of the stages in the active lanes. */
+static void begin_iteration(LaneIntegrator *run, LaneStep *step, LaneBits is_active, int n)
 {
-    count_stage_rates(run, active, n);
+    count_stage_rates(run, is_active, n);
     step->n_seen = 0;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
-        step->lowest[k] = pick(active, all_of(INFINITY), step->lowest[k]);
+        step->lowest[k] = pick(is_active, all_of(INFINITY), step->lowest[k]);
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
-        step->least[k] = pick(active, all_of(INFINITY), step->least[k]);
-        step->most[k] = pick(active, all_of(-INFINITY), step->most[k]);
+        step->least[k] = pick(is_active, all_of(INFINITY), step->least[k]);
+        step->most[k] = pick(is_active, all_of(-INFINITY), step->most[k]);
     }
     for (int i = 0; i < N_CLEARANCES; i++) {
-        step->rate[i][0] = pick(active, all_of(INFINITY), step->rate[i][0]);
-        step->rate[i][1] = pick(active, all_of(-INFINITY), step->rate[i][1]);
+        step->rate[i][0] = pick(is_active, all_of(INFINITY), step->rate[i][0]);
+        step->rate[i][1] = pick(is_active, all_of(-INFINITY), step->rate[i][1]);
     }
 }
 
-/* Store the data of a stage in the active lanes; lanes that have found their stages keep theirs. */
-static void record_pass(LaneIntegrator *run, LaneStep *step, LaneBits active, const Lanes *y, const LaneRhsOutputs *rhs,
-    double node)
+/*
+ * Store the data of a stage at fraction `node` in the active lanes; lanes that have found their stages keep theirs. y:
+ * state; rhs: outputs of the right-hand side at the stage.
+ */
+static void record_pass(LaneIntegrator *run, LaneStep *step, LaneBits is_active, const Lanes *y,
+    const LaneRhsOutputs *rhs, double node)
 {
     Lanes event_functions[AT_LEAST_ONE(N_EVENT_FUNCTIONS)], *const seen = step->seen[step->n_seen];
     record_event_functions(run, rhs, event_functions);
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++) {
-        seen[j] = pick(active, event_functions[j], seen[j]);
-        step->lowest[j] = pick(active, lanes_min_of(step->lowest[j], event_functions[j]), step->lowest[j]);
+        seen[j] = pick(is_active, event_functions[j], seen[j]);
+        step->lowest[j] = pick(is_active, lanes_min_of(step->lowest[j], event_functions[j]), step->lowest[j]);
     }
     step->node[step->n_seen++] = node;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Lanes rate = rhs->clearance[i].deltadot, *const old = step->rate[i];
         const Lanes low = lanes_min_of(old[0], rate), high = lanes_max_of(old[1], rate);
-        step->rate[i][0] = pick(active, low, old[0]);
-        step->rate[i][1] = pick(active, high, old[1]);
-        seen[STAGE_FORCES + i] = pick(active, square_of_force(rhs, i), seen[STAGE_FORCES + i]);
-        seen[STAGE_GAP_RATES + i] = pick(active, rate, seen[STAGE_GAP_RATES + i]);
+        step->rate[i][0] = pick(is_active, low, old[0]);
+        step->rate[i][1] = pick(is_active, high, old[1]);
+        seen[STAGE_FORCES + i] = pick(is_active, compute_squared_force(rhs, i), seen[STAGE_FORCES + i]);
+        seen[STAGE_GAP_RATES + i] = pick(is_active, rate, seen[STAGE_GAP_RATES + i]);
     }
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
-        step->least[k] = pick(active, lanes_min_of(step->least[k], y[k]), step->least[k]);
-        step->most[k] = pick(active, lanes_max_of(step->most[k], y[k]), step->most[k]);
+        step->least[k] = pick(is_active, lanes_min_of(step->least[k], y[k]), step->least[k]);
+        step->most[k] = pick(is_active, lanes_max_of(step->most[k], y[k]), step->most[k]);
     }
 }
 
-/* Mark the lanes whose stages were not found. Returns 0. */
-static int mark_missed_stages(LaneIntegrator *run, LaneBits lost)
+/* Store the mask of the lanes whose stages were not found (`has_failed`), except those marked as rare. Return 0. */
+static int mark_missed_stages(LaneIntegrator *run, LaneBits has_failed)
 {
-    run->newton.missed = lost & ~run->discrete.rare;
+    run->newton.missed = has_failed & ~run->discrete.rare;
     return 0;
 }
 
 #include "../both/radau.h"
 #endif
 
-/* Try a step of length h by `method` in all lanes. */
+/* Try a step of length h (s) by `method` (BY_...) in all lanes. Return 0 or a status. */
 static int method_try(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
 #if IMPLICIT_STAGES
     run->newton.evaluations = all_of(0.0);
     run->newton.missed = (LaneBits){0};
     if (method == BY_RADAU5)
-        return radau5_try(run, h, p, step);
+        return radau5_try_step(run, h, p, step);
     if (method == BY_RADAU9)
-        return radau9_try(run, h, p, step);
+        return radau9_try_step(run, h, p, step);
 #endif
     if (method == BY_RK4 || method == BY_DOPRI5)
         return runge_kutta_try(run, method == BY_RK4 ? &classical : &dormand_prince, h, p, step);
@@ -209,26 +230,32 @@ static int method_try(LaneIntegrator *run, int method, Lanes h, const LaneParame
 #endif
 
 #if !TAYLOR
-/* Return in how many accepting lanes an event may end the step, by stages and end. */
-static int count_possible_events(const LaneIntegrator *run, const LaneStep *step)
+/*
+ * Return the number of accepting lanes in which an event may end the step: an event function is negative at a stage or
+ * the end.
+ */
+static int count_lanes_with_events(const LaneIntegrator *run, const LaneStep *step)
 {
     Lanes event_functions[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
-    LaneBits some = {0};
+    LaneBits may_end = {0};
     int count = 0;
     record_event_functions(run, &step->rhs, event_functions);
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++)
-        some |= (event_functions[j] < 0.0) | (step->lowest[j] < 0.0);
-    some &= step->taken;
+        may_end |= (event_functions[j] < 0.0) | (step->lowest[j] < 0.0);
+    may_end &= step->taken;
     for (int k = 0; k < LANES; k++)
-        count -= (int)some[k];
+        count -= (int)may_end[k];
     return count;
 }
 
-/* Make the dense output of dop853 if more than one lane needs it; failing lanes leave it to their run. */
+/*
+ * Compute the dense output of a dop853 step in the lanes if more than one lane may need it for an event. Lanes in which
+ * it fails are stored in step->no_dense: their runs compute it.
+ */
 static void compute_dense_output(LaneIntegrator *run, const LaneParameters *p, LaneStep *step)
 {
     const LaneBits rare = run->discrete.rare;
-    if (!any_of(step->taken) || count_possible_events(run, step) < 2)
+    if (!any_of(step->taken) || count_lanes_with_events(run, step) < 2)
         return;
     run->discrete.rare = (LaneBits){0};
     dop853_dense(run, p, step);
@@ -240,7 +267,10 @@ static void compute_dense_output(LaneIntegrator *run, const LaneParameters *p, L
 }
 #endif
 
-/* Try a step of length h in all lanes. In lanes that neither accept nor lose it only the error is set. */
+/*
+ * Try a step of length h (s) by `method` in all lanes, and set the masks of lanes that accept or fail. With dop853 the
+ * dense output may be computed too. In lanes that only reject the step, just the error is valid.
+ */
 static void try_lanes(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
     run->discrete.rare = (LaneBits){0};

@@ -30,7 +30,7 @@ static inline Lanes pick(LaneBits mask, Lanes a, Lanes b)
 /* Return the complement of a mask. */
 static inline LaneBits is_not(LaneBits mask) { return ~mask; }
 
-/* Return whether a mask has any lane. */
+/* Return whether a mask contains any lane. */
 static inline int any_of(LaneBits mask)
 {
 #if defined(__GNUC__) && !defined(__clang__) && defined(__AVX512DQ__)
@@ -51,35 +51,40 @@ static inline int any_of(LaneBits mask)
 #define held_branches(discrete) (discrete)->branch
 #define reported_branches(rhs) (rhs)->g
 
-/* Return the branch of switching function k: frozen, or the sign of `value` if `branch` is NULL. g[k] = `value`. */
+/*
+ * Return the active branch of switching function k in each lane: the frozen one, or the sign of `value` if `branch` is
+ * NULL. g[k] is set to `value`.
+ */
 static inline Lanes lanes_branch_of(const Lanes *branch, Lanes *g, int k, Lanes value)
 {
     g[k] = value;
     return branch ? branch[k] : lanes_sign_of(value);
 }
 
-/* Mark switching functions first to last - 1 as not in use. */
+/* Mark switching functions first to last - 1 as not in use, by NaN. */
 static inline void silence(Lanes *g, int first, int last)
 {
     for (int k = first; k < last; k++)
         g[k] = all_of(NAN);
 }
-/* Move switching functions first to last - 1 to `film`, and mark them as not in use. */
-static inline void set_aside(Lanes *g, Lanes *film, int first, int last)
+/* Move the values of switching functions first to last - 1 to `film_switches`, and mark them in g as not in use. */
+static inline void set_aside(Lanes *g, Lanes *film_switches, int first, int last)
 {
     for (int k = first; k < last; k++)
-        film[k] = g[k];
+        film_switches[k] = g[k];
     silence(g, first, last);
 }
 
 /*
- * Combine the switching functions of a joint: those of its film where it is free, those of the contact where it
- * touches, both where they are mixed.
+ * Combine the switching functions first to last - 1 of a joint with film and contact, in g. Where the joint is free,
+ * they are those of its film; where it touches, those of the contact. In the lanes of `is_mixed`, functions that the
+ * contact does not use are those of the film.
  */
-static inline void put_together(Lanes *g, const Lanes *film, int first, int last, LaneBits touching, LaneBits mixed)
+static inline void put_together(Lanes *g, const Lanes *film_switches, int first, int last,
+    LaneBits is_touching_mask, LaneBits is_mixed)
 {
     for (int k = first; k < last; k++)
-        g[k] = pick(touching, pick(mixed & (g[k] != g[k]), film[k], g[k]), film[k]);
+        g[k] = pick(is_touching_mask, pick(is_mixed & (g[k] != g[k]), film_switches[k], g[k]), film_switches[k]);
 }
 
 /* Types and operations that the text of both/ uses for lanes. */
@@ -152,14 +157,14 @@ typedef struct {
 /* Return the lanes whose contact is closed. */
 static inline LaneBits is_closed(const LaneContactState *contact) { return contact->closed > 0.0; }
 
-/* Return the lanes whose joint has a dry contact. */
+/* Return the mask of the lanes whose joint has a dry contact: its contact state is closed. `delta` is not used. */
 static inline LaneBits is_touching(const LaneContactState *contact, Lanes delta)
 {
     (void)delta;
     return is_closed(contact);
 }
 
-/* Return the wall time, s. */
+/* Return the wall time in s. */
 static double lane_seconds(void)
 {
     struct timespec now;

@@ -7,37 +7,40 @@
 
 /*
  * Return the distance of a step's end from the constraint equations, in tolerances, from the states before and after
- * its projection.
+ * its projection. Changes below ROUNDING_DIGITS of a component count as rounding. Return 0 without closures.
  */
-static Real distance_from_constraints(const IntegratorOf *run, const Real *before, const Real *y)
+static Real distance_from_constraints(const IntegratorOf *run, const Real *y_before, const Real *y_after)
 {
-    Real most = real_of(0.0);
+    Real distance = real_of(0.0);
     for (int k = 0; k < 2 * N_X && N_LOOPS > 0; k++)
-        most = real_max((real_abs(y[k] - before[k]) - ROUNDING_DIGITS * real_abs(y[k])) * run->norm.weight[k], most);
-    return most;
+        distance = real_max((real_abs(y_after[k] - y_before[k]) - ROUNDING_DIGITS * real_abs(y_after[k]))
+            * run->norm.weight[k], distance);
+    return distance;
 }
 
 /*
  * Return the index in the state of component k (0 ... N_MOTION - 1) on which the motion depends. These are coordinates,
- * velocities and inner states of laws, but no works.
+ * velocities and inner states of contact laws. The works are skipped, as nothing depends on them.
  */
 static inline int felt(int k) { return k < 2 * N_X ? k : k + N_WORK; }
 
-/* Store h rho: the length of a step times the largest rate that its stages show. */
+/* Store h rho of a tried step: its length times the largest rate that its stages show. choose_method() uses it. */
 static inline void record_stability(IntegratorOf *run, Real stability) { run->choice.stability = stability; }
 
 /*
- * Store h rho of an explicit step from two states at its end: that of the step, and the state y of the last stage,
- * whose rates are `rates`. It is 0 where the two states do not differ.
+ * Store h rho of an explicit step from two states at its end: that of the step, and that of the last stage. stage_y,
+ * stage_rates: state and rates of the last stage. h rho is h times the ratio of the norms of the differences of rates
+ * and states. It is 0 where the two states do not differ.
  */
-static inline void record_end_stability(IntegratorOf *run, const StepOf *step, Real h, const Real *y, const Real *rates)
+static inline void record_end_stability(IntegratorOf *run, const StepOf *step, Real h, const Real *stage_y,
+    const Real *stage_rates)
 {
-    Real change = real_of(0.0), way = real_of(0.0);
+    Real change = real_of(0.0), distance = real_of(0.0);
     for (int k = 0; k < N_MOTION; k++) {
         const int i = felt(k);
-        const Real by = run->norm.weight[i];
-        change = real_max(real_abs(step->dy[i] - rates[i]) * by, change);
-        way = real_max(real_abs(step->y[i] - y[i]) * by, way);
+        const Real weight = run->norm.weight[i];
+        change = real_max(real_abs(step->dy[i] - stage_rates[i]) * weight, change);
+        distance = real_max(real_abs(step->y[i] - stage_y[i]) * weight, distance);
     }
-    record_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
+    record_stability(run, pick(distance > MIN_RESOLVED, h * change / distance, real_of(0.0)));
 }

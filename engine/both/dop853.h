@@ -8,8 +8,11 @@ static const double dop853_node[] = {0.0, 0.05260015195876773, 0.078900227938151
 
 enum { DOP853_STAGES = 12, DOP853_MORE = 3 /* additional stages of the dense output */ };
 
-/* Compute y = y0 + h sum_j a_sj k_j for stage s. */
-static void dop853_stage(int s, Real h, const Real *y0, Real (*k)[N_Y], Real *y)
+/*
+ * Compute the state y = y0 + h sum_j a_sj k_j (N_Y) of stage s, 1 ... 15; 12 is the end, 13 to 15 are for the dense
+ * output.
+ */
+static void dop853_compute_stage(int s, Real h, const Real *y0, Real (*k)[N_Y], Real *y)
 {
     switch (s) {
     case 1:
@@ -96,8 +99,8 @@ static void dop853_stage(int s, Real h, const Real *y0, Real (*k)[N_Y], Real *y)
     }
 }
 
-/* Return the scaled error by Hairer's combination of the estimates of orders 5 and 3, the largest of all components. */
-static Real dop853_error(const IntegratorOf *run, const StepOf *step)
+/* Return the scaled error of a step by Hairer's combination of the estimates of orders 5 and 3 (largest components). */
+static Real dop853_estimate_error(const IntegratorOf *run, const StepOf *step)
 {
     const Real (*k)[N_Y] = (const Real (*)[N_Y])step->k;
     Real five = real_of(0.0), three = real_of(0.0);
@@ -116,7 +119,10 @@ static Real dop853_error(const IntegratorOf *run, const StepOf *step)
     return pick(both > 0.0, real_abs(step->h) * five * five / real_sqrt(both), five);
 }
 
-/* Try a step of length h: stages, error and, if it is accepted, its end. Returns a status. */
+/*
+ * Try a step of length h (s): stages, error norm and, if the error is accepted, its end. Return 0 or a status. A
+ * rejected step has an error but no end. Called with the rates run->dy at the beginning.
+ */
 static int dop853_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
     Real y[N_Y];
@@ -126,7 +132,7 @@ static int dop853_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *
     for (int i = 0; i < N_Y; i++)
         step->k[0][i] = run->dy[i];
     for (int s = 1; s < DOP853_STAGES; s++) {
-        dop853_stage(s, h, run->y, step->k, s + 1 < DOP853_STAGES ? y : step->y);
+        dop853_compute_stage(s, h, run->y, step->k, s + 1 < DOP853_STAGES ? y : step->y);
         if (s + 1 == DOP853_STAGES)
             for (int i = 0; i < N_Y; i++)
                 y[i] = step->y[i];
@@ -136,8 +142,8 @@ static int dop853_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *
         record_stage(run, step, &rhs, dop853_node[s]);
         record_stage_state(step, y);
     }
-    dop853_stage(DOP853_STAGES, h, run->y, step->k, step->y);
-    step->error = dop853_error(run, step);
+    dop853_compute_stage(DOP853_STAGES, h, run->y, step->k, step->y);
+    step->error = dop853_estimate_error(run, step);
     if (is_not_a_number(run, step->error))
         return NOT_FINITE;
     if (is_step_refused(run, step))
@@ -150,7 +156,7 @@ static int dop853_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *
     return 0;
 }
 
-/* Compute the three additional stages and the coefficients of the dense output. Returns a status. */
+/* Compute the three additional stages and the coefficients step->dense of the dense output. Return 0 or a status. */
 static int dop853_dense(IntegratorOf *run, const ParametersOf *p, StepOf *step)
 {
     Real (*k)[N_Y] = step->k;
@@ -160,7 +166,7 @@ static int dop853_dense(IntegratorOf *run, const ParametersOf *p, StepOf *step)
     for (int s = DOP853_STAGES + 1; s <= DOP853_STAGES + DOP853_MORE; s++) {
         Real y[N_Y];
         RhsOutputsOf rhs;
-        dop853_stage(s, h, run->y, k, y);
+        dop853_compute_stage(s, h, run->y, k, y);
         const int status = rates(run, step->t + dop853_node[s] * h, y, p, k[s], &rhs);
         if (status)
             return status;

@@ -1,19 +1,22 @@
 /* Error weights: the reciprocal tolerances by which errors of a step are multiplied. */
 #include "speed.h"
 
-/* Add the works of an accepted step to the energy scale, J. y: the state at its end. */
-static void add_works(IntegratorOf *run, Mask taken, const Real *y)
+/*
+ * Add the magnitudes of the works of an accepted step to the energy scale of a run, J. y: the state at the step's end.
+ * is_accepted: mask of the runs whose step is accepted. Called before run->y is replaced.
+ */
+static void add_works(IntegratorOf *run, Mask is_accepted, const Real *y)
 {
     for (int k = 2 * N_X; k < 2 * N_X + N_WORK; k++) {
-        const Real more = run->norm.energy_scale + real_abs(y[k] - run->y[k]);
-        run->norm.energy_scale = pick(taken, more, run->norm.energy_scale);
+        const Real energy = run->norm.energy_scale + real_abs(y[k] - run->y[k]);
+        run->norm.energy_scale = pick(is_accepted, energy, run->norm.energy_scale);
     }
 }
 
 /*
- * Update the error weights. Tolerances of coordinates are given; those of velocities grow with the largest speed, those
- * of works with the energy scale, because the motion does not depend on them. Those of inner states are set once
- * (methods/begin.c).
+ * Update the error weights of a run, 1/tolerance, after an accepted step. Tolerances of coordinates are fixed. Those of
+ * velocities grow with the largest speed of their kind. Those of works grow with the energy scale, because the motion
+ * does not depend on them. Weights of inner states are set once (methods/begin.c).
  */
 static void update_error_weights(IntegratorOf *run)
 {

@@ -1,9 +1,11 @@
+/* The right-hand side in tree coordinates, and the constraint residuals of accepted states. */
+
 /*
- * The right-hand side in tree coordinates, and the constraint residuals of accepted states.
- *
- * MOTION computes the rates dy of the integrated state y: tree coordinates, their rates, works. It returns a status.
+ * Compute the rates dy of the integrated state y: tree coordinates, their rates, works. Return 0 or a status. rhs:
+ * outputs of the right-hand side in addition. Defined as motion_here() for one run and as motion() for lanes.
  */
-IN_BOTH int MOTION(Real t, const Real *y, DiscreteStateOf *discrete, const ParametersOf *p, Real *dy, RhsOutputsOf *rhs)
+IN_BOTH int MOTION(Real t, const Real *y, DiscreteStateOf *discrete, const ParametersOf *p, Real *dy,
+    RhsOutputsOf *rhs)
 {
     const int status = REDUCED_DYNAMICS(t, y, y + N_X, discrete, p, dy + N_X, rhs);
 #ifdef N_IDLE
@@ -17,7 +19,7 @@ IN_BOTH int MOTION(Real t, const Real *y, DiscreteStateOf *discrete, const Param
     return status;
 }
 
-/* Update the maxima of |Phi| and |Phi_dot| with an accepted state. Returns 0. */
+/* Update the maxima of |Phi| and |Phi_dot| of the closures with an accepted state. Return 0. */
 IN_BOTH int accept_state(Real t, const Real *y, DiscreteStateOf *discrete, const ParametersOf *p,
     const RhsOutputsOf *rhs, Real *phi_max, Real *phi_dot_max)
 {

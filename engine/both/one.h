@@ -27,27 +27,27 @@ enum { /* bytes of a vector register */
 #define NormOf ErrorNorm
 #define ComplexLinearOf ComplexLinear
 
-/* Return a if the mask is true, else b. */
+/* Return a if the mask is true, else b; in lanes, the choice is made for each lane. */
 static inline double pick(int mask, double a, double b) { return mask ? a : b; }
 /* Return the negation of a mask. */
 static inline int is_not(int mask) { return !mask; }
 /* Return whether a mask is true for any run. */
 static inline int any_of(int mask) { return mask != 0; }
-/* Return whether a contact is closed. */
+/* Return whether a contact is closed; in lanes, the mask of the lanes in which it is. */
 static inline int is_closed(const ContactState *contact) { return contact->closed; }
-/* Return a constant as a Real. */
+/* Convert a constant to Real; in lanes, the constant in all lanes. */
 static inline double real_of(double x) { return x; }
-/* Return the larger number; a NaN in x is propagated. */
+/* Return the larger number; NaN if x is NaN. */
 static inline double real_max(double x, double y) { return max_of(x, y); }
-/* Return the smaller number; a NaN in x is propagated. */
+/* Return the smaller number; NaN if x is NaN. */
 static inline double real_min(double x, double y) { return min_of(x, y); }
 /* Return |x|. */
 static inline double real_abs(double x) { return fabs(x); }
 /* Return the square root of x. */
 static inline double real_sqrt(double x) { return sqrt(x); }
-/* Return 2^x to 1e-4. */
+/* Return 2^x with a relative error of 1e-4. */
 static inline double real_exp2(double x) { return rough_exp2(x); }
-/* Return log2 x to 1e-4. */
+/* Return log2 x with an error of 1e-4. */
 static inline double real_log2(double x) { return rough_log2(x); }
 
 #endif

@@ -1,21 +1,24 @@
+/* Projection of a state onto the constraint equations. */
+
 /*
- * Project a state onto Phi = 0 and Phi_dot = 0 by the smallest changes of q and v in the norm of M, in up to three
- * passes; velocities use the corrected positions. A vanishing pivot (links in line) leaves the state unchanged.
+ * Project state y in place onto Phi = 0 and Phi_dot = 0, by the smallest changes of q and v in the norm of M. Up to
+ * three passes are made, until the residual is below 1e-15; velocities use the corrected positions. If the corrections
+ * cannot be computed, as with links in line, the state is left as it is.
  */
 static void project_rows(IntegratorOf *run, Real t, Real *y, const ParametersOf *p)
 {
-    Mask open = is_not((Mask){0});
+    Mask is_active = is_not((Mask){0});
     for (int pass = 0; pass < 3 && N_LOOPS > 0; pass++) {
-        Real dq[N_X], dv[N_X], worst;
-        open = has_closing_step(run, open, t, y, p, dq, dv, &worst);
-        if (!any_of(open))
+        Real dq[N_X], dv[N_X], residual;
+        is_active = has_closing_step(run, is_active, t, y, p, dq, dv, &residual);
+        if (!any_of(is_active))
             return;
         for (int k = 0; k < N_X; k++) {
-            y[k] = pick(open, y[k] - dq[k], y[k]);
-            y[N_X + k] = pick(open, y[N_X + k] - dv[k], y[N_X + k]);
+            y[k] = pick(is_active, y[k] - dq[k], y[k]);
+            y[N_X + k] = pick(is_active, y[N_X + k] - dv[k], y[N_X + k]);
         }
-        open &= is_not(worst < 1e-15);
-        if (!any_of(open))
+        is_active &= is_not(residual < 1e-15);
+        if (!any_of(is_active))
             return;
     }
 }

@@ -1,16 +1,18 @@
 /* The functions of a Radau step, compiled for 3 and for 5 stages (radau.h). */
 
 /*
- * Guess the stages, relative to the beginning: extrapolate the motion of the last step, or integrate the rates at the
- * beginning.
+ * Guess the stages z of a step of length h (s), relative to its beginning, as the start of Newton's iteration. If the
+ * step continues the last one, its Hermite cubic is extrapolated. Else the rates at the beginning are integrated,
+ * positions with accelerations.
  */
-static void RADAU(guess)(const IntegratorOf *run, Real h, Real (*z)[N_Y])
+static void RADAU(guess_stages)(const IntegratorOf *run, Real h, Real (*z)[N_Y])
 {
     const Real H = run->newton.last_h;
     for (int i = 0; i < N_Y; i++) {
         /* Hermite's cubic, beyond the end of the step before, which was H long */
-        const Real way = run->newton.before_y[i] - run->y[i], d0 = H * run->newton.before_dy[i], d1 = H * run->dy[i];
-        const Real two = 3.0 * way + d0 + 2.0 * d1, three = 2.0 * way + d0 + d1;
+        const Real distance = run->newton.before_y[i] - run->y[i];
+        const Real d0 = H * run->newton.before_dy[i], d1 = H * run->dy[i];
+        const Real two = 3.0 * distance + d0 + 2.0 * d1, three = 2.0 * distance + d0 + d1;
         for (int s = 0; s < RADAU_STAGES; s++) {
             const Real t = RADAU_TABLE.node[s] * h, x = t / H;
             const Real led = i < N_X ? t * (run->dy[i] + 0.5 * t * run->dy[N_X + i]) : t * run->dy[i];
@@ -19,23 +21,29 @@ static void RADAU(guess)(const IntegratorOf *run, Real h, Real (*z)[N_Y])
     }
 }
 
-/* Factorize the real matrix and the complex ones for a step of length h. Returns a status. */
-static int RADAU(factor)(IntegratorOf *run, Real h, ComplexLinearOf *pairs, const ParametersOf *p)
+/*
+ * Factorize the real Newton matrix of the run and the complex ones, `complex_matrices`, for a step of length h. Return
+ * 0 or a status.
+ */
+static int RADAU(factor_matrices)(IntegratorOf *run, Real h, ComplexLinearOf *complex_matrices, const ParametersOf *p)
 {
     int status = factor_newton_matrix(run, h * (1.0 / RADAU_TABLE.gamma), p);
     for (int k = 0; 2 * k + 1 < RADAU_STAGES && !status; k++) {
         const double re = RADAU_TABLE.pair[k][0], im = RADAU_TABLE.pair[k][1], square = re * re + im * im;
-        status = factor_complex_matrix(run, h * (re / square), h * (-im / square), &pairs[k]);
+        status = factor_complex_matrix(run, h * (re / square), h * (-im / square), &complex_matrices[k]);
     }
     return status;
 }
 
-/* Compute the Newton correction of the stages z from their rates f. */
-static void RADAU(change)(const IntegratorOf *run, Real h, const ComplexLinearOf *pairs, Real (*f)[N_Y], Real (*z)[N_Y],
-    Real (*change)[N_Y])
+/*
+ * Compute the Newton correction `change` of the stages z from their rates f, by one real and one or two complex
+ * solutions. h: step length; complex_matrices: complex matrices of factor_matrices().
+ */
+static void RADAU(compute_newton_correction)(const IntegratorOf *run, Real h, const ComplexLinearOf *complex_matrices,
+    Real (*f)[N_Y], Real (*z)[N_Y], Real (*change)[N_Y])
 {
     Real w[RADAU_STAGES][N_Y], r[RADAU_STAGES][N_Y], both[2 * N_Y], u[2 * N_Y];
-    const Real by = 1.0 / h;
+    const Real inverse_h = 1.0 / h;
     for (int k = 0; k < RADAU_STAGES; k++) {
         const double *row = RADAU_TABLE.from_stages[k];
         for (int i = 0; i < N_Y; i++) {
@@ -49,7 +57,7 @@ static void RADAU(change)(const IntegratorOf *run, Real h, const ComplexLinearOf
         }
 #endif
         for (int i = 0; i < N_Y; i++)
-            w[k][i] *= by;
+            w[k][i] *= inverse_h;
     }
     for (int i = 0; i < N_Y; i++)
         r[0][i] -= RADAU_TABLE.gamma * w[0][i];
@@ -61,7 +69,7 @@ static void RADAU(change)(const IntegratorOf *run, Real h, const ComplexLinearOf
             both[2 * i] = r[2 * k + 1][i] - (re * x[i] - im * y[i]);
             both[2 * i + 1] = r[2 * k + 2][i] - (re * y[i] + im * x[i]);
         }
-        newton_solve_complex(&pairs[k], h * (re / square), h * (-im / square), both, u);
+        newton_solve_complex(&complex_matrices[k], h * (re / square), h * (-im / square), both, u);
         for (int i = 0; i < N_Y; i++) {
             x[i] = u[2 * i];
             y[i] = u[2 * i + 1];
@@ -79,15 +87,16 @@ static void RADAU(change)(const IntegratorOf *run, Real h, const ComplexLinearOf
 }
 
 /*
- * Compute the rates f of the stages z and, for active runs, store the data of the stages. force_change: the largest
- * change of a film force since the previous iteration, relative to the largest force in this step. Returns a status.
+ * Compute the rates f of the stages z and, for active runs, record the data of the stages in `step`. Return 0 or a
+ * status. force: film forces (x, y) of each joint and stage, updated. force_change: set to the largest change of a film
+ * force since the previous iteration, relative to the largest force in this step.
  */
-static int RADAU(rates)(IntegratorOf *run, Real h, Mask active, Real (*z)[N_Y], const ParametersOf *p, StepOf *step,
-    Real (*f)[N_Y], Real (*force)[RADAU_STAGES][2], Real *force_change)
+static int RADAU(evaluate_stages)(IntegratorOf *run, Real h, Mask is_active, Real (*z)[N_Y], const ParametersOf *p,
+    StepOf *step, Real (*f)[N_Y], Real (*force)[RADAU_STAGES][2], Real *force_change)
 {
     Real y[N_Y], most[AT_LEAST_ONE(N_CLEARANCES)], change[AT_LEAST_ONE(N_CLEARANCES)];
     RhsOutputsOf rhs;
-    begin_iteration(run, step, active, RADAU_STAGES);
+    begin_iteration(run, step, is_active, RADAU_STAGES);
     for (int i = 0; i < N_CLEARANCES; i++) {
         most[i] = real_abs(run->rhs.clearance[i].Fx) + real_abs(run->rhs.clearance[i].Fy);
         change[i] = real_of(0.0);
@@ -98,7 +107,7 @@ static int RADAU(rates)(IntegratorOf *run, Real h, Mask active, Real (*z)[N_Y], 
         const int status = rates(run, run->t + RADAU_TABLE.node[s] * h, y, p, f[s], &rhs);
         if (status)
             return status;
-        record_pass(run, step, active, y, &rhs, RADAU_TABLE.node[s]);
+        record_pass(run, step, is_active, y, &rhs, RADAU_TABLE.node[s]);
         for (int i = 0; i < N_CLEARANCES; i++) {
             const Real Fx = rhs.clearance[i].Fx, Fy = rhs.clearance[i].Fy;
             if (!has_film(i))
@@ -117,11 +126,13 @@ static int RADAU(rates)(IntegratorOf *run, Real h, Mask active, Real (*z)[N_Y], 
 }
 
 /*
- * Find the stages of a step, in step->k, by simplified Newton iterations. lost: where they are not found. Returns a
- * status.
+ * Find the stages of a step of length h, in step->k, by simplified Newton iterations from the guess there. Return 0 or
+ * a status. has_failed: set to where they are not found. An iteration ends when the errors of stages and film forces
+ * are below a part of the tolerance, or are rounding. It fails if it converges too slowly. With fixed steps it goes
+ * down to rounding.
  */
-static int RADAU(stages)(IntegratorOf *run, Real h, const ComplexLinearOf *pairs, const ParametersOf *p, StepOf *step,
-    Mask *lost)
+static int RADAU(solve_stages)(IntegratorOf *run, Real h, const ComplexLinearOf *complex_matrices,
+    const ParametersOf *p, StepOf *step, Mask *has_failed)
 {
     Real f[RADAU_STAGES][N_Y], change[RADAU_STAGES][N_Y], before = real_of(1.0), force_change;
     Real force[AT_LEAST_ONE(N_CLEARANCES)][RADAU_STAGES][2] = {0};
@@ -135,93 +146,98 @@ static int RADAU(stages)(IntegratorOf *run, Real h, const ComplexLinearOf *pairs
         rounded = real_max(real_abs(run->y[i]) * run->norm.weight[i], rounded);
     rounded *= RADAU_ROUNDED;
     const Real enough = real_max(pick(run->control.accept <= DBL_MAX, real_of(RADAU_ENOUGH), rounded), rounded);
-    Mask active = is_not((Mask){0});
-    *lost = (Mask){0};
+    Mask is_active = is_not((Mask){0});
+    *has_failed = (Mask){0};
     const int controlled = any_of(run->control.accept <= DBL_MAX);
     const int patience = controlled ? RADAU_PATIENCE : RADAU_STUBBORN;
     const double hope = controlled ? 0.9 : 2.0; /* a fixed step may begin with a bad guess */
-    for (int pass = 0; pass < patience && any_of(active); pass++) {
-        const int status = RADAU(rates)(run, h, active, z, p, step, f, force, &force_change);
+    for (int pass = 0; pass < patience && any_of(is_active); pass++) {
+        const int status = RADAU(evaluate_stages)(run, h, is_active, z, p, step, f, force, &force_change);
         if (status)
             return status;
-        RADAU(change)(run, h, pairs, f, z, change);
-        Real way = real_of(0.0);
+        RADAU(compute_newton_correction)(run, h, complex_matrices, f, z, change);
+        Real distance = real_of(0.0);
         for (int s = 0; s < RADAU_STAGES; s++)
             for (int i = 0; i < N_Y; i++) {
-                z[s][i] = pick(active, z[s][i] + change[s][i], z[s][i]);
-                way = real_max(real_abs(change[s][i]) * run->norm.weight[i], way);
+                z[s][i] = pick(is_active, z[s][i] + change[s][i], z[s][i]);
+                distance = real_max(real_abs(change[s][i]) * run->norm.weight[i], distance);
             }
-        way = pick(active, way, real_of(0.0));
-        if (is_not_a_number(run, way))
+        distance = pick(is_active, distance, real_of(0.0));
+        if (is_not_a_number(run, distance))
             return NOT_FINITE;
-        Mask found = active & (way <= rounded);
+        Mask found = is_active & (distance <= rounded);
         if (pass > 0)
-            falls = pick(active & is_not(found), way / before, falls);
+            falls = pick(is_active & is_not(found), distance / before, falls);
         /* a film force is linear in the velocity by sectors of its direction: the first change may miss the sector */
         if (pass > has_films()) {
             /* the change no longer decreases */
-            found |= active & is_not(falls < 0.9) & (way <= RADAU_NOISE * rounded)
+            found |= is_active & is_not(falls < 0.9) & (distance <= RADAU_NOISE * rounded)
                 & (force_change <= run->newton.force_found);
-            *lost |= active & is_not(found | (falls < hope));
-            active &= found | (falls < hope);
+            *has_failed |= is_active & is_not(found | (falls < hope));
+            is_active &= found | (falls < hope);
         }
-        found |= active & (falls * way <= enough * (1.0 - falls))
+        found |= is_active & (falls * distance <= enough * (1.0 - falls))
             & (falls * force_change <= run->newton.force_found * (1.0 - falls));
         run->newton.falls = pick(found, real_max(falls, real_of(1e-3)), run->newton.falls);
-        active &= is_not(found);
-        before = pick(active, way, real_of(1.0));
+        is_active &= is_not(found);
+        before = pick(is_active, distance, real_of(1.0));
     }
-    *lost |= active;
+    *has_failed |= is_active;
     return 0;
 }
 
 /*
- * Return the scaled error of a step, from rates dy at its beginning and the contribution `bend` of its stages; u: the
- * error of each component.
+ * Return the scaled error norm of a step from rates dy at its beginning and the contribution `stage_sum` of its stages.
+ * The sum r is filtered by the real matrix into u, the error of each component; both are outputs.
  */
-static Real RADAU(error)(const IntegratorOf *run, Real h, const Real *dy, const Real *bend, Real *r, Real *u)
+static Real RADAU(estimate_error)(const IntegratorOf *run, Real h, const Real *dy, const Real *stage_sum, Real *r,
+    Real *u)
 {
     Real most = real_of(0.0);
     for (int i = 0; i < N_Y; i++)
-        r[i] = dy[i] + bend[i];
+        r[i] = dy[i] + stage_sum[i];
     newton_solve(&run->newton.linear, h * (1.0 / RADAU_TABLE.gamma), real_of(0.0), r, u);
     for (int i = 0; i < N_Y; i++)
         most = real_max(real_abs(u[i]) * run->norm.weight[i], most);
     return most;
 }
 
-/* Try a step of length h: stages, error and, if it is accepted, its end. Returns a status. */
-static int RADAU(try)(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
+/*
+ * Try a step of length h (s): stages, error norm and, if the error is accepted, its end. Return 0 or a status. The
+ * guess in step->k is improved by Newton's method. If it fails, the status rejects the step (NOT_FOUND; lanes: a mask).
+ * A large error is estimated again at the state with the error, which filters stiff components.
+ */
+static int RADAU(try_step)(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
-    const Real by = RADAU_TABLE.gamma / h;
-    Real r[N_Y], u[N_Y], bend[N_Y], change = real_of(0.0), way = real_of(0.0);
-    ComplexLinearOf pairs[RADAU_STAGES / 2];
-    Mask lost;
+    const Real inverse_h = RADAU_TABLE.gamma / h;
+    Real r[N_Y], u[N_Y], stage_sum[N_Y], change = real_of(0.0), distance = real_of(0.0);
+    ComplexLinearOf complex_matrices[RADAU_STAGES / 2];
+    Mask has_failed;
     step->t = run->t, step->h = h, step->dense_ready = 0;
-    int status = RADAU(factor)(run, h, pairs, p);
+    int status = RADAU(factor_matrices)(run, h, complex_matrices, p);
     if (status)
         return status;
     load_iteration_history(run);
-    RADAU(guess)(run, h, step->k);
-    status = RADAU(stages)(run, h, pairs, p, step, &lost);
+    RADAU(guess_stages)(run, h, step->k);
+    status = RADAU(solve_stages)(run, h, complex_matrices, p, step, &has_failed);
     if (!status)
-        status = mark_missed_stages(run, lost);
+        status = mark_missed_stages(run, has_failed);
     if (status)
         return status;
     for (int i = 0; i < N_Y; i++) {
-        bend[i] = real_of(0.0);
+        stage_sum[i] = real_of(0.0);
         for (int s = 0; s < RADAU_STAGES; s++)
-            bend[i] += RADAU_TABLE.error[s] * step->k[s][i];
-        bend[i] *= by;
+            stage_sum[i] += RADAU_TABLE.error[s] * step->k[s][i];
+        stage_sum[i] *= inverse_h;
         step->y[i] = run->y[i] + step->k[RADAU_STAGES - 1][i];
     }
-    step->error = RADAU(error)(run, h, run->dy, bend, r, u);
+    step->error = RADAU(estimate_error)(run, h, run->dy, stage_sum, r, u);
     for (int k = 0; k < N_MOTION; k++) { /* J u = u/eta - r */
         const int i = felt(k);
-        change = real_max(real_abs(by * u[i] - r[i]) * run->norm.weight[i], change);
-        way = real_max(real_abs(u[i]) * run->norm.weight[i], way);
+        change = real_max(real_abs(inverse_h * u[i] - r[i]) * run->norm.weight[i], change);
+        distance = real_max(real_abs(u[i]) * run->norm.weight[i], distance);
     }
-    record_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
+    record_stability(run, pick(distance > MIN_RESOLVED, h * change / distance, real_of(0.0)));
     const Mask large = step->error > run->control.accept;
     if (any_of(large)) { /* repeat at the state with the error: this filters stiff components */
         Real y[N_Y], dy[N_Y];
@@ -232,7 +248,7 @@ static int RADAU(try)(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *
         if (status)
             return status;
         count_stage_rates(run, large, 1);
-        step->error = pick(large, RADAU(error)(run, h, dy, bend, r, u), step->error);
+        step->error = pick(large, RADAU(estimate_error)(run, h, dy, stage_sum, r, u), step->error);
     }
     if (is_not_a_number(run, step->error))
         return NOT_FINITE;

@@ -9,8 +9,8 @@ static const double rodas5p_node[] = {0.0, 0.6358126895828704, 0.409579839339753
 static const double rodas5p_time[] = {0.21193756319429014, -0.42387512638858027, -0.3384627126235924,
     1.8046452872882734, 2.325825639765069, 0.0, 0.0, 0.0};
 
-/* Compute the state y = y0 + sum_j a_sj u_j of stage s > 0. */
-static void rodas5p_stage(int s, const Real *y0, Real (*k)[N_Y], Real *y)
+/* Compute the state y = y0 + sum_j a_sj u_j (N_Y) of stage s, 1 ... 7, from the increments k of the earlier stages. */
+static void rodas5p_compute_stage(int s, const Real *y0, Real (*k)[N_Y], Real *y)
 {
     switch (s) {
     case 1:
@@ -49,10 +49,10 @@ static void rodas5p_stage(int s, const Real *y0, Real (*k)[N_Y], Real *y)
     }
 }
 
-/* Compute the right-hand side r = f + sum_j c_sj/h u_j of stage s. */
-static void rodas5p_right(int s, Real h, const Real *f, Real (*k)[N_Y], Real *r)
+/* Compute the right side r = f + sum_j c_sj/h u_j of the linear system of stage s, 0 ... 7, from the rates f there. */
+static void rodas5p_compute_right_side(int s, Real h, const Real *f, Real (*k)[N_Y], Real *r)
 {
-    const Real by = 1.0 / h;
+    const Real inverse_h = 1.0 / h;
     switch (s) {
     case 0:
         for (int i = 0; i < N_Y; i++)
@@ -60,47 +60,51 @@ static void rodas5p_right(int s, Real h, const Real *f, Real (*k)[N_Y], Real *r)
         break;
     case 1:
         for (int i = 0; i < N_Y; i++)
-            r[i] = f[i] + by * (-14.155112264123755 * k[0][i]);
+            r[i] = f[i] + inverse_h * (-14.155112264123755 * k[0][i]);
         break;
     case 2:
         for (int i = 0; i < N_Y; i++)
-            r[i] = f[i] + by * (-17.97296035885952 * k[0][i] - 2.859693295451294 * k[1][i]);
+            r[i] = f[i] + inverse_h * (-17.97296035885952 * k[0][i] - 2.859693295451294 * k[1][i]);
         break;
     case 3:
         for (int i = 0; i < N_Y; i++)
-            r[i] = f[i] + by * (147.12150275711716 * k[0][i] - 1.41221402718213 * k[1][i]
+            r[i] = f[i] + inverse_h * (147.12150275711716 * k[0][i] - 1.41221402718213 * k[1][i]
                 + 71.68940251302358 * k[2][i]);
         break;
     case 4:
         for (int i = 0; i < N_Y; i++)
-            r[i] = f[i] + by * (165.43517024871676 * k[0][i] - 0.4592823456491126 * k[1][i]
+            r[i] = f[i] + inverse_h * (165.43517024871676 * k[0][i] - 0.4592823456491126 * k[1][i]
                 + 42.90938336958603 * k[2][i] - 5.961986721573306 * k[3][i]);
         break;
     case 5:
         for (int i = 0; i < N_Y; i++)
-            r[i] = f[i] + by * (24.854864614690072 * k[0][i] - 3.0009227002832186 * k[1][i]
+            r[i] = f[i] + inverse_h * (24.854864614690072 * k[0][i] - 3.0009227002832186 * k[1][i]
                 + 47.4931110020768 * k[2][i] + 5.5814197821558125 * k[3][i] - 0.6610691825249471 * k[4][i]);
         break;
     case 6:
         for (int i = 0; i < N_Y; i++)
-            r[i] = f[i] + by * (30.91273214028599 * k[0][i] - 3.1208243349937974 * k[1][i]
+            r[i] = f[i] + inverse_h * (30.91273214028599 * k[0][i] - 3.1208243349937974 * k[1][i]
                 + 77.79954646070892 * k[2][i] + 34.28646028294783 * k[3][i] - 19.097331116725623 * k[4][i]
                 - 28.087943162872662 * k[5][i]);
         break;
     case 7:
         for (int i = 0; i < N_Y; i++)
-            r[i] = f[i] + by * (37.80277123390563 * k[0][i] - 3.2571969029072276 * k[1][i]
+            r[i] = f[i] + inverse_h * (37.80277123390563 * k[0][i] - 3.2571969029072276 * k[1][i]
                 + 112.26918849496327 * k[2][i] + 66.9347231244047 * k[3][i] - 40.06618937091002 * k[4][i]
                 - 54.66780262877968 * k[5][i] - 9.48861652309627 * k[6][i]);
         break;
     }
 }
 
-/* Try a step of length h: stages, error and, if it is accepted, its end. Returns a status. */
+/*
+ * Try a step of length h (s): stages, error norm and, if the error is accepted, its end. Return 0 or a status. Each
+ * stage solves one linear system with the same Newton matrix. The error is the last increment. h rho follows from the
+ * last two stages, which are at one time.
+ */
 static int rodas5p_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
     const Real hg = h * RODAS5P_GAMMA;
-    Real y[N_Y], f[N_Y], r[N_Y], before[N_Y], change = real_of(0.0), way = real_of(0.0);
+    Real y[N_Y], f[N_Y], r[N_Y], before[N_Y], change = real_of(0.0), distance = real_of(0.0);
     RhsOutputsOf rhs;
     step->t = run->t, step->h = h, step->dense_ready = 0;
     discard_stages(step);
@@ -113,19 +117,19 @@ static int rodas5p_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf 
         if (s > 0) {
             for (int i = 0; i < N_Y; i++)
                 before[i] = f[i];
-            rodas5p_stage(s, run->y, step->k, y);
+            rodas5p_compute_stage(s, run->y, step->k, y);
             status = rates(run, run->t + rodas5p_node[s] * h, y, p, f, &rhs);
             if (status)
                 return status;
             record_stage(run, step, &rhs, rodas5p_node[s]);
         }
-        rodas5p_right(s, h, f, step->k, r);
+        rodas5p_compute_right_side(s, h, f, step->k, r);
         newton_solve(&run->newton.linear, hg, h * rodas5p_time[s], r, step->k[s]);
         if (s == 7) /* the last two stages are at one time: f changes between them by J times their difference */
             for (int k = 0; k < N_MOTION; k++) {
                 const int i = felt(k);
                 change = real_max(real_abs(f[i] - before[i]) * run->norm.weight[i], change);
-                way = real_max(real_abs(step->k[6][i]) * run->norm.weight[i], way);
+                distance = real_max(real_abs(step->k[6][i]) * run->norm.weight[i], distance);
             }
     }
     step->error = real_of(0.0);
@@ -135,6 +139,6 @@ static int rodas5p_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf 
         step->error = real_max(real_abs(step->k[7][i]) * run->norm.weight[i], step->error);
     if (is_not_a_number(run, step->error))
         return NOT_FINITE;
-    record_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
+    record_stability(run, pick(distance > MIN_RESOLVED, h * change / distance, real_of(0.0)));
     return is_step_refused(run, step) ? 0 : finish_step(run, step, p);
 }

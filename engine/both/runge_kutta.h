@@ -10,7 +10,7 @@ typedef struct Tableau {
     int stages, estimates; /* estimates: whether there is an error estimate */
     double node[MAX_STAGES], a[MAX_STAGES][MAX_STAGES], weight[MAX_STAGES];
     double error[MAX_STAGES + 1];   /* of all stages and of the end: differences from the weights of lower order */
-    double between[MAX_STAGES + 1]; /* d3 / h; 0: the dense output is the cubic */
+    double dense_weights[MAX_STAGES + 1]; /* of d3 / h; 0: the dense output is the cubic */
 } Tableau;
 
 /* The classical method of order 4: W. Kutta, Z. Math. Phys. 46 (1901), 435. */
@@ -28,67 +28,67 @@ static const Tableau dormand_prince = {.stages = DOPRI5_STAGES, .estimates = 1,
         {9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0}},
     .weight = {35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0},
     .error = {71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0},
-    .between = {-12715105075.0 / 11282082432.0, 0.0, 87487479700.0 / 32700410799.0, -10690763975.0 / 1880347072.0,
+    .dense_weights = {-12715105075.0 / 11282082432.0, 0.0, 87487479700.0 / 32700410799.0, -10690763975.0 / 1880347072.0,
         701980252875.0 / 199316789632.0, -1453857185.0 / 822651844.0, 69997945.0 / 29380423.0}};
 
 /*
- * Try a step of length h: stages, error and, if it is accepted, its end. The first stage has the rates at the end of
- * the previous step. Returns a status.
+ * Try a step of length h (s) by a tableau: stages, end and, if the tableau has an estimate, its error norm. Return 0 or
+ * a status. The first stage has the rates at the end of the previous step. A rejected step has no stability estimate.
  */
-static int runge_kutta_try(IntegratorOf *run, const Tableau *of, Real h, const ParametersOf *p, StepOf *step)
+static int runge_kutta_try(IntegratorOf *run, const Tableau *tableau, Real h, const ParametersOf *p, StepOf *step)
 {
-    Real y[N_Y], worst = real_of(0.0);
+    Real y[N_Y], error = real_of(0.0);
     RhsOutputsOf rhs;
-    step->t = run->t, step->h = h, step->dense_ready = 0, step->error = worst;
+    step->t = run->t, step->h = h, step->dense_ready = 0, step->error = error;
     discard_stages(step);
     for (int i = 0; i < N_Y; i++)
         step->k[0][i] = run->dy[i];
-    for (int s = 1; s <= of->stages; s++) {
-        const double *const a = s < of->stages ? of->a[s] : of->weight;
-        Real *const to = s < of->stages ? y : step->y;
+    for (int s = 1; s <= tableau->stages; s++) {
+        const double *const a = s < tableau->stages ? tableau->a[s] : tableau->weight;
+        Real *const target = s < tableau->stages ? y : step->y;
         for (int i = 0; i < N_Y; i++) {
             Real slope = a[0] * step->k[0][i];
             for (int j = 1; j < s; j++)
                 slope += a[j] * step->k[j][i];
-            to[i] = run->y[i] + h * slope;
+            target[i] = run->y[i] + h * slope;
         }
-        if (s == of->stages)
+        if (s == tableau->stages)
             break;
-        const int status = rates(run, run->t + of->node[s] * h, y, p, step->k[s], &rhs);
+        const int status = rates(run, run->t + tableau->node[s] * h, y, p, step->k[s], &rhs);
         if (status)
             return status;
-        record_stage(run, step, &rhs, of->node[s]);
+        record_stage(run, step, &rhs, tableau->node[s]);
         record_stage_state(step, y);
     }
     const int status = finish_step(run, step, p);
     if (status)
         return status;
-    for (int i = 0; i < N_Y && of->estimates; i++) {
-        Real slope = of->error[of->stages] * step->dy[i];
-        for (int j = 0; j < of->stages; j++)
-            slope += of->error[j] * step->k[j][i];
-        worst = real_max(real_abs(h * slope) * run->norm.weight[i], worst);
+    for (int i = 0; i < N_Y && tableau->estimates; i++) {
+        Real slope = tableau->error[tableau->stages] * step->dy[i];
+        for (int j = 0; j < tableau->stages; j++)
+            slope += tableau->error[j] * step->k[j][i];
+        error = real_max(real_abs(h * slope) * run->norm.weight[i], error);
     }
-    step->error = real_max(step->error, worst);
+    step->error = real_max(step->error, error);
     if (is_not_a_number(run, step->error))
         return NOT_FINITE;
     if (is_step_refused(run, step))
         return 0;
-    record_end_stability(run, step, h, y, step->k[of->stages - 1]);
+    record_end_stability(run, step, h, y, step->k[tableau->stages - 1]);
     return 0;
 }
 
-/* Compute the coefficients of the dense output from the stages of the step. */
-static inline void runge_kutta_dense(const IntegratorOf *run, const Tableau *of, StepOf *step)
+/* Compute the four coefficients step->dense of the dense output from the stages and both ends of a step. */
+static inline void runge_kutta_dense(const IntegratorOf *run, const Tableau *tableau, StepOf *step)
 {
     for (int i = 0; i < N_Y; i++) {
         const Real change = step->y[i] - run->y[i];
-        Real bend = of->between[of->stages] * step->dy[i];
-        for (int j = 0; j < of->stages; j++)
-            bend += of->between[j] * step->k[j][i];
+        Real fourth = tableau->dense_weights[tableau->stages] * step->dy[i];
+        for (int j = 0; j < tableau->stages; j++)
+            fourth += tableau->dense_weights[j] * step->k[j][i];
         step->dense[0][i] = change;
         step->dense[1][i] = step->h * run->dy[i] - change;
         step->dense[2][i] = 2.0 * change - step->h * (step->dy[i] + run->dy[i]);
-        step->dense[3][i] = step->h * bend;
+        step->dense[3][i] = step->h * fourth;
     }
 }

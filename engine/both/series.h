@@ -19,11 +19,12 @@ typedef union {
 } SeriesSums;
 
 /*
- * Compute of every product left_1 right_{k-1} + ... + left_{k-1} right_1 (sum), and of order k + 1 all terms but left_1
- * right_k and left_k right_1 (next).
+ * Compute the inner terms of the Cauchy products of all pairs at orders k and k + 1, from orders below k of both
+ * factors. sum: left_1 right_{k-1} + ... + left_{k-1} right_1. next_sum: of order k + 1 all terms but left_1 right_k
+ * and left_k right_1, which add_outer_products() adds.
  */
-SERIES_APART static void series_sums(int k, SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS],
-    SeriesRow *sum, SeriesRow *next)
+SERIES_APART static void sum_inner_products(int k, SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS],
+    SeriesRow *sum, SeriesRow *next_sum)
 {
     for (int i = 0; i < SERIES_ROWS; i += 2) {
         SeriesRow before = right[k - 1][i], now = left[1][i] * before, then = {0.0};
@@ -38,21 +39,28 @@ SERIES_APART static void series_sums(int k, SeriesRow (*left)[SERIES_ROWS], Seri
             now_b += factor_b * before_b;
         }
         sum[i] = now, sum[i + 1] = now_b;
-        next[i] = then, next[i + 1] = then_b;
+        next_sum[i] = then, next_sum[i + 1] = then_b;
     }
 }
 
-/* Add the two terms of order k that series_sums() left out. */
-SERIES_APART static void series_rest(int k, SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS],
+/*
+ * Add to each sum of order k the two terms left_1 right_{k-1} and left_{k-1} right_1 that sum_inner_products() left
+ * out.
+ */
+SERIES_APART static void add_outer_products(int k, SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS],
     SeriesRow *sum)
 {
     for (int i = 0; i < SERIES_ROWS; i++)
         sum[i] += left[1][i] * right[k - 1][i] + left[k - 1][i] * right[1][i];
 }
 
-/* Compute c[k], k = 2 ... order, from c[0], the accelerations and powers in c[1], and the values `at` of order 0. */
-SERIES_APART static void series_orders(const ParametersOf *p, const TaylorValues *at, int order, Real (*c)[TAYLOR_Y],
-    SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS])
+/*
+ * Compute the series coefficients c[k] of the state for k = 2 ... order, one order after the other. c[0], and
+ * accelerations and powers in c[1], must be set; `values`: values of order 0 of all functions. left, right: memory for
+ * the factors of all products.
+ */
+SERIES_APART static void series_orders(const ParametersOf *p, const TaylorValues *values, int order,
+    Real (*c)[TAYLOR_Y], SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS])
 {
     SeriesSums sum[2] = {0};
     for (int i = 0; i < N_X; i++)
@@ -60,18 +68,18 @@ SERIES_APART static void series_orders(const ParametersOf *p, const TaylorValues
     for (int k = 1; k < order; k++) {
         Real *next = c[k + 1];
         if (k % 2 == 0)
-            series_sums(k, left, right, sum[0].row, sum[1].row);
+            sum_inner_products(k, left, right, sum[0].row, sum[1].row);
         else if (k > 1)
-            series_rest(k, left, right, sum[1].row);
+            add_outer_products(k, left, right, sum[1].row);
         for (int i = 0; i < N_X; i++)
             next[i] = c[k][N_X + i] * real_of(1.0 / (k + 1));
         taylor_terms(real_of(k), real_of(1.0 / k), real_of(1.0 / (k + 1)), real_of(k == 1 ? 1.0 : 0.0), c[k],
-            c[k] + N_X, p, at, &sum[k % 2].of, next + N_X, next + 2 * N_X, (SeriesWide *)left[k],
+            c[k] + N_X, p, values, &sum[k % 2].of, next + N_X, next + 2 * N_X, (SeriesWide *)left[k],
             (SeriesWide *)right[k]);
     }
 }
 
-/* Return the thread-local memory for the factors of all products. */
+/* Return the thread-local memory for the left and right factors of all products at all orders. */
 static SeriesRow (*series_factors(void))[TAYLOR_ORDERS][SERIES_ROWS]
 {
     static _Thread_local SeriesRow factors[2][TAYLOR_ORDERS][SERIES_ROWS];

@@ -1,4 +1,6 @@
-/* Update the largest speeds of lengths and angles. */
+/* Largest speeds of lengths and angles of a run, to which tolerances of velocities are relative. */
+
+/* Update the largest speeds of lengths and of angles so far with the velocities of a run. */
 static void update_speeds(IntegratorOf *run)
 {
     for (int k = 0; k < N_X; k++)

@@ -1,4 +1,9 @@
-/* Copy the inner states of a state y to the contact states, where the laws read them. */
+/* Inner states of contact laws in the integrated state, such as bristle deflections. */
+
+/*
+ * Copy the inner states of contact laws from state y to the contact states, where the laws read them; nothing without
+ * such states.
+ */
 static inline void copy_inner_states(DiscreteStateOf *discrete, const Real *y)
 {
 #if LAW_STATES
@@ -9,7 +14,7 @@ static inline void copy_inner_states(DiscreteStateOf *discrete, const Real *y)
 #endif
 }
 
-/* Copy the rates of the inner states from the contacts to dy. */
+/* Copy the rates of the inner states of contact laws from the contacts in `rhs` to dy; nothing without such states. */
 static inline void copy_inner_rates(const RhsOutputsOf *rhs, Real *dy)
 {
 #if LAW_STATES

@@ -9,8 +9,8 @@ enum { SERIES_PART = sizeof(SeriesPart) / sizeof(Real) };
 enum { TAYLOR_DEFECT = 5 /* log2 of the largest defect at the end of a step, in tolerances; less at low orders */ };
 
 /*
- * Return the longest step whose last two terms do not exceed the tolerance, s. Symmetry may make them small or zero;
- * the defect at the end of the step shows that.
+ * Return the longest step in s for which the last two terms of the series do not exceed the tolerance. Symmetry may
+ * make these terms small or zero; the defect at the end of the step shows that.
  */
 static Real taylor_reach(const IntegratorOf *run)
 {
@@ -24,8 +24,11 @@ static Real taylor_reach(const IntegratorOf *run)
     return real_exp2(-real_max(real_log2(most) / n, real_log2(most_before) / (n - 1)));
 }
 
-/* Return the longest step by all terms, s: each may exceed the tolerance by a fixed factor per lower order. */
-static Real taylor_reach_of_all(const IntegratorOf *run)
+/*
+ * Return the longest step in s by all terms of the series: each may exceed the tolerance by a fixed factor per lower
+ * order.
+ */
+static Real taylor_limit_length_by_all_terms(const IntegratorOf *run)
 {
     Real steepest = real_of(-INFINITY);
     for (int k = 1; k <= run->series.order; k++) {
@@ -37,8 +40,10 @@ static Real taylor_reach_of_all(const IntegratorOf *run)
     return real_exp2(-steepest);
 }
 
-/* Compute the state y and its rate at time h after the run's state: even and odd powers separately. */
-static inline void taylor_both(const IntegratorOf *run, Real h, Real *y, Real *rate)
+/*
+ * Evaluate the series at time h (s) after the run's state: the state y and its rate, by even and odd powers separately.
+ */
+static inline void taylor_evaluate_state_and_rate(const IntegratorOf *run, Real h, Real *y, Real *rate)
 {
     const int top = run->series.order - run->series.order % 2;
     const Real square = h * h;
@@ -63,51 +68,56 @@ static inline void taylor_both(const IntegratorOf *run, Real h, Real *y, Real *r
     }
 }
 
-/* Compute the state y at time h after the run's state. */
+/* Evaluate the series at time h (s) after the run's state: the state y (N_Y). */
 static inline void taylor_at(const IntegratorOf *run, Real h, Real *y)
 {
     Real rate[N_Y];
-    taylor_both(run, h, y, rate);
-}
-
-/* Return the defect h |y' - f| at the end of a step in the error norm of velocities, relative to the allowed one. */
-static Real taylor_defect(const IntegratorOf *run, const StepOf *step, const Real *rate)
-{
-    const int few = run->series.order - 4;
-    Real most = real_of(0.0);
-    for (int i = N_X; i < 2 * N_X; i++)
-        most = real_max(most, real_abs(step->h * (rate[i] - step->dy[i])) * run->norm.weight[i]);
-    return most * (1.0 / (1 << (few < TAYLOR_DEFECT ? few : TAYLOR_DEFECT)));
+    taylor_evaluate_state_and_rate(run, h, y, rate);
 }
 
 /*
- * Try a step of length h, or of the longest valid length; a fixed step is always h. If its defect is too large, the
- * step is repeated once with a length from all terms. Returns a status.
+ * Return the defect h |y' - f| at the end of a step in the error norm of velocities, relative to the allowed one. rate:
+ * y' of the series; f: step->dy. The allowed defect is 2^5 tolerances, less at low orders.
+ */
+static Real taylor_defect(const IntegratorOf *run, const StepOf *step, const Real *rate)
+{
+    const int max_log2 = run->series.order - 4;
+    Real most = real_of(0.0);
+    for (int i = N_X; i < 2 * N_X; i++)
+        most = real_max(most, real_abs(step->h * (rate[i] - step->dy[i])) * run->norm.weight[i]);
+    return most * (1.0 / (1 << (max_log2 < TAYLOR_DEFECT ? max_log2 : TAYLOR_DEFECT)));
+}
+
+/*
+ * Try a step of length h (s), or of the longest valid length if that is shorter; a fixed step is always h. Return 0 or
+ * a status. step->error is h over the valid length, or the defect. If the defect at the end is too large, the step is
+ * repeated once with a length from all terms.
  */
 static int taylor_step(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
-    const int free = !(run->control.fixed > 0.0);
+    const int is_adaptive = !(run->control.fixed > 0.0);
     Real rate[N_Y], defect;
     int status;
-    if (free)
+    if (is_adaptive)
         h = real_min(h, run->series.reach);
     step->t = run->t, step->dense_ready = 0;
     discard_stages(step);
     record_stability(run, real_of(0.0));
-    for (int again = 0;; again = 1) {
+    for (int is_repeated = 0;; is_repeated = 1) {
         step->h = h;
-        taylor_both(run, h, step->y, rate);
-        step->error = free ? h / run->series.reach : real_of(0.0); /* root of the error: accepted up to 1 */
-        if (!again && is_step_refused(run, step))
+        taylor_evaluate_state_and_rate(run, h, step->y, rate);
+        step->error = is_adaptive ? h / run->series.reach : real_of(0.0); /* root of the error: accepted up to 1 */
+        if (!is_repeated && is_step_refused(run, step))
             return 0;
         status = finish_step(run, step, p);
-        if (!free)
+        if (!is_adaptive)
             return status;
         defect = status ? real_of(INFINITY) : taylor_defect(run, step, rate);
-        const Mask large = defect > 1.0;
-        if (again || !any_of(large))
+        const Mask is_large = defect > 1.0;
+        if (is_repeated || !any_of(is_large))
             break;
-        run->series.reach = pick(large, real_min(run->series.reach, taylor_reach_of_all(run)), run->series.reach);
+        run->series.reach = pick(is_large, real_min(run->series.reach, taylor_limit_length_by_all_terms(run)),
+            run->series.reach);
         h = real_min(h, run->series.reach);
         discard_end(run);
     }

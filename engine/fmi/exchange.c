@@ -7,181 +7,196 @@
 #define MAX_DRIFT 1e-11 /* of the mechanism's size or 1 rad: drift at which closures are projected */
 
 /*
- * Change the branches of switching functions with the opposite sign: those whose branches meet, or `all`. Returns
- * whether any changed.
+ * Change the branches of switching functions whose values have the opposite sign: those whose branches meet, or all
+ * (`is_for_all`). Return whether any changed.
  */
-static int update_branches(Model *m, const RhsOutputs *rhs, int all)
+static int update_branches(Model *model, const RhsOutputs *rhs, int is_for_all)
 {
-    int some = 0;
+    int has_changed = 0;
     for (int k = 0; k < N_SWITCHES; k++)
-        if ((all || meets[k]) && m->discrete.branch[k] * rhs->g[k] < 0.0) {
-            m->discrete.branch[k] = -m->discrete.branch[k];
-            some = 1;
+        if ((is_for_all || meets[k]) && model->discrete.branch[k] * rhs->g[k] < 0.0) {
+            model->discrete.branch[k] = -model->discrete.branch[k];
+            has_changed = 1;
         }
-    return some;
+    return has_changed;
 }
 
 /*
- * Compute rates dx and contacts at the present state. Between events, contacts and branches of expressions are frozen,
- * so that the importer integrates a smooth function. Branches of contact laws meet and follow the state, because a slip
- * near a switching point would cause repeated events. Returns a status.
+ * Compute the rates dx and outputs rhs at the present state of an instance. Return 0 or a status. Between events,
+ * contacts and branches of expressions are frozen, so that the importer integrates a smooth function. Branches of
+ * contact laws meet and follow the state, in up to six passes. A slip near a switching point would otherwise cause
+ * repeated events.
  */
-static int exchange_rates(Model *m, double *dx, RhsOutputs *rhs)
+static int exchange_rates(Model *model, double *dx, RhsOutputs *rhs)
 {
     int status = 0, changed = 1;
     for (int pass = 0; pass < 6 && changed && !status; pass++) {
-        DiscreteState now = m->discrete;
-        status = motion(m->t, m->x, &now, (const Parameters *)m->p, dx, rhs);
-        changed = now.held && update_branches(m, rhs, 0);
+        DiscreteState now = model->discrete;
+        status = motion(model->t, model->x, &now, (const Parameters *)model->p, dx, rhs);
+        changed = now.held && update_branches(model, rhs, 0);
     }
     return status;
 }
 
 /*
- * Raise the nominals: to the largest velocity of a kind, of works to the kinetic energy. Returns whether any is larger
- * now.
+ * Raise the nominals to the largest velocity of a kind, those of works to the kinetic energy. Return whether any is
+ * larger now.
  */
-static int note_nominals(Model *m)
+static int raise_nominals(Model *model)
 {
     double mass[N_Q], all[N_S], energy = 0.0;
     int more = 0;
-    mass_matrix((const Parameters *)m->p, mass);
-    to_absolute(m->t, m->x, &m->discrete, (const Parameters *)m->p, all);
+    mass_matrix((const Parameters *)model->p, mass);
+    to_absolute(model->t, model->x, &model->discrete, (const Parameters *)model->p, all);
     for (int k = 0; k < N_Q; k++)
         energy += 0.5 * mass[k] * all[N_Q + k] * all[N_Q + k];
     for (int k = N_X; k < N_Y; k++) {
-        double most = m->nominal[k];
+        double most = model->nominal[k];
         for (int i = 0; i < N_X && k < 2 * N_X; i++)
             if (fmu_is_angle[i] == fmu_is_angle[k - N_X])
-                most = fmax(most, fabs(m->x[N_X + i]));
+                most = fmax(most, fabs(model->x[N_X + i]));
         most = k < 2 * N_X ? most : fmax(most, energy);
-        more |= most > m->nominal[k];
-        m->nominal[k] = most;
+        more |= most > model->nominal[k];
+        model->nominal[k] = most;
     }
     return more;
 }
 
 /*
- * Set the nominals at the start, as in methods/begin.c: of coordinates the smallest length or angle that matters
- * (`least`); of velocities 1 % of the speed that covers it in the time scale of the start. Returns a status.
+ * Set the nominals of all states at the start, as in methods/begin.c. Return 0 or the status of the rates. min_scale:
+ * smallest relevant length (m) and angle, the nominals of coordinates. Those of velocities are 1 % of the speed that
+ * covers it in the time scale of the start. Those of works are the energy at these speeds.
  */
-static int nominals_at_start(Model *m, const double *least)
+static int nominals_at_start(Model *model, const double *min_scale)
 {
     double dx[N_Y], mass[N_Q], rate = 0.0, energy = 0.0;
     RhsOutputs rhs;
-    const int status = exchange_rates(m, dx, &rhs);
+    const int status = exchange_rates(model, dx, &rhs);
     for (int k = 0; k < N_X && !status; k++) {
-        const double way = least[fmu_is_angle[k]];
-        rate = fmax(rate, fmax(fabs(dx[k]) / way, sqrt(fabs(dx[N_X + k]) / way)));
+        const double scale = min_scale[fmu_is_angle[k]];
+        rate = fmax(rate, fmax(fabs(dx[k]) / scale, sqrt(fabs(dx[N_X + k]) / scale)));
     }
-    rate = rate * (m->t_end - m->t) > 1e-3 ? 0.01 * rate : 1.0 / fmax(m->t_end - m->t, 1e-100);
-    mass_matrix((const Parameters *)m->p, mass);
+    rate = rate * (model->t_end - model->t) > 1e-3 ? 0.01 * rate : 1.0 / fmax(model->t_end - model->t, 1e-100);
+    mass_matrix((const Parameters *)model->p, mass);
     for (int k = 0; k < N_Q; k++)
-        energy += 0.5 * mass[k] * least[k % 3 == 2] * rate * least[k % 3 == 2] * rate;
+        energy += 0.5 * mass[k] * min_scale[k % 3 == 2] * rate * min_scale[k % 3 == 2] * rate;
     for (int k = 0; k < N_Y; k++) {
-        const double way = k < 2 * N_X ? least[fmu_is_angle[k % N_X]] : 0.0;
-        m->nominal[k] = k < N_X ? way : k < 2 * N_X ? way * rate : energy;
+        const double scale = k < 2 * N_X ? min_scale[fmu_is_angle[k % N_X]] : 0.0;
+        model->nominal[k] = k < N_X ? scale : k < 2 * N_X ? scale * rate : energy;
     }
-    note_nominals(m);
+    raise_nominals(model);
     return status;
 }
 
-/* Read the discrete state from that of the sample. */
-static void read_contacts(Model *m) { read_discrete_state(m->latched, &m->discrete); }
+/* Read the discrete state of an instance from that of its sample. */
+static void read_sampled_discrete_state(Model *model) { read_discrete_state(model->latched, &model->discrete); }
 
-/* Convert the integrated state to absolute coordinates in model exchange, and the other way in co-simulation. */
-static void convert_state(Model *m)
+/*
+ * Convert the integrated state of an instance to absolute coordinates in model exchange, and the other way in
+ * co-simulation.
+ */
+static void convert_state(Model *model)
 {
-    if (m->exchange) {
-        to_absolute(m->t, m->x, &m->discrete, (const Parameters *)m->p, m->y);
+    if (model->exchange) {
+        to_absolute(model->t, model->x, &model->discrete, (const Parameters *)model->p, model->y);
     } else {
-        read_contacts(m);
-        from_absolute(m->t, m->y, &m->discrete, (const Parameters *)m->p, m->x);
+        read_sampled_discrete_state(model);
+        from_absolute(model->t, model->y, &model->discrete, (const Parameters *)model->p, model->x);
     }
 }
 
 /*
- * Return the drift of the closures, relative to the mechanism's size; with `moves` the state is projected onto them.
- * -1: a closure depends on others.
+ * Return the largest drift of the closures, rad or relative to the mechanism's size; -1 if a closure depends on others.
+ * is_projected: the state is also projected onto the closures, in three passes. Return 0 without closures.
  */
-static double drift_of_closures(Model *m, int moves)
+static double compute_closure_drift(Model *model, int is_projected)
 {
-    double most = 0.0;
-    for (int pass = 0; pass < (moves ? 3 : 1) && N_LOOPS > 0; pass++) {
-        double dq[N_X], dv[N_X], worst;
-        DiscreteState now = m->discrete;
-        if (closing_of_state(m->t, m->x, &now, (const Parameters *)m->p, dq, dv, &worst))
+    double drift = 0.0;
+    for (int pass = 0; pass < (is_projected ? 3 : 1) && N_LOOPS > 0; pass++) {
+        double dq[N_X], dv[N_X], residual;
+        DiscreteState now = model->discrete;
+        if (closing_of_state(model->t, model->x, &now, (const Parameters *)model->p, dq, dv, &residual))
             return -1.0;
         for (int k = 0; k < N_X; k++) {
-            most = fmax(most, fabs(dq[k]) / (fmu_is_angle[k] ? 1.0 : m->extent));
-            if (moves) {
-                m->x[k] -= dq[k];
-                m->x[N_X + k] -= dv[k];
+            drift = fmax(drift, fabs(dq[k]) / (fmu_is_angle[k] ? 1.0 : model->extent));
+            if (is_projected) {
+                model->x[k] -= dq[k];
+                model->x[N_X + k] -= dv[k];
             }
         }
     }
-    return most;
+    return drift;
 }
 
-/* Return event indicator k: a penetration, or a switching function; its branch if it is not in use. */
-static double indicator_of(const Model *m, const RhsOutputs *rhs, int k)
+/*
+ * Return event indicator k: a penetration (m), or the value of a switching function; its branch if it is not in use.
+ * rhs: outputs of the right-hand side at the present state.
+ */
+static double indicator_of(const Model *model, const RhsOutputs *rhs, int k)
 {
     if (k < N_CLEARANCES)
         return rhs->clearance[k].delta;
     const int corner = fmu_jumps[k - N_CLEARANCES];
-    return isnan(rhs->g[corner]) ? m->discrete.branch[corner] : rhs->g[corner];
+    return isnan(rhs->g[corner]) ? model->discrete.branch[corner] : rhs->g[corner];
 }
 
-/* Replace switching functions that are exactly zero by their values a moment later. Returns a status. */
-static int resolve_zero_branches(Model *m, const double *dx, RhsOutputs *rhs)
+/*
+ * Replace the values of switching functions that are exactly zero in rhs by their values a moment later. Return 0 or a
+ * status. dx: rates of the present state, along which the state is moved for that. The instance is not changed.
+ */
+static int resolve_zero_branches(Model *model, const double *dx, RhsOutputs *rhs)
 {
-    int status = 0, some = 0;
+    int status = 0, has_zero = 0;
     double x[N_Y], scrap[N_Y];
-    const double t = m->t, moment = 1e-9 * fmax(1e-3, fabs(t));
+    const double t = model->t, moment = 1e-9 * fmax(1e-3, fabs(t));
     RhsOutputs later;
     for (int k = 0; k < N_SWITCHES; k++)
-        some |= rhs->g[k] == 0.0;
-    if (!some)
+        has_zero |= rhs->g[k] == 0.0;
+    if (!has_zero)
         return 0;
-    memcpy(x, m->x, sizeof x);
+    memcpy(x, model->x, sizeof x);
     for (int k = 0; k < 2 * N_X; k++)
-        m->x[k] += moment * dx[k];
-    m->t = t + moment;
-    status = exchange_rates(m, scrap, &later);
-    memcpy(m->x, x, sizeof x);
-    m->t = t;
+        model->x[k] += moment * dx[k];
+    model->t = t + moment;
+    status = exchange_rates(model, scrap, &later);
+    memcpy(model->x, x, sizeof x);
+    model->t = t;
     for (int k = 0; k < N_SWITCHES && !status; k++)
         if (rhs->g[k] == 0.0)
             rhs->g[k] = later.g[k];
     return status;
 }
 
-/* Update contacts and branches at an event, including branches that change as a consequence. Returns a status. */
-static int update_modes(Model *m)
+/*
+ * Update contacts and branches of an instance at an event, including branches that change as a consequence. Return 0 or
+ * a status. A contact begins where the penetration is positive; its approach speed is stored. Up to six passes are
+ * made.
+ */
+static int update_modes(Model *model)
 {
     double dx[N_Y];
     RhsOutputs rhs;
-    int status = exchange_rates(m, dx, &rhs), changed = 1;
+    int status = exchange_rates(model, dx, &rhs), changed = 1;
     for (int i = 0; i < N_CLEARANCES && !status; i++) {
         const Clearance *joint = &rhs.clearance[i];
-        const int touches = !isnan(m->latched[i]);
+        const int touches = !isnan(model->latched[i]);
         /* at exactly zero the rate decides */
         const int within = joint->delta > 0.0 || (joint->delta == 0.0 && joint->deltadot >= 0.0);
         if (touches == within)
             continue;
-        const double least = min_approach_speed((const Parameters *)m->p, i);
-        m->latched[i] = within ? fmax(joint->deltadot, least) : NAN;
-        m->state[i] = within ? CODE_IMPACT : CODE_FREE; /* an impact ends at a completed step */
+        const double least = min_approach_speed((const Parameters *)model->p, i);
+        model->latched[i] = within ? fmax(joint->deltadot, least) : NAN;
+        model->state[i] = within ? CODE_IMPACT : CODE_FREE; /* an impact ends at a completed step */
     }
     if (!status)
-        status = resolve_zero_branches(m, dx, &rhs);
+        status = resolve_zero_branches(model, dx, &rhs);
     for (int k = 0; k < N_SWITCHES && !status; k++)
-        m->discrete.branch[k] = rhs.g[k] < 0.0 ? -1.0 : 1.0;
-    read_contacts(m);
-    m->discrete.held = 1;
+        model->discrete.branch[k] = rhs.g[k] < 0.0 ? -1.0 : 1.0;
+    read_sampled_discrete_state(model);
+    model->discrete.held = 1;
     for (int pass = 0; pass < 6 && changed && !status; pass++) {
-        status = exchange_rates(m, dx, &rhs);
-        changed = !status && update_branches(m, &rhs, 1);
+        status = exchange_rates(model, dx, &rhs);
+        changed = !status && update_branches(model, &rhs, 1);
     }
     return status;
 }
@@ -191,68 +206,77 @@ FMI3_EXPORT fmi3Status fmi3EnterEventMode(fmi3Instance instance) { return (void)
 /* Enter continuous-time mode (FMI 3); no action is needed. */
 FMI3_EXPORT fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance) { return (void)instance, fmi3OK; }
 
-/* Update contacts and branches, and project the closures, at an event. */
-FMI3_EXPORT fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *again, fmi3Boolean *terminate,
-    fmi3Boolean *nominals, fmi3Boolean *values, fmi3Boolean *timed, fmi3Float64 *next)
+/*
+ * Update contacts and branches, and project the closures, at an event (FMI 3). Return fmi3OK, or an error if the motion
+ * cannot be followed. No further update, end or time event is requested. values_changed: whether the projection changed
+ * states.
+ */
+FMI3_EXPORT fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *needs_update,
+    fmi3Boolean *terminate, fmi3Boolean *nominals_changed, fmi3Boolean *values_changed,
+    fmi3Boolean *has_next_event_time, fmi3Float64 *next_event_time)
 {
-    Model *m = instance;
-    const int status = update_modes(m); /* before the projection, which may move a located indicator back across zero */
-    const double open = drift_of_closures(m, 1);
-    *again = *terminate = *timed = false;
-    *nominals = !status && note_nominals(m);
-    *next = INFINITY;
-    *values = open != 0.0;
-    m->moved = 1;
-    return status ? log_failure(m, "the motion cannot be followed", status) : fmi3OK;
+    Model *model = instance;
+    /* before the projection, which may move a located indicator back across zero */
+    const int status = update_modes(model);
+    const double drift = compute_closure_drift(model, 1);
+    *needs_update = *terminate = *has_next_event_time = false;
+    *nominals_changed = !status && raise_nominals(model);
+    *next_event_time = INFINITY;
+    *values_changed = drift != 0.0;
+    model->moved = 1;
+    return status ? log_failure(model, "the motion cannot be followed", status) : fmi3OK;
 }
 
-/* End impacts whose penetration decreases, and request an event if closures have drifted. */
-FMI3_EXPORT fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean no_return, fmi3Boolean *event,
-    fmi3Boolean *terminate)
+/*
+ * End impacts whose penetration decreases, after a step of the importer, and request an event if closures have drifted
+ * (FMI 3).
+ */
+FMI3_EXPORT fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean cannot_return,
+    fmi3Boolean *enters_event_mode, fmi3Boolean *terminate)
 {
-    Model *m = instance;
+    Model *model = instance;
     double dx[N_Y];
     RhsOutputs rhs;
-    (void)no_return;
-    if (N_CLEARANCES && !exchange_rates(m, dx, &rhs))
+    (void)cannot_return;
+    if (N_CLEARANCES && !exchange_rates(model, dx, &rhs))
         for (int i = 0; i < N_CLEARANCES; i++)
-            if (m->state[i] == CODE_IMPACT && rhs.clearance[i].deltadot <= 0.0)
-                m->state[i] = CODE_CONTACT;
-    *event = drift_of_closures(m, 0) > MAX_DRIFT;
+            if (model->state[i] == CODE_IMPACT && rhs.clearance[i].deltadot <= 0.0)
+                model->state[i] = CODE_CONTACT;
+    *enters_event_mode = compute_closure_drift(model, 0) > MAX_DRIFT;
     *terminate = false;
     return fmi3OK;
 }
 
-/* Set the time, s. */
+/* Set the time of an instance, s (FMI 3). Outputs are evaluated again when needed. */
 FMI3_EXPORT fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 t)
 {
-    Model *m = instance;
-    m->t = t;
-    m->moved = 1;
+    Model *model = instance;
+    model->t = t;
+    model->moved = 1;
     return fmi3OK;
 }
 
-/* Return an error if n is not the expected number of values. */
-static fmi3Status check_count(const Model *m, size_t n, size_t expected)
+/* Return fmi3OK if n is the expected number of values; otherwise log an error and return fmi3Error. */
+static fmi3Status check_count(const Model *model, size_t n, size_t expected)
 {
-    return n == expected ? fmi3OK : log_failure(m, "another number of values than there are", (int)n);
+    return n == expected ? fmi3OK : log_failure(model, "another number of values than there are", (int)n);
 }
 
-/* Set the integrated state, N_Y values. */
+/* Set the integrated state x, n = N_Y values (FMI 3). Outputs are evaluated again when needed. */
 FMI3_EXPORT fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 x[], size_t n)
 {
-    Model *m = instance;
-    if (check_count(m, n, N_Y))
+    Model *model = instance;
+    if (check_count(model, n, N_Y))
         return fmi3Error;
-    memcpy(m->x, x, sizeof m->x);
-    m->moved = 1;
+    memcpy(model->x, x, sizeof model->x);
+    model->moved = 1;
     return fmi3OK;
 }
 
-/* Copy one number of each state to `value`. */
-static fmi3Status copy_state_values(const Model *m, const double *source, fmi3Float64 value[], size_t n)
+/* Copy one number of each state, N_Y of them, from `source` to `value`. Return fmi3Error if n is another number. */
+static fmi3Status copy_state_values(const Model *model, const double *source, fmi3Float64 value[], size_t n)
 {
-    if (check_count(m, n, N_Y))
+    if (check_count(model, n, N_Y))
         return fmi3Error;
     memcpy(value, source, N_Y * sizeof *source);
     return fmi3OK;
@@ -264,14 +288,17 @@ FMI3_EXPORT fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float6
     return copy_state_values(instance, ((const Model *)instance)->x, x, n);
 }
 
-/* Get the rates of the state; fmi3Discard if they are undefined, so that the importer takes a shorter step. */
+/*
+ * Get the rates dx of the state, n = N_Y values (FMI 3). Return fmi3Discard if they are undefined or not finite, so
+ * that the importer takes a shorter step; fmi3Error if n is wrong.
+ */
 FMI3_EXPORT fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 dx[], size_t n)
 {
-    Model *m = instance;
+    Model *model = instance;
     RhsOutputs rhs;
-    if (check_count(m, n, N_Y))
+    if (check_count(model, n, N_Y))
         return fmi3Error;
-    if (exchange_rates(m, dx, &rhs))
+    if (exchange_rates(model, dx, &rhs))
         return fmi3Discard;
     for (int k = 0; k < N_Y; k++)
         if (!isfinite(dx[k]))
@@ -279,22 +306,25 @@ FMI3_EXPORT fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, 
     return fmi3OK;
 }
 
-/* Get the event indicators. */
+/*
+ * Get the event indicators z, n = N_INDICATORS values (FMI 3). Return fmi3Discard if the right-hand side cannot be
+ * evaluated.
+ */
 FMI3_EXPORT fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 z[], size_t n)
 {
-    Model *m = instance;
+    Model *model = instance;
     double dx[N_Y];
     RhsOutputs rhs;
-    if (check_count(m, n, N_INDICATORS))
+    if (check_count(model, n, N_INDICATORS))
         return fmi3Error;
-    if (N_INDICATORS && exchange_rates(m, dx, &rhs))
+    if (N_INDICATORS && exchange_rates(model, dx, &rhs))
         return fmi3Discard;
     for (int k = 0; k < N_INDICATORS; k++)
-        z[k] = indicator_of(m, &rhs, k);
+        z[k] = indicator_of(model, &rhs, k);
     return fmi3OK;
 }
 
-/* Get the nominals of the states. */
+/* Get the nominals of the states, n = N_Y values (FMI 3). */
 FMI3_EXPORT fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 nominal[], size_t n)
 {
     return copy_state_values(instance, ((const Model *)instance)->nominal, nominal, n);

@@ -19,12 +19,16 @@
 FMI3_EXPORT const char *fmi3GetVersion(void) { return "3.0"; }
 
 /* Accept and ignore the settings of debug logging. */
-FMI3_EXPORT fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, size_t n, const fmi3String names[])
+FMI3_EXPORT fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean is_enabled, size_t n,
+    const fmi3String categories[])
 {
-    return (void)instance, (void)on, (void)n, (void)names, fmi3OK;
+    return (void)instance, (void)is_enabled, (void)n, (void)categories, fmi3OK;
 }
 
-/* Create an instance with default settings. Returns NULL if the token is wrong or memory is exhausted. */
+/*
+ * Create an instance with default settings and a copy of its name. Return NULL if the token is wrong or memory is
+ * exhausted. A wrong token is logged.
+ */
 static Model *create_instance(fmi3String name, fmi3String token, fmi3InstanceEnvironment environment,
     fmi3LogMessageCallback log_message)
 {
@@ -33,24 +37,27 @@ static Model *create_instance(fmi3String name, fmi3String token, fmi3InstanceEnv
             log_message(environment, fmi3Error, "logStatusError", "the token is that of another model");
         return NULL;
     }
-    Model *m = calloc(1, sizeof(Model));
-    if (!m)
+    Model *model = calloc(1, sizeof(Model));
+    if (!model)
         return NULL;
     const size_t length = strlen(name ? name : "") + 1;
-    m->name = malloc(length);
-    if (!m->name) {
-        free(m);
+    model->name = malloc(length);
+    if (!model->name) {
+        free(model);
         return NULL;
     }
-    memcpy(m->name, name ? name : "", length);
-    m->environment = environment;
-    m->log_message = log_message;
-    m->rtol = FMU_RTOL;
-    m->t_end = TIME_CONSTANT;
-    return m;
+    memcpy(model->name, name ? name : "", length);
+    model->environment = environment;
+    model->log_message = log_message;
+    model->rtol = FMU_RTOL;
+    model->t_end = TIME_CONSTANT;
+    return model;
 }
 
-/* Create an instance for co-simulation. */
+/*
+ * Create an instance for co-simulation (FMI 3). Return NULL if the token is wrong or memory is exhausted. Other
+ * arguments are ignored: the FMU has neither event mode nor early return.
+ */
 FMI3_EXPORT fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources,
     fmi3Boolean visible, fmi3Boolean logs, fmi3Boolean has_event_mode, fmi3Boolean returns_early,
     const fmi3ValueReference required[], size_t n, fmi3InstanceEnvironment environment,
@@ -61,16 +68,16 @@ FMI3_EXPORT fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String
     return create_instance(name, token, environment, log_message);
 }
 
-/* Create an instance for model exchange; NULL if the scene does not support it. */
+/* Create an instance for model exchange (FMI 3). Return NULL if the scene does not support it or the token is wrong. */
 FMI3_EXPORT fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources,
     fmi3Boolean visible, fmi3Boolean logs, fmi3InstanceEnvironment environment, fmi3LogMessageCallback log_message)
 {
     (void)resources, (void)visible, (void)logs;
 #if FMU_EXCHANGE
-    Model *m = create_instance(name, token, environment, log_message);
-    if (m)
-        m->exchange = 1;
-    return m;
+    Model *model = create_instance(name, token, environment, log_message);
+    if (model)
+        model->exchange = 1;
+    return model;
 #else
     return (void)name, (void)token, (void)environment, (void)log_message, NULL;
 #endif
@@ -79,81 +86,90 @@ FMI3_EXPORT fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3Strin
 /* Return NULL: scheduled execution is not supported. */
 FMI3_EXPORT fmi3Instance fmi3InstantiateScheduledExecution(fmi3String name) { return (void)name, NULL; }
 
-/* Free an instance. */
+/* Free an instance with its run (FMI 3). NULL is ignored. */
 FMI3_EXPORT void fmi3FreeInstance(fmi3Instance instance)
 {
-    Model *m = instance;
-    if (!m)
+    Model *model = instance;
+    if (!model)
         return;
-    free(m->run);
-    free(m->name);
-    free(m);
+    free(model->run);
+    free(model->name);
+    free(model);
 }
 
 /*
- * Enter initialization mode: set start and end times and the importer's tolerance, unless one was set as a parameter.
+ * Enter initialization mode (FMI 3): set start and end times, s, and the importer's tolerance unless one was set as a
+ * parameter. Without a stop time the end is TIME_CONSTANT after the start. Return an error in any other phase than
+ * after instantiation or a reset.
  */
 FMI3_EXPORT fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean has_tolerance,
     fmi3Float64 tolerance, fmi3Float64 start, fmi3Boolean has_stop, fmi3Float64 stop)
 {
-    Model *m = instance;
-    if (m->phase != SETTING)
-        return log_error(m, "initialization mode is entered once, after instantiation or a reset");
-    m->phase = INITIALIZING;
-    m->begun = 0; /* outputs may have been requested before */
-    m->t = start;
-    m->t_end = has_stop ? stop : start + TIME_CONSTANT;
-    if (has_tolerance && tolerance > 0.0 && tolerance < 1.0 && !m->rtol_given)
-        m->rtol = fmax(tolerance, 1e-14);
+    Model *model = instance;
+    if (model->phase != SETTING)
+        return log_error(model, "initialization mode is entered once, after instantiation or a reset");
+    model->phase = INITIALIZING;
+    model->begun = 0; /* outputs may have been requested before */
+    model->t = start;
+    model->t_end = has_stop ? stop : start + TIME_CONSTANT;
+    if (has_tolerance && tolerance > 0.0 && tolerance < 1.0 && !model->rtol_given)
+        model->rtol = fmax(tolerance, 1e-14);
     return fmi3OK;
 }
 
-/* Leave initialization mode and begin the run. */
+/*
+ * Leave initialization mode and begin the run, unless outputs were requested before (FMI 3). Return an error if it
+ * cannot begin.
+ */
 FMI3_EXPORT fmi3Status fmi3ExitInitializationMode(fmi3Instance instance)
 {
-    Model *m = instance;
-    if (m->phase != INITIALIZING)
-        return log_error(m, "initialization mode was not entered");
-    if (!m->begun && begin_run(m))
+    Model *model = instance;
+    if (model->phase != INITIALIZING)
+        return log_error(model, "initialization mode was not entered");
+    if (!model->begun && begin_run(model))
         return fmi3Error;
-    m->phase = RUNNING;
+    model->phase = RUNNING;
     return fmi3OK;
 }
 
 /* Accept the end of a simulation. */
 FMI3_EXPORT fmi3Status fmi3Terminate(fmi3Instance instance) { return (void)instance, fmi3OK; }
 
-/* Reset an instance to its state after instantiation. */
+/* Reset an instance to its state after instantiation: parameters, tolerance, phase and time (FMI 3). */
 FMI3_EXPORT fmi3Status fmi3Reset(fmi3Instance instance)
 {
-    Model *m = instance;
-    memset(m->is_given, 0, sizeof m->is_given);
-    m->rtol = FMU_RTOL;
-    m->begun = m->ended = m->rtol_given = 0;
-    m->phase = SETTING;
-    m->t = 0.0;
+    Model *model = instance;
+    memset(model->is_given, 0, sizeof model->is_given);
+    model->rtol = FMU_RTOL;
+    model->begun = model->ended = model->rtol_given = 0;
+    model->phase = SETTING;
+    model->t = 0.0;
     return fmi3OK;
 }
 
-/* Integrate to t + h, a communication point; t must be the present time. */
-FMI3_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 t, fmi3Float64 h, fmi3Boolean no_return,
-    fmi3Boolean *event_needed, fmi3Boolean *terminate, fmi3Boolean *early, fmi3Float64 *last)
+/*
+ * Integrate an instance from t, its present time, to t + h, a communication point (FMI 3). last_time: time reached.
+ * terminate: whether an event ended the run; the state then no longer changes. Return an error outside a run, for h <=
+ * 0 or another t, and if the motion cannot be followed.
+ */
+FMI3_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 t, fmi3Float64 h, fmi3Boolean cannot_return,
+    fmi3Boolean *event_needed, fmi3Boolean *terminate, fmi3Boolean *returns_early, fmi3Float64 *last_time)
 {
-    Model *m = instance;
-    (void)no_return;
-    *event_needed = *terminate = *early = false;
-    *last = m->t;
-    if (m->phase != RUNNING)
-        return log_error(m, "a step is made after initialization");
-    if (!(h > 0.0) || fabs(t - m->t) > 1e-9 * fmax(1.0, fabs(t)))
-        return log_failure(m, "a step begins where the last one ended, and is longer than 0", 0);
+    Model *model = instance;
+    (void)cannot_return;
+    *event_needed = *terminate = *returns_early = false;
+    *last_time = model->t;
+    if (model->phase != RUNNING)
+        return log_error(model, "a step is made after initialization");
+    if (!(h > 0.0) || fabs(t - model->t) > 1e-9 * fmax(1.0, fabs(t)))
+        return log_failure(model, "a step begins where the last one ended, and is longer than 0", 0);
     const double end = t + h;
-    const int status = m->ended ? 0 : advance_to(m, end);
+    const int status = model->ended ? 0 : advance_to(model, end);
     if (status)
-        return log_failure(m, "the motion cannot be followed", status);
-    m->t = *last = end;
-    m->moved = 1;
-    *terminate = m->ended;
+        return log_failure(model, "the motion cannot be followed", status);
+    model->t = *last_time = end;
+    model->moved = 1;
+    *terminate = model->ended;
     return fmi3OK;
 }
 

@@ -37,128 +37,136 @@ typedef struct {
     void *run;
 } Model;
 
-/* Log a message with the instance's name. Returns fmi3Error. */
-static fmi3Status log_error(const Model *m, const char *what)
+/* Log an error `message` with the instance's name by the importer's callback, if there is one. Return fmi3Error. */
+static fmi3Status log_error(const Model *model, const char *message)
 {
     char text[700];
-    snprintf(text, sizeof text, "%s: %s", m->name, what);
-    if (m->log_message)
-        m->log_message(m->environment, fmi3Error, "logStatusError", text);
+    snprintf(text, sizeof text, "%s: %s", model->name, message);
+    if (model->log_message)
+        model->log_message(model->environment, fmi3Error, "logStatusError", text);
     return fmi3Error;
 }
 
-/* Log a message with the time and, if `status` is one of the engine, its reason. Returns fmi3Error. */
-static fmi3Status log_failure(const Model *m, const char *what, int status)
+/*
+ * Log an error `message` with the time and, if `status` is one of the engine, its reason. Return fmi3Error. status: 0
+ * if there is none; other numbers are printed.
+ */
+static fmi3Status log_failure(const Model *model, const char *message, int status)
 {
     char text[600];
-    const char *why = status == OUTSIDE ? ": a journal or corner is deeper in its wall than its law is good for"
+    const char *reason = status == OUTSIDE ? ": a journal or corner is deeper in its wall than its law is good for"
         : status == LOST ? ": a free journal or corner lies outside its walls"
         : status == CHATTERING ? ": contacts, frictions or corners change without end"
         : status == STALLED || status == TOO_SMALL ? ": no step is small enough"
         : status == NOT_FINITE || status == UNBOUNDED ? ": it is no longer finite"
         : status == FRICTION_INCONSISTENT ? ": friction jams a contact" : "";
     if (status)
-        snprintf(text, sizeof text, "%s at t = %.9g s%s (status %d)", what, m->t, why, status);
+        snprintf(text, sizeof text, "%s at t = %.9g s%s (status %d)", message, model->t, reason, status);
     else
-        snprintf(text, sizeof text, "%s at t = %.9g s", what, m->t);
-    return log_error(m, text);
+        snprintf(text, sizeof text, "%s at t = %.9g s", message, model->t);
+    return log_error(model, text);
 }
 
 #include "conditions.c"
 #if INTEGRATES
-/* Integrate to time t, which ends a step. Returns a status. */
-static int advance_to(Model *m, double t);
+/* Integrate the run of an instance to time t (s), which ends a step. Return 0 or a status. */
+static int advance_to(Model *model, double t);
 #endif
 #if FMU_EXCHANGE
-static int nominals_at_start(Model *m, const double *least);
+static int nominals_at_start(Model *model, const double *least);
 #endif
 
-/* Compute the parameters and the start, and begin the run there. */
-static fmi3Status begin_run(Model *m)
+/*
+ * Compute the parameters and the start of an instance, and begin its run there. Return fmi3OK, or an error that was
+ * logged. Parameters are checked first. If the linkage does not close, it is continued from the start with the file's
+ * parameters. A run of the instance is replaced.
+ */
+static fmi3Status begin_run(Model *model)
 {
-    double residual = 0.0, size = 0.0, *q = m->y, *v = m->y + N_Q;
+    double residual = 0.0, size = 0.0, *q = model->y, *v = model->y + N_Q;
     unsigned char projected[FMU_SLOTS];
-    double still[FMU_SLOTS];
-    gudgeon_prepare(m->given, m->is_given, m->p);
+    double gains_removed[FMU_SLOTS];
+    gudgeon_prepare(model->given, model->is_given, model->p);
     for (int k = 0; k < FMU_SIZES; k++) {
-        const double x = m->p[fmu_sizes[k][0]], y = fmu_sizes[k][1] < 0 ? 0.0 : m->p[fmu_sizes[k][1]];
+        const double x = model->p[fmu_sizes[k][0]], y = fmu_sizes[k][1] < 0 ? 0.0 : model->p[fmu_sizes[k][1]];
         size = fmax(size, sqrt(x * x + y * y)); /* the same bits as in sizes.py */
     }
     size = size > 0.0 ? size : 1.0;
-    if (!are_parameters_valid(m, size))
+    if (!are_parameters_valid(model, size))
         return fmi3Error;
-    memcpy(projected, m->is_given, sizeof projected);
-    memcpy(still, m->given, sizeof still);
+    memcpy(projected, model->is_given, sizeof projected);
+    memcpy(gains_removed, model->given, sizeof gains_removed);
     for (int k = 0; k < FMU_GAINS; k++) {
         projected[fmu_gains[k]] = 1;
-        still[fmu_gains[k]] = 0.0;
+        gains_removed[fmu_gains[k]] = 0.0;
     }
-    gudgeon_prepare(still, projected, m->motion);
-    memset(m->y, 0, sizeof m->y);
-    if (gudgeon_start(m->t, m->p, size, q, v, &residual)) { /* continue from the start with the file's parameters */
-        int some = 0;
-        memcpy(m->y, fmu_start, sizeof fmu_start);
+    gudgeon_prepare(gains_removed, projected, model->motion);
+    memset(model->y, 0, sizeof model->y);
+    if (gudgeon_start(model->t, model->p, size, q, v, &residual)) {
+        /* continue from the start with the file's parameters */
+        int has_given = 0;
+        memcpy(model->y, fmu_start, sizeof fmu_start);
         for (int k = 0; k < FMU_SLOTS; k++)
-            some |= m->is_given[k];
-        if (some && gudgeon_continuation(m->t, m->p, size, q, v))
-            return log_failure(m, "the linkage does not close with these parameters", 0);
+            has_given |= model->is_given[k];
+        if (has_given && gudgeon_continuation(model->t, model->p, size, q, v))
+            return log_failure(model, "the linkage does not close with these parameters", 0);
     }
     for (int k = 0; k < N_DISCRETE; k++)
-        m->latched[k] = NAN;
-    free(m->run);
+        model->latched[k] = NAN;
+    free(model->run);
 #if INTEGRATES
     double least[2], scale[2 * N_X], length = INFINITY;
-    m->size = gudgeon_run_size();
-    m->run = calloc(1, m->size);
-    if (!m->run)
-        return log_failure(m, "there is no memory", 0);
+    model->size = gudgeon_run_size();
+    model->run = calloc(1, model->size);
+    if (!model->run)
+        return log_failure(model, "there is no memory", 0);
     for (int k = 0; k < FMU_PLAYS; k++)
-        if (m->p[fmu_plays[k]] > 0.0)
-            length = fmin(length, m->p[fmu_plays[k]]);
+        if (model->p[fmu_plays[k]] > 0.0)
+            length = fmin(length, model->p[fmu_plays[k]]);
     length = isfinite(length) ? length : size;
     least[0] = length, least[1] = length / size;
     for (int k = 0; k < N_X; k++) {
-        scale[k] = m->rtol * (fmu_is_angle[k] ? least[1] : length);
-        scale[N_X + k] = FMU_FILM ? fmin(m->rtol, FMU_FELT * least[1]) : m->rtol;
+        scale[k] = model->rtol * (fmu_is_angle[k] ? least[1] : length);
+        scale[N_X + k] = FMU_FILM ? fmin(model->rtol, FMU_FELT * least[1]) : model->rtol;
     }
-    const int fine = m->rtol < FMU_FINE;
+    const int is_fine = model->rtol < FMU_FINE;
     double y[N_S], latched[FMU_AT_LEAST(N_DISCRETE)];
-    memcpy(y, m->y, sizeof y);
-    memcpy(latched, m->latched, sizeof latched);
+    memcpy(y, model->y, sizeof y);
+    memcpy(latched, model->latched, sizeof latched);
     /* first the contacts and modes of friction at the start, then the run itself */
     for (int start = 1; start >= 0; start--) {
-        gudgeon_run_start(m->run, m->motion, m->t, y, latched);
-        gudgeon_run_stop(m->run, !start);
-        gudgeon_adaptive_setup(m->run, gudgeon_method(fine ? FMU_BEGINS_FINE : FMU_BEGINS),
-            FMU_AUTOMATIC ? gudgeon_method(fine ? FMU_STIFF_FINE : FMU_STIFF) : 0, scale, least, 0.0);
-        const int status = start ? advance_to(m, m->t) : 0;
+        gudgeon_run_start(model->run, model->motion, model->t, y, latched);
+        gudgeon_run_stop(model->run, !start);
+        gudgeon_adaptive_setup(model->run, gudgeon_method(is_fine ? FMU_BEGINS_FINE : FMU_BEGINS),
+            FMU_AUTOMATIC ? gudgeon_method(is_fine ? FMU_STIFF_FINE : FMU_STIFF) : 0, scale, least, 0.0);
+        const int status = start ? advance_to(model, model->t) : 0;
         if (status)
-            return log_failure(m, "the motion cannot begin", status);
+            return log_failure(model, "the motion cannot begin", status);
     }
-    m->ended = 0;
+    model->ended = 0;
 #if FMU_EXCHANGE
-    m->extent = size;
-    memset(&m->discrete, 0, sizeof m->discrete);
-    read_discrete_state(m->latched, &m->discrete);
-    from_absolute(m->t, m->y, &m->discrete, (const Parameters *)m->p, m->x);
-    const int odd = nominals_at_start(m, least);
-    if (odd)
-        return log_failure(m, "the motion cannot begin", odd);
+    model->extent = size;
+    memset(&model->discrete, 0, sizeof model->discrete);
+    read_discrete_state(model->latched, &model->discrete);
+    from_absolute(model->t, model->y, &model->discrete, (const Parameters *)model->p, model->x);
+    const int invalid = nominals_at_start(model, least);
+    if (invalid)
+        return log_failure(model, "the motion cannot begin", invalid);
 #endif
 #else
-    m->size = gudgeon_kinematic_size();
-    m->run = calloc(1, m->size);
-    if (!m->run)
-        return log_failure(m, "there is no memory", 0);
-    gudgeon_kinematic_begin(m->run, FMU_REACH, size, m->t_end, NULL, NULL, INFINITY);
+    model->size = gudgeon_kinematic_size();
+    model->run = calloc(1, model->size);
+    if (!model->run)
+        return log_failure(model, "there is no memory", 0);
+    gudgeon_kinematic_begin(model->run, FMU_REACH, size, model->t_end, NULL, NULL, INFINITY);
 #endif
-    m->begun = 1;
-    m->moved = 1;
+    model->begun = 1;
+    model->moved = 1;
     return fmi3OK;
 }
 
 #if INTEGRATES
-/* Empty the lists of contacts and events of a run: an FMU reports neither. */
+/* Empty the lists of contacts and events of a run, so that it can continue: an FMU reports neither. */
 static void discard_lists(void *run)
 {
     double numbers[N_IMPACT_COLUMNS], t, y[N_S], latched[FMU_AT_LEAST(N_DISCRETE)];
@@ -169,73 +177,83 @@ static void discard_lists(void *run)
         continue;
 }
 
-/* To t, a step ends there. */
-static int advance_to(Model *m, double t)
+/*
+ * Integrate the run of an instance to time t (s), which ends a step. Return 0 or a status. Full lists are emptied.
+ * After an event that ends the run, its state is copied and m->ended is set.
+ */
+static int advance_to(Model *model, double t)
 {
     long done = 0;
     int status = 0;
     while (!status && done < 1) {
-        status = gudgeon_adaptive_run(m->run, m->motion, 1, &t, SLICE, m->y, m->latched, m->state, &done);
+        status = gudgeon_adaptive_run(model->run, model->motion, 1, &t, SLICE, model->y, model->latched, model->state,
+            &done);
         if (status == EVENTS_FULL) {
-            discard_lists(m->run);
+            discard_lists(model->run);
             status = 0;
         }
     }
     if (status == ENDED) {
-        gudgeon_run_sample(m->run, m->motion, m->y, m->latched, m->state);
-        m->ended = 1;
+        gudgeon_run_sample(model->run, model->motion, model->y, model->latched, model->state);
+        model->ended = 1;
         status = 0;
     }
     return status;
 }
 #else
-/* Follow the kinematic motion and its works to time t. Returns a status. */
-static int advance_to(Model *m, double t)
+/*
+ * Follow the kinematic motion and its works from the time of an instance to time t (s). Return 0 or a status. The state
+ * of the instance is changed only without a failure.
+ */
+static int advance_to(Model *model, double t)
 {
-    double rows[2] = {m->t, t}, q[2 * N_Q], v[2 * N_Q], a[2 * N_Q], work[2 * N_WORK], phi[2] = {0.0, 0.0};
+    double rows[2] = {model->t, t}, q[2 * N_Q], v[2 * N_Q], a[2 * N_Q], work[2 * N_WORK], phi[2] = {0.0, 0.0};
     long steps = 0, done = 0;
-    memcpy(q, m->y, N_Q * sizeof(double));
-    memcpy(v, m->y + N_Q, N_Q * sizeof(double));
-    memcpy(a, m->a, N_Q * sizeof(double));
-    memcpy(work, m->y + 2 * N_Q, N_WORK * sizeof(double));
-    int status = gudgeon_kinematic(m->run, 1, rows, m->p, q, v, a, phi, phi + 1, &steps, &done);
+    memcpy(q, model->y, N_Q * sizeof(double));
+    memcpy(v, model->y + N_Q, N_Q * sizeof(double));
+    memcpy(a, model->a, N_Q * sizeof(double));
+    memcpy(work, model->y + 2 * N_Q, N_WORK * sizeof(double));
+    int status = gudgeon_kinematic(model->run, 1, rows, model->p, q, v, a, phi, phi + 1, &steps, &done);
     if (!status)
-        status = gudgeon_kinematic_works(m->run, 1, rows, m->p, q, v, work, &done);
+        status = gudgeon_kinematic_works(model->run, 1, rows, model->p, q, v, work, &done);
     if (!status) {
-        memcpy(m->y, q + N_Q, N_Q * sizeof(double));
-        memcpy(m->y + N_Q, v + N_Q, N_Q * sizeof(double));
-        memcpy(m->a, a + N_Q, N_Q * sizeof(double));
-        memcpy(m->y + 2 * N_Q, work + N_WORK, N_WORK * sizeof(double));
+        memcpy(model->y, q + N_Q, N_Q * sizeof(double));
+        memcpy(model->y + N_Q, v + N_Q, N_Q * sizeof(double));
+        memcpy(model->a, a + N_Q, N_Q * sizeof(double));
+        memcpy(model->y + 2 * N_Q, work + N_WORK, N_WORK * sizeof(double));
     }
     return status;
 }
 #endif
 
 #if FMU_EXCHANGE
-static void convert_state(Model *m);
+static void convert_state(Model *model);
 #endif
 
-/* Evaluate all outputs at the present state, unless they are up to date. Returns a status. */
-static int evaluate_outputs(Model *m)
+/* Evaluate all outputs at the present state of an instance, unless they are up to date. Return 0 or a status. */
+static int evaluate_outputs(Model *model)
 {
     long failed = 0;
-    Outputs *o = &m->out;
-    const double t = FMU_BEYOND ? m->t + fmax(32.0 * 2.220446049250313e-16 * fabs(m->t), 1e-100) : m->t;
-    if (!m->moved)
+    Outputs *o = &model->out;
+    const double t = FMU_BEYOND ? model->t + fmax(32.0 * 2.220446049250313e-16 * fabs(model->t), 1e-100) : model->t;
+    if (!model->moved)
         return 0;
-    m->moved = 0;
+    model->moved = 0;
 #if FMU_EXCHANGE
-    convert_state(m);
+    convert_state(model);
 #endif
-    return gudgeon_evaluate(1, &t, m->y, m->y + N_Q, m->latched, m->p, o->a, o->multipliers, o->reactions, o->torques,
-        o->clearance, o->series, o->friction, o->energy, o->power, o->drift, &failed);
+    return gudgeon_evaluate(1, &t, model->y, model->y + N_Q, model->latched, model->p, o->a, o->multipliers,
+        o->reactions, o->torques, o->clearance, o->series, o->friction, o->energy, o->power, o->drift, &failed);
 }
 
-/* Return an output: column of a part of the results; part < 0: contact codes. */
-static double value_of(const Model *m, int part, int column)
+/*
+ * Return an output of an instance: number `column` of a part of the results (state, forces, energies, ...). part < 0:
+ * the contact code of joint `column`.
+ */
+static double value_of(const Model *model, int part, int column)
 {
-    const Outputs *o = &m->out;
-    const double *const parts[] = {m->y, m->y + N_Q, m->y + 2 * N_Q, m->latched, o->a, o->multipliers, o->reactions,
-        o->torques, o->clearance, o->series, o->friction, o->energy, o->power, o->drift};
-    return part < 0 ? m->state[column] : parts[part][column];
+    const Outputs *o = &model->out;
+    const double *const parts[] = {model->y, model->y + N_Q, model->y + 2 * N_Q, model->latched, o->a, o->multipliers,
+        o->reactions, o->torques, o->clearance, o->series, o->friction, o->energy, o->power, o->drift};
+    return part < 0 ? model->state[column] : parts[part][column];
 }

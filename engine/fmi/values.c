@@ -1,130 +1,144 @@
-/* Get values: time, tolerance, parameters, outputs, states, rates, event indicators. */
+/* Values and states of an FMU instance: functions of FMI 3 that get, set, copy and serialize them. */
+
+/*
+ * Get the values of n variables: time, tolerance, parameters, outputs, states, rates, event indicators (FMI 3). In
+ * initialization mode the run is begun first where outputs or states are requested. Return an error for an unknown
+ * variable or an undefined output.
+ */
 FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference reference[], size_t n,
     fmi3Float64 value[], size_t n_values)
 {
-    Model *m = instance;
+    Model *model = instance;
     if (n_values < n)
-        return log_failure(m, "there are fewer values than variables", 0);
+        return log_failure(model, "there are fewer values than variables", 0);
     for (size_t k = 0; k < n; k++) {
         const fmi3ValueReference r = reference[k];
         if (r == VR_TIME) {
-            value[k] = m->t;
+            value[k] = model->t;
         } else if (r == VR_RTOL) {
-            value[k] = m->rtol;
+            value[k] = model->rtol;
         } else if (r >= VR_PARAMETERS && r < VR_PARAMETERS + FMU_SLOTS_USED) {
             const int i = (int)(r - VR_PARAMETERS);
-            value[k] = m->begun ? m->p[i] : m->is_given[i] ? m->given[i] : fmu_defaults[i];
+            value[k] = model->begun ? model->p[i] : model->is_given[i] ? model->given[i] : fmu_defaults[i];
         } else if (r >= VR_OUTPUTS && r < VR_OUTPUTS + FMU_OUTPUTS) {
-            if (!m->begun && begin_run(m)) /* in initialization mode: outputs at the start */
+            if (!model->begun && begin_run(model)) /* in initialization mode: outputs at the start */
                 return fmi3Error;
-            const int status = evaluate_outputs(m);
+            const int status = evaluate_outputs(model);
             if (status)
-                return log_failure(m, "a constraint row depends on others", status);
-            value[k] = value_of(m, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
+                return log_failure(model, "a constraint row depends on others", status);
+            value[k] = value_of(model, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
 #if FMU_EXCHANGE
         } else if (r >= VR_STATES && r < VR_STATES + N_Y) {
-            if (!m->begun && begin_run(m))
+            if (!model->begun && begin_run(model))
                 return fmi3Error;
-            if (!m->exchange)
-                convert_state(m);
-            value[k] = m->x[r - VR_STATES];
+            if (!model->exchange)
+                convert_state(model);
+            value[k] = model->x[r - VR_STATES];
         } else if ((r >= VR_RATES && r < VR_RATES + N_Y)
             || (r >= VR_INDICATORS && r < VR_INDICATORS + N_INDICATORS)) {
             double dx[N_Y];
             RhsOutputs rhs;
-            if (!m->begun && begin_run(m))
+            if (!model->begun && begin_run(model))
                 return fmi3Error;
-            if (!m->exchange)
-                convert_state(m);
-            const int status = exchange_rates(m, dx, &rhs);
+            if (!model->exchange)
+                convert_state(model);
+            const int status = exchange_rates(model, dx, &rhs);
             if (status)
-                return log_failure(m, "a constraint row depends on others", status);
-            value[k] = r < VR_INDICATORS ? dx[r - VR_RATES] : indicator_of(m, &rhs, (int)(r - VR_INDICATORS));
+                return log_failure(model, "a constraint row depends on others", status);
+            value[k] = r < VR_INDICATORS ? dx[r - VR_RATES]
+                : indicator_of(model, &rhs, (int)(r - VR_INDICATORS));
 #endif
         } else {
-            return log_failure(m, "a variable that there is not", (int)r);
+            return log_failure(model, "a variable that there is not", (int)r);
         }
     }
     return fmi3OK;
 }
 
-/* Set parameters or the tolerance, before initialization ends. */
+/*
+ * Set parameters or the tolerance before initialization ends (FMI 3). Return an error for other variables, for values
+ * outside their range and during a run. A parameter set to its default counts as not given, so that dependent defaults
+ * remain dependent.
+ */
 FMI3_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference reference[], size_t n,
     const fmi3Float64 value[], size_t n_values)
 {
-    Model *m = instance;
+    Model *model = instance;
     if (n_values < n)
-        return log_failure(m, "there are fewer values than variables", 0);
+        return log_failure(model, "there are fewer values than variables", 0);
     for (size_t k = 0; k < n; k++) {
         const fmi3ValueReference r = reference[k];
         const int slot = r >= VR_PARAMETERS && r < VR_PARAMETERS + FMU_SLOTS_USED ? (int)(r - VR_PARAMETERS) : -1;
         const char *name = r == VR_RTOL ? "relative_tolerance" : slot >= 0 ? fmu_slots[slot].address : NULL;
         char text[400];
         if (!name || (slot >= 0 && fmu_slots[slot].chosen))
-            return log_failure(m, "a variable that there is not, or that is not set", (int)r);
-        if (m->phase == RUNNING) { /* parameters are fixed during a run */
+            return log_failure(model, "a variable that there is not, or that is not set", (int)r);
+        if (model->phase == RUNNING) { /* parameters are fixed during a run */
             snprintf(text, sizeof text, "%s is fixed: it is set before initialization ends", name);
-            return log_error(m, text);
+            return log_error(model, text);
         }
         if (slot < 0 ? !(value[k] >= 1e-14 && value[k] < 1.0) : !isfinite(value[k])) {
             snprintf(text, sizeof text, "%s is %g: expected %s", name, value[k],
                 slot < 0 ? ">= 1e-14 and < 1" : "a finite number");
-            return log_error(m, text);
+            return log_error(model, text);
         }
         if (slot < 0) {
-            m->rtol = value[k];
-            m->rtol_given = 1;
+            model->rtol = value[k];
+            model->rtol_given = 1;
         } else {
-            m->given[slot] = value[k];
-            m->is_given[slot] = value[k] != fmu_defaults[slot]; /* dependent defaults remain dependent */
+            model->given[slot] = value[k];
+            model->is_given[slot] = value[k] != fmu_defaults[slot]; /* dependent defaults remain dependent */
         }
-        m->begun = 0;
+        model->begun = 0;
     }
     return fmi3OK;
 }
 
-/* Copy the state of an instance; its structs contain no pointers to themselves. */
+/*
+ * Copy an instance with the memory of its run into *state, which is allocated if it is NULL (FMI 3). The structs
+ * contain no pointers to themselves. Return an error if memory is exhausted.
+ */
 FMI3_EXPORT fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *state)
 {
-    const Model *m = instance;
+    const Model *model = instance;
     if (!*state)
         *state = malloc(sizeof(Model) + sizeof(double));
     Model *copy = *state;
     if (!copy)
-        return log_failure(m, "there is no memory", 0);
-    *copy = *m;
+        return log_failure(model, "there is no memory", 0);
+    *copy = *model;
     copy->run = NULL;
-    if (m->run) {
-        copy->run = malloc(m->size);
+    if (model->run) {
+        copy->run = malloc(model->size);
         if (!copy->run)
-            return log_failure(m, "there is no memory", 0);
-        memcpy(copy->run, m->run, m->size);
+            return log_failure(model, "there is no memory", 0);
+        memcpy(copy->run, model->run, model->size);
     }
     return fmi3OK;
 }
 
-/* Restore a copied state. */
+/* Restore a copied state; name and callbacks of the instance remain (FMI 3). Return an error if memory is exhausted. */
 FMI3_EXPORT fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state)
 {
-    Model *m = instance;
+    Model *model = instance;
     const Model *copy = state;
-    void *run = m->run;
+    void *run = model->run;
     if (copy->run && !run)
         run = malloc(copy->size);
     if (copy->run && !run)
-        return log_failure(m, "there is no memory", 0);
-    const Model present = *m;
-    *m = *copy;
-    m->name = present.name;
-    m->environment = present.environment;
-    m->log_message = present.log_message;
-    m->run = run;
+        return log_failure(model, "there is no memory", 0);
+    const Model present = *model;
+    *model = *copy;
+    model->name = present.name;
+    model->environment = present.environment;
+    model->log_message = present.log_message;
+    model->run = run;
     if (copy->run)
         memcpy(run, copy->run, copy->size);
     return fmi3OK;
 }
 
-/* Free a copied state. */
+/* Free a copied state with the memory of its run, and set *state to NULL (FMI 3). NULL is ignored. */
 FMI3_EXPORT fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *state)
 {
     (void)instance;
@@ -145,7 +159,7 @@ FMI3_EXPORT fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMU
     return fmi3OK;
 }
 
-/* Serialize a copied state. */
+/* Serialize a copied state into n bytes (FMI 3). Return an error if n is less than fmi3SerializedFMUStateSize(). */
 FMI3_EXPORT fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState state, uint8_t bytes[], size_t n)
 {
     const Model *copy = state;
@@ -159,7 +173,10 @@ FMI3_EXPORT fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState
     return fmi3OK;
 }
 
-/* Restore a copied state from its bytes. */
+/*
+ * Restore a copied state from its n bytes, in newly allocated memory (FMI 3). Return an error, with *state = NULL, if
+ * the number of bytes does not fit or memory is exhausted.
+ */
 FMI3_EXPORT fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const uint8_t bytes[], size_t n,
     fmi3FMUState *state)
 {

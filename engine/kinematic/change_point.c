@@ -10,142 +10,159 @@ enum { PASS_NODES = 4 /* on either side */, PASS_TRIES = 3, PASS_HALVINGS = 8 };
 #define PASS_RATES 1e-5  /* of the fastest rate: largest difference of a start from a branch */
 #define PASS_ROUGH 1e3   /* ulp of a coordinate: smallest last correction near such a position */
 
-/* Return whether the last correction of Newton's method is larger than rounding, as near a change point. */
-static int is_ill_conditioned(const Position *at)
+/*
+ * Return whether the last correction of Newton's method is larger than rounding of the coordinates, as near a change
+ * point.
+ */
+static int is_ill_conditioned(const Position *position)
 {
     double size = 1.0;
     for (int k = 2; k < N_Q; k += 3)
-        size = larger_or_nan(size, fabs(at->q[k]));
-    return !(at->last_correction <= PASS_ROUGH * DBL_EPSILON * size);
+        size = larger_or_nan(size, fabs(position->q[k]));
+    return !(position->last_correction <= PASS_ROUGH * DBL_EPSILON * size);
 }
 
-/* Follow the branch from one regular position to time t, forwards or backwards. Returns a status. */
-static int follow_to(KinematicRun *run, double t, const Position *from, Position *to)
+/*
+ * Follow the branch from the regular position `start` to time t, forwards or backwards, and compute all of `position`
+ * there. The step is halved, up to PASS_HALVINGS times, while a solution fails, is too far from its guess, or does not
+ * agree with the velocities. Return 0 or a status.
+ */
+static int follow_branch(KinematicRun *run, double t, const Position *start, Position *position)
 {
-    double h = t - from->t;
-    *to = *from;
-    for (int halvings = 0; to->t != t;) {
+    double h = t - start->t;
+    *position = *start;
+    for (int halvings = 0; position->t != t;) {
         Position next;
-        double moved;
-        const int status = solve_position_at(run, fabs(h) < fabs(t - to->t) ? to->t + h : t, to, &next, &moved);
+        double correction;
+        const int status = solve_position_at(run, fabs(h) < fabs(t - position->t) ? position->t + h : t, position,
+            &next, &correction);
         if (status == STOPPED)
             return status;
-        if (!status && moved <= run->reach && trapezoidal_error(to, &next, run->extent) <= 0.002 * run->reach) {
-            *to = next;
+        if (!status && correction <= run->reach
+            && trapezoidal_error(position, &next, run->extent) <= 0.002 * run->reach) {
+            *position = next;
             continue;
         }
         if (++halvings > PASS_HALVINGS)
             return status ? status : NEWTON_FAILED;
         h *= 0.5;
     }
-    return complete_position(run, to);
+    return complete_position(run, position);
 }
 
 /*
- * Compute 2 PASS_NODES regular positions: node[2 j] and node[2 j + 1] are j + 1 intervals d (s) before and after t.
- * Returns a status.
+ * Compute 2 PASS_NODES regular positions of the branch of `start` on both sides of time t. Return 0 or a status. node[2
+ * j] and node[2 j + 1] are j + 1 intervals d (s) before and after t.
  */
-static int follow_to_nodes(KinematicRun *run, double t, double d, const Position *here, Position *node)
+static int compute_branch_nodes(KinematicRun *run, double t, double d, const Position *start, Position *node)
 {
-    int status = follow_to(run, t - d, here, &node[0]);
+    int status = follow_branch(run, t - d, start, &node[0]);
     if (!status)
-        status = follow_to(run, t + d, &node[0], &node[1]);
+        status = follow_branch(run, t + d, &node[0], &node[1]);
     for (int j = 2; j < 2 * PASS_NODES && !status; j++)
-        status = follow_to(run, t + (j % 2 ? 1 + j / 2 : -1 - j / 2) * d, &node[j - 2], &node[j]);
+        status = follow_branch(run, t + (j % 2 ? 1 + j / 2 : -1 - j / 2) * d, &node[j - 2], &node[j]);
     return status;
 }
 
 /*
- * Return the value at the middle of the polynomial through one number of the first n nodes on either side. of_first:
- * address of that number in the first node.
+ * Return the value at the middle of the polynomial through one number of the first n nodes on either side. first:
+ * address of that number in node[0]; in the other nodes it has the same offset.
  */
-static double interpolate_middle(const Position *node, int n, const double *of_first)
+static double interpolate_middle(const Position *node, int n, const double *first)
 {
-    const size_t place = (size_t)((const char *)of_first - (const char *)node);
+    const size_t offset = (size_t)((const char *)first - (const char *)node);
     double sum = 0.0;
     for (int j = 0; j < 2 * n; j++)
-        sum += weight_at(n, j / 2 + 1) * *(const double *)((const char *)&node[j] + place);
+        sum += weight_at(n, j / 2 + 1) * *(const double *)((const char *)&node[j] + offset);
     return sum;
 }
 
-/* Interpolate the position at time t from the nodes on both sides, with its largest |Phi|. */
-static void interpolate_position(const Position *node, double t, const Parameters *p, Position *to)
+/*
+ * Interpolate `position` at time t, the middle of the nodes on both sides, with its largest |Phi|, and mark it as
+ * interpolated.
+ */
+static void interpolate_position(const Position *node, double t, const Parameters *p, Position *position)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
-    *to = node[0];
-    to->t = t;
-    to->interpolated = 1;
-    to->last_correction = 0.0;
+    *position = node[0];
+    position->t = t;
+    position->interpolated = 1;
+    position->last_correction = 0.0;
     for (int k = 0; k < N_Q; k++) {
-        to->q[k] = interpolate_middle(node, PASS_NODES, &node->q[k]);
-        to->v[k] = interpolate_middle(node, PASS_NODES, &node->v[k]);
-        to->a[k] = interpolate_middle(node, PASS_NODES, &node->a[k]);
+        position->q[k] = interpolate_middle(node, PASS_NODES, &node->q[k]);
+        position->v[k] = interpolate_middle(node, PASS_NODES, &node->v[k]);
+        position->a[k] = interpolate_middle(node, PASS_NODES, &node->a[k]);
     }
 #if POSITIONS_IN_TREE
     for (int k = 0; k < N_X; k++) {
-        to->s[k] = interpolate_middle(node, PASS_NODES, &node->s[k]);
-        to->s_rate[k] = interpolate_middle(node, PASS_NODES, &node->s_rate[k]);
-        to->s_second[k] = interpolate_middle(node, PASS_NODES, &node->s_second[k]);
+        position->s[k] = interpolate_middle(node, PASS_NODES, &node->s[k]);
+        position->s_rate[k] = interpolate_middle(node, PASS_NODES, &node->s_rate[k]);
+        position->s_second[k] = interpolate_middle(node, PASS_NODES, &node->s_second[k]);
     }
 #endif
-    constraints(after_jump(t), to->q, p, phi);
-    to->phi = 0.0;
+    constraints(after_jump(t), position->q, p, phi);
+    position->phi = 0.0;
     for (int r = 0; r < N_ALL_ROWS; r++)
-        to->phi = larger_or_nan(to->phi, fabs(phi[r]));
+        position->phi = larger_or_nan(position->phi, fabs(phi[r]));
 }
 
 /*
- * Compute the position at time t, at or near a change point, on the smooth branch that leads there from `here`. Returns
- * 0, or a status if no branch continues, or the polynomials do not agree.
+ * Compute the position at time t, at or near a change point, on the smooth branch that leads there from `start`. Up to
+ * PASS_TRIES node distances are tried. Return 0, or a status if `start` is far or at rest, no branch continues, or the
+ * polynomials do not agree.
  */
-static int pass_change_point(KinematicRun *run, double t, const Position *here, Position *to)
+static int pass_change_point(KinematicRun *run, double t, const Position *start, Position *position)
 {
-    const double fastest = angle_norm(here->v, run->extent);
+    const double fastest = angle_norm(start->v, run->extent);
     double d = PASS_TURN / fastest;
     int status = NEWTON_FAILED;
-    if (!(fastest > 0.0) || !(fabs(t - here->t) <= PASS_NODES * d))
+    if (!(fastest > 0.0) || !(fabs(t - start->t) <= PASS_NODES * d))
         return status;
     for (int i = 0; i < PASS_TRIES && status != STOPPED; i++, d *= 0.125) {
         Position node[2 * PASS_NODES];
-        double differs[N_Q];
-        status = follow_to_nodes(run, t, d, here, node);
+        double difference[N_Q];
+        status = compute_branch_nodes(run, t, d, start, node);
         if (status)
             continue;
-        interpolate_position(node, t, run->p, to);
+        interpolate_position(node, t, run->p, position);
         for (int k = 0; k < N_Q; k++)
-            differs[k] = to->q[k] - interpolate_middle(node, PASS_NODES - 1, &node->q[k]);
-        if (angle_norm(differs, run->extent) <= PASS_SMOOTH)
+            difference[k] = position->q[k] - interpolate_middle(node, PASS_NODES - 1, &node->q[k]);
+        if (angle_norm(difference, run->extent) <= PASS_SMOOTH)
             return 0;
         status = NEWTON_FAILED;
     }
     return status;
 }
 
-/* Solve the position at time t from a near one, also at a change point. Returns a status. */
-static int solve_position_near(KinematicRun *run, double t, const Position *from, Position *to, double *moved)
+/*
+ * Solve the position at time t from a near one, also at a change point; then *correction is 0. Return 0 or a status.
+ * correction: set to the correction of the first guess.
+ */
+static int solve_position_near(KinematicRun *run, double t, const Position *start, Position *position,
+    double *correction)
 {
-    const int status = solve_position_at(run, t, from, to, moved);
-    if (!status || status == STOPPED || pass_change_point(run, t, from, to))
+    const int status = solve_position_at(run, t, start, position, correction);
+    if (!status || status == STOPPED || pass_change_point(run, t, start, position))
         return status;
-    *moved = 0.0;
+    *correction = 0.0;
     return 0;
 }
 
 /*
- * Begin at given q and v (N_Q), also at a change point, where the velocities must be those of the smooth branch.
- * Returns a status.
+ * Set `position` at time t to given q and v (N_Q), also at a change point. Return 0 or a status. At a change point the
+ * smooth branch replaces it if the given velocities agree with that branch.
  */
-static int set_position_near(KinematicRun *run, double t, const double *q, const double *v, Position *here)
+static int set_position_near(KinematicRun *run, double t, const double *q, const double *v, Position *position)
 {
     Position passed;
-    double differs[N_Q];
-    const int status = set_position(run, t, q, v, here);
-    if (status < 0 || !is_ill_conditioned(here) || pass_change_point(run, t, here, &passed))
+    double difference[N_Q];
+    const int status = set_position(run, t, q, v, position);
+    if (status < 0 || !is_ill_conditioned(position) || pass_change_point(run, t, position, &passed))
         return status;
     for (int k = 0; k < N_Q; k++)
-        differs[k] = passed.v[k] - v[k];
-    if (!(angle_norm(differs, run->extent) <= PASS_RATES * angle_norm(here->v, run->extent)))
+        difference[k] = passed.v[k] - v[k];
+    if (!(angle_norm(difference, run->extent) <= PASS_RATES * angle_norm(position->v, run->extent)))
         return status;
-    *here = passed;
+    *position = passed;
     return 0;
 }

@@ -15,14 +15,14 @@ typedef struct {
     int has_error;
 } SampledPosition;
 
-/* Evaluate the event functions at a position. */
-static void evaluate_events(KinematicRun *run, SampledPosition *view)
+/* Evaluate the user-defined events of a sample at its position; its uncertainties become invalid. */
+static void evaluate_events(KinematicRun *run, SampledPosition *sample)
 {
     RhsOutputs rhs = {0};
     double a[N_Q];
-    (void)solve_motion(run, &view->at, a, &rhs); /* a failure was reported before */
-    memcpy(view->event, rhs.event, sizeof view->event);
-    view->has_error = 0;
+    (void)solve_motion(run, &sample->at, a, &rhs); /* a failure was reported before */
+    memcpy(sample->event, rhs.event, sizeof sample->event);
+    sample->has_error = 0;
 }
 
 #if POSITIONS_IN_TREE
@@ -31,10 +31,13 @@ enum { N_PLACE = N_X };
 #define rates_of(place) ((place)->s_rate)
 #define is_turn(k) is_angle[k]
 
-/* Compute the remaining Newton step at a position, and the rates of the position as it is. Returns a status. */
-static int newton_step(Position *at, const Parameters *p, double *step)
+/*
+ * Compute the remaining Newton step at a position, and store the velocities of the position as it is. Return 0 or a
+ * status.
+ */
+static int compute_newton_step(Position *position, const Parameters *p, double *step)
 {
-    return close_step(after_jump(at->t), at->s, p, step, at->s_rate, &at->phi);
+    return close_step(after_jump(position->t), position->s, p, step, position->s_rate, &position->phi);
 }
 #else
 enum { N_PLACE = N_Q };
@@ -42,82 +45,90 @@ enum { N_PLACE = N_Q };
 #define rates_of(place) ((place)->v)
 #define is_turn(k) ((k) % 3 == 2)
 
-/* Compute the remaining Newton step at a position, and the velocities of the position as it is. Returns a status. */
-static int newton_step(Position *at, const Parameters *p, double *step)
+/*
+ * Compute the remaining Newton step at a position, and store the velocities of the position as it is. Return 0 or a
+ * status.
+ */
+static int compute_newton_step(Position *position, const Parameters *p, double *step)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
-    constraints(after_jump(at->t), at->q, p, phi);
-    const int status = project(after_jump(at->t), at->q, phi, p, step);
-    return status ? status : solve_velocities(after_jump(at->t), at->q, p, at->v);
+    constraints(after_jump(position->t), position->q, p, phi);
+    const int status = project(after_jump(position->t), position->q, phi, p, step);
+    return status ? status : solve_velocities(after_jump(position->t), position->q, p, position->v);
 }
 #endif
 
 /*
- * Compute the largest speeds of lengths (m/s) and angles (rad/s), each at least the other one converted by the size
- * `extent`.
+ * Compute the largest speeds of lengths, speed[0] in m/s, and of angles, speed[1] in rad/s. Each is at least the other
+ * one converted by the mechanism's size `extent` (m).
  */
-static void speeds_of(const Position *at, double extent, double *speed)
+static void compute_largest_speeds(const Position *position, double extent, double *speed)
 {
     speed[0] = speed[1] = 0.0;
     for (int k = 0; k < N_PLACE; k++)
-        speed[is_turn(k)] = max_of(speed[is_turn(k)], fabs(rates_of(at)[k]));
+        speed[is_turn(k)] = max_of(speed[is_turn(k)], fabs(rates_of(position)[k]));
     speed[0] = max_of(speed[0], extent * speed[1]);
     speed[1] = max_of(speed[1], speed[0] / extent);
 }
 
 /*
- * Perturb a position by its rounding errors, with signs by the bits of `mask`, and compute its velocities. Near a
- * singular position, Newton's last step shows that rounding counts for more.
+ * Perturb a position by its rounding errors, with signs by the bits of `mask`, and compute its velocities, in
+ * `perturbed_position`. Newton's last step is added: it is large near a singular position. If the velocities cannot be
+ * solved, they are kept.
  */
-static void perturb_position(const KinematicRun *run, const Position *here, int mask, Position *other)
+static void perturb_position(const KinematicRun *run, const Position *position, int mask, Position *perturbed_position)
 {
-    double step[N_PLACE + 1], *q = positions_of(other);
-    *other = *here;
-    const int open = !newton_step(other, run->p, step);
+    double step[N_PLACE + 1], *q = positions_of(perturbed_position);
+    *perturbed_position = *position;
+    const int open = !compute_newton_step(perturbed_position, run->p, step);
     for (int k = 0; k < N_PLACE; k++) {
         const double size = ACCUMULATED_ULPS * DBL_EPSILON * max_of(is_turn(k) ? 1.0 : run->extent, fabs(q[k]));
         q[k] += (k & mask ? -1.0 : 1.0) * (size + (open && isfinite(step[k]) ? CLOSING_STEPS * fabs(step[k]) : 0.0));
     }
-    if (newton_step(other, run->p, step))
-        memcpy(rates_of(other), rates_of(here), N_PLACE * sizeof *q);
+    if (compute_newton_step(perturbed_position, run->p, step))
+        memcpy(rates_of(perturbed_position), rates_of(position), N_PLACE * sizeof *q);
 }
 
 /*
  * Return by how much rounding errors of positions and velocities change event function i; 0 where they include a pole.
- * Several combinations of signs are tried.
+ * All functions are computed at once for a sample, from eight combinations of signs, and stored.
  */
-static double event_uncertainty(const KinematicRun *run, SampledPosition *here, int i)
+static double estimate_event_uncertainty(const KinematicRun *run, SampledPosition *sample, int i)
 {
-    const Position *at = &here->at;
+    const Position *at = &sample->at;
     double of_q[N_Q] = {0.0}, of_v[N_Q] = {0.0}, speed[2];
-    if (here->has_error)
-        return here->error[N_WATCHED - N_USER_EVENTS + i];
+    if (sample->has_error)
+        return sample->error[N_WATCHED - N_USER_EVENTS + i];
     for (int mask = 0; mask < 8; mask = mask ? 2 * mask : 1) {
-        Position other;
-        perturb_position(run, at, mask, &other);
+        Position perturbed;
+        perturb_position(run, at, mask, &perturbed);
 #if POSITIONS_IN_TREE
-        if (arrive(after_jump(other.t), other.s, other.s_rate, run->p, other.s_second, other.q, other.v,
-                other.a, &other.phi))
+        if (arrive(after_jump(perturbed.t), perturbed.s, perturbed.s_rate, run->p, perturbed.s_second, perturbed.q,
+            perturbed.v,
+                perturbed.a, &perturbed.phi))
             continue;
 #endif
         for (int k = 0; k < N_Q; k++) {
-            of_q[k] += fabs(other.q[k] - at->q[k]);
-            of_v[k] += fabs(other.v[k] - at->v[k]);
+            of_q[k] += fabs(perturbed.q[k] - at->q[k]);
+            of_v[k] += fabs(perturbed.v[k] - at->v[k]);
         }
     }
-    speeds_of(at, run->extent, speed);
+    compute_largest_speeds(at, run->extent, speed);
     for (int k = 0; k < N_Q; k++)
         of_v[k] += ACCUMULATED_ULPS * DBL_EPSILON * speed[k % 3 == 2];
-    error_by_bounds(at->t, at->q, at->v, of_q, of_v, N_Q, &(DiscreteState){0}, run->p, here->error);
-    here->has_error = 1;
-    return here->error[N_WATCHED - N_USER_EVENTS + i];
+    error_by_bounds(at->t, at->q, at->v, of_q, of_v, N_Q, &(DiscreteState){0}, run->p, sample->error);
+    sample->has_error = 1;
+    return sample->error[N_WATCHED - N_USER_EVENTS + i];
 }
 
-/* Return the value of event function i, whose last sign is `branch`, or 0 if it is below its uncertainty. */
-static double resolved_value(const KinematicRun *run, SampledPosition *here, int i, int branch)
+/*
+ * Return the value of event function i, whose last sign is `branch` (0: none); 0 if the value is below its uncertainty.
+ * A value with the last sign is returned as it is.
+ */
+static double get_resolved_value(const KinematicRun *run, SampledPosition *sample, int i, int branch)
 {
-    const double f = here->event[i];
-    return branch * f > 0.0 || !(fabs(f) <= event_uncertainty(run, here, i)) ? f : 0.0;
+    const double f = sample->event[i];
+    return branch * f > 0.0 || !(fabs(f) <= estimate_event_uncertainty(run, sample, i)) ? f : 0.0;
 }
 
 /*
@@ -141,125 +152,136 @@ typedef struct {
     int i;
 } Search;
 
-/* Follow the motion to t1 and evaluate the event functions there. Returns a status. */
-static int follow_motion(const Search *of, double t1, SampledPosition *view)
+/*
+ * Follow the motion from the position of `sample` to time t1 in steps, and evaluate the event functions there. Return 0
+ * or a status.
+ */
+static int follow_motion(const Search *search, double t1, SampledPosition *sample)
 {
-    StepLength stride = {t1 - view->at.t, 0};
-    while (view->at.t < t1) {
-        const int status = make_step(of->run, &stride, t1, &view->at);
+    StepLength stride = {t1 - sample->at.t, 0};
+    while (sample->at.t < t1) {
+        const int status = make_step(search->run, &stride, t1, &sample->at);
         if (status)
             return status;
     }
-    evaluate_events(of->run, view);
+    evaluate_events(search->run, sample);
     return 0;
 }
 
-/* Return a value that is negative if x has the sign of `end`, or is undefined as `end` is. */
-static double value_before(double end, double x)
+/*
+ * Return a value that is negative if `value` has the sign of `end_value`, or is undefined (NaN) as end_value is. If
+ * only one of both is undefined, it is positive.
+ */
+static double orient_event_value(double end_value, double value)
 {
-    if (isnan(end) || isnan(x))
-        return isnan(end) && isnan(x) ? -1.0 : 1.0;
-    return end > 0.0 ? -x : x;
+    if (isnan(end_value) || isnan(value))
+        return isnan(end_value) && isnan(value) ? -1.0 : 1.0;
+    return end_value > 0.0 ? -value : value;
 }
 
 /*
- * Evaluate the event function at time t for locate_zero(), and store the position at the matching end of the bracket.
+ * Evaluate the event function of a search at time t for locate_zero(), and store the position at the matching end of
+ * the bracket. context: the Search. out->f: value, negative after the zero. Return 0 or a status.
  */
-static int evaluate_event(void *context, double t, Sample *now)
+static int evaluate_event(void *context, double t, Sample *out)
 {
-    Search *of = context;
-    SampledPosition view = of->low;
-    const int status = follow_motion(of, t, &view);
-    now->f = value_before(of->high.event[of->i], view.event[of->i]);
-    *(now->f < 0.0 ? &of->high : &of->low) = view;
+    Search *search = context;
+    SampledPosition sample = search->low;
+    const int status = follow_motion(search, t, &sample);
+    out->f = orient_event_value(search->high.event[search->i], sample.event[search->i]);
+    *(out->f < 0.0 ? &search->high : &search->low) = sample;
     return status;
 }
 
 /*
- * Locate the time t before b at which event function i gets its sign at b, or becomes undefined as there. pole: whether
- * it does so at a pole, where its values exceed their uncertainty. Returns a status.
+ * Locate the time *t before sample b at which event function i gets its sign at b, or becomes undefined as there.
+ * is_pole: set to whether this is a pole, where the values exceed their uncertainty. Return 0 or a status.
  */
-static int locate_event(Search *of, int i, const SampledPosition *b, double *t, int *pole)
+static int locate_event(Search *search, int i, const SampledPosition *b, double *t, int *is_pole)
 {
-    const double from = of->here.at.t, to = b->at.t, end = b->event[i];
+    const double from = search->here.at.t, to = b->at.t, end = b->event[i];
     const ZeroTolerance near = {.width = max_of(1e-13 * (to - from), 4.0 * DBL_EPSILON * fabs(to))};
-    Bracket of_zero = {{{from, value_before(end, of->here.event[i]), NAN}, {to, value_before(end, end), NAN}}, 2};
-    of->low = of->here, of->high = *b, of->i = i;
-    const int status = locate_zero(evaluate_event, of, &near, MAX_POINTS, guess_zero(&of_zero, 2), &of_zero);
+    Bracket of_zero = {{{from, orient_event_value(end, search->here.event[i]), NAN},
+        {to, orient_event_value(end, end), NAN}}, 2};
+    search->low = search->here, search->high = *b, search->i = i;
+    const int status = locate_zero(evaluate_event, search, &near, MAX_POINTS, guess_zero(&of_zero, 2), &of_zero);
     if (status)
         return status;
     *t = of_zero.at[1].s;
-    const int lost = follow_motion(of, *t + POLE_DISTANCE * near.width, &of->low);
-    *pole = is_near_pole(of->high.event[i], lost ? INFINITY : of->low.event[i])
-        && resolved_value(of->run, &of->high, i, 0) != 0.0;
+    const int lost = follow_motion(search, *t + POLE_DISTANCE * near.width, &search->low);
+    *is_pole = is_near_pole(search->high.event[i], lost ? INFINITY : search->low.event[i])
+        && get_resolved_value(search->run, &search->high, i, 0) != 0.0;
     return 0;
 }
 
 /*
- * Insert an event in order of time among those of this part, from index `first` on. Returns EVENTS_FULL if there is no
- * capacity left.
+ * Insert an event at time t (s) in order of time among the found ones from index `first` on. event: its number; plus
+ * N_USER_EVENTS if it became undefined. Return 0, or EVENTS_FULL without a change if there is no capacity.
  */
-static int insert_event(Search *of, long first, double t, int event)
+static int insert_event(Search *search, long first, double t, int event)
 {
-    long k = of->found;
-    if (k == of->capacity)
+    long k = search->found;
+    if (k == search->capacity)
         return EVENTS_FULL;
-    for (; k > first && of->t[k - 1] > t; k--) {
-        of->t[k] = of->t[k - 1];
-        of->event[k] = of->event[k - 1];
+    for (; k > first && search->t[k - 1] > t; k--) {
+        search->t[k] = search->t[k - 1];
+        search->event[k] = search->event[k - 1];
     }
-    of->t[k] = t;
-    of->event[k] = event;
-    of->found++;
+    search->t[k] = t;
+    search->event[k] = event;
+    search->found++;
     return 0;
 }
 
 /*
- * Collect all events of the part from `here` to b; events after one that ends the run are discarded. Returns a status.
+ * Locate and collect all events of the part from search->here to b, and update the last signs. Return 0 or a status.
+ * Events that become undefined are reported once. Zeros at the start of the run do not count. After an event that ends
+ * the run (EVENT_STOPS) later ones are discarded.
  */
-static int collect_events(Search *of, SampledPosition *b)
+static int collect_events(Search *search, SampledPosition *b)
 {
-    const SampledPosition *a = &of->here;
-    const long first = of->found;
+    const SampledPosition *a = &search->here;
+    const long first = search->found;
     for (int i = 0; i < N_USER_EVENTS; i++) {
         double t = a->at.t;
-        int pole = 0, status = 0;
-        if (isnan(b->event[i]) && !of->no_number[i]) {
-            of->no_number[i] = 1;
-            status = isnan(a->event[i]) ? 0 : locate_event(of, i, b, &t, &pole);
+        int is_pole = 0, status = 0;
+        if (isnan(b->event[i]) && !search->no_number[i]) {
+            search->no_number[i] = 1;
+            status = isnan(a->event[i]) ? 0 : locate_event(search, i, b, &t, &is_pole);
             if (!status)
-                status = insert_event(of, first, t, i + N_USER_EVENTS);
-        } else if (event_crosses(i, &of->branch[i], resolved_value(of->run, b, i, of->branch[i]))) {
-            status = locate_event(of, i, b, &t, &pole);
-            if (!status && !pole && t - of->start > 1e-12 * (b->at.t - a->at.t) + 16.0 * DBL_EPSILON * fabs(t))
-                status = insert_event(of, first, t, i);
+                status = insert_event(search, first, t, i + N_USER_EVENTS);
+        } else if (event_crosses(i, &search->branch[i], get_resolved_value(search->run, b, i, search->branch[i]))) {
+            status = locate_event(search, i, b, &t, &is_pole);
+            if (!status && !is_pole && t - search->start > 1e-12 * (b->at.t - a->at.t) + 16.0 * DBL_EPSILON * fabs(t))
+                status = insert_event(search, first, t, i);
         }
         if (status)
             return status;
     }
-    for (long k = first; k < of->found; k++)
-        if (of->stop && of->event[k] < N_USER_EVENTS && event_stops[of->event[k]]) {
-            of->found = k + 1;
+    for (long k = first; k < search->found; k++)
+        if (search->stop && search->event[k] < N_USER_EVENTS && event_stops[search->event[k]]) {
+            search->found = k + 1;
             return EVENT_STOPS;
         }
     return 0;
 }
 
 /*
- * Return whether event function i is zero within rounding up to b, as a velocity that a constraint holds at zero. It is
- * at both ends, and its bounds are near zero or narrow with the part.
+ * Return whether event function i is zero within rounding up to b, like a velocity that a constraint holds at zero. It
+ * is at both ends, and its bounds f are near zero or narrow with the part.
  */
-static int is_zero_by_constraint(Search *of, SampledPosition *b, int i, Range f)
+static int is_zero_by_constraint(Search *search, SampledPosition *b, int i, Range f)
 {
-    const double part = (b->at.t - of->here.at.t) / of->h, most = max_of(-f.lo, f.hi);
-    const double error = event_uncertainty(of->run, &of->here, i);
-    return !f.partly && fabs(of->here.event[i]) <= error
-        && (most <= MAX_UNCERTAINTY_RATIO * error || is_narrowing(-most, part, -of->most[i]))
-        && resolved_value(of->run, b, i, 0) == 0.0;
+    const double part = (b->at.t - search->here.at.t) / search->h, most = max_of(-f.lo, f.hi);
+    const double error = estimate_event_uncertainty(search->run, &search->here, i);
+    return !f.partly && fabs(search->here.event[i]) <= error
+        && (most <= MAX_UNCERTAINTY_RATIO * error || is_narrowing(-most, part, -search->most[i]))
+        && get_resolved_value(search->run, b, i, 0) == 0.0;
 }
 
 /*
- * Compute bounds of positions and velocities over the cubic between two positions, and of their slopes over the part.
+ * Compute bounds of positions q and velocities v over the cubic between positions a and b, and of their slopes over the
+ * part. Slopes are by the fraction of the part. q, v: N_Q ranges each.
  */
 static void bound_motion(const Position *a, const Position *b, Range *q, Range *v)
 {
@@ -279,69 +301,73 @@ static void bound_motion(const Position *a, const Position *b, Range *q, Range *
 
 /*
  * Return whether bounds do not exclude a zero of some event function before b that the signs at both ends do not show.
+ * Called for parts of a step from search->here; for a whole step the largest bounds are stored.
  */
-static int is_undecided(Search *of, SampledPosition *b)
+static int may_have_hidden_zero(Search *search, SampledPosition *b)
 {
-    const SampledPosition *a = &of->here;
+    const SampledPosition *a = &search->here;
     const double h = b->at.t - a->at.t;
     Range q[N_Q], v[N_Q], out[N_WATCHED];
     bound_motion(&a->at, &b->at, q, v);
-    watched_ranges((Range){a->at.t, b->at.t, h, h, 0}, q, v, &(DiscreteState){0}, of->run->p, out);
+    watched_ranges((Range){a->at.t, b->at.t, h, h, 0}, q, v, &(DiscreteState){0}, search->run->p, out);
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const Range f = out[N_WATCHED - N_USER_EVENTS + i];
         const double branch = f.hi <= 0.0 || a->event[i] < 0.0 ? -1.0 : 1.0;
-        if (h == of->h)
-            of->most[i] = max_of(-f.lo, f.hi);
+        if (h == search->h)
+            search->most[i] = max_of(-f.lo, f.hi);
         if (zero_verdict(branch < 0.0 ? range_negative(f) : f, branch * a->event[i], branch * b->event[i], 1.0, 0) < 0
-            && !is_zero_by_constraint(of, b, i, f))
+            && !is_zero_by_constraint(search, b, i, f))
             return 1;
     }
     return 0;
 }
 
 /*
- * Classify the part from `here` to the last of `end` for halve_parts(): 1 if `status` ends the search, -1 to halve it.
+ * Classify the part from search->here to the last of search->end for halve_parts(): 1 if a status ends the search, -1
+ * to halve it. If the part has no hidden zero, is smallest (`is_smallest`), or its middle cannot be solved, its events
+ * are collected and 0 is returned. a, b: times of its ends, s.
  */
-static int judge_part(void *context, double a, double b, int small)
+static int classify_part(void *context, double a, double b, int is_smallest)
 {
-    Search *of = context;
-    SampledPosition *end = &of->end[of->n - 1];
-    if (!small && is_undecided(of, end)) {
-        end[1] = of->here;
-        if (!follow_motion(of, a + 0.5 * (b - a), &end[1])) {
-            of->n++;
+    Search *search = context;
+    SampledPosition *end = &search->end[search->n - 1];
+    if (!is_smallest && may_have_hidden_zero(search, end)) {
+        end[1] = search->here;
+        if (!follow_motion(search, a + 0.5 * (b - a), &end[1])) {
+            search->n++;
             return -1;
         }
     }
-    of->status = collect_events(of, end);
-    of->here = *end;
-    of->n--;
-    return of->status != 0;
+    search->status = collect_events(search, end);
+    search->here = *end;
+    search->n--;
+    return search->status != 0;
 }
 
-/* Find the events from one sample to the next. Returns a status. */
-static int search_interval(Search *of, double t1)
+/* Find the events from search->here to time t1, the next sample, step by step. Return 0 or a status. */
+static int find_events_in_interval(Search *search, double t1)
 {
-    StepLength stride = {t1 - of->here.at.t, 0};
+    StepLength stride = {t1 - search->here.at.t, 0};
     int status = 0;
-    while (!status && of->here.at.t < t1) {
-        *of->end = of->here;
-        status = make_step(of->run, &stride, t1, &of->end->at);
+    while (!status && search->here.at.t < t1) {
+        *search->end = search->here;
+        status = make_step(search->run, &stride, t1, &search->end->at);
         if (status)
             return status;
-        evaluate_events(of->run, of->end);
-        of->n = 1;
-        of->h = of->end->at.t - of->here.at.t;
-        (void)halve_parts(of->here.at.t, of->end->at.t, SMALLEST_PART * of->h, judge_part, of);
-        status = of->status;
+        evaluate_events(search->run, search->end);
+        search->n = 1;
+        search->h = search->end->at.t - search->here.at.t;
+        (void)halve_parts(search->here.at.t, search->end->at.t, SMALLEST_PART * search->h, classify_part, search);
+        status = search->status;
     }
     return status;
 }
 
 /*
- * Find the events in the intervals between n + 1 samples. branch: last signs, updated; at, event: times (s) and numbers
- * of `found` events; done: complete intervals. Returns 0, EVENT_STOPS after an event that ends the run, EVENTS_FULL if
- * the capacity is used up, or the status of the motion.
+ * Find the user-defined events in the intervals between n + 1 samples of a kinematic motion, in order of time. branch:
+ * last signs, updated; at, event: times (s) and numbers of `found` events; done: complete intervals. Return 0,
+ * EVENT_STOPS after an event that ends the run, EVENTS_FULL if the capacity is used up, STOPPED, or the status of the
+ * motion. An interval that is not complete is searched again by the next call.
  */
 int gudgeon_kinematic_events(void *integrator, long n, const double *t, const double *parameters, const double *q,
     const double *v, double start, int stop, signed char *branch, long capacity, double *at, int *event, long *found,
@@ -349,27 +375,27 @@ int gudgeon_kinematic_events(void *integrator, long n, const double *t, const do
 {
     KinematicRun *run = integrator;
     SampledPosition end[DEEPEST + 2];
-    Search of = {.run = run, .branch = branch, .t = at, .event = event, .capacity = capacity, .start = start,
+    Search search = {.run = run, .branch = branch, .t = at, .event = event, .capacity = capacity, .start = start,
         .stop = stop, .end = end};
     run->p = (const Parameters *)parameters;
     for (*done = 0; *done < n; ++*done) {
-        signed char sides[N_USER_EVENTS];
-        int status = set_position_near(run, t[*done], q + *done * N_Q, v + *done * N_Q, &of.here.at);
+        signed char signs[N_USER_EVENTS];
+        int status = set_position_near(run, t[*done], q + *done * N_Q, v + *done * N_Q, &search.here.at);
         if (status)
             return status;
-        evaluate_events(run, &of.here);
+        evaluate_events(run, &search.here);
         for (int i = 0; i < N_USER_EVENTS; i++) {
-            (void)event_crosses(i, &branch[i], branch[i] ? 0.0 : resolved_value(run, &of.here, i, 0));
-            sides[i] = branch[i]; /* the first sign, if there was none */
+            (void)event_crosses(i, &branch[i], branch[i] ? 0.0 : get_resolved_value(run, &search.here, i, 0));
+            signs[i] = branch[i]; /* the first sign, if there was none */
         }
-        *found = of.found;
-        status = search_interval(&of, t[*done + 1]);
+        *found = search.found;
+        status = find_events_in_interval(&search, t[*done + 1]);
         if (run->cancellation.stop)
             status = STOPPED; /* events of this interval are discarded */
         if (status == EVENTS_FULL || status == STOPPED)
-            memcpy(branch, sides, sizeof sides);
+            memcpy(branch, signs, sizeof signs);
         else
-            *found = of.found;
+            *found = search.found;
         if (status)
             return status;
     }

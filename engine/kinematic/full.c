@@ -4,21 +4,23 @@
  */
 
 /*
- * Compute accelerations and powers by the equations of motion. A positive status is a constraint equation, numbered
- * after the N_ROWS equations of project().
+ * Compute accelerations a and powers at a position by the equations of motion. Return 0 or a status. A positive status
+ * is a constraint equation, numbered after the N_ROWS equations of project().
  */
-static int solve_motion(KinematicRun *run, const Position *here, double *a, RhsOutputs *rhs)
+static int solve_motion(KinematicRun *run, const Position *position, double *a, RhsOutputs *rhs)
 {
     const DiscreteState discrete = {.token = &run->cancellation, USUAL_SHARES};
-    const int status = dynamics(after_jump(here->t), here->q, here->v, &discrete, run->p, a, rhs);
+    const int status = dynamics(after_jump(position->t), position->q, position->v, &discrete, run->p, a, rhs);
     return status > 0 ? N_ROWS + status : status;
 }
 
 /*
- * Solve Phi(q, t) = 0 by Newton's method until the correction no longer decreases. moved: incremented by the
- * corrections; left: the last one, rad or fraction of the size. Returns a status.
+ * Solve Phi(q, t) = 0 by Newton's method from the guess in q, until the correction no longer decreases. Return 0 or a
+ * status. correction: incremented by the corrections; last_correction: the last one; both in rad or fractions of the
+ * size.
  */
-static int close_linkage(const KinematicRun *run, double t, double *q, double *moved, double *last_correction)
+static int close_linkage(const KinematicRun *run, double t, double *q, double *correction,
+    double *last_correction)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)], step[N_Q], before = INFINITY;
     for (int i = 0; i < MAX_NEWTON; i++) {
@@ -29,7 +31,7 @@ static int close_linkage(const KinematicRun *run, double t, double *q, double *m
         const double size = angle_norm(step, run->extent);
         for (int k = 0; k < N_Q; k++)
             q[k] -= step[k];
-        *moved += size;
+        *correction += size;
         *last_correction = size;
         if (isnan(size))
             return NEWTON_FAILED;
@@ -40,7 +42,10 @@ static int close_linkage(const KinematicRun *run, double t, double *q, double *m
     return before < 1e-9 ? 0 : NEWTON_FAILED;
 }
 
-/* Solve Phi_q v = nu by projection, with one step of refinement. Returns a status. */
+/*
+ * Solve Phi_q v = nu at positions q for the velocities v (N_Q) by projection, with one step of refinement. Return 0 or
+ * a status.
+ */
 static int solve_velocities(double t, const double *q, const Parameters *p, double *v)
 {
     double r[AT_LEAST_ONE(N_ALL_ROWS)], phi_q[AT_LEAST_ONE(N_ALL_ROWS) * N_Q], step[N_Q];
@@ -62,48 +67,57 @@ static int solve_velocities(double t, const double *q, const Parameters *p, doub
 }
 
 /*
- * Solve position and velocities at time t from a near position; complete_position() adds the accelerations. moved: the
- * correction of the first guess. Returns a status.
+ * Solve the position and velocities at time t from the near position `start`, moved along its velocities as first
+ * guess. complete_position() adds the accelerations. correction: set to the correction of the first guess. Return 0 or
+ * a status.
  */
-static int solve_position_at(const KinematicRun *run, double t, const Position *from, Position *to, double *moved)
+static int solve_position_at(const KinematicRun *run, double t, const Position *start, Position *position,
+    double *correction)
 {
-    *moved = 0.0;
-    to->t = t;
-    to->interpolated = 0;
+    *correction = 0.0;
+    position->t = t;
+    position->interpolated = 0;
     for (int k = 0; k < N_Q; k++)
-        to->q[k] = from->q[k] + (t - from->t) * from->v[k];
-    const int status = close_linkage(run, after_jump(t), to->q, moved, &to->last_correction);
-    return status ? status : solve_velocities(after_jump(t), to->q, run->p, to->v);
+        position->q[k] = start->q[k] + (t - start->t) * start->v[k];
+    const int status = close_linkage(run, after_jump(t), position->q, correction,
+        &position->last_correction);
+    return status ? status : solve_velocities(after_jump(t), position->q, run->p, position->v);
 }
 
-/* Complete a position for a sample: accelerations, |Phi| and |Phi_dot|. Returns a status. */
-static int complete_position(KinematicRun *run, Position *here)
+/*
+ * Complete a position for a sample: accelerations and the largest |Phi| and |Phi_dot|. Return 0 or a status. An
+ * interpolated position is complete already.
+ */
+static int complete_position(KinematicRun *run, Position *position)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
     RhsOutputs rhs;
-    if (here->interpolated)
+    if (position->interpolated)
         return 0;
-    const int status = solve_motion(run, here, here->a, &rhs);
+    const int status = solve_motion(run, position, position->a, &rhs);
     if (status)
         return status;
-    constraints(after_jump(here->t), here->q, run->p, phi);
-    here->phi = here->phi_dot = 0.0;
+    constraints(after_jump(position->t), position->q, run->p, phi);
+    position->phi = position->phi_dot = 0.0;
     for (int r = 0; r < N_ALL_ROWS; r++)
-        here->phi = larger_or_nan(here->phi, fabs(phi[r]));
+        position->phi = larger_or_nan(position->phi, fabs(phi[r]));
     for (int r = 0; r < N_ROWS; r++)
-        here->phi_dot = larger_or_nan(here->phi_dot, fabs(rhs.phi_dot[r]));
+        position->phi_dot = larger_or_nan(position->phi_dot, fabs(rhs.phi_dot[r]));
     return 0;
 }
 
-/* Set the position at time t to given q and v (N_Q) and complete it. Returns a status. */
-static int set_position(KinematicRun *run, double t, const double *q, const double *v, Position *here)
+/*
+ * Set the position at time t to given q and v (N_Q), and complete it. Return 0 or a status. Where constraint equations
+ * depend on each other, its last correction is set to infinity.
+ */
+static int set_position(KinematicRun *run, double t, const double *q, const double *v, Position *position)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)], step[N_Q];
-    here->t = t;
-    here->interpolated = 0;
-    memcpy(here->q, q, sizeof here->q);
-    memcpy(here->v, v, sizeof here->v);
+    position->t = t;
+    position->interpolated = 0;
+    memcpy(position->q, q, sizeof position->q);
+    memcpy(position->v, v, sizeof position->v);
     constraints(after_jump(t), q, run->p, phi); /* equations may depend on each other there */
-    here->last_correction = project(after_jump(t), q, phi, run->p, step) ? INFINITY : 0.0;
-    return complete_position(run, here);
+    position->last_correction = project(after_jump(t), q, phi, run->p, step) ? INFINITY : 0.0;
+    return complete_position(run, position);
 }

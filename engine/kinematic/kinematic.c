@@ -44,8 +44,9 @@ typedef struct {
 size_t gudgeon_kinematic_size(void) { return sizeof(KinematicRun); }
 
 /*
- * Initialize a kinematic analysis. reach, extent: see KinematicRun. `ask` is called with `caller` every `every` seconds
- * (0: at each step) and cancels the analysis if it returns nonzero.
+ * Initialize the memory of a kinematic analysis. reach: largest correction of a first guess; extent: size of the
+ * mechanism, m. `ask` is called with `caller` every `every` seconds (0: at each step) and cancels the analysis if it
+ * returns nonzero.
  */
 void gudgeon_kinematic_begin(
     void *integrator, double reach, double extent, double t_end, int (*ask)(void *), void *caller, double every)
@@ -55,12 +56,12 @@ void gudgeon_kinematic_begin(
     start_polling(&run->cancellation, ask, caller, every);
 }
 
-/* Begin the motion anew at the next call, from the position given there. */
+/* Begin the motion anew at the next call of gudgeon_kinematic(), from the position given there. */
 void gudgeon_kinematic_restart(void *integrator) { ((KinematicRun *)integrator)->motion_begun = 0; }
 
 /*
- * Report progress: times of motion and works (t[2], s), the time gained by the last steps (s), and the number of these
- * steps and whether they are far too short (steps[2]).
+ * Report the progress of a kinematic analysis: times of motion and works (t[2], s; NaN: works not begun). gained: time
+ * gained by the last steps, s. steps[0]: the number of these steps; steps[1]: whether they are far too short.
  */
 void gudgeon_kinematic_progress(const void *integrator, double *t, double *gained, long *steps)
 {
@@ -80,7 +81,7 @@ long gudgeon_kinematic_interpolated(const void *integrator, double *t)
     return run->passed;
 }
 
-/* Record positions at the ends of steps into `capacity` rows; NULL: stop recording. */
+/* Record positions at the ends of steps into `rows` of (t, q, v), `capacity` of them; NULL: stop recording. */
 void gudgeon_kinematic_record(void *integrator, double *rows, long capacity)
 {
     KinematicRun *run = integrator;
@@ -89,7 +90,7 @@ void gudgeon_kinematic_record(void *integrator, double *rows, long capacity)
     run->n_recorded = 0;
 }
 
-/* Return the number of rows recorded since the last call; the next row is written to the first one. */
+/* Return the number of rows recorded since the last call, and let the next row be written to the first one. */
 long gudgeon_kinematic_recorded(void *integrator)
 {
     KinematicRun *run = integrator;
@@ -98,29 +99,32 @@ long gudgeon_kinematic_recorded(void *integrator)
     return n;
 }
 
-/* Record a position, if recording is requested. */
-static void record_position(KinematicRun *run, const Position *here)
+/* Append a position to the step record, a row of (t, q, v), if recording is requested. */
+static void record_position(KinematicRun *run, const Position *position)
 {
     if (!run->step_record)
         return;
     double *row = run->step_record + (1 + 2 * N_Q) * run->n_recorded++;
-    *row++ = here->t;
-    memcpy(row, here->q, sizeof here->q);
-    memcpy(row + N_Q, here->v, sizeof here->v);
+    *row++ = position->t;
+    memcpy(row, position->q, sizeof position->q);
+    memcpy(row + N_Q, position->v, sizeof position->v);
 }
 
-/* Return the larger number; NaN is propagated. */
-static double larger_or_nan(double most, double x) { return x > most || isnan(x) ? x : most; }
+/* Return the larger number; NaN if `value` is NaN. */
+static double larger_or_nan(double largest, double value)
+{
+    return value > largest || isnan(value) ? value : largest;
+}
 
 /*
- * Return the maximum norm of a change or rate of q as an angle (rad or rad/s); lengths are divided by the size
- * `extent`.
+ * Return the maximum norm of a change or rate of q (N_Q) as an angle, rad or rad/s; NaN is propagated. Lengths are
+ * divided by the mechanism's size `extent`, m.
  */
-static double angle_norm(const double *x, double extent)
+static double angle_norm(const double *change, double extent)
 {
     double most = 0.0;
     for (int k = 0; k < N_Q; k++)
-        most = larger_or_nan(most, fabs(x[k]) / (k % 3 == 2 ? 1.0 : extent));
+        most = larger_or_nan(most, fabs(change[k]) / (k % 3 == 2 ? 1.0 : extent));
     return most;
 }
 
@@ -129,7 +133,10 @@ static double angle_norm(const double *x, double extent)
 #else
 #include "full.c"
 #endif
-/* Return the error of the trapezoidal rule for the positions between a and b, rad; lengths are divided by the size. */
+/*
+ * Return the largest difference of positions b from a plus the trapezoidal rule of their velocities, rad. Lengths are
+ * divided by the mechanism's size `extent`, m. It shows whether both are on one branch.
+ */
 static double trapezoidal_error(const Position *a, const Position *b, double extent)
 {
     const double half = 0.5 * (b->t - a->t), fraction = 1.0 / extent;
@@ -145,123 +152,133 @@ static double trapezoidal_error(const Position *a, const Position *b, double ext
 #include "change_point.c"
 
 #if N_PULSES
-/* Return whether a missed term of time is harmless: its excess is known by bounds only, not for certain. */
-static int is_uncertain_term(void *context, double fraction, int sure)
+/*
+ * Return whether a missed term of time can be ignored: its excess is known by bounds only, not for certain
+ * (`is_certain`). A callback of undersampled_term().
+ */
+static int is_uncertain_term(void *context, double fraction, int is_certain)
 {
     (void)context, (void)fraction;
-    return !sure;
+    return !is_certain;
 }
 
-/* Return whether a term of time acts between the ends of a step and the nodes of its quadrature. */
-static int hides_transient(double t0, double t1, const Parameters *p)
+/*
+ * Return whether a term of time alone acts between t0 and t1 only where neither the ends nor the quadrature evaluate
+ * it.
+ */
+static int has_hidden_transient(double t0, double t1, const Parameters *p)
 {
     static const double place[] = {0.0, 0.1127016653792583, 0.5, 0.8872983346207417, 1.0};
     return undersampled_term(t0, t1 - t0, place, 5, is_uncertain_term, NULL, p) > 0.0;
 }
 #else
 /* Return 0: the scene has no terms of time alone. */
-static int hides_transient(double t0, double t1, const Parameters *p)
+static int has_hidden_transient(double t0, double t1, const Parameters *p)
 {
     (void)t0, (void)t1, (void)p;
     return 0;
 }
 #endif
 
-/* Return whether all constraint equations are finite at a time; an expression of a drive may be undefined. */
-static int are_constraints_finite(double t, const Position *here, const Parameters *p)
+/* Return whether all constraint equations are finite at time t; an expression of a drive may be undefined there. */
+static int are_constraints_finite(double t, const Position *position, const Parameters *p)
 {
     double phi[N_ALL_ROWS];
-    constraints(t, here->q, p, phi);
+    constraints(t, position->q, p, phi);
     return all_finite(phi, N_ALL_ROWS);
 }
 
 /*
- * Make one step along the branch, to t1 at most. The step is halved if Newton's method corrects the first guess by more
- * than `reach`, or the positions do not agree with the velocities. Near a dead centre, another branch appears as such a
- * jump. Returns a status.
+ * Make one step of `position` along the branch, of length stride->h and to t1 at most. Return 0 or a status. The step
+ * is halved if Newton's method corrects the first guess by more than `reach` or the positions do not agree with the
+ * velocities. Near a dead centre, another branch appears as such a jump. A step that hides a transient is halved too.
+ * Change points are passed. After accurate steps a halved length is doubled again.
  */
-static int make_step(KinematicRun *run, StepLength *stride, double t1, Position *here)
+static int make_step(KinematicRun *run, StepLength *stride, double t1, Position *position)
 {
-    const double straight = 0.002 * run->reach;
+    const double max_error = 0.002 * run->reach;
     for (;;) {
-        Position there, passed;
-        double moved = 0.0, bent = 0.0;
+        Position next_position, passed;
+        double correction = 0.0, error = 0.0;
         if (is_cancelled(&run->cancellation))
             return STOPPED;
-        const double next = here->t + stride->h < t1 ? here->t + stride->h : t1;
-        const int status = next > here->t ? solve_position_at(run, next, here, &there, &moved) : NEWTON_FAILED;
+        const double next = position->t + stride->h < t1 ? position->t + stride->h : t1;
+        const int status = next > position->t ? solve_position_at(run, next, position, &next_position, &correction)
+            : NEWTON_FAILED;
         if (status == STOPPED)
             return status;
-        if ((status || (next == t1 && is_ill_conditioned(&there))) && next > here->t
-            && are_constraints_finite(next, here, run->p) && !pass_change_point(run, next, here, &passed)) {
-            *here = passed;
+        if ((status || (next == t1 && is_ill_conditioned(&next_position))) && next > position->t
+            && are_constraints_finite(next, position, run->p) && !pass_change_point(run, next, position, &passed)) {
+            *position = passed;
             return 0;
         }
-        const int near = !status && moved <= run->reach;
-        if (near)
-            bent = trapezoidal_error(here, &there, run->extent);
-        if (near && bent <= straight
-            && (stride->halvings > PULSE_HALVINGS || !hides_transient(here->t, next, run->p))) {
-            *here = there;
-            if (stride->halvings > 0 && bent < 0.1 * straight) { /* the error is proportional to h cubed */
+        const int is_near = !status && correction <= run->reach;
+        if (is_near)
+            error = trapezoidal_error(position, &next_position, run->extent);
+        if (is_near && error <= max_error
+            && (stride->halvings > PULSE_HALVINGS || !has_hidden_transient(position->t, next, run->p))) {
+            *position = next_position;
+            if (stride->halvings > 0 && error < 0.1 * max_error) { /* the error is proportional to h cubed */
                 stride->h *= 2.0;
                 stride->halvings--;
             }
             return 0;
         }
-        if (++stride->halvings > MAX_HALVINGS || !(next > here->t))
+        if (++stride->halvings > MAX_HALVINGS || !(next > position->t))
             return status ? status : NEWTON_FAILED;
         stride->h *= 0.5;
     }
 }
 
 /*
- * Follow the motion to t1 in steps, record their ends and monitor progress. steps: incremented by their number. Returns
- * a status.
+ * Follow the motion to time t1 in steps, record their ends and monitor progress. Return 0, EVENTS_FULL, STALLED or a
+ * status. steps: incremented by their number. The position at t1 is completed for a sample.
  */
-static int advance(KinematicRun *run, double t1, Position *here, long *steps)
+static int follow_motion_to(KinematicRun *run, double t1, Position *position, long *steps)
 {
-    StepLength stride = {t1 - here->t, 0};
-    while (here->t < t1) {
+    StepLength stride = {t1 - position->t, 0};
+    while (position->t < t1) {
         if (run->step_record && run->n_recorded == run->capacity)
             return EVENTS_FULL;
-        const int status = make_step(run, &stride, t1, here);
+        const int status = make_step(run, &stride, t1, position);
         if (status)
             return status;
         ++*steps;
-        record_position(run, here);
-        if (has_stalled(&run->monitor, here->t, run->t_end))
+        record_position(run, position);
+        if (has_stalled(&run->monitor, position->t, run->t_end))
             return STALLED;
     }
-    return complete_position(run, here);
+    return complete_position(run, position);
 }
 
 /*
- * Compute the motion at n samples. t: n + 1 times, s. q, v, a: n + 1 rows of N_Q; row 0 of q and v holds the start, or
- * the last sample of the previous call. phi_max, phi_dot_max: updated maxima. done: the last complete row, whatever
- * status is returned.
+ * Compute the motion at n samples. t: n + 1 times, s; q, v, a: n + 1 rows of N_Q. Row 0 of q and v holds the start, or
+ * the last sample of the previous call. phi_max, phi_dot_max: updated maxima. steps: incremented. done: the last
+ * complete row, whatever status is returned. Return 0 or a status; after EVENTS_FULL the caller fetches the records and
+ * calls again.
  */
 int gudgeon_kinematic(void *integrator, long n, const double *t, const double *parameters, double *q, double *v,
     double *a, double *phi_max, double *phi_dot_max, long *steps, long *done)
 {
     KinematicRun *run = integrator;
-    Position *here = &run->motion;
+    Position *position = &run->motion;
     run->p = (const Parameters *)parameters;
     *done = 0;
     for (long i = run->motion_begun; i <= n; i++) {
-        const int status = i > 0 ? advance(run, t[i], here, steps) : set_position_near(run, t[0], q, v, here);
+        const int status = i > 0 ? follow_motion_to(run, t[i], position, steps)
+            : set_position_near(run, t[0], q, v, position);
         if (status)
             return status;
         run->motion_begun = 1;
-        if (here->interpolated && !run->passed++)
+        if (position->interpolated && !run->passed++)
             run->t_passed = t[i];
         if (i > 0) {
-            memcpy(q + i * N_Q, here->q, sizeof here->q);
-            memcpy(v + i * N_Q, here->v, sizeof here->v);
+            memcpy(q + i * N_Q, position->q, sizeof position->q);
+            memcpy(v + i * N_Q, position->v, sizeof position->v);
         }
-        memcpy(a + i * N_Q, here->a, sizeof here->a);
-        *phi_max = max_of(here->phi, *phi_max);
-        *phi_dot_max = max_of(here->phi_dot, *phi_dot_max);
+        memcpy(a + i * N_Q, position->a, sizeof position->a);
+        *phi_max = max_of(position->phi, *phi_max);
+        *phi_dot_max = max_of(position->phi_dot, *phi_dot_max);
         *done = i;
     }
     return 0;

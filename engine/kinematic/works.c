@@ -1,16 +1,16 @@
 /* Works along a kinematic motion: quadrature of the powers over its steps, and impulses where velocities jump. */
 /*
- * Compute the powers, W, and the accelerations of all bodies at a position. Returns a status as complete_position()
- * does.
+ * Compute the powers (N_WORK), W, and the accelerations of all bodies at a position. Return the status of
+ * complete_position().
  */
-static int compute_powers(KinematicRun *run, Position *here, double *power)
+static int compute_powers(KinematicRun *run, Position *position, double *power)
 {
     RhsOutputs rhs;
 #if POSITIONS_IN_TREE
     double a[N_X + 1];
-    const int status = solve_motion(run, here, a, &rhs);
+    const int status = solve_motion(run, position, a, &rhs);
 #else
-    const int status = solve_motion(run, here, here->a, &rhs);
+    const int status = solve_motion(run, position, position->a, &rhs);
 #endif
     for (int k = 0; k < N_WORK; k++)
         power[k] = rhs.power[k];
@@ -18,12 +18,13 @@ static int compute_powers(KinematicRun *run, Position *here, double *power)
 }
 
 /*
- * Add the works between positions one step apart, J: Gauss-Legendre quadrature with three nodes. jumped: whether
- * velocities change by more than the integral of the accelerations, because the rate of a drive jumps. `least`: smaller
- * differences are rounding, rad/s. Returns NOT_FINITE if a power is undefined, with its time in work[0].
+ * Add the works between positions a and b, one step apart, to `work`, J, by Gauss-Legendre quadrature with three nodes.
+ * has_jump: set to whether velocities change by more than the integral of the accelerations, because the rate of a
+ * drive jumps. min_jump: smaller differences are rounding, rad/s. Return 0, a status, or NOT_FINITE if a power is
+ * undefined, with its time in work[0].
  */
 static int integrate_work(
-    KinematicRun *run, const Position *a, const Position *b, double least, double *work, int *jumped)
+    KinematicRun *run, const Position *a, const Position *b, double min_jump, double *work, int *has_jump)
 {
     static const double node[] = {-0.7745966692414834, 0.0, 0.7745966692414834};
     static const double weight[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
@@ -33,8 +34,8 @@ static int integrate_work(
         missed[k] = b->v[k] - a->v[k];
     for (int i = 0; i < 3; i++) {
         Position at;
-        double power[N_WORK], moved;
-        int status = solve_position_at(run, a->t + half * (1.0 + node[i]), a, &at, &moved);
+        double power[N_WORK], correction;
+        int status = solve_position_at(run, a->t + half * (1.0 + node[i]), a, &at, &correction);
         if (!status)
             status = compute_powers(run, &at, power);
         if (status)
@@ -52,48 +53,49 @@ static int integrate_work(
     }
     const double most = angle_norm(missed, run->extent);
     /* or an acceleration is undefined: the slope of a rate is unbounded */
-    *jumped = !(scale <= DBL_MAX) || (most > least && most > 1e-6 * scale);
+    *has_jump = !(scale <= DBL_MAX) || (most > min_jump && most > 1e-6 * scale);
     return 0;
 }
 
-/* Return the kinetic energy of all bodies, J. */
-static double kinetic_energy_at(const Parameters *p, const Position *at)
+/* Return the kinetic energy of all bodies at a position, J. */
+static double compute_kinetic_energy(const Parameters *p, const Position *position)
 {
     double m[N_Q], sum = 0.0;
     mass_matrix(p, m);
     for (int k = 0; k < N_Q; k++)
-        sum += 0.5 * m[k] * at->v[k] * at->v[k];
+        sum += 0.5 * m[k] * position->v[k] * position->v[k];
     return sum;
 }
 
 /*
- * Add the works between two positions, J, halving the interval where velocities jump. At the jump, the gain of kinetic
- * energy is the work of the drives' impulse. halvings: number left for the whole step. Returns a status.
+ * Add the works between positions a and b to `work`, J, halving the interval where velocities jump. Return 0 or a
+ * status. At the jump, the gain of kinetic energy is the work of the drives' impulse. halvings: number left for the
+ * whole step. With NOT_FINITE, work[0] is the time of the undefined power.
  */
 static int integrate_work_over_jumps(
-    KinematicRun *run, const Position *a, const Position *b, double least, int *halvings, double *work)
+    KinematicRun *run, const Position *a, const Position *b, double min_jump, int *halvings, double *work)
 {
-    double part[N_WORK] = {0.0}, moved;
-    int jumped = 0;
-    int status = integrate_work(run, a, b, least, part, &jumped);
+    double part[N_WORK] = {0.0}, correction;
+    int has_jump = 0;
+    int status = integrate_work(run, a, b, min_jump, part, &has_jump);
     const double t = a->t + 0.5 * (b->t - a->t);
-    const int wide = t > a->t && t < b->t;
+    const int is_divisible = t > a->t && t < b->t;
     if (status == NOT_FINITE)
         work[0] = part[0];
-    if ((status > 0 || status == NEWTON_FAILED) && wide && *halvings > 0)
-        jumped = 1; /* a node at a change point */
+    if ((status > 0 || status == NEWTON_FAILED) && is_divisible && *halvings > 0)
+        has_jump = 1; /* a node at a change point */
     else if (status)
         return status;
-    if (jumped && wide && *halvings > 0) {
+    if (has_jump && is_divisible && *halvings > 0) {
         Position middle;
         --*halvings;
-        status = solve_position_near(run, t, a, &middle, &moved);
+        status = solve_position_near(run, t, a, &middle, &correction);
         if (!status)
-            status = integrate_work_over_jumps(run, a, &middle, least, halvings, work);
-        return status ? status : integrate_work_over_jumps(run, &middle, b, least, halvings, work);
+            status = integrate_work_over_jumps(run, a, &middle, min_jump, halvings, work);
+        return status ? status : integrate_work_over_jumps(run, &middle, b, min_jump, halvings, work);
     }
-    if (jumped && !wide)
-        part[0] = kinetic_energy_at(run->p, b) - kinetic_energy_at(run->p, a);
+    if (has_jump && !is_divisible)
+        part[0] = compute_kinetic_energy(run->p, b) - compute_kinetic_energy(run->p, a);
     if (!isfinite(part[0])) {
         work[0] = t;
         return NOT_FINITE;
@@ -103,40 +105,45 @@ static int integrate_work_over_jumps(
     return 0;
 }
 
-/* Add the works of one step, J. Changes of speed by less than 1e-9 of it are not jumps. Returns a status. */
-static int work_of_step(KinematicRun *run, const Position *a, const Position *b, double *work)
+/*
+ * Add the works of one step from position a to b to `work`, J. Changes of speed by less than 1e-9 of it are not jumps.
+ * Return 0 or a status.
+ */
+static int integrate_work_of_step(KinematicRun *run, const Position *a, const Position *b, double *work)
 {
     int halvings = MAX_SPLITS;
-    const double speed = larger_or_nan(angle_norm(a->v, run->extent), angle_norm(b->v, run->extent));
+    const double speed = larger_or_nan(angle_norm(a->v, run->extent),
+        angle_norm(b->v, run->extent));
     return integrate_work_over_jumps(run, a, b, 1e-12 + 1e-9 * speed, &halvings, work);
 }
 
 /*
- * Compute the works at n + 1 samples: (n + 1) x N_WORK, J, of which the first row is given. q, v: the first sample.
- * done: the last complete row. Returns a status.
+ * Compute the works at n + 1 samples, (n + 1) x N_WORK in J, of which the first row is given. The motion is followed
+ * again from the first sample q, v, or from the end of the last call. done: the last complete row. Return 0 or a
+ * status.
  */
 int gudgeon_kinematic_works(void *integrator, long n, const double *t, const double *parameters, const double *q,
     const double *v, double *work, long *done)
 {
     KinematicRun *run = integrator;
-    Position here = run->work;
+    Position position = run->work;
     run->p = (const Parameters *)parameters;
     *done = 0;
-    int status = run->work_begun ? 0 : set_position_near(run, t[0], q, v, &here);
+    int status = run->work_begun ? 0 : set_position_near(run, t[0], q, v, &position);
     for (long i = 0; i < n && !status; i++) {
         StepLength stride = {t[i + 1] - t[i], 0};
         double *sum = work + (i + 1) * N_WORK;
         for (int k = 0; k < N_WORK; k++)
             sum[k] = work[i * N_WORK + k];
-        while (here.t < t[i + 1] && !status) {
-            const Position before = here;
-            status = make_step(run, &stride, t[i + 1], &here);
+        while (position.t < t[i + 1] && !status) {
+            const Position before = position;
+            status = make_step(run, &stride, t[i + 1], &position);
             if (!status)
-                status = work_of_step(run, &before, &here, sum);
+                status = integrate_work_of_step(run, &before, &position, sum);
         }
         *done = i + !status;
     }
-    run->work = here;
+    run->work = position;
     run->work_begun = 1;
     if (status == NOT_FINITE)
         run->work.t = work[(*done + 1) * N_WORK];

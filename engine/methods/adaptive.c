@@ -5,16 +5,18 @@
 enum { N_SIGN_PARTS = 4, MAX_REPEATS = 8 /* repetitions of a step to end just after an event */ };
 
 /*
- * Set the signs of user-defined events that are at zero before and after a step, held by friction or a contact, from
- * their values inside the step.
+ * Set the unset signs of user-defined events from their values at inner points of a step, before the step is committed.
+ * Acts only if a contact or friction event ends the step at `fraction` and a sign is unset (0). Such an event holds the
+ * user-defined one at zero at both ends. The points are at 1/4, 2/4 and 3/4 of `fraction`. It returns early without an
+ * effect if the dense output or a state there cannot be computed.
  */
-static void update_event_signs_inside(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
+static void update_event_signs_within_step(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
 {
     const int is_friction = event >= N_CLEARANCES + N_SWITCHES && event < N_EVENT_FUNCTIONS - N_USER_EVENTS;
-    int unknown = 0;
+    int has_unset_sign = 0;
     for (int i = 0; i < N_USER_EVENTS; i++)
-        unknown |= run->discrete.event_sign[i] == 0;
-    if (!unknown || event < 0 || !(event < N_CLEARANCES || is_friction) || compute_dense_output(run, p, step))
+        has_unset_sign |= run->discrete.event_sign[i] == 0;
+    if (!has_unset_sign || event < 0 || !(event < N_CLEARANCES || is_friction) || compute_dense_output(run, p, step))
         return;
     for (int part = 1; part < N_SIGN_PARTS; part++) {
         double y[N_Y], dy[N_Y];
@@ -27,12 +29,14 @@ static void update_event_signs_inside(Integrator *run, Step *step, double fracti
 }
 
 /*
- * Make the end of a step, or the point at `fraction` of it where an event occurs, the new state at time t_new. Then
- * apply the event (-1: none). Return 0 or the status.
+ * Make the end of an accepted step, or its state at `fraction` < 1 where `event` occurs, the new state of the run at
+ * time t_new. Then update everything that depends on it (peaks, works, counts, error weights, step record, event
+ * signs), apply the event (-1: none), and check the contacts. `fraction` < 1 needs a dense output that exists. Return 0
+ * or the status: that of the state, CHATTERING, that of the event or of the contacts.
  */
 static int commit_step(Integrator *run, Step *step, double fraction, double t_new, int event, const Parameters *p)
 {
-    update_event_signs_inside(run, step, fraction, event, p);
+    update_event_signs_within_step(run, step, fraction, event, p);
     /* the dense output exists if the step ends early: its end may be replaced */
     int status = fraction < 1.0 ? state_at(run, step, fraction, p, step->y, step->dy, &step->rhs) : 0;
     if (status)
@@ -69,36 +73,45 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
     return status ? status : check_contacts(run, p);
 }
 
-/* Return the time difference in s within which a sample is at the end t of a fixed step: both are rounded products. */
-static double end_time_rounding(const Integrator *run, double t)
+/*
+ * Return the rounding error in s of the end time t of a fixed step, a multiple of the step length; 0 without fixed
+ * steps. Samples within that difference of t are at t.
+ */
+static double compute_end_time_rounding(const Integrator *run, double t)
 {
     return run->control.fixed > 0.0 ? rounded(t, run->control.fixed) : 0.0;
 }
 
-/* Store the samples of a step before time t_new from its dense output. Return 0 or the status. */
-static int sample_step(Integrator *run, Step *step, double t_new, const Parameters *p, const Samples *out)
+/*
+ * Store all samples that lie before time t_new, from the dense output of a step, and increment *samples->done for each.
+ * Each interpolated state is projected onto the constraints, closed contacts and sticking friction. The right-hand
+ * sides evaluated here are not counted. Return 0, or the status if the dense output cannot be computed.
+ */
+static int store_samples_of_step(Integrator *run, Step *step, double t_new, const Parameters *p, const Samples *samples)
 {
     const long evaluations = run->counts.evaluations;
-    for (; *out->done < out->n && out->t[*out->done] < t_new; ++*out->done) {
-        const double t = out->t[*out->done];
-        double now[N_Y];
+    for (; *samples->done < samples->n && samples->t[*samples->done] < t_new; ++*samples->done) {
+        const double t = samples->t[*samples->done];
+        double y[N_Y];
         const int status = compute_dense_output(run, p, step);
         if (status)
             return status;
-        interpolate(run, step, (t - step->t) / step->h, now);
-        project_state(run, t, now, p);
-        project_slips(run, t, now, p);
-        store_sample(run, t, now, p, *out->done, out->y, out->latched, out->state);
+        interpolate(run, step, (t - step->t) / step->h, y);
+        project_state(run, t, y, p);
+        project_slips(run, t, y, p);
+        store_sample(run, t, y, p, *samples->done, samples->y, samples->latched, samples->state);
     }
     restore_evaluations(run, evaluations); /* samples are output, not integration */
     return 0;
 }
 
 /*
- * Append rows inside a step, up to `fraction`, to the step record before the step is committed. Rows are the ends of
- * its parts, and points next to its ends if something jumps there (`jumps`: at the last end).
+ * Append inner points of a step, up to `fraction`, to the step record before the step is committed. The points divide
+ * the step into RECORD_PARTS parts, with further points next to the beginning after a jump and next to the end before
+ * one (`has_jump`). Points that coincide with an end are omitted. Return 0, also if no record is kept, or the status of
+ * the dense output. Evaluations are not counted.
  */
-static int record_inside_step(Integrator *run, Step *step, double fraction, int jumps, const Parameters *p)
+static int record_step_interior(Integrator *run, Step *step, double fraction, int has_jump, const Parameters *p)
 {
     const long evaluations = run->counts.evaluations;
     const double located = max_of(64.0 * DBL_EPSILON * fabs(step->t), 4.0 * run->roots.time_resolution) / step->h;
@@ -106,28 +119,28 @@ static int record_inside_step(Integrator *run, Step *step, double fraction, int 
     if (!run->step_record.rows)
         return 0;
     int status = compute_dense_output(run, p, step);
-    for (int k = !run->step_record.jumped; k < RECORD_PARTS + jumps && !status; k++) {
+    for (int k = !run->step_record.jumped; k < RECORD_PARTS + has_jump && !status; k++) {
         const double s = k == 0 ? offset : k == RECORD_PARTS ? fraction - offset : fraction * k / RECORD_PARTS;
         const double t = step->t + s * step->h;
-        double now[N_Y];
+        double y[N_Y];
         if (!(s > 0.0 && s < fraction && t > step->t))
             continue; /* so short a step has no such rows */
-        interpolate(run, step, s, now);
-        project_state(run, t, now, p);
-        record_state(run, t, now, p);
+        interpolate(run, step, s, y);
+        project_state(run, t, y, p);
+        record_state(run, t, y, p);
     }
     restore_evaluations(run, evaluations); /* output, not integration */
     return status;
 }
 
 /*
- * Append the end of a step to the step record. After a change the row follows with the next step, unless this is the
- * last.
+ * Append the run's state at the end of a step to the step record. After a change there (`has_jump`) nothing is
+ * appended, unless this is the last step: the next step appends the row after the jump.
  */
-static void record_step_end_state(Integrator *run, int jumped, int is_last, const Parameters *p)
+static void record_step_end_state(Integrator *run, int has_jump, int is_last, const Parameters *p)
 {
-    mark_jump(run, jumped);
-    if (!jumped || is_last)
+    mark_jump(run, has_jump);
+    if (!has_jump || is_last)
         record_state(run, run->t, run->y, p);
 }
 
@@ -143,7 +156,11 @@ static void record_step_end_state(Integrator *run, int jumped, int is_last, cons
 #endif
 #define KNOT_REACH 0.4 /* of a piece of a curve: it is extrapolated this far beyond its knot (scene/curves.h) */
 
-/* Repeat a step with length h (s), and find its first event. Return 0 or the status. */
+/*
+ * Repeat the present step with length h (s), and find its first event: *event and its *fraction of the step. Contacts
+ * and branches are frozen meanwhile. Sets the run's next step length to h and replaces *step. Return 0 or the status;
+ * then *event and *fraction are unchanged.
+ */
 static int repeat_step(
     Integrator *run, double h, double t_end, const Parameters *p, Step *step, double *fraction, int *event)
 {
@@ -156,46 +173,51 @@ static int repeat_step(
     return status;
 }
 
-/* Return whether the dense output of a step is needed, for an event or a sample, and cannot be computed. */
-static int is_dense_output_missing(Integrator *run, Step *step, const Parameters *p, const Samples *out)
+/*
+ * Return whether an event or a sample needs the dense output of a step, and the dense output cannot be computed. It is
+ * needed if its computation has failed before, or if the next sample lies inside the step. It is computed as a side
+ * effect; its evaluations are not counted.
+ */
+static int is_dense_output_missing(Integrator *run, Step *step, const Parameters *p, const Samples *samples)
 {
     const long evaluations = run->counts.evaluations; /* samples are output, not integration */
-    const int needed = step->dense_ready == FAILED || out->t[*out->done] < step->t + step->h;
+    const int needed = step->dense_ready == FAILED || samples->t[*samples->done] < step->t + step->h;
     const int failed = needed && compute_dense_output(run, p, step);
     restore_evaluations(run, evaluations);
     return failed;
 }
 
 /*
- * Return whether a step extends so far beyond a knot at `fraction` that it may have evaluated another piece of the
- * curve.
+ * Return whether a step extends beyond an event at `fraction` by more than KNOT_REACH times the time since the last
+ * crossing. Such a step may have evaluated another piece of a curve beyond the knot. Always 0 in scenes without curves.
  */
 static int is_far_beyond_knot(const Integrator *run, const Step *step, double fraction)
 {
-    const double piece = step->t + fraction * step->h - run->roots.t_crossed;
-    return KNOTS && (1.0 - fraction) * step->h > KNOT_REACH * piece;
+    const double piece_length = step->t + fraction * step->h - run->roots.t_crossed;
+    return KNOTS && (1.0 - fraction) * step->h > KNOT_REACH * piece_length;
 }
 
 /*
- * Find the first event of an accepted step and its fraction; 1 and -1: none. Three kinds of steps are repeated to end
- * just after the event: steps far beyond a period of mod, whose branch is extended by half a period only; steps far
- * beyond a knot of a curve; steps whose film forces are wrong at the event. A step without dense output is repeated
- * with a shorter length. Return 0 or the status.
+ * Find the first event of an accepted step: *event (-1: none) and its *fraction of the step (1: none). Steps without a
+ * needed dense output are repeated with a quarter of their length. Four kinds of steps are repeated to end just after
+ * the event, because their values beyond it are not valid. These are fixed steps, steps with periods of mod or far
+ * beyond a knot, and steps with wrong film forces at the event. The next step length of the run is restored. Return 0
+ * or the status.
  */
 static int find_event_of_step(
-    Integrator *run, const Samples *out, const Parameters *p, Step *step, double *fraction, int *event)
+    Integrator *run, const Samples *samples, const Parameters *p, Step *step, double *fraction, int *event)
 {
-    const double t_end = out->t[out->n - 1], longer = PERIODS ? PERIOD_END : NEAR_END;
-    const int free = run->control.fixed <= 0.0;
+    const double t_end = samples->t[samples->n - 1], length_factor = PERIODS ? PERIOD_END : NEAR_END;
+    const int is_adaptive = run->control.fixed <= 0.0;
     int status = 0;
     *fraction = first_event(run, step, p, event);
-    for (int k = 0; k < MAX_SHORTENED && !status && free && is_dense_output_missing(run, step, p, out); k++)
+    for (int k = 0; k < MAX_SHORTENED && !status && is_adaptive && is_dense_output_missing(run, step, p, samples); k++)
         status = repeat_step(run, 0.25 * step->h, t_end, p, step, fraction, event);
-    for (int k = 0; k < MAX_REPEATS && !status && *event >= 0 && longer * *fraction < 1.0; k++) {
-        const double next = run->control.h, h = longer * *fraction * step->h;
+    for (int k = 0; k < MAX_REPEATS && !status && *event >= 0 && length_factor * *fraction < 1.0; k++) {
+        const double next = run->control.h, h = length_factor * *fraction * step->h;
         if (h <= run->roots.time_resolution)
             break; /* the event is at the beginning of the step, where constraints do not differ */
-        if (free && !PERIODS && !is_far_beyond_knot(run, step, *fraction)
+        if (is_adaptive && !PERIODS && !is_far_beyond_knot(run, step, *fraction)
             && !has_wrong_film_force_at(run, step, *fraction, p))
             break; /* a fixed step is repeated: its dense output may be of low order */
         status = repeat_step(run, h, t_end, p, step, fraction, event);
@@ -205,26 +227,27 @@ static int find_event_of_step(
 }
 
 /*
- * Prepare a step: begin the run if needed, and store samples that are due. Return whether a step must be computed
- * (run->control.attempt), which `last` leaves to another call. If not, *status is 0, EVENTS_FULL, STOPPED or another
- * status.
+ * Prepare the next step of a run: begin the run if necessary, store samples due at its time, and open an attempt.
+ * Return 1 if a step of length run->control.attempt.h must now be computed; an attempt that is open already is
+ * continued. Return 0 at the last sample, or if `is_last`: the step is left to the next call. Also return 0 if *status
+ * is EVENTS_FULL, STOPPED, STALLED or an error.
  */
-static int needs_step(Integrator *run, int last, const Parameters *p, const Samples *out, int *status)
+static int needs_step(Integrator *run, int is_last, const Parameters *p, const Samples *samples, int *status)
 {
-    const double t_end = out->t[out->n - 1];
-    const int begins = !run->discrete.held && !run->control.attempt.open;
-    *status = begins ? begin_adaptive(run, t_end - run->t, p) : 0;
-    if (!*status && begins)
+    const double t_end = samples->t[samples->n - 1];
+    const int is_new_step = !run->discrete.held && !run->control.attempt.open;
+    *status = is_new_step ? begin_adaptive(run, t_end - run->t, p) : 0;
+    if (!*status && is_new_step)
         record_after_jump(run, p);
-    mark_jump(run, begins);
+    mark_jump(run, is_new_step);
     if (run->control.attempt.open)
-        return !last; /* attempts continue */
+        return !is_last; /* attempts continue */
     if (*status)
         return 0;
-    const double here = run->t + end_time_rounding(run, run->t);
-    for (; *out->done < out->n && out->t[*out->done] <= here; ++*out->done)
-        store_sample(run, run->t, run->y, p, *out->done, out->y, out->latched, out->state);
-    if (*out->done == out->n || last)
+    const double t_due = run->t + compute_end_time_rounding(run, run->t);
+    for (; *samples->done < samples->n && samples->t[*samples->done] <= t_due; ++*samples->done)
+        store_sample(run, run->t, run->y, p, *samples->done, samples->y, samples->latched, samples->state);
+    if (*samples->done == samples->n || is_last)
         return 0;
     if (run->cancellation.stop)
         *status = STOPPED;
@@ -238,37 +261,38 @@ static int needs_step(Integrator *run, int last, const Parameters *p, const Samp
 }
 
 /*
- * Complete an accepted step up to its first event: samples, step record, audit, commit, and changes at its end.
- * Afterwards the run is at the end of a step with its changes, whatever the status.
+ * Complete an accepted step: find its first event, store samples, record and audit it, commit it, and apply the changes
+ * at its end. Called by the time loop after run->step has been computed. Return 0, STOPPED, or another status. After a
+ * failure the run is at the end of this step or, if it was not committed, of the step before.
  */
-static int accept_step(Integrator *run, const Parameters *p, const Samples *out)
+static int accept_step(Integrator *run, const Parameters *p, const Samples *samples)
 {
-    const double t_end = out->t[out->n - 1];
+    const double t_end = samples->t[samples->n - 1];
     Step *step = &run->step;
     int event;
     double fraction;
     choose_method(run, p);
-    int status = find_event_of_step(run, out, p, step, &fraction, &event);
+    int status = find_event_of_step(run, samples, p, step, &fraction, &event);
     if (status || run->cancellation.stop)
         return status ? status : STOPPED; /* results of a cancelled search are invalid */
     if (run->control.fixed > 0.0)
         run->discrete.held = 1;
-    const double t_whole = run->control.fixed > 0.0 ? run->control.attempt.end
+    const double t_uncut = run->control.fixed > 0.0 ? run->control.attempt.end
         : step->h == t_end - run->t ? t_end : run->t + step->h;
-    const double t_new = fraction < 1.0 ? run->t + fraction * step->h : t_whole;
+    const double t_new = fraction < 1.0 ? run->t + fraction * step->h : t_uncut;
     /* samples this close to the event are at it */
-    const double close = event < 0 ? end_time_rounding(run, t_new)
+    const double tolerance = event < 0 ? compute_end_time_rounding(run, t_new)
         : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->roots.time_resolution);
-    status = sample_step(run, step, t_new - close, p, out);
+    status = store_samples_of_step(run, step, t_new - tolerance, p, samples);
     /* the end of a fixed step may lie at the jump of a drive, as that of a run may */
     const int may_jump = DRIVE_IMPULSES && (t_new == t_end || (run->control.fixed > 0.0 && fraction >= 1.0));
-    const int jumps = may_jump || (event >= 0 && event < N_EVENT_FUNCTIONS - N_USER_EVENTS);
+    const int has_jump = may_jump || (event >= 0 && event < N_EVENT_FUNCTIONS - N_USER_EVENTS);
     if (!status)
-        status = record_inside_step(run, step, fraction, jumps, p);
+        status = record_step_interior(run, step, fraction, has_jump, p);
     defer_stop(&run->cancellation);
     if (AUDITS && !status)
         audit_step(run, step, fraction, event, p);
-    const int listed = run->events.n;
+    const int n_listed = run->events.n;
     const double drift = run->residuals.phi_dot_max;
     if (!status)
         status = commit_step(run, step, fraction, t_new, event, p);
@@ -282,30 +306,32 @@ static int accept_step(Integrator *run, const Parameters *p, const Samples *out)
     if (!status && run->t == t_end)
         status = record_events_at_end(run, 0.0, p);
     if (AUDITS && (!status || status == ENDED))
-        status = audit_state(run, listed, p) ? AUDITED : status;
+        status = audit_state(run, n_listed, p) ? AUDITED : status;
     if (!status || status == ENDED)
-        record_step_end_state(run, jumps, status == ENDED || run->t == t_end, p);
+        record_step_end_state(run, has_jump, status == ENDED || run->t == t_end, p);
     allow_stop(&run->cancellation);
     return status;
 }
 
 /*
- * Integrate towards the last of n output times t, with at most `limit` steps; samples are stored from row *done on.
- * Return 0 (at the end, or to be called again), EVENTS_FULL, STOPPED or another status.
+ * Integrate a run towards the last of n output times t (s), with at most `limit` steps. Samples are stored from row
+ * *done on, which counts them: states y, discrete states `latched`, contact codes `state`. Return 0 if all samples are
+ * stored, or after `limit` steps: then *done < n, and the caller calls again. Return EVENTS_FULL if the caller must
+ * fetch the lists first, STOPPED, or another status.
  */
 int gudgeon_adaptive_run(void *integrator, const double *parameters, long n, const double *t, long limit,
     double *y, double *latched, signed char *state, long *done)
 {
     Integrator *run = integrator;
     const Parameters *p = (const Parameters *)parameters;
-    const Samples out = {.n = n, .done = done, .t = t, .y = y, .latched = latched, .state = state};
+    const Samples samples = {.n = n, .done = done, .t = t, .y = y, .latched = latched, .state = state};
     int status;
     relink_choice(run);
     run->step.method = local_method(run->step.method);
-    for (long i = 0; needs_step(run, i == limit, p, &out, &status); i++) {
+    for (long i = 0; needs_step(run, i == limit, p, &samples, &status); i++) {
         status = find_accepted_step(run, p, &run->step);
         if (!status)
-            status = accept_step(run, p, &out);
+            status = accept_step(run, p, &samples);
         if (status)
             break;
     }

@@ -8,27 +8,34 @@
 enum { AUDIT_ENOUGH = 3 }; /* measured steps for a mean error */
 
 /*
- * Return whether the frozen branches and contacts agree with a state. Near a switching point or a separation they may
- * not.
+ * Return whether the frozen branches and contacts of a run agree with the switching functions and penetrations in
+ * `rhs`. Near a switching point or a separation they may not, and a check is then omitted. Rigid joints are not
+ * compared.
  */
 static int is_branch_consistent(const Integrator *run, const RhsOutputs *rhs)
 {
-    int fit = 1;
+    int is_consistent = 1;
     for (int k = 0; k < N_SWITCHES; k++)
-        fit &= !(run->discrete.branch[k] * rhs->g[k] < 0.0);
+        is_consistent &= !(run->discrete.branch[k] * rhs->g[k] < 0.0);
     for (int i = 0; i < N_CLEARANCES; i++)
-        fit &= !gives(i) || !run->discrete.contact[i].closed == !(rhs->clearance[i].delta > 0.0);
-    return fit;
+        is_consistent &= !gives(i) || !run->discrete.contact[i].closed == !(rhs->clearance[i].delta > 0.0);
+    return is_consistent;
 }
 
-/* Return the error weight, 1/tolerance, of coordinate or velocity k, computed independently of both/error_weights.h. */
+/*
+ * Return the error weight, 1/tolerance, of component k (0 ... 2 N_X - 1: coordinates, then velocities) of the state. It
+ * is computed independently of both/error_weights.h, as a check.
+ */
 static double audit_weight(const Integrator *run, int k)
 {
     const int kind = is_angle[k % N_X];
     return run->norm.inverse_scale[k] / (k < N_X ? 1.0 : run->norm.speed[kind] + run->norm.speed_floor[kind]);
 }
 
-/* Return whether the second rate of a drive jumps, or is unbounded, at the beginning or end of a step. */
+/*
+ * Return whether a rate of a drive jumps, or is unbounded, at the beginning or at the end of a step. Checks that fail
+ * in such a step are not recorded. Always 0 without drives.
+ */
 static int is_at_drive_jump(const Integrator *run, const Step *step, const Parameters *p)
 {
     for (int end = 0; end < 2 && N_DRIVES; end++) {
@@ -42,11 +49,12 @@ static int is_at_drive_jump(const Integrator *run, const Step *step, const Param
 }
 
 /*
- * Check the order of the method: the mean error of the measured steps must be small compared with the change of rates
- * over a step, unless stability limits it. A method that has lost its order takes so many short steps that errors
- * within the tolerance add up. error, change: of a step, in tolerances.
+ * Add the error of a measured step to the sums of the audit, and record a failed CHECK_step if the mean error is too
+ * large. The mean error must be small compared with the mean change of rates over a step. Otherwise the method has lost
+ * its order, and errors of many short steps add up. error, change: of this step, in tolerances. Steps limited by
+ * stability are not counted. No check is made before AUDIT_ENOUGH steps and an error sum of AUDIT_SUM tolerances.
  */
-static void check_order(Integrator *run, double error, double change)
+static void check_convergence_order(Integrator *run, double error, double change)
 {
     Audit *audit = &run->audit;
     if (!(run->choice.stability < 1.0 && change < INFINITY))
@@ -66,31 +74,36 @@ static const double gauss_node[] = {0.06943184420297371, 0.33000947820757187, 0.
 static const double gauss_weight[] = {0.17392742256872692, 0.32607257743127307, 0.32607257743127307,
     0.17392742256872692};
 
-/* Return the largest error e of a step as a multiple of `limit` tolerances, and in *most its value in tolerances. */
-static double largest_error(const Integrator *run, const Step *step, const double *e, double limit, double *most)
+/*
+ * Return the largest component of a step's `error` (2 N_X used) as a multiple of `limit` tolerances plus rounding of
+ * the state. error_norm: set to the largest error less rounding, in tolerances.
+ */
+static double find_largest_error(const Integrator *run, const Step *step, const double *error, double limit,
+    double *error_norm)
 {
     double worst = 0.0;
-    *most = 0.0;
+    *error_norm = 0.0;
     for (int k = 0; k < 2 * N_X; k++) {
         const double weight = audit_weight(run, k);
         const double rounding = AUDIT_DIGITS * (fabs(step->y[k]) + fabs(step->h * step->dy[k]));
-        worst = max_of(worst, fabs(e[k]) * weight / (limit + rounding * weight));
-        *most = max_of(*most, (fabs(e[k]) - rounding) * weight);
+        worst = max_of(worst, fabs(error[k]) * weight / (limit + rounding * weight));
+        *error_norm = max_of(*error_norm, (fabs(error[k]) - rounding) * weight);
     }
     return worst;
 }
 
 /*
- * Check the local error of a step by the integral of the defect of its dense output u: e = y(t + h) - y(t) - int f(s,
- * u(s)) ds. It uses neither the method's error estimate nor its coefficients. In stiff components u itself has errors:
- * there e is divided by 1 - h J. This also applies to explicit steps near the stability limit. Steps over which a force
- * has another branch, and steps near a singular position, are omitted.
+ * Check the local error of a step by the integral of the defect of its dense output u, and record it as CHECK_step. The
+ * error is e = y(t + h) - y(t) - int f(s, u(s)) ds by Gauss quadrature with four nodes. It uses neither the method's
+ * error estimate nor its coefficients. For stiff methods, and if e is too large, e is divided by 1 - h J, as u itself
+ * has errors there. Omitted are the first step, and steps with a crossed switching point, near a singular position, or
+ * with other branches.
  */
 static void check_step_error(Integrator *run, Step *step, const Parameters *p)
 {
     const int stiff = step->method->stiff;
     const double h = step->h;
-    double y[N_Y], dy[N_Y], rate[N_Y], mean[N_Y] = {0.0}, error[N_Y], most, change = 0.0; /* mean defect, 1/s */
+    double y[N_Y], dy[N_Y], rate[N_Y], mean[N_Y] = {0.0}, error[N_Y], error_norm, change = 0.0; /* mean defect, 1/s */
     RhsOutputs rhs;
     for (int k = 0; k < N_SWITCHES; k++)
         if (step->passed[k])
@@ -111,14 +124,14 @@ static void check_step_error(Integrator *run, Step *step, const Parameters *p)
     }
     for (int k = 0; k < N_Y; k++)
         error[k] = h * mean[k];
-    double worst = stiff ? INFINITY : largest_error(run, step, error, limit, &most);
+    double worst = stiff ? INFINITY : find_largest_error(run, step, error, limit, &error_norm);
     if (worst > 1.0) {
         if (factor_newton_matrix(run, h, p))
             return;
         newton_solve(&run->newton.linear, h, 0.0, mean, error);
-        worst = largest_error(run, step, error, limit, &most);
+        worst = find_largest_error(run, step, error, limit, &error_norm);
     }
-    check_order(run, most, change);
+    check_convergence_order(run, error_norm, change);
     run->audit.longest = max_of(run->audit.longest, h);
     if (worst <= 1.0 || !is_at_drive_jump(run, step, p))
         record_check(&run->audit, CHECK_step, worst, 1.0, step->t + h, -1);

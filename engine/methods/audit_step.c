@@ -21,15 +21,16 @@
 enum { AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
 
 /*
- * Return the defect of rates `rate` against `dy` at a state y of a step in multiples of its limit, 0 if it is not the
- * largest so far. A stiff component within its tolerance may have any rate: there h times the difference is divided by
- * 1 - h J.
+ * Return the defect of rates `rate` of the dense output against the right-hand side `dy` at state y, in multiples of
+ * its limit. Return 0 if the defect is not larger than the largest one recorded so far. A stiff component within its
+ * tolerance may have any rate: with stiff methods, defects above 1 are divided by 1 - h J. With films only positions
+ * are compared (check_film_forces() checks the velocities).
  */
-static double scaled_defect(Integrator *run, const Step *step, const double *y, const double *rate, const double *dy,
-    const Parameters *p)
+static double compute_scaled_defect(Integrator *run, const Step *step, const double *y, const double *rate,
+    const double *dy, const Parameters *p)
 {
     const double known = max_of(run->audit.record[CHECK_defect].worst, 0.0), h = step->h;
-    const int rows = has_films() ? N_X : 2 * N_X; /* check_forces() checks velocities with films */
+    const int rows = has_films() ? N_X : 2 * N_X; /* check_film_forces() checks velocities with films */
     const ErrorNorm *norm = &run->norm;
     const double lengths = norm->speed[0] + norm->speed_floor[0], angles = norm->speed[1] + norm->speed_floor[1];
     const double fast[2] = {1.0 / lengths, 1.0 / angles};
@@ -41,7 +42,8 @@ static double scaled_defect(Integrator *run, const Step *step, const double *y, 
     for (int pass = 0; pass < 2; pass++) {
         defect = known, least = known * AUDIT_DEFECT;
         for (int k = 0; k < rows; k++) {
-            const double weight = norm->inverse_scale[k] * (k < N_X ? 1.0 : fast[is_angle[k % N_X]]); /* audit_weight */
+            /* audit_weight() */
+            const double weight = norm->inverse_scale[k] * (k < N_X ? 1.0 : fast[is_angle[k % N_X]]);
             const double size = fabs(off[k]) * weight;
             if (size <= least)
                 continue;
@@ -57,12 +59,13 @@ static double scaled_defect(Integrator *run, const Step *step, const double *y, 
 }
 
 /*
- * Check the rates of the dense output against the right-hand side, positions and velocities separately. Steps so short
- * that the tolerance allows any error accumulate errors if the method is inconsistent. The limit is a fraction of the
- * largest rate and of the change of rates, plus errors that add up to few tolerances over the time passed. Iterations
- * leave a fraction of a tolerance in every step. An explicit step limited by stability has errors of some tolerances.
+ * Check the rates `rate` of the dense output at time t against the right-hand side `dy` at state y, and record
+ * CHECK_rate. Positions and velocities are checked separately, with films positions only. The limit is a fraction of
+ * the largest rate and of the change of rates over the step. Rates of errors that add up to few tolerances over the
+ * time passed are allowed in addition. Explicit steps limited by stability are allowed more. A failure at a jump of a
+ * drive is not recorded.
  */
-static void check_rate(Integrator *run, const Step *step, double t, const double *y, const double *rate,
+static void check_dense_output_rates(Integrator *run, const Step *step, double t, const double *y, const double *rate,
     const double *dy, const Parameters *p)
 {
     for (int part = 0; part < (has_films() ? 1 : 2); part++) {
@@ -81,53 +84,68 @@ static void check_rate(Integrator *run, const Step *step, double t, const double
     }
 }
 
-/* Check the rates that a step used at its end against the right-hand side. */
-static void check_end(Integrator *run, Step *step, const Parameters *p)
+/*
+ * Check the rates that a step used at its end against a new evaluation of the right-hand side, and record CHECK_defect.
+ * Nothing is checked with fixed steps or if the evaluation fails.
+ */
+static void check_rates_at_step_end(Integrator *run, Step *step, const Parameters *p)
 {
     double dy[N_Y];
     RhsOutputs rhs;
     if (has_tolerance(run) && !rates(run, step->t + step->h, step->y, p, dy, &rhs))
-        record_check(&run->audit, CHECK_defect, scaled_defect(run, step, step->y, step->dy, dy, p), 1.0,
+        record_check(&run->audit, CHECK_defect, compute_scaled_defect(run, step, step->y, step->dy, dy, p), 1.0,
             step->t + step->h, -1);
 }
 
-/* Check film forces by the accelerations that they cause, except in steps that begin or end at a jump of a drive. */
-static void check_forces(Integrator *run, const Step *step, double t, const RhsOutputs *rhs, const double *rate,
+/*
+ * Check the film forces at time t of a step by the accelerations `dy` that they cause, against those of the dense
+ * output, `rate`. Recorded as CHECK_force of the joint with the largest film force. Omitted without films, without
+ * tolerances, in the first step, and where a failure is at a jump of a drive.
+ */
+static void check_film_forces(Integrator *run, const Step *step, double t, const RhsOutputs *rhs, const double *rate,
     const double *dy, const Parameters *p)
 {
-    int where;
+    int joint;
     if (!has_films())
         return;
-    double most = largest_film_force(rhs, &where);
+    double most = largest_film_force(rhs, &joint);
     for (int i = 0; i < N_CLEARANCES; i++)
         most = has_film(i) ? max_of(most, FILM_FADED * run->contacts.F_peak[i]) : most;
-    const double fraction = relative_film_error(run, step, rate, dy, most, 1.0), limit = film_audit_limit(run, step);
-    if (where >= 0 && has_tolerance(run) && run->counts.steps > 0
+    const double fraction = relative_film_error(run, step, rate, dy, most, 1.0);
+    const double limit = film_audit_limit(run, step);
+    if (joint >= 0 && has_tolerance(run) && run->counts.steps > 0
         && (fraction <= limit || !is_at_drive_jump(run, step, p)))
-        record_check(&run->audit, CHECK_force, fraction, limit, t, where);
+        record_check(&run->audit, CHECK_force, fraction, limit, t, joint);
 }
 
-/* Check a state at fraction theta of a step; drawn: at a random point, with an additional check. */
-static void check_state_inside(Integrator *run, Step *step, double theta, int drawn, const double *y, const double *dy,
-    const RhsOutputs *rhs, const Parameters *p)
+/*
+ * Check one state y inside a step, at fraction theta: rates of the dense output, film forces, joints with play and
+ * branches. dy, rhs: rates and outputs of the right-hand side at y. The check of rates by check_dense_output_rates() is
+ * made only at random points (`is_random`) of scenes without play. Checks of rates need tolerances.
+ */
+static void check_interior_state(Integrator *run, Step *step, double theta, int is_random, const double *y,
+    const double *dy, const RhsOutputs *rhs, const Parameters *p)
 {
     const double t = step->t + theta * step->h;
     double rate[2 * N_X];
     interpolate_rates(step, theta, 2 * N_X, rate);
-    const double defect = has_tolerance(run) ? scaled_defect(run, step, y, rate, dy, p) : 0.0;
+    const double defect = has_tolerance(run) ? compute_scaled_defect(run, step, y, rate, dy, p) : 0.0;
     if (has_tolerance(run) && (defect <= 1.0 || !is_at_drive_jump(run, step, p)))
         record_check(&run->audit, CHECK_defect, defect, 1.0, t, -1);
-    if (drawn && has_tolerance(run) && !N_CLEARANCES) /* rates in contacts change quickly inside a step */
-        check_rate(run, step, t, y, rate, dy, p);
-    check_forces(run, step, t, rhs, rate, dy, p);
+    if (is_random && has_tolerance(run) && !N_CLEARANCES) /* rates in contacts change quickly inside a step */
+        check_dense_output_rates(run, step, t, y, rate, dy, p);
+    check_film_forces(run, step, t, rhs, rate, dy, p);
     check_joints(run, t, rhs, p);
     check_branches(run, step, t, y, rhs, p);
 }
 
 /*
- * Check the state at fraction theta of a step from its dense output; drawn: at a random point, with additional checks.
+ * Compute the state at fraction theta of a step from its dense output, and check it by check_interior_state(). At a
+ * random point (`is_random`) also check all constraint equations and, on consistent branches, the accelerations by the
+ * equations of all bodies. In the first step the state is not projected. Nothing is checked if the state cannot be
+ * evaluated.
  */
-static void check_inside(Integrator *run, Step *step, double theta, int drawn, const Parameters *p)
+static void check_interior_point(Integrator *run, Step *step, double theta, int is_random, const Parameters *p)
 {
     const double t = step->t + theta * step->h;
     double y[N_Y], dy[N_Y], all[N_S];
@@ -140,8 +158,8 @@ static void check_inside(Integrator *run, Step *step, double theta, int drawn, c
             return;
     } else if (state_at(run, step, theta, p, y, dy, &rhs))
         return; /* states after an event may be undefined */
-    check_state_inside(run, step, theta, drawn, y, dy, &rhs, p);
-    if (!drawn)
+    check_interior_state(run, step, theta, is_random, y, dy, &rhs, p);
+    if (!is_random)
         return;
     to_absolute(t, y, &run->discrete, p, all);
     check_constraints(run, t, all, !RATE_JUMPS, p);
@@ -149,8 +167,12 @@ static void check_inside(Integrator *run, Step *step, double theta, int drawn, c
         check_accelerations(run, t, y, dy, all, p);
 }
 
-/* Return whether user-defined event i changes sign in a step at a zero, and not at a pole, by bisection. */
-static int event_has_zero(Integrator *run, Step *step, double fraction, int i, const Parameters *p)
+/*
+ * Return whether user-defined event i changes sign between the beginning of a step and `fraction` at a zero, and not at
+ * a pole. Bisection of the dense output, AUDIT_HALVINGS times. It is a zero if the last value is below 0.01 of both end
+ * values. Return 0 if a state cannot be evaluated.
+ */
+static int has_event_zero(Integrator *run, Step *step, double fraction, int i, const Parameters *p)
 {
     double low = 0.0, high = fraction, y[N_Y], dy[N_Y];
     const double before = run->rhs.event[i], after = step->rhs.event[i];
@@ -169,15 +191,23 @@ static int event_has_zero(Integrator *run, Step *step, double fraction, int i, c
     return nearest < 0.01 * min_of(fabs(before), fabs(after));
 }
 
-/* Return whether user-defined event i exceeds its uncertainty at the beginning of a step, or at its end (`end`). */
-static int is_event_resolved(Integrator *run, const Step *step, int end, int i, const Parameters *p)
+/*
+ * Return whether the value of user-defined event i exceeds its uncertainty at the end of a step (`is_end`), else at its
+ * beginning.
+ */
+static int is_event_resolved(Integrator *run, const Step *step, int is_end, int i, const Parameters *p)
 {
     const int k = N_EVENT_FUNCTIONS - N_USER_EVENTS + i;
-    return end ? is_resolved(run, step->t + step->h, step->y, &step->rhs, k, p)
+    return is_end ? is_resolved(run, step->t + step->h, step->y, &step->rhs, k, p)
         : is_resolved(run, run->t, run->y, &run->rhs, k, p);
 }
 
-/* Record the magnitudes of user-defined events in a step before it is committed, and find zeros that end no step. */
+/*
+ * Store in the audit, for each user-defined event, its scale in this step and whether it crossed zero without ending
+ * the step. Called before the step is committed; audit_state() reports the result after it. `event` is the one that
+ * ends the step at `fraction`, -1: none. A crossing counts only if it has the requested direction and both end values
+ * are resolved.
+ */
 static void check_event_zeros(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
 {
     Audit *audit = &run->audit;
@@ -200,23 +230,25 @@ static void check_event_zeros(Integrator *run, Step *step, double fraction, int 
         audit->crossed[i] = fraction >= 1.0 && audit->ended != i && !begins_beyond && before * after < 0.0
             && fabs(before) > noise && fabs(after) > noise && event_direction[i] * after >= 0.0
             && is_event_resolved(run, step, 0, i, p) && is_event_resolved(run, step, 1, i, p)
-            && event_has_zero(run, step, fraction, i, p);
+            && has_event_zero(run, step, fraction, i, p);
     }
 }
 
 /*
- * Return the mean number of steps between two drawn ones, which limits the cost of their checks. It depends on the
- * method alone, so that a run in a batch is checked at the same steps.
+ * Return the mean number of steps between two steps drawn for checks, which limits their cost to AUDIT_SHARE of the
+ * evaluations. It depends on the method alone, so that a run in a batch is checked at the same steps.
  */
-static double mean_interval(const Method *method)
+static double compute_mean_check_interval(const Method *method)
 {
     const double evaluations = method->stages * (method->lane >= BY_RADAU5 ? AUDIT_ITERATIONS : 1.0);
     return AUDIT_COST / (AUDIT_SHARE * max_of(evaluations, AUDIT_LEAST_STAGES));
 }
 
 /*
- * Check the inside of an accepted step up to `fraction` before it is committed. The state at an event is known, and its
- * check needs no right-hand side.
+ * Check the inside of an accepted step up to `fraction`, where `event` (-1: none) ends it, before it is committed.
+ * Checked are the state at the event, drawn random points, and the local error of drawn or unusually long steps.
+ * AUDIT_FULL checks every step at AUDIT_INSIDE points. Nothing is done if the audit is off. Evaluations and the dense
+ * output do not count as integration, and the discrete state is restored.
  */
 static void audit_step(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
 {
@@ -230,29 +262,30 @@ static void audit_step(Integrator *run, Step *step, double fraction, int event, 
     const int whole = fraction >= 1.0 && event < 0;
     const int is_longer = (h > AUDIT_LONGER * run->control.last_step || (whole && h > AUDIT_LONGEST * audit->longest))
         && !step->method->controls_length
-        && ((double)audit->longer + 1.0) * mean_interval(step->method) < (double)run->counts.steps;
+        && ((double)audit->longer + 1.0) * compute_mean_check_interval(step->method) < (double)run->counts.steps;
     const int by_turn = (int)(audit->turns % 2);
-    const int drawn = all || (due && !by_turn), measured = all || is_longer || (due && by_turn);
-    const int places = all ? AUDIT_INSIDE : drawn || (is_longer && !whole);
+    const int is_random = all || (due && !by_turn), measured = all || is_longer || (due && by_turn);
+    const int n_points = all ? AUDIT_INSIDE : is_random || (is_longer && !whole);
     check_event_zeros(run, step, fraction, event, p);
     const int ends = event >= 0 && fraction < 1.0;
     const int known = ends && run->counts.steps > 0 && run->roots.samples.beyond == fraction;
     if (known)
-        check_state_inside(
+        check_interior_state(
             run, step, fraction, 0, run->roots.samples.y, run->roots.samples.dy, &run->roots.samples.rhs, p);
-    if (places || (ends && !known) || measured) {
+    if (n_points || (ends && !known) || measured) {
         const DiscreteState discrete = run->discrete;
         if (ends && !known)
-            check_inside(run, step, fraction, 0, p);
-        for (int k = 0; k < places; k++)
-            check_inside(run, step, fraction * (k + draw_random(audit)) / places, drawn, p);
-        if (drawn && fraction >= 1.0)
-            check_end(run, step, p);
+            check_interior_point(run, step, fraction, 0, p);
+        for (int k = 0; k < n_points; k++)
+            check_interior_point(run, step, fraction * (k + draw_random(audit)) / n_points, is_random, p);
+        if (is_random && fraction >= 1.0)
+            check_rates_at_step_end(run, step, p);
         if (measured && whole && has_tolerance(run))
             check_step_error(run, step, p);
-        if (drawn || (due && whole)) {
+        if (is_random || (due && whole)) {
             const double first = audit->turns++ ? 1.0 : AUDIT_FIRST;
-            audit->due = run->counts.steps + 1 + (long)(2.0 * draw_random(audit) * first * mean_interval(step->method));
+            audit->due = run->counts.steps + 1 + (long)(2.0 * draw_random(audit) * first
+                * compute_mean_check_interval(step->method));
         }
         audit->longer += is_longer;
         run->discrete = discrete;

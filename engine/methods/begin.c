@@ -1,7 +1,11 @@
 /* The start of a run by any method: tolerances, smallest relevant speeds, branches and signs of watched functions. */
 #if N_USER_EVENTS
-/* Set the signs of user-defined events that begin at zero: those of their values shortly after the start. */
-static int set_initial_branches(Integrator *run, const Parameters *p)
+/*
+ * Set the signs of user-defined events that are zero at the start, from their values shortly after it. The events are
+ * evaluated at 1e-6, 1e-4 and 1e-2 of the first step length ahead, until all have a sign. Return 0, or the status if
+ * already the first evaluation fails.
+ */
+static int set_initial_event_signs(Integrator *run, const Parameters *p)
 {
     for (double fraction = 1e-6; fraction < 0.1; fraction *= 100.0) {
         double value[N_USER_EVENTS];
@@ -20,13 +24,14 @@ static int set_initial_branches(Integrator *run, const Parameters *p)
 }
 #else
 /* Return 0: the scene has no user-defined events. */
-static inline int set_initial_branches(Integrator *run, const Parameters *p) { return (void)run, (void)p, 0; }
+static inline int set_initial_event_signs(Integrator *run, const Parameters *p) { return (void)run, (void)p, 0; }
 #endif
 
 /*
- * Return the rate in 1/s at which the motion crosses the smallest relevant length, by speeds and by accelerations `dy`.
+ * Return the largest rate in 1/s at which the state crosses the smallest relevant length or angle, by speeds and
+ * accelerations. For each coordinate: |v| / least and sqrt(|a| / least), with the accelerations in `dy`.
  */
-static double fastest_rate(const Integrator *run, const double *dy)
+static double find_fastest_rate(const Integrator *run, const double *dy)
 {
     double rate = 0.0;
     for (int k = 0; k < N_X; k++) {
@@ -40,33 +45,38 @@ static double fastest_rate(const Integrator *run, const double *dy)
 #define MAX_RATES_PER_RUN 1e6 /* higher rates may come from a second rate of a drive unbounded at the start */
 
 /*
- * Set the smallest relevant speeds: 0.01 of the speed that crosses the smallest relevant length at the fastest rate of
- * the start. Rates that may be unbounded at the start are evaluated just after it. If the start hardly moves, as before
- * a transient, the length `left` of the run (s) determines them. Speeds for rounding do not depend on `left`.
+ * Set the smallest relevant speeds of lengths and angles, to which tolerances of velocities are relative for slow
+ * motion. They are 0.01 of the speed that crosses the smallest relevant length at the fastest rate of the start. An
+ * extreme rate is evaluated again just after the start, as it may be unbounded there. If the start hardly moves, as
+ * before a transient, the time left in the run (`time_left`, s) determines them. speed_rounded, for rounding, is
+ * independent of it.
  */
-static void set_speed_floors(Integrator *run, double left, const Parameters *p)
+static void set_speed_floors(Integrator *run, double time_left, const Parameters *p)
 {
-    double rate = fastest_rate(run, run->dy), dy[N_Y];
+    double rate = find_fastest_rate(run, run->dy), dy[N_Y];
     RhsOutputs rhs;
-    if (rate * left > MAX_RATES_PER_RUN && !rates(run, run->t + left / MAX_RATES_PER_RUN, run->y, p, dy, &rhs))
-        rate = min_of(rate, fastest_rate(run, dy));
+    if (rate * time_left > MAX_RATES_PER_RUN && !rates(run, run->t + time_left / MAX_RATES_PER_RUN, run->y, p, dy,
+        &rhs))
+        rate = min_of(rate, find_fastest_rate(run, dy));
     for (int kind = 0; kind < 2; kind++) {
-        run->norm.speed_floor[kind] = run->norm.least[kind] * (rate * left > 1e-3 ? 0.01 * rate : 1.0 / left);
-        run->norm.speed_rounded[kind] = run->norm.least[kind] * (rate > MIN_START_RATE ? 0.01 * rate : 1.0 / left);
+        run->norm.speed_floor[kind] = run->norm.least[kind] * (rate * time_left > 1e-3 ? 0.01 * rate : 1.0 / time_left);
+        run->norm.speed_rounded[kind] = run->norm.least[kind] * (rate > MIN_START_RATE ? 0.01 * rate : 1.0 / time_left);
     }
 }
 
-/* Return whether a run begins in a contact of elastic surfaces. */
+/* Return whether a compliant contact of any joint with play is closed at the start of a run. */
 static int is_starting_in_contact(const Integrator *run)
 {
-    int found = 0;
+    int is_closed_contact = 0;
     for (int i = 0; i < N_CLEARANCES; i++)
-        found |= gives(i) && run->discrete.contact[i].closed;
-    return found;
+        is_closed_contact |= gives(i) && run->discrete.contact[i].closed;
+    return is_closed_contact;
 }
 
 /*
- * Set the error weights of inner states: relative to the deflection at which a joint slides, or as lengths if it is 0.
+ * Set the error weights of the inner states of contact laws, such as bristle deflections, once at the start. They are
+ * relative to the deflection at which a joint slides, or treated as lengths if that is 0. Nothing is done in scenes
+ * without inner states.
  */
 static void set_inner_state_weights(Integrator *run, const Parameters *p)
 {
@@ -83,8 +93,9 @@ static void set_inner_state_weights(Integrator *run, const Parameters *p)
 }
 
 /*
- * Begin a run. A start at a jump of a drive's rate, or just before it, is projected onto the constraints after the
- * jump, without work.
+ * Evaluate the first right-hand side, contacts and friction modes of a run at its start. Return 0 or the status. A
+ * start at or just before a jump of a drive's rate is first projected onto the constraints after the jump, without
+ * work. Called once, by begin_adaptive().
  */
 static int begin_run(Integrator *run, const Parameters *p)
 {
@@ -101,18 +112,19 @@ static int begin_run(Integrator *run, const Parameters *p)
 }
 
 /*
- * Begin the integration: first right-hand side, contacts, friction modes and branches, which are frozen from now on,
- * and first step length. left: time to the end of the run, s.
+ * Begin the integration of a run, or resume it: first right-hand side, contacts, friction modes, tolerances, first step
+ * length. Contacts and branches are frozen from here on. A first step length that is known already is kept; in a closed
+ * contact it is fitted as at an onset. time_left: time to the end of the run, s. Return 0 or the status.
  */
-static int begin_adaptive(Integrator *run, double left, const Parameters *p)
+static int begin_adaptive(Integrator *run, double time_left, const Parameters *p)
 {
     int status = run->ready ? 0 : begin_run(run, p);
-    set_time_resolution(run, left);
+    set_time_resolution(run, time_left);
     start_films(run, p);
     freeze_branches(run);
     if (!status)
         status = update_branches(run, -1, p);
-    set_speed_floors(run, left, p);
+    set_speed_floors(run, time_left, p);
     update_speeds(run);
     /* error weights are its inverse */
     run->norm.energy_scale = max_of(initial_energy_scale(run, p), MIN_RESOLVED / run->norm.work_scale);
@@ -123,23 +135,24 @@ static int begin_adaptive(Integrator *run, double left, const Parameters *p)
     if (!status)
         status = start_just_after(run, 0.0, p);
     if (!status && !(run->control.h > 0.0)) {
-        status = estimate_initial_step(run, left, p);
+        status = estimate_initial_step(run, time_left, p);
         if (!status && is_starting_in_contact(run)) { /* the contact force may have just begun: as at an onset */
             set_first_length(run, &run->control.after_contact[count_closed(run)][0], ONSET_ORDER);
-            status = first_step_after_event(run, left, p);
+            status = first_step_after_event(run, time_left, p);
         }
     }
     if (!status)
-        status = set_initial_branches(run, p);
+        status = set_initial_event_signs(run, p);
     if (run->choice.method->controls_length)
-        set_length(run, left);
+        set_length(run, time_left);
     return status;
 }
 
 /*
- * Set the method and tolerances of a run. method: its number (gudgeon_method); automatic: number of the stiff method to
- * which the run may change, 0: none; scale (2 N_X): tolerances, of velocities relative to speed; least: smallest
- * relevant length (m) and angle (rad); fixed: length of fixed steps, s, 0: step-size control.
+ * Set the method, the tolerances and the step-size control of a run, before its first step. method: index from
+ * gudgeon_method(); automatic: index of the stiff method to which the run may change, 0: none. scale (2 N_X):
+ * tolerances, of velocities relative to speed. least: smallest relevant length (m) and angle (rad). fixed: length of
+ * fixed steps, s; 0: step-size control.
  */
 void gudgeon_adaptive_setup(void *integrator, int method, int automatic, const double *scale, const double *least,
     double fixed)

@@ -9,7 +9,7 @@
 static const double dop853_error_nodes[] = {0.0, 0.25, 0.3076923076923077, 0.3333333333333333, 0.6, 0.6512820512820513,
     0.8571428571428571, 1.0};
 
-/* Compute the state y at fraction s of a step from its dense output of order 7. */
+/* Compute the state y (N_Y) at fraction s of a step from its dense output of order 7, which must have been computed. */
 static void dop853_interpolate(const Integrator *run, const Step *step, double s, double *y)
 {
     const double (*d)[N_Y] = (const double (*)[N_Y])step->dense;
@@ -25,5 +25,5 @@ static void dop853_interpolate(const Integrator *run, const Step *step, double s
  */
 static const Method dop853 = {.name = "dop853", .try = dop853_try, .dense = dop853_dense,
     .interpolate = dop853_interpolate, .power = 0.125, .unstable = 4.8, .bounded = 4.0, .stages = DOP853_STAGES,
-    .more = DOP853_MORE, .degree = 7, .turned = 0x2a,
+    .dense_stages = DOP853_MORE, .degree = 7, .turned = 0x2a,
     .error_nodes = dop853_error_nodes, .n_error_nodes = COUNT_OF(dop853_error_nodes)};

@@ -15,32 +15,35 @@
 enum { MAX_FITTED = 3 };
 
 /*
- * Estimate the length of the first step of a run from the sizes of the first two derivatives of the motion. left: time
- * to the end, s. Return 0 or the status.
+ * Estimate the length of the first step of a run from the error norms of the first two derivatives of the motion. The
+ * second derivative is a difference over a trial step by Euler's method. Sets run->control.h; FIRST_SHARE of time_left
+ * (s, to the end) if the rates are constant. Return 0, or the status of the right-hand side.
  */
-static int estimate_initial_step(Integrator *run, double left, const Parameters *p)
+static int estimate_initial_step(Integrator *run, double time_left, const Parameters *p)
 {
-    double y[N_Y], dy[N_Y], one = 0.0, two = 0.0;
+    double y[N_Y], dy[N_Y], first_norm = 0.0, second_norm = 0.0;
     RhsOutputs rhs;
     for (int k = 0; k < 2 * N_X; k++)
-        one = max_of(one, fabs(run->dy[k]) * run->norm.weight[k]);
-    double h = min_of(one > 0.0 ? 1.0 / one : INFINITY, FIRST_SHARE * left);
+        first_norm = max_of(first_norm, fabs(run->dy[k]) * run->norm.weight[k]);
+    double h = min_of(first_norm > 0.0 ? 1.0 / first_norm : INFINITY, FIRST_SHARE * time_left);
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + h * run->dy[k];
     const int status = rates(run, run->t + h, y, p, dy, &rhs);
     if (status)
         return status;
     for (int k = 0; k < 2 * N_X; k++)
-        two = max_of(two, fabs(dy[k] - run->dy[k]) / h * run->norm.weight[k]);
+        second_norm = max_of(second_norm, fabs(dy[k] - run->dy[k]) / h * run->norm.weight[k]);
     /* rates change completely in the time one / two; passed: tolerances passed in it; two may be subnormal */
-    const double time = min_of(one / two, LONG_TIME), passed = max_of(1.0, time * one);
-    run->control.h = two > 0.0 ? max_of(time * pow(passed, -run->choice.method->power), h) : FIRST_SHARE * left;
+    const double time = min_of(first_norm / second_norm, LONG_TIME), passed = max_of(1.0, time * first_norm);
+    run->control.h = second_norm > 0.0 ? max_of(time * pow(passed, -run->choice.method->power), h) : FIRST_SHARE
+        * time_left;
     return 0;
 }
 
 /*
- * Compute the change of accelerations over a time h (s) of straight motion, and their size, in velocity tolerances per
- * s.
+ * Compute the largest change of the accelerations over a time h (s) of straight motion, and their largest size, in
+ * tolerances/s. Tolerances are those of the velocities. Return 0, or the status of the right-hand side; then both are
+ * 0.
  */
 static int compute_acceleration_change(Integrator *run, double h, const Parameters *p, double *change, double *size)
 {
@@ -58,52 +61,56 @@ static int compute_acceleration_change(Integrator *run, double h, const Paramete
 }
 
 /*
- * Return the factor by which a step of length h must change to fit. fits: allowed error; change, size: of the
- * accelerations. At an onset the error grows as h^(first_step_order - 1), as forces begin as delta^n. Elsewhere
- * accelerations change in proportion to h, and changes below one tolerance do not count.
+ * Return the factor by which a step of length h (s) must change so that straight motion over it has the allowed error.
+ * change, size: of the accelerations, by compute_acceleration_change(). At an onset the error grows as
+ * h^(first_step_order - 1), as forces begin as delta^n. Elsewhere allowed_error is the relative change of the
+ * accelerations, and changes below one tolerance do not count. Infinity without a change.
  */
-static double length_ratio(const Integrator *run, double h, double change, double size, double fits)
+static double compute_length_factor(const Integrator *run, double h, double change, double size, double allowed_error)
 {
     const double missed = change * h;
     if (!(missed > 0.0))
         return INFINITY;
     return run->control.first_step_order > 0.0
-        ? approximate_power(fits / missed, 1.0 / (run->control.first_step_order - 1.0))
-        : max_of(fits * size / change, sqrt(1.0 / missed));
+        ? approximate_power(allowed_error / missed, 1.0 / (run->control.first_step_order - 1.0))
+        : max_of(allowed_error * size / change, sqrt(1.0 / missed));
 }
 
 /*
- * Fit the length of the first step after an event by the change of accelerations along straight motion. At an onset the
- * allowed error is that of the last onset. After other events the length is known once an event of that kind has
- * occurred. left: time to the end of the run, s.
+ * Fit the length run->control.h of the first step after an event to the change of accelerations along straight motion.
+ * At an onset the allowed error is that of the last onset. After other events the length is fitted only once; later
+ * steps reuse the length stored for that kind of event. Does nothing for fixed steps, methods that choose their length,
+ * and without an event. time_left: to the end of the run, s. Return 0, or STOPPED; other failures shorten the step.
  */
-static int first_step_after_event(Integrator *run, double left, const Parameters *p)
+static int first_step_after_event(Integrator *run, double time_left, const Parameters *p)
 {
-    const int stiff = !!run->choice.method->stiff, begins = run->control.first_step_order > 0.0;
+    const int stiff = !!run->choice.method->stiff, is_onset = run->control.first_step_order > 0.0;
     const int is_after_switch = begins_at_switch(run);
-    const double known = run->control.onset[stiff], at_first = stiff ? ONSET_ERROR_STIFF : ONSET_ERROR;
-    const double onset = known > 0.0 ? known : at_first;
-    const double fits = begins ? onset
+    const double last_onset_error = run->control.onset[stiff], default_onset_error = stiff ? ONSET_ERROR_STIFF
+        : ONSET_ERROR;
+    const double onset_error = last_onset_error > 0.0 ? last_onset_error : default_onset_error;
+    const double allowed_error = is_onset ? onset_error
         : !is_after_switch ? CHANGE_AFTER_EVENT : stiff ? CHANGE_AT_SWITCH_STIFF : CHANGE_AT_SWITCH;
     if (!run->control.first || run->control.fixed > 0.0 || run->choice.method->controls_length
-        || (*run->control.first > 0.0 && !begins))
+        || (*run->control.first > 0.0 && !is_onset))
         return 0;
     run->control.onset_error_per_s = 0.0;
-    for (int i = 1; i <= MAX_FITTED && left > 0.0; i++) {
-        const double h = min_of(run->control.h, left);
-        double change, size, by = FIT_FAILED;
+    for (int i = 1; i <= MAX_FITTED && time_left > 0.0; i++) {
+        const double h = min_of(run->control.h, time_left);
+        double change, size, factor = FIT_FAILED;
         const int status = compute_acceleration_change(run, h, p, &change, &size);
         if (status == STOPPED)
             return status;
         if (!status && isfinite(change + size)) {
-            by = length_ratio(run, h, change, size, fits);
+            factor = compute_length_factor(run, h, change, size, allowed_error);
             run->control.onset_error_per_s = change * approximate_power(h, 2.0 - run->control.first_step_order);
         }
-        if (h < run->control.h && by >= 1.0)
+        if (h < run->control.h && factor >= 1.0)
             break; /* the step reaches the end of the run */
-        by = min_of(begins || is_after_switch ? 1.0 : i < MAX_FITTED ? MAX_FIT : MAX_LAST_FIT, max_of(MIN_FIT, by));
-        run->control.h = by * h;
-        if (by > MIN_CLOSE && by < MAX_CLOSE)
+        factor = min_of(is_onset || is_after_switch ? 1.0 : i < MAX_FITTED ? MAX_FIT : MAX_LAST_FIT,
+            max_of(MIN_FIT, factor));
+        run->control.h = factor * h;
+        if (factor > MIN_CLOSE && factor < MAX_CLOSE)
             break;
     }
     return 0;

@@ -12,18 +12,18 @@ struct Method {
     int (*dense)(Integrator *, const Parameters *, Step *);            /* computes the dense output of a step */
     void (*interpolate)(const Integrator *, const Step *, double fraction, double *y);
     const struct Tableau *tableau; /* coefficients of an explicit method, methods/runge_kutta.c */
-    int drifts;               /* whether Baumgarte's terms stabilise the constraints, instead of projection */
+    int drifts;               /* whether Baumgarte's terms replace the projection onto the constraints */
     int lane;                 /* its code in lanes (BY_..., run/run.h) */
     double power;             /* exponent of the step-size control: 1 / (order of the error estimate + 1) */
     int stiff;                /* whether it uses the Jacobian */
     double unstable, bounded; /* h rho at which steps are rejected; at which stability limits the steps */
-    int stages, more;         /* stages of a step, additional stages of its dense output (batch/) */
+    int stages, dense_stages; /* stages of a step, additional stages of its dense output (batch/) */
     int degree, turned;       /* of y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))); bit k: d_k comes with 1 - s, not s */
     const double *error_nodes;      /* fractions of a step, ascending, of its error estimate */
     int n_error_nodes;
-    double between;           /* of a stiff method: fraction with the largest error of its dense output */
-    double begins[8], begin_weight_of_end; /* weights of stages and of y - y0 for h times the rates at the begin */
-    double ends[4], end_weight_of_end; /* the same at the end, for methods with iterated stages */
+    double max_error_fraction; /* of a stiff method: fraction with the largest error of its dense output */
+    double begin_weights[8], begin_weight_of_end; /* for h times the rates at the begin: of stages, y - y0 */
+    double end_weights[4], end_weight_of_end; /* the same at the end, for methods with iterated stages */
     int n_begin_weights, n_end_weights;
     int controls_length;           /* whether the method itself chooses the length of a step */
 };
@@ -51,10 +51,12 @@ static const Method *const METHODS[] = {
 };
 #define EXPLICIT (&dop853)  /* the explicit method of the automatic choice; run->choice.implicit is the stiff one */
 
-/* Return whether the method of a run lets the constraints drift, since Baumgarte's terms stabilise them. */
+/*
+ * Return whether the method of a run stabilises the constraints by Baumgarte's terms instead of projecting its steps.
+ */
 static int drifts(const Integrator *run) { return run->choice.method->drifts; }
 
-/* Return the number of the method with this name for gudgeon_adaptive_setup(), -1: unknown. */
+/* Return the index of the method with this name for gudgeon_adaptive_setup(), -1 if the library has no such method. */
 int gudgeon_method(const char *name)
 {
     for (int i = 0; i < COUNT_OF(METHODS); i++)
@@ -63,33 +65,37 @@ int gudgeon_method(const char *name)
     return -1;
 }
 
-/* Copy `rows` states of a step computed in lanes, with a stride of `lanes` numbers, into `to`. */
-static void copy_from_lane(const double *lane, int lanes, int rows, double (*to)[N_Y])
+/* Copy n states of one lane, stored with a stride of `lanes` numbers, into `target`. */
+static void copy_states_from_lane(const double *lane, int lanes, int n, double (*target)[N_Y])
 {
-    for (int k = 0; k < rows; k++)
+    for (int k = 0; k < n; k++)
         for (int i = 0; i < N_Y; i++)
-            to[k][i] = lane[(k * N_Y + i) * lanes];
+            target[k][i] = lane[(k * N_Y + i) * lanes];
 }
 
 static void discard_samples(Integrator *run); /* watch/roots.c */
 
-/* Compute the dense output of a step once, and return 0 or the status: an additional stage may not be computable. */
+/*
+ * Compute the dense output of a step unless it exists. Return 0, or the status if an additional stage is not
+ * computable. A failure is stored and returned again. If the step was computed in lanes, its dense output or its stages
+ * are copied from there. Stored samples of the dense output are discarded.
+ */
 static int compute_dense_output(Integrator *run, const Parameters *p, Step *step)
 {
-    const int there = step->dense_ready == IN_LANE;
+    const int is_in_lane = step->dense_ready == IN_LANE;
     if (step->dense_ready == IN_RUN)
         return 0;
     if (step->dense_ready == FAILED)
         return step->dense_status;
     step->dense_ready = IN_RUN;
     discard_samples(run);
-    if (there) {
-        copy_from_lane(step->dense_lane, step->lanes, N_DENSE, step->dense);
-        count_evaluations(run, step->method->more);
+    if (is_in_lane) {
+        copy_states_from_lane(step->dense_lane, step->lanes, N_DENSE, step->dense);
+        count_evaluations(run, step->method->dense_stages);
         return 0;
     }
     if (step->stages_lane)
-        copy_from_lane(step->stages_lane, step->lanes, step->method->stages, step->k);
+        copy_states_from_lane(step->stages_lane, step->lanes, step->method->stages, step->k);
     step->stages_lane = NULL;
     step->dense_status = step->method->dense(run, p, step);
     if (step->dense_status)

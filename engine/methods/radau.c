@@ -1,48 +1,59 @@
 /* Radau IIA of orders 5 and 9: dense output and method tables, and the functions of one run that both/radau.h needs. */
 
 /*
- * Factorize Newton's matrix at the complex number eta + i eta_i, for the linearization of the run. Return 0 or
- * NOT_FINITE.
+ * Factorize Newton's matrix at the complex number eta + i eta_i (s), from the linearization of the run, into `matrix`.
+ * Return 0, or NOT_FINITE if it is singular.
  */
-static int factor_complex_matrix(Integrator *run, double eta, double eta_i, ComplexLinear *pair)
+static int factor_complex_matrix(Integrator *run, double eta, double eta_i, ComplexLinear *matrix)
 {
-    pair->p = run->newton.linear.p;
-    pair->value = run->newton.linear.value;
-    return newton_factor_complex(eta, eta_i, pair) ? NOT_FINITE : 0;
+    matrix->p = run->newton.linear.p;
+    matrix->value = run->newton.linear.value;
+    return newton_factor_complex(eta, eta_i, matrix) ? NOT_FINITE : 0;
 }
 
-/* Update the iteration history before a step. */
+/* Update the iteration history of a run before a step, from which the first guess of the stages follows. */
 static void load_iteration_history(Integrator *run) { update_iteration_history(run); }
 
-/* Do nothing: for one run, rates() counts its evaluations. */
-static void count_stage_rates(Integrator *run, int active, int n) { (void)run, (void)active, (void)n; }
+/*
+ * Do nothing: for one run, rates() counts its own evaluations. In lanes, n evaluations of the active runs are counted
+ * here.
+ */
+static void count_stage_rates(Integrator *run, int is_active, int n) { (void)run, (void)is_active, (void)n; }
 
-/* Begin an iteration of the stages: discard what the last iteration recorded of the stages. */
-static void begin_iteration(Integrator *run, Step *step, int active, int n)
+/*
+ * Begin an iteration of the stages: discard what the last iteration recorded of them in `step`. The other arguments are
+ * used in lanes only.
+ */
+static void begin_iteration(Integrator *run, Step *step, int is_active, int n)
 {
-    (void)run, (void)active, (void)n;
+    (void)run, (void)is_active, (void)n;
     discard_stages(step);
 }
 
-/* Record the state and the outputs of the right-hand side at a stage of an iteration. */
-static void record_pass(Integrator *run, Step *step, int active, const double *y, const RhsOutputs *rhs, double node)
+/*
+ * Record the state y and the right-hand side's outputs `rhs` at one stage of an iteration, at fraction `node` of the
+ * step.
+ */
+static void record_pass(Integrator *run, Step *step, int is_active, const double *y, const RhsOutputs *rhs,
+    double node)
 {
-    (void)active;
+    (void)is_active;
     record_stage_state(step, y);
     record_stage(run, step, rhs, node);
 }
 
-/* Return the status of a step whose iteration of stages failed (`lost`): the step is rejected. */
-static int mark_missed_stages(Integrator *run, int lost) { return (void)run, lost ? NOT_FOUND : 0; }
+/* Return NOT_FOUND, which rejects the step, if the iteration of its stages failed (`has_failed`); else 0. */
+static int mark_missed_stages(Integrator *run, int has_failed) { return (void)run, has_failed ? NOT_FOUND : 0; }
 
 #include "../both/radau.h"
 
 /*
- * Compute the dense output: the collocation polynomial. Without films, positions are Hermite's quintic through both
- * ends with their accelerations; with three stages velocities are its derivative, of a higher order. With films,
- * accelerations have the errors of velocities times the damping of the film, which the quintic would multiply by h rho.
+ * Compute the dense output of a Radau step: the collocation polynomial through its stages. Return 0. Without films,
+ * positions are Hermite's quintic through both ends with their accelerations. With three stages velocities are its
+ * derivative, of a higher order, unless rounding of positions exceeds it. With films, the quintic would multiply errors
+ * of accelerations by h rho.
  */
-static int radau_dense(Integrator *run, Step *step, const RadauTable *table, int stages)
+static int radau_compute_dense_output(Integrator *run, Step *step, const RadauTable *table, int stages)
 {
     const double h = step->h;
     double (*const d)[N_Y] = step->dense, change[N_Y];
@@ -73,19 +84,22 @@ static int radau_dense(Integrator *run, Step *step, const RadauTable *table, int
     return 0;
 }
 
-/* Compute the dense output of a step of radau5. */
-static int radau5_dense(Integrator *run, const Parameters *p, Step *step)
+/* Compute the dense output of a step of radau5, with three stages. Return 0. */
+static int radau5_compute_dense_output(Integrator *run, const Parameters *p, Step *step)
 {
-    return (void)p, radau_dense(run, step, &RADAU5, 3);
+    return (void)p, radau_compute_dense_output(run, step, &RADAU5, 3);
 }
 
-/* Compute the dense output of a step of radau9. */
-static int radau9_dense(Integrator *run, const Parameters *p, Step *step)
+/* Compute the dense output of a step of radau9, with five stages. Return 0. */
+static int radau9_compute_dense_output(Integrator *run, const Parameters *p, Step *step)
 {
-    return (void)p, radau_dense(run, step, &RADAU9, 5);
+    return (void)p, radau_compute_dense_output(run, step, &RADAU9, 5);
 }
 
-/* Compute the state y at fraction s of a step from its dense output. */
+/*
+ * Compute the state y (N_Y) at fraction s of a Radau step from its dense output of degree 5, which must have been
+ * computed.
+ */
 static void radau_interpolate(const Integrator *run, const Step *step, double s, double *y)
 {
     const double (*d)[N_Y] = (const double (*)[N_Y])step->dense, r = 1.0 - s;
@@ -101,19 +115,19 @@ static const double radau9_error_nodes[] = {0.0, 0.057104196114517682, 0.2768430
     0.86024013565621945, 1.0};
 
 /* The method Radau IIA of order 5 with three stages. */
-static const Method radau5 = {.name = "radau5", .try = radau5_try, .dense = radau5_dense,
+static const Method radau5 = {.name = "radau5", .try = radau5_try_step, .dense = radau5_compute_dense_output,
     .interpolate = radau_interpolate, .power = 1.0 / 4.0, .stiff = 1, .lane = BY_RADAU5, .unstable = INFINITY,
     .bounded = INFINITY, .stages = 3, .degree = 5, .turned = 0xA, .error_nodes = radau5_error_nodes,
-    .n_error_nodes = COUNT_OF(radau5_error_nodes), .between = 0.85,
-    .begins = {10.048809399827416, -1.3821427331607489}, .n_begin_weights = 2, .begin_weight_of_end = 1.0 / 3.0,
-    .ends = {5.5319726474218083, -7.5319726474218083}, .n_end_weights = 2, .end_weight_of_end = 5.0};
+    .n_error_nodes = COUNT_OF(radau5_error_nodes), .max_error_fraction = 0.85,
+    .begin_weights = {10.048809399827416, -1.3821427331607489}, .n_begin_weights = 2, .begin_weight_of_end = 1.0 / 3.0,
+    .end_weights = {5.5319726474218083, -7.5319726474218083}, .n_end_weights = 2, .end_weight_of_end = 5.0};
 
 /* The method Radau IIA of order 9 with five stages. */
-static const Method radau9 = {.name = "radau9", .try = radau9_try, .dense = radau9_dense,
+static const Method radau9 = {.name = "radau9", .try = radau9_try_step, .dense = radau9_compute_dense_output,
     .interpolate = radau_interpolate, .power = 1.0 / 6.0, .stiff = 1, .lane = BY_RADAU9, .unstable = INFINITY,
     .bounded = INFINITY, .stages = 5, .degree = 5, .turned = 0xA, .error_nodes = radau9_error_nodes,
-    .n_error_nodes = COUNT_OF(radau9_error_nodes), .between = 0.74,
-    .begins = {27.780933944064637, -3.6414784980492132, 1.2525477211691187, -0.59200316718454287}, .n_begin_weights = 4,
-    .begin_weight_of_end = 0.2,
-    .ends = {8.4124242235942887, -6.970256115656661, 8.7771142041504732, -18.219282311088101},
+    .n_error_nodes = COUNT_OF(radau9_error_nodes), .max_error_fraction = 0.74,
+    .begin_weights = {27.780933944064637, -3.6414784980492132, 1.2525477211691187, -0.59200316718454287},
+    .n_begin_weights = 4, .begin_weight_of_end = 0.2,
+    .end_weights = {8.4124242235942887, -6.970256115656661, 8.7771142041504732, -18.219282311088101},
     .n_end_weights = 4, .end_weight_of_end = 13.0};

@@ -4,17 +4,18 @@
  */
 
 /*
- * Linearize the equations at the run's state once, and factorize Newton's matrix for hg = h gamma (s). Return 0 or the
- * status. A linearization counts once in a step.
+ * Factorize Newton's matrix 1 - hg J at the run's state, hg = h gamma in s, after linearizing the equations there once.
+ * Return 0, the status of the linearization, or NOT_FINITE if the matrix is singular. The linearization is stored until
+ * discard_linearization(), and counts once, also if a lane computed it before.
  */
 static int factor_newton_matrix(Integrator *run, double hg, const Parameters *p)
 {
     if (run->newton.ready != IN_RUN) {
         copy_inner_states(&run->discrete, run->y);
-        const int lost = linearize_state(run->t, run->y, &run->discrete, p, run->dy + N_X, &run->rhs,
+        const int status = linearize_state(run->t, run->y, &run->discrete, p, run->dy + N_X, &run->rhs,
             &run->newton.linear);
-        if (lost)
-            return lost;
+        if (status)
+            return status;
         if (!run->newton.ready)
             count_jacobian(run);
         run->newton.ready = IN_RUN;
@@ -22,7 +23,7 @@ static int factor_newton_matrix(Integrator *run, double hg, const Parameters *p)
     return newton_factor(hg, &run->newton.linear) ? NOT_FINITE : 0;
 }
 
-/* Discard the linearization when the state changes. */
+/* Discard the stored linearization of a run, because its state changes. */
 static void discard_linearization(Integrator *run) { run->newton.ready = 0; }
 
 #include "../both/rodas5p.h"
@@ -35,8 +36,8 @@ static const double rodas5p_error_nodes[] = {0.0, 0.4095798393397535, 0.42884036
 #define RODAS5P_BEGINS 25.948786856663858, -2.5579724845846235, 10.433815404888879, -2.3679251022685204, \
     0.524948541321073, 1.1241088310450404, 0.4272876194431874, -0.17202221070155493
 
-/* Compute the dense output of order 4 of a step from its stages. */
-static int rodas5p_dense(Integrator *run, const Parameters *p, Step *step)
+/* Compute the dense output of order 4 of a step of rodas5p from its eight stages. Return 0. */
+static int rodas5p_compute_dense_output(Integrator *run, const Parameters *p, Step *step)
 {
     (void)p;
     static const double b[] = {RODAS5P_BEGINS};
@@ -55,7 +56,7 @@ static int rodas5p_dense(Integrator *run, const Parameters *p, Step *step)
     return 0;
 }
 
-/* Compute the state y at fraction s of a step from its dense output. */
+/* Compute the state y (N_Y) at fraction s of a step of rodas5p from its dense output, which must have been computed. */
 static void rodas5p_interpolate(const Integrator *run, const Step *step, double s, double *y)
 {
     const double (*d)[N_Y] = (const double (*)[N_Y])step->dense;
@@ -66,7 +67,7 @@ static void rodas5p_interpolate(const Integrator *run, const Step *step, double 
 /* The Rosenbrock method rodas5p. */
 static const Method rodas5p = {.name = "rodas5p",
     .try = rodas5p_try,
-    .dense = rodas5p_dense,
+    .dense = rodas5p_compute_dense_output,
     .interpolate = rodas5p_interpolate,
     .power = 0.2,
     .stiff = 1,
@@ -78,7 +79,7 @@ static const Method rodas5p = {.name = "rodas5p",
     .turned = 0x2,
     .error_nodes = rodas5p_error_nodes,
     .n_error_nodes = COUNT_OF(rodas5p_error_nodes),
-    .between = 0.5,
-    .begins = {RODAS5P_BEGINS},
+    .max_error_fraction = 0.5,
+    .begin_weights = {RODAS5P_BEGINS},
     .n_begin_weights = RODAS5P_STAGES,
     .begin_weight_of_end = 1.0};

@@ -4,21 +4,24 @@
  */
 #include "../both/runge_kutta.h"
 
-/* Compute a step of length h by the tableau of the method, with its error. */
-static int tableau_try(Integrator *run, double h, const Parameters *p, Step *step)
+/* Try a step of length h (s) by the tableau of the step's method: stages, error and end. Return 0 or the status. */
+static int tableau_try_step(Integrator *run, double h, const Parameters *p, Step *step)
 {
     return runge_kutta_try(run, step->method->tableau, h, p, step);
 }
 
-/* Compute the dense output of a step by the tableau of the method. */
-static int tableau_dense(Integrator *run, const Parameters *p, Step *step)
+/* Compute the dense output of a step by the tableau of its method. Return 0. */
+static int tableau_compute_dense_output(Integrator *run, const Parameters *p, Step *step)
 {
     (void)p;
     runge_kutta_dense(run, step->method->tableau, step);
     return 0;
 }
 
-/* Compute the state y at fraction s of a step: y0 + s (d0 + u (d1 + s (d2 + u d3))), u = 1 - s. */
+/*
+ * Compute the state y (N_Y) at fraction s of a step from its dense output of degree 4, which must have been computed.
+ * With u = 1 - s it is y0 + s (d0 + u (d1 + s (d2 + u d3))).
+ */
 static void tableau_interpolate(const Integrator *run, const Step *step, double s, double *y)
 {
     const double u = 1.0 - s;
@@ -28,8 +31,8 @@ static void tableau_interpolate(const Integrator *run, const Step *step, double 
 }
 
 /* Fields of a Method that is defined by a tableau. */
-#define BY_TABLEAU .try = tableau_try, .dense = tableau_dense, .interpolate = tableau_interpolate, .degree = 4, \
-    .turned = 0xa
+#define BY_TABLEAU .try = tableau_try_step, .dense = tableau_compute_dense_output, \
+    .interpolate = tableau_interpolate, .degree = 4, .turned = 0xa
 
 /* Fractions of a step, ascending, at which rk4 evaluates the equations. */
 static const double rk4_error_nodes[] = {0.0, 0.5, 1.0};

@@ -7,7 +7,7 @@
 #if CONTINUES
 enum { MAX_SKIPPED_LOG2 = 6 }; /* log2 of the largest number of steps without detection after failed attempts */
 
-/* Set the policy near singular positions and its thresholds in the discrete state. */
+/* Set the policy near singular positions (SINGULAR_...) in the discrete state, with its limits of small pivots. */
 static void set_singular_policy(Integrator *run, int policy)
 {
     run->discrete.singular_policy = policy;
@@ -15,15 +15,20 @@ static void set_singular_policy(Integrator *run, int policy)
     run->discrete.least_size = policy == SINGULAR_IGNORE ? VANISHING : NEARBY;
 }
 
-/* Set the policy of a new step before its first attempt: detection, unless steps without detection are due. */
+/*
+ * Set the policy of a new step before its first attempt: SINGULAR_DETECT, or SINGULAR_IGNORE while detection is
+ * suspended.
+ */
 static void begin_singular_policy(Integrator *run)
 {
     set_singular_policy(run, run->near.n_undetected ? SINGULAR_IGNORE : SINGULAR_DETECT);
 }
 
 /*
- * Return whether a step with this status must be repeated with another policy, which is set; otherwise prepare the
- * next.
+ * Return whether a step with this status must be repeated with another policy near singular positions, which is then
+ * set. NEAR repeats it: SINGULAR_PROJECT after SINGULAR_DETECT, else SINGULAR_IGNORE. Any other status ends the
+ * attempts: the policy of states outside steps is set. After a step that could only be made with SINGULAR_IGNORE,
+ * detection is suspended for 1, 3, 7, ... steps.
  */
 static int next_singular_policy(Integrator *run, int status)
 {
@@ -45,7 +50,7 @@ static int next_singular_policy(Integrator *run, int status)
     return 0;
 }
 
-/* Reset the policy after a step computed in lanes that met no singular position. */
+/* Set the policy near singular positions as after a step that met none; for steps that were computed in lanes. */
 static inline void reset_singular_policy(Integrator *run)
 {
     begin_singular_policy(run);

@@ -6,8 +6,9 @@
 enum { MAX_STRAYED = 4 }; /* attempts of a step rejected for their distance from the constraints */
 
 /*
- * Return event function k at a state: non-negative while the discrete state stays as it is, NaN if it is inactive.
- * Order: contacts, switching functions, friction elements, user-defined events.
+ * Return event function k at a state: non-negative while the discrete state stays valid, NaN if it is inactive. The
+ * zero of the function is the event. Order of k: contacts, switching functions, friction elements, user-defined events.
+ * rhs: outputs of the right-hand side at the state.
  */
 static double event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int k)
 {
@@ -22,7 +23,7 @@ static double event_function(const DiscreteState *discrete, const RhsOutputs *rh
     return discrete->event_sign[k - N_FRICTIONS] * rhs->event[k - N_FRICTIONS];
 }
 
-/* Evaluate all event functions at a state into out (N_EVENT_FUNCTIONS). */
+/* Compute all event functions of a state into out (N_EVENT_FUNCTIONS), in the order of event_function(). */
 static void evaluate_event_functions(const DiscreteState *discrete, const RhsOutputs *rhs, double *out)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
@@ -45,7 +46,10 @@ typedef struct {
     int stride;
 } StageValues;
 
-/* Return the values number k, an event function or SEEN_..., of all stages of a step. */
+/*
+ * Return the location of the values number k (an event function, or STAGE_FORCES and later) at all stages of a step.
+ * They are in the lane if the step was computed in lanes. stage_value() reads them.
+ */
 static StageValues stage_values(const Step *step, int k)
 {
     return step->seen_lane
@@ -53,10 +57,10 @@ static StageValues stage_values(const Step *step, int k)
         : (StageValues){&step->seen[0][k], AT_LEAST_ONE(N_STAGE_VALUES)};
 }
 
-/* Return the value of the i-th stage. */
-static double stage_value(StageValues of, int i) { return of.first[i * of.stride]; }
+/* Return the value of the i-th stage from `values`. */
+static double stage_value(StageValues values, int i) { return values.first[i * values.stride]; }
 
-/* Discard what is stored of the stages of a step. */
+/* Discard all that is stored of the stages of a step: values, extrema, crossed switching points, range of the state. */
 static void discard_stages(Step *step)
 {
     step->n_seen = 0;
@@ -77,7 +81,10 @@ static void discard_stages(Step *step)
     }
 }
 
-/* Store event functions, forces and gap rates of a stage at fraction `node` of a step. */
+/*
+ * Store the event functions, squared forces and gap rates of a stage at fraction `node` of a step, and update their
+ * extrema. rhs: outputs of the right-hand side at the stage. Increments step->n_seen.
+ */
 static void record_stage(const Integrator *run, Step *step, const RhsOutputs *rhs, double node)
 {
     double *const seen = step->seen[step->n_seen];
@@ -94,7 +101,7 @@ static void record_stage(const Integrator *run, Step *step, const RhsOutputs *rh
     }
 }
 
-/* Extend the range of the state in a step by a stage y, if functions are watched. */
+/* Extend the range of the coordinates and velocities in a step by those of a stage y; only if functions are watched. */
 static void record_stage_state(Step *step, const double *y)
 {
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
@@ -106,13 +113,14 @@ static void record_stage_state(Step *step, const double *y)
 #include "../both/error_weights.h"
 
 /*
- * Compute the corrections dq, dv that close the constraints at a state, if `open`. *worst: the largest residual. Return
- * whether the corrections are finite.
+ * Compute the corrections dq, dv (N_X) that close the constraints at state y, and their largest residual *residual.
+ * Return whether they are finite; 0 without a computation if not `is_active`, or if the constraints cannot be solved. y
+ * is not changed.
  */
-static int has_closing_step(Integrator *run, int open, double t, const double *y, const Parameters *p,
-    double *dq, double *dv, double *worst)
+static int has_closing_step(Integrator *run, int is_active, double t, const double *y, const Parameters *p,
+    double *dq, double *dv, double *residual)
 {
-    return open && !closing_of_state(t, y, &run->discrete, p, dq, dv, worst) && all_finite(dq, N_X)
+    return is_active && !closing_of_state(t, y, &run->discrete, p, dq, dv, residual) && all_finite(dq, N_X)
         && all_finite(dv, N_X);
 }
 
@@ -121,14 +129,15 @@ static int has_closing_step(Integrator *run, int open, double t, const double *y
 #include "singular_policy.c"
 
 /*
- * Start the next step with the length that fitted after the previous event of this kind, *known (s, 0: none yet), which
- * that step then updates. first_step_order: order of the error of such a step, 0: that of the method.
+ * Start the next step with the length that fitted after the previous event of this kind, *stored_length (s; 0: none
+ * yet). That step then updates *stored_length. first_step_order: order of the error of such a step, 0: that of the
+ * method.
  */
-static void set_first_length(Integrator *run, double *known, double first_step_order)
+static void set_first_length(Integrator *run, double *stored_length, double first_step_order)
 {
-    if (*known > 0.0)
-        run->control.h = *known;
-    run->control.first = known;
+    if (*stored_length > 0.0)
+        run->control.h = *stored_length;
+    run->control.first = stored_length;
     run->control.first_step_order = first_step_order;
 }
 
@@ -152,21 +161,24 @@ static void discard_stiff_length(Integrator *run) { run->control.h_stiff = 0.0; 
 
 static int drifts(const Integrator *run); /* methods/methods.c */
 
-/* Project a state y onto the constraints, unless Baumgarte's terms stabilise them. */
-static void project_if_needed(Integrator *run, double t, double *y, const Parameters *p)
+/* Project state y onto the constraint equations, unless Baumgarte's terms of the method stabilise them. */
+static void project_unless_stabilised(Integrator *run, double t, double *y, const Parameters *p)
 {
     if (!drifts(run))
         project_rows(run, t, y, p);
 }
 
-/* Project a state y onto the constraints and the closed contacts. */
+/* Project state y at time t onto the constraint equations and the closed rigid contacts, in place. */
 static void project_state(Integrator *run, double t, double *y, const Parameters *p)
 {
-    project_if_needed(run, t, y, p);
+    project_unless_stabilised(run, t, y, p);
     project_closed_contacts(run, t, y, p);
 }
 
-/* Apply the impulse of a drive whose rate jumps, and add its energy to the work of the drives. */
+/*
+ * Apply the impulse of a drive whose rate jumps: project the run's state onto the constraints after the jump. The gain
+ * of kinetic energy is added to the work of the drives.
+ */
 static inline void apply_drive_impulse(Integrator *run, const Parameters *p)
 {
     const double before = kinetic_energy(run, p);
@@ -174,17 +186,17 @@ static inline void apply_drive_impulse(Integrator *run, const Parameters *p)
     run->y[2 * N_X] += kinetic_energy(run, p) - before;
 }
 
-/* Return whether the error of a step is not finite. */
+/* Return whether the error norm of a step is not finite. */
 static int is_not_a_number(const Integrator *run, double error) { return (void)run, !isfinite(error); }
 
-/* Return whether the error of a step exceeds the accepted one. */
+/* Return whether the error norm of a step exceeds the accepted one. */
 static int is_step_refused(const Integrator *run, const Step *step) { return step->error > run->control.accept; }
 
 /*
- * Project the end of a step onto the constraints and closed contacts, and evaluate the right-hand side there. A large
- * projection counts as error of the step: the estimate of Radau, filtered by the Jacobian, may miss it near a singular
- * position. The first step of a run also closes the start. A distance that shorter steps do not reduce is rounding.
- * Return 0 or the status.
+ * Project the end of a tried step onto the constraints and closed contacts, and evaluate the right-hand side there. A
+ * large projection counts as error of the step: the estimate of Radau, filtered by the Jacobian, may miss it near a
+ * singular position. It does not count in the first step, which closes the start, and after MAX_STRAYED attempts, as
+ * rounding. Return 0, NOT_FINITE, or the status of the right-hand side.
  */
 static int finish_step(Integrator *run, Step *step, const Parameters *p)
 {
@@ -192,7 +204,7 @@ static int finish_step(Integrator *run, Step *step, const Parameters *p)
     if (!all_finite(step->y, N_Y))
         return NOT_FINITE;
     memcpy(before, step->y, sizeof before);
-    project_if_needed(run, step->t + step->h, step->y, p);
+    project_unless_stabilised(run, step->t + step->h, step->y, p);
     const double missed = distance_from_constraints(run, before, step->y);
     if (missed > max_of(MAX_CONSTRAINT_DRIFT, CONSTRAINT_ROUNDING / tolerance_of(run)) && run->counts.steps > 0
         && run->control.attempt.n_strayed++ < MAX_STRAYED)

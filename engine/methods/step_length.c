@@ -46,20 +46,26 @@ enum { PATIENCE = 8, MAX_PATIENCE = 4096,
 #define MAX_ORDER_SEEN 30.0 /* largest order of error growth inferred from two steps */
 #define ORDER_DECAY 0.95    /* factor on that order after each step */
 
-/* Return the method of the same name in this library: the run may have begun in another library of the same code. */
+/*
+ * Return the method of the same name in this library; NULL if `method` is NULL. A run may have begun in another library
+ * of the same code, whose pointers are other ones.
+ */
 static const Method *local_method(const Method *method)
 {
     return method ? METHODS[gudgeon_method(method->name)] : NULL;
 }
 
-/* Let the methods of a run refer to this library. */
+/* Replace the methods that a run stores by those of this library, when a call continues the run. */
 static void relink_choice(Integrator *run)
 {
     run->choice.method = local_method(run->choice.method);
     run->choice.implicit = local_method(run->choice.implicit);
 }
 
-/* Start with a method (gudgeon_method) and the stiff method to which the run may change, 0: none. */
+/*
+ * Set the first method of a run by its index from gudgeon_method(), and the stiff method to which it may change.
+ * automatic: index of that stiff method; 0: the method never changes.
+ */
 static void start_choice(Integrator *run, int method, int automatic)
 {
     run->choice.method = METHODS[method];
@@ -68,7 +74,9 @@ static void start_choice(Integrator *run, int method, int automatic)
     run->choice.patience = automatic && METHODS[method]->stiff ? 4 * PATIENCE : PATIENCE;
 }
 
-/* Start the step-size control; fixed: length of all steps, s, 0: errors determine it. */
+/*
+ * Start the step-size control of a run at its present time. fixed: length of all steps, s; 0: error norms determine it.
+ */
 static void start_control(Integrator *run, double fixed)
 {
     run->control.fixed = run->control.h = fixed;
@@ -78,8 +86,9 @@ static void start_control(Integrator *run, double fixed)
 }
 
 /*
- * Change between the explicit and the stiff method. A return to the explicit method that did not last makes the next
- * return harder.
+ * Change the method of a run from the explicit to the stiff one, or back, and reset the counters of the automatic
+ * choice. If the run had returned to the explicit method less than LASTING_STEPS ago, the next return needs twice as
+ * many steps.
  */
 static void change_method(Integrator *run)
 {
@@ -94,11 +103,12 @@ static void change_method(Integrator *run)
 }
 
 /*
- * Return rho, the largest rate of the motion near the state in 1/s, by power iteration with differences; 0: unknown.
- * The method is that of B. P. Sommeijer, L. F. Shampine, J. G. Verwer, J. Comput. Appl. Math. 88 (1998), 315-326.
- * Stages of a stiff method do not show a fast mode at rest, which makes an explicit step unstable.
+ * Estimate rho, the largest rate of the motion near the run's state in 1/s, by power iteration with differences; 0:
+ * unknown. The method is that of B. P. Sommeijer, L. F. Shampine, J. G. Verwer, J. Comput. Appl. Math. 88 (1998),
+ * 315-326. It evaluates RATE_ITERATIONS + 1 right-hand sides. Stages of a stiff method do not show a fast mode at rest,
+ * which makes an explicit step unstable.
  */
-static double largest_rate(Integrator *run, const Parameters *p)
+static double estimate_largest_rate(Integrator *run, const Parameters *p)
 {
     double direction[N_Y], y[N_Y], dy[N_Y], growth[2] = {0.0, 0.0};
     RhsOutputs rhs;
@@ -122,7 +132,10 @@ static double largest_rate(Integrator *run, const Parameters *p)
 }
 
 /*
- * Choose the method of the next step: the explicit one until stability limits its steps, the stiff one while it would.
+ * Count whether the accepted step speaks against its method, and change the method of an automatic run after enough
+ * such steps. The explicit method is left when stability limits its steps, or its steps are shorter than those of the
+ * stiff one. The stiff method is left when stability would not limit explicit steps; rho is then estimated first.
+ * Called after each accepted step.
  */
 static void choose_method(Integrator *run, const Parameters *p)
 {
@@ -136,7 +149,7 @@ static void choose_method(Integrator *run, const Parameters *p)
     run->choice.since++;
     if (!run->choice.automatic || run->choice.n_against < (stiff ? run->choice.patience : MAX_AGAINST))
         return;
-    const double rate = stiff ? largest_rate(run, p) : 0.0;
+    const double rate = stiff ? estimate_largest_rate(run, p) : 0.0;
     if (rate * run->control.h < MAX_EXPLICIT_STABILITY)
         change_method(run);
     else
@@ -144,42 +157,52 @@ static void choose_method(Integrator *run, const Parameters *p)
     run->choice.rate = rate;
 }
 
-/* Return the order of a step's error in its length: that of the method, or lower where a force has just begun. */
-static double error_order(const Integrator *run, const Step *step)
+/*
+ * Return the order of a step's error in its length: that of its method, or the lower one of a first step after an
+ * event.
+ */
+static double compute_error_order(const Integrator *run, const Step *step)
 {
     const double order = 1.0 / step->method->power;
     return run->control.first && run->control.first_step_order > 0.0 ? min_of(run->control.first_step_order, order)
                                                                      : order;
 }
 
-/* Return x^n with a relative error of 1e-4, which is enough for step lengths. */
+/* Return x^n for x > 0 with a relative error of 1e-4, which is enough for step lengths. */
 static double approximate_power(double x, double n) { return rough_exp2(n * rough_log2(x)); }
 
-/* Return the error norm of a step, bounded from below so that a length can be computed from it. */
-static double limited_error(const Step *step) { return max_of(MIN_ERROR, step->error); }
+/* Return the error norm of a step, at least MIN_ERROR, so that a length can be computed from it. */
+static double get_bounded_error(const Step *step) { return max_of(MIN_ERROR, step->error); }
 
-/* Return the factor on the length of a rejected step for the next attempt. Two successive errors show their order. */
+/*
+ * Return the factor, MIN_SHRINK to MAX_SHRINK, from the length of a rejected step to that of the next attempt. If an
+ * attempt at this step was rejected before, both errors show their order; else it is compute_error_order(). The
+ * rejected length, its error and its end are stored in the run.
+ */
 static double shrink_factor(Integrator *run, const Step *step)
 {
-    Attempt *now = &run->control.attempt;
-    double order = error_order(run, step);
-    if (now->refused > now->h && isfinite(now->error) && now->error > step->error)
+    Attempt *attempt = &run->control.attempt;
+    double order = compute_error_order(run, step);
+    if (attempt->refused > attempt->h && isfinite(attempt->error) && attempt->error > step->error)
         order = min_of(1.0 / step->method->power,
-            max_of(MIN_ORDER_SEEN, log(now->error / step->error) / log(now->refused / now->h)));
-    now->refused = now->h;
-    now->error = step->error;
-    run->control.too_long = now->h;
-    run->control.too_long_until = run->t + now->h;
+            max_of(MIN_ORDER_SEEN, log(attempt->error / step->error) / log(attempt->refused / attempt->h)));
+    attempt->refused = attempt->h;
+    attempt->error = step->error;
+    run->control.too_long = attempt->h;
+    run->control.too_long_until = run->t + attempt->h;
     return min_of(MAX_SHRINK, max_of(MIN_SHRINK, SAFETY * approximate_power(step->error, -1.0 / order)));
 }
 
-/* Store the length that would have fitted for the first step after an event. */
-static void record_first_step(Integrator *run, const Step *step)
+/*
+ * Store the length that would have fitted for the first step after an event, for the next event of the same kind. Does
+ * nothing if the step is not a first one. After an onset the allowed error of straight motion is stored too.
+ */
+static void record_first_step_length(Integrator *run, const Step *step)
 {
     if (!run->control.first)
         return;
     const double safe = run->control.first_step_order > 0.0 ? SAFETY_ONSET : SAFETY;
-    const double fits = safe * approximate_power(limited_error(step), -1.0 / error_order(run, step));
+    const double fits = safe * approximate_power(get_bounded_error(step), -1.0 / compute_error_order(run, step));
     *run->control.first = step->h * min_of(MAX_GROWTH_FIRST, max_of(MIN_GROWTH, fits));
     if (run->control.first_step_order > 0.0 && run->control.onset_error_per_s > 0.0)
         run->control.onset[!!step->method->stiff] = run->control.onset_error_per_s
@@ -188,52 +211,56 @@ static void record_first_step(Integrator *run, const Step *step)
 }
 
 /*
- * Return the largest factor on the length of the next step by the order of error growth seen in rejected attempts;
- * INFINITY: no limit. In stiff motion that order can be far higher than the method's.
+ * Return the largest factor on the length of the next step by the order of error growth seen in rejected attempts. In
+ * stiff motion that order can be far higher than the method's. was_rejected: whether an attempt at this step was
+ * rejected, which then updates the stored order; the order decays with each step. Infinity: no limit.
  */
-static double observed_growth(Integrator *run, const Step *step, int again)
+static double compute_observed_growth(Integrator *run, const Step *step, int was_rejected)
 {
-    const Attempt *now = &run->control.attempt;
-    if (again && now->refused > step->h && isfinite(now->error) && now->error > step->error)
+    const Attempt *attempt = &run->control.attempt;
+    if (was_rejected && attempt->refused > step->h && isfinite(attempt->error) && attempt->error > step->error)
         run->control.observed_order =
-            min_of(MAX_ORDER_SEEN, log(now->error / limited_error(step)) / log(now->refused / step->h));
+            min_of(MAX_ORDER_SEEN, log(attempt->error / get_bounded_error(step)) / log(attempt->refused / step->h));
     run->control.observed_order *= ORDER_DECAY;
     const double observed_order = run->control.observed_order;
     return observed_order * step->method->power > 1.0
-        ? SAFETY * approximate_power(limited_error(step), -1.0 / observed_order) : INFINITY;
+        ? SAFETY * approximate_power(get_bounded_error(step), -1.0 / observed_order) : INFINITY;
 }
 
 /*
- * Set the length of the next step after an accepted one. again: after a rejection; whole: the end of the run did not
- * cut the step.
+ * Set the length run->control.h of the next step after an accepted one, by the PI controller and its limits.
+ * was_rejected: whether an attempt at this step was rejected; the length then does not grow. is_uncut: whether the step
+ * ended before the end of the run. A cut step with a small error does not shorten the next one. Methods that control
+ * their length only get its largest value.
  */
-static void next_length(Integrator *run, const Step *step, int again, int whole)
+static void next_length(Integrator *run, const Step *step, int was_rejected, int is_uncut)
 {
     if (step->method->controls_length) { /* up to the largest length of the next attempt */
-        run->control.h = again ? step->h : max_attempt_length(run);
+        run->control.h = was_rejected ? step->h : max_attempt_length(run);
         return;
     }
-    const double error = limited_error(step), power = step->method->power;
+    const double error = get_bounded_error(step), power = step->method->power;
     double factor = SAFETY * rough_exp2(power
         * (LAST_ERROR_EXPONENT * rough_log2(run->control.error_before) - ERROR_EXPONENT * rough_log2(error)));
     const double known = run->choice.since <= PATIENCE ? run->choice.rate * step->h : 0.0;
     const double stability = max_of(run->choice.stability, known);
     if (!step->method->stiff && stability > 1.0)
         factor = min_of(factor, STABLE_GROWTH * step->method->bounded / stability);
-    factor = min_of(factor, observed_growth(run, step, again));
-    const double most = again ? 1.0 /* [1] */ : step->has_zero_bracket ? MAX_GROWTH_EVENTS : MAX_GROWTH;
-    factor = min_of(most, max_of(MIN_GROWTH, factor));
+    factor = min_of(factor, compute_observed_growth(run, step, was_rejected));
+    const double max_factor = was_rejected ? 1.0 /* [1] */ : step->has_zero_bracket ? MAX_GROWTH_EVENTS : MAX_GROWTH;
+    factor = min_of(max_factor, max_of(MIN_GROWTH, factor));
     run->control.error_before = max_of(MIN_LAST_ERROR, error);
-    record_first_step(run, step);
-    if (step->h * factor > run->control.h || (whole && run->roots.skip < 0) || factor < 1.0)
+    record_first_step_length(run, step);
+    if (step->h * factor > run->control.h || (is_uncut && run->roots.skip < 0) || factor < 1.0)
         run->control.h = step->h * factor;
 }
 
 /*
- * Return a step length h, shortened to end just after the separation of a contact if h would reach beyond. The force is
- * not smooth there. The time to separation follows from penetration and rate.
+ * Return a step length h (s), shortened to end just after the separation of a compliant contact if h would reach
+ * beyond. The force is not smooth there. The time to separation follows from penetration and rate. A separation in the
+ * first MIN_PARTING of h does not shorten it.
  */
-static double limit_by_separation(const Integrator *run, double h)
+static double limit_length_by_separation(const Integrator *run, double h)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &run->rhs.clearance[i];
@@ -245,9 +272,10 @@ static double limit_by_separation(const Integrator *run, double h)
 }
 
 /*
- * Return a step length h of at most FLIGHT times the time in which a journal that leaves the wall crosses its bearing.
+ * Return a step length h (s) of at most MAX_FLIGHTS times the time in which a journal that leaves the wall crosses its
+ * bearing. Applies to open compliant contacts whose gap grows.
  */
-static double limit_by_flight(const Integrator *run, double h, const Parameters *p)
+static double limit_length_by_flight(const Integrator *run, double h, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &run->rhs.clearance[i];
@@ -259,57 +287,63 @@ static double limit_by_flight(const Integrator *run, double h, const Parameters 
 }
 
 /*
- * Return a step length h, limited after a switching point by the length that was just rejected for its error. A
- * switching point of forces changes the motion little; a small estimate of such a long step would be chance.
+ * Return a step length h (s), limited just after a switching point by the length last rejected for its error. A
+ * switching point of forces changes the motion little; a small estimate of such a long step would be chance. The limit
+ * ends at the time that the rejected step would have reached.
  */
-static double limit_by_rejected(const Integrator *run, double h)
+static double limit_length_by_rejection(const Integrator *run, double h)
 {
-    const int again = begins_at_switch(run) && run->t < run->control.too_long_until;
-    return again ? min_of(h, run->control.too_long) : h;
+    const int is_limited = begins_at_switch(run) && run->t < run->control.too_long_until;
+    return is_limited ? min_of(h, run->control.too_long) : h;
 }
 
 /*
- * Return the length in s of a fixed step to the next point *end of the grid that begins with the run. An event in
- * between does not move the grid. A step repeated to end just after an event has the length control.h.
+ * Return the length in s of a fixed step from the run's time to the next point of the grid that begins with the run.
+ * end_time: set to the time at the end of that step, at most t_end. An event in between does not move the grid. A step
+ * repeated to end just after an event is shorter: it has the length control.h.
  */
-static double fixed_step_length(Integrator *run, double t_end, double *end)
+static double compute_fixed_step_length(Integrator *run, double t_end, double *end_time)
 {
     StepControl *control = &run->control;
     double h;
     for (;; control->on_grid += 1.0) {
-        *end = step_end(control->grid, t_end, control->fixed, control->on_grid + 1.0, &h);
-        if (*end > run->t || *end == t_end)
+        *end_time = step_end(control->grid, t_end, control->fixed, control->on_grid + 1.0, &h);
+        if (*end_time > run->t || *end_time == t_end)
             break;
     }
-    h = *end - run->t < h * EQUAL_LENGTH_RATIO ? *end - run->t : h;
+    h = *end_time - run->t < h * EQUAL_LENGTH_RATIO ? *end_time - run->t : h;
     if (control->h >= h)
         return h;
-    *end = run->t + control->h;
+    *end_time = run->t + control->h;
     return control->h;
 }
 
 /*
- * Open the attempts at a step towards t_end with its first length. Fixed steps do not freeze branches: without an error
- * estimate, a branch held beyond its end, as the force of a film, could grow without bound.
+ * Open the attempts at the next step of a run towards t_end: set run->control.attempt with the first length to try. The
+ * length is limited by contacts, flights, rejected lengths and the end of the run. Fixed steps do not freeze branches.
+ * Without an error estimate, a branch held beyond its end, as the force of a film, could grow without bound.
  */
 static void open_attempt(Integrator *run, double t_end, const Parameters *p)
 {
     const double left = t_end - run->t, far = max_of(min_of(fabs(t_end), MAX_RUN_SCALE_S), fabs(run->t));
     double h, end = t_end;
     if (run->control.fixed > 0.0) {
-        h = fixed_step_length(run, t_end, &end);
+        h = compute_fixed_step_length(run, t_end, &end);
         run->discrete.held = DRIVE_IMPULSES; /* at the jump of a drive constraints have two rates */
     } else {
         h = run->roots.skip >= 0 ? min_of(run->control.h, run->roots.monitor) : run->control.h;
-        h = limit_by_flight(
-            run, limit_by_separation(run, min_of(limit_by_rejected(run, h), flight_step_limit(run, NULL, p))), p);
+        h = limit_length_by_flight(
+            run, limit_length_by_separation(run, min_of(limit_length_by_rejection(run, h),
+                flight_step_limit(run, NULL, p))), p);
         h = h > left * EQUAL_LENGTH_RATIO ? left : h;
     }
     run->control.attempt = (Attempt){.h = h, .longest = h, .left = left, .end = end, .far = far, .open = 1,
         .lane = run->choice.method->lane, .film_error_norm = INFINITY};
 }
 
-/* Prepare another attempt of length run->control.attempt.h, and return 0. */
+/*
+ * Prepare another attempt at the step with length run->control.attempt.h, by the method that the run now has. Return 0.
+ */
 static int retry_step(Integrator *run)
 {
     run->control.attempt.lane = run->choice.method->lane;
@@ -317,88 +351,93 @@ static int retry_step(Integrator *run)
 }
 
 /*
- * Return whether the tried step with status `tried` is accepted, without regard to events. If it is accepted,
- * run->control.h is the length of the next step, or *status the cause of a failure. If not, run->control.attempt holds
- * the next attempt.
+ * Return whether the tried step, whose computation returned `trial_status`, is accepted, without regard to events.
+ * Checked are its error norm, film forces, stability, long flights, events unresolved by the stages, and missed
+ * transients. If it is accepted, run->control.h is the length of the next step, or *status the cause of a failure. If
+ * not, run->control.attempt holds the next attempt, maybe by another method. Fixed steps are always accepted, except to
+ * repeat one without frozen branches.
  */
-static int is_step_accepted(Integrator *run, int tried, const Parameters *p, Step *step, int *status)
+static int is_step_accepted(Integrator *run, int trial_status, const Parameters *p, Step *step, int *status)
 {
     const Method *method = step->method;
-    Attempt *now = &run->control.attempt;
-    const int fixed = run->control.fixed > 0.0;
-    *status = tried;
-    if (N_SWITCHES > 0 && fixed && tried == NOT_FINITE && run->discrete.held) {
+    Attempt *attempt = &run->control.attempt;
+    const int is_fixed = run->control.fixed > 0.0;
+    *status = trial_status;
+    if (N_SWITCHES > 0 && is_fixed && trial_status == NOT_FINITE && run->discrete.held) {
         run->discrete.held = 0; /* until the step is committed: a held branch may be NaN beyond its switching point */
         return retry_step(run);
     }
-    if (tried == STOPPED || fixed)
+    if (trial_status == STOPPED || is_fixed)
         return 1;
-    const int fits = !tried && step->error <= run->control.accept;
-    const double at_ends = fits ? film_error_at_ends(run, step, FILM_PART) : 0.0;
-    if (fits && !is_film_error_small(run, step, at_ends)) {
+    const int is_within_tolerance = !trial_status && step->error <= run->control.accept;
+    const double end_error = is_within_tolerance ? film_error_at_ends(run, step, FILM_PART) : 0.0;
+    if (is_within_tolerance && !is_film_error_small(run, step, end_error)) {
         const double error = measure_film_error(run, step, p);
-        if (!(error > FILM_ERROR_RATIO * now->film_error_norm)) /* not rounding */
+        if (!(error > FILM_ERROR_RATIO * attempt->film_error_norm)) /* not rounding */
             step->error = max_of(step->error, error);
-        now->film_error_norm = error > run->control.accept ? error : INFINITY;
+        attempt->film_error_norm = error > run->control.accept ? error : INFINITY;
     }
-    const int good = !tried && step->error <= run->control.accept;
-    const double least = MIN_STEP_FRACTION * now->far;
-    if (good && !method->stiff && run->choice.stability > method->unstable) {
+    const int is_good = !trial_status && step->error <= run->control.accept;
+    const double min_length = MIN_STEP_FRACTION * attempt->far;
+    if (is_good && !method->stiff && run->choice.stability > method->unstable) {
         count_rejected(run);
-        if (run->choice.automatic && !now->methods_failed)
+        if (run->choice.automatic && !attempt->methods_failed)
             change_method(run);
         else
-            now->h *= method->bounded / run->choice.stability;
+            attempt->h *= method->bounded / run->choice.stability;
         return retry_step(run);
     }
-    if (good && FLIGHT_STEP_SLACK * flight_step_limit(run, step, p) < now->h) {
-        now->again = 1;
+    if (is_good && FLIGHT_STEP_SLACK * flight_step_limit(run, step, p) < attempt->h) {
+        attempt->again = 1;
         count_rejected(run);
-        now->h *= SHRINK_FLIGHT_STEP;
+        attempt->h *= SHRINK_FLIGHT_STEP;
         return retry_step(run);
     }
-    const int unresolved = good && is_unresolved(run, step, p);
-    if (good && (unresolved || has_wrong_film_force(run, step, at_ends)) && now->n_shortened++ < MAX_SHORTENED) {
-        now->again = 1;
+    const int unresolved = is_good && is_unresolved(run, step, p);
+    if (is_good && (unresolved || has_wrong_film_force(run, step, end_error))
+        && attempt->n_shortened++ < MAX_SHORTENED) {
+        attempt->again = 1;
         count_rejected(run);
-        now->h *= SHRINK_UNRESOLVED;
+        attempt->h *= SHRINK_UNRESOLVED;
         return retry_step(run);
     }
-    const double transient = good && now->h > MIN_TRANSIENT_FRACTION * now->far ? missed_transient(run, step, p) : 0.0;
-    if (transient > 0.0 && now->n_shortened++ < MAX_SHORTENED) {
-        now->again = 1;
+    const double transient = is_good && attempt->h > MIN_TRANSIENT_FRACTION * attempt->far
+        ? missed_transient(run, step, p) : 0.0;
+    if (transient > 0.0 && attempt->n_shortened++ < MAX_SHORTENED) {
+        attempt->again = 1;
         count_rejected(run);
-        now->h *= max_of(SHRINK_UNRESOLVED, TRANSIENT_PART * transient);
+        attempt->h *= max_of(SHRINK_UNRESOLVED, TRANSIENT_PART * transient);
         return retry_step(run);
     }
-    if (good) {
-        next_length(run, step, now->again, now->h < now->left);
-        const int is_short = now->h < SHORT_STEP_FRACTION * now->far;
+    if (is_good) {
+        next_length(run, step, attempt->again, attempt->h < attempt->left);
+        const int is_short = attempt->h < SHORT_STEP_FRACTION * attempt->far;
         *status = is_stuck_in_short_steps(run, is_short) ? diagnose_stall(run, TOO_SMALL, p) : 0;
         return 1;
     }
-    now->again = 1;
+    attempt->again = 1;
     count_rejected(run);
-    now->h *= tried == NOT_FOUND ? SHRINK_NEWTON : tried ? SHRINK_FAILED : shrink_factor(run, step);
-    if (now->h > least)
+    attempt->h *= trial_status == NOT_FOUND ? SHRINK_NEWTON : trial_status ? SHRINK_FAILED
+        : shrink_factor(run, step);
+    if (attempt->h > min_length)
         return retry_step(run);
-    if (N_SWITCHES > 0 && tried == NOT_FINITE && run->discrete.held) {
+    if (N_SWITCHES > 0 && trial_status == NOT_FINITE && run->discrete.held) {
         run->discrete.held = 0; /* until the step is committed: a held branch may be NaN beyond its switching point */
-        now->h = now->longest;
+        attempt->h = attempt->longest;
         return retry_step(run);
     }
-    if (!run->choice.automatic || !method->stiff || now->methods_failed++) {
-        *status = tried ? tried : diagnose_stall(run, TOO_SMALL, p);
+    if (!run->choice.automatic || !method->stiff || attempt->methods_failed++) {
+        *status = trial_status ? trial_status : diagnose_stall(run, TOO_SMALL, p);
         return 1;
     }
     change_method(run); /* its matrix is singular with dependent constraints; the explicit method can continue */
-    now->h = now->longest;
+    attempt->h = attempt->longest;
     return retry_step(run);
 }
 
 /*
- * Compute one attempt at a step of length run->control.attempt.h, repeated by the policy near singular positions.
- * Return 0 or the status.
+ * Compute one attempt at a step of length run->control.attempt.h by the run's method. Return 0 or the status. Near a
+ * singular position it is computed again with other policies (next_singular_policy()).
  */
 static int try_step(Integrator *run, const Parameters *p, Step *step)
 {
@@ -411,10 +450,10 @@ static int try_step(Integrator *run, const Parameters *p, Step *step)
     return status;
 }
 
-/* Close the attempts at a step: one was accepted. */
+/* Close the attempts at a step after one of them was accepted. */
 static void close_attempt(Integrator *run) { run->control.attempt.open = 0; }
 
-/* Try steps until one is accepted; return 0 or the status. */
+/* Try steps of decreasing length until one is accepted, and close the attempts. Return 0 or the status of a failure. */
 static int find_accepted_step(Integrator *run, const Parameters *p, Step *step)
 {
     int status;

@@ -9,24 +9,33 @@ enum { MIN_TAYLOR_ORDER = 4 };
 
 static const double taylor_error_nodes[] = {0.0};
 
-/* Return the order of the series for a relative tolerance, which lengths, angles and speeds have in common. */
-static int taylor_order(double fraction)
+/*
+ * Return the order of the series for a relative tolerance, between MIN_TAYLOR_ORDER and TAYLOR_ORDERS. Lengths, angles
+ * and speeds have the same tolerance.
+ */
+static int choose_taylor_order(double tolerance)
 {
-    const double order = ceil(1.0 - TAYLOR_EFFORT * log(fraction));
+    const double order = ceil(1.0 - TAYLOR_EFFORT * log(tolerance));
     return order > TAYLOR_ORDERS ? TAYLOR_ORDERS : order < MIN_TAYLOR_ORDER ? MIN_TAYLOR_ORDER : (int)order;
 }
 
 /* Several components of the state in one vector register. */
 typedef double SeriesPart __attribute__((vector_size(REGISTER), aligned(8)));
-/* Do nothing: for one run, step->error is tested after the step. */
+/*
+ * Do nothing: for one run, step->error is tested after the step. In lanes, steps with too large an error are rejected
+ * here.
+ */
 static void reject_late(const Integrator *run, const Step *step) { (void)run, (void)step; }
 
-/* Subtract the second evaluation at the end of a step: both count as one, as in lanes. */
+/* Subtract one evaluation: the second evaluation at the end of a repeated series step does not count, as in lanes. */
 static void discard_end(Integrator *run) { count_evaluations(run, -1); }
 
 #include "../both/taylor.h"
 
-/* Compute the series at the state of the run, and the longest step of it, once for all steps tried there. */
+/*
+ * Compute the series at the state of the run and its longest step, unless they are stored already. All steps tried from
+ * this state share the series. Return 0 or the status.
+ */
 static int expand_series(Integrator *run, const Parameters *p)
 {
     if (run->series.ready == IN_RUN)
@@ -40,44 +49,51 @@ static int expand_series(Integrator *run, const Parameters *p)
     return 0;
 }
 
-/* Compute a step of at most h by the series, or by dop853 if the series is not finite; the step sets its own length. */
-static int taylor_try(Integrator *run, double h, const Parameters *p, Step *step)
+/*
+ * Compute a step of at most h (s) by the series; the step sets its own length. Return 0 or the status. If the series
+ * cannot be computed or is not finite, as with links in one line, the step is one of dop853, which becomes
+ * step->method.
+ */
+static int taylor_try_step(Integrator *run, double h, const Parameters *p, Step *step)
 {
     const int status = expand_series(run, p);
     if (status || !all_finite(run->series.terms[run->series.order], N_Y)) {
         step->method = &dop853; /* links in one line: its right-hand side passes singular positions */
         return dop853_try(run, h, p, step);
     }
-    const int ended = taylor_step(run, h, p, step);
+    const int status_of_step = taylor_step(run, h, p, step);
     set_attempt_length(run, step->h);
-    return ended;
+    return status_of_step;
 }
 
-/* Copy the series of a step computed in a lane into the run, when its dense output is needed. */
-static void fetch_series(Integrator *run)
+/* Copy the series of a step computed in a lane into the run, when its dense output is needed; else do nothing. */
+static void copy_series_from_lane(Integrator *run)
 {
-    const double *from = run->series.lane;
+    const double *lane_terms = run->series.lane;
     if (run->series.ready != IN_LANE)
         return;
     for (int k = 0; k <= run->series.order; k++)
         for (int i = 0; i < N_Y; i++)
-            run->series.terms[k][i] = from[(k * TAYLOR_Y + i) * run->series.lanes];
+            run->series.terms[k][i] = lane_terms[(k * TAYLOR_Y + i) * run->series.lanes];
     run->series.ready = IN_RUN;
 }
 
-/* Compute the coefficients of the series by fractions of the step, which interval bounds need. */
-static int taylor_dense(Integrator *run, const Parameters *p, Step *step)
+/*
+ * Compute the dense output of a series step: the coefficients by powers of the fraction of the step, as interval bounds
+ * need them. Orders above that of the series are 0. Return 0.
+ */
+static int taylor_compute_dense_output(Integrator *run, const Parameters *p, Step *step)
 {
     double power = step->h;
     (void)p;
-    fetch_series(run);
+    copy_series_from_lane(run);
     for (int k = 1; k <= TAYLOR_ORDERS; k++, power *= step->h)
         for (int i = 0; i < N_Y; i++)
             step->dense[k - 1][i] = k <= run->series.order ? run->series.terms[k][i] * power : 0.0;
     return 0;
 }
 
-/* Compute the state y at fraction s of a step from the series. */
+/* Compute the state y (N_Y) at fraction s of a step from the series at its beginning. */
 static void taylor_interpolate(const Integrator *run, const Step *step, double s, double *y)
 {
     taylor_at(run, s * step->h, y);
@@ -85,8 +101,8 @@ static void taylor_interpolate(const Integrator *run, const Step *step, double s
 
 /* Taylor's method, which chooses the length of a step itself. */
 static const Method taylor = {.name = "taylor",
-    .try = taylor_try,
-    .dense = taylor_dense,
+    .try = taylor_try_step,
+    .dense = taylor_compute_dense_output,
     .interpolate = taylor_interpolate,
     .power = 1.0 / TAYLOR_ORDERS,
     .unstable = INFINITY,
@@ -96,17 +112,19 @@ static const Method taylor = {.name = "taylor",
     .n_error_nodes = COUNT_OF(taylor_error_nodes),
     .controls_length = 1};
 
-/* Set the order of the series from the relative tolerance of a step. */
-static void start_series(Integrator *run, double fraction) { run->series.order = taylor_order(fraction); }
+/* Set the order of the series of a run from the relative tolerance of its steps. */
+static void start_series(Integrator *run, double tolerance) { run->series.order = choose_taylor_order(tolerance); }
 
-/* Discard the series when the state changes. */
+/* Discard the stored series of a run, because its state changes. */
 static void discard_series(Integrator *run) { run->series.ready = 0; }
 
-/* Return the largest length in s of the next tried step. */
+/*
+ * Return the largest length in s of the next tried step: TAYLOR_AHEAD times the longest valid one of the last series.
+ */
 static double max_attempt_length(const Integrator *run) { return TAYLOR_AHEAD * run->series.reach; }
 #else
 /* Do nothing: the library has no Taylor method. */
-static inline void start_series(Integrator *run, double fraction) { (void)run, (void)fraction; }
+static inline void start_series(Integrator *run, double tolerance) { (void)run, (void)tolerance; }
 
 /* Do nothing: the library has no Taylor method. */
 static inline void discard_series(Integrator *run) { (void)run; }

@@ -15,16 +15,17 @@ enum { SIDE_NODES = TREE ? 5 : 6, WIDE = 2, WIDER = 4 };
 #define WIDE_TOL 1e-10
 
 /*
- * Project a state onto the closures and compute its right-hand side. far: the largest allowed sum of the steps, rad.
- * Returns a status; LOST if the projection is too long or does not converge.
+ * Project state y in place onto the closures by Newton steps, and compute its rates dy and outputs rhs there. max_move:
+ * largest allowed sum of the steps, rad. Return 0 or a status; LOST if the projection is longer or does not converge in
+ * six steps.
  */
-static int close_state(
-    double t, double *y, DiscreteState *discrete, const Parameters *p, double far, double *dy, RhsOutputs *rhs)
+static int project_and_evaluate(
+    double t, double *y, DiscreteState *discrete, const Parameters *p, double max_move, double *dy, RhsOutputs *rhs)
 {
     double moved = 0.0, before = INFINITY;
     for (int pass = 0; pass < 6; pass++) {
-        double dq[N_X], dv[N_X], worst, step = 0.0;
-        const int status = closing_here(t, y, discrete, p, dq, dv, &worst);
+        double dq[N_X], dv[N_X], residual, step = 0.0;
+        const int status = closing_here(t, y, discrete, p, dq, dv, &residual);
         if (status)
             return status;
         for (int k = 0; k < N_X; k++) {
@@ -33,11 +34,11 @@ static int close_state(
             step = is_angle[k] ? max_of(step, fabs(dq[k])) : step;
         }
         moved += step;
-        if (!(moved <= far))
+        if (!(moved <= max_move))
             return LOST;
-        if (worst < 1e-15 || (worst < 1e-12 && worst > 0.5 * before))
+        if (residual < 1e-15 || (residual < 1e-12 && residual > 0.5 * before))
             return motion_here(t, y, discrete, p, dy, rhs);
-        before = worst;
+        before = residual;
     }
     return LOST;
 }
@@ -47,7 +48,11 @@ typedef struct {
     double y[2 * N_X], dy[N_Y], lower[N_X], lambda[AT_LEAST_ONE(N_LOOPS)];
 } ContinuedMotion;
 
-/* Add the contribution of a node at distance k to the interpolated motion. */
+/*
+ * Add the contribution of a node, a regular state y with its rates and multipliers, to the interpolated motion `sum`.
+ * k: distance of the node from the singular position in nodes, 1 ... SIDE_NODES. The last node does not count for the
+ * lower degree.
+ */
 static void add_interpolation_node(
     int k, const double *y, const double *dy, const RhsOutputs *rhs, ContinuedMotion *sum)
 {
@@ -62,20 +67,27 @@ static void add_interpolation_node(
         sum->lambda[i] += weight * rhs->lambda[i];
 }
 
-/* Return whether the accelerations by the polynomials of the last two degrees agree within `to` of their size. */
-static int has_converged(const double *y, const ContinuedMotion *sum, double to)
+/*
+ * Return whether the interpolated accelerations of the last two degrees agree within `tolerance` times their size.
+ * Lengths and angles are compared separately; y: the state, whose squared angular rates count as accelerations.
+ */
+static int has_converged(const double *y, const ContinuedMotion *sum, double tolerance)
 {
-    double most[2] = {0.0, 0.0}, apart[2] = {0.0, 0.0};
+    double most[2] = {0.0, 0.0}, difference[2] = {0.0, 0.0};
     for (int k = 0; k < N_X; k++) {
         const int kind = is_angle[k];
         const double a = sum->dy[N_X + k], v = y[N_X + k];
         most[kind] = max_of(most[kind], fabs(a) + (kind ? v * v : 0.0));
-        apart[kind] = max_of(apart[kind], fabs(a - sum->lower[k]));
+        difference[kind] = max_of(difference[kind], fabs(a - sum->lower[k]));
     }
-    return apart[0] <= to * most[0] && apart[1] <= to * most[1];
+    return difference[0] <= tolerance * most[0] && difference[1] <= tolerance * most[1];
 }
 
-/* Continue the motion at a state near a singular position from both sides. Returns whether the polynomials agree. */
+/*
+ * Interpolate the motion at state y near a singular position from regular states on both sides; the result is in `sum`.
+ * The states are on the linkage's path through y, at distances that are increased until the polynomials agree. Return
+ * whether they do; 0 also if nothing rotates or the run is cancelled.
+ */
 static int continue_motion(
     double t, const double *y, const DiscreteState *discrete, const Parameters *p, ContinuedMotion *sum)
 {
@@ -91,13 +103,13 @@ static int continue_motion(
         for (int k = 1; k <= SIDE_NODES && !status; k++)
             for (int branch = -1; branch <= 1 && !status; branch += 2) {
                 const double h = branch * k * turn / fastest;
-                double there[N_Y], dy[N_Y];
+                double projected[N_Y], dy[N_Y];
                 DiscreteState now = *discrete;
                 RhsOutputs rhs;
                 for (int i = 0; i < N_Y; i++)
-                    there[i] = y[i] + (i < N_X ? h * y[N_X + i] : 0.0);
-                status = close_state(t + (N_DRIVES ? h : 0.0), there, &now, p, 0.5 * k * turn, dy, &rhs);
-                add_interpolation_node(k, there, dy, &rhs, sum);
+                    projected[i] = y[i] + (i < N_X ? h * y[N_X + i] : 0.0);
+                status = project_and_evaluate(t + (N_DRIVES ? h : 0.0), projected, &now, p, 0.5 * k * turn, dy, &rhs);
+                add_interpolation_node(k, projected, dy, &rhs, sum);
             }
         if (!status && has_converged(y, sum, pass < 0 ? WIDE_TOL : CONTINUATION_TOL))
             return 1;
@@ -107,8 +119,8 @@ static int continue_motion(
     return 0;
 }
 
-/* Return a discrete state whose pivots need only be large enough for a division. */
-static DiscreteState with_usual_pivot_limits(const DiscreteState *discrete)
+/* Return a copy of a discrete state in which pivots need only be large enough for a division. */
+static DiscreteState copy_with_usual_pivot_limits(const DiscreteState *discrete)
 {
     DiscreteState now = *discrete;
     now.least = NEARLY_SINGULAR;
@@ -116,31 +128,32 @@ static DiscreteState with_usual_pivot_limits(const DiscreteState *discrete)
     return now;
 }
 
-/* Copy the continued motion at a state into rates dy and the right-hand side's outputs. Returns 0. */
-static int copy_continued_motion(const double *y, const ContinuedMotion *at, double *dy, RhsOutputs *rhs)
+/* Copy the interpolated motion at state y into rates dy and outputs rhs (powers, multipliers). Return 0. */
+static int copy_continued_motion(const double *y, const ContinuedMotion *continued_motion, double *dy, RhsOutputs *rhs)
 {
     for (int k = 0; k < N_X; k++) {
         dy[k] = y[N_X + k];
-        dy[N_X + k] = at->dy[N_X + k];
+        dy[N_X + k] = continued_motion->dy[N_X + k];
     }
     for (int k = 0; k < N_WORK; k++)
-        dy[2 * N_X + k] = rhs->power[k] = at->dy[2 * N_X + k];
+        dy[2 * N_X + k] = rhs->power[k] = continued_motion->dy[2 * N_X + k];
     for (int k = 0; k < N_LOOPS; k++)
-        rhs->lambda[k] = at->lambda[k];
+        rhs->lambda[k] = continued_motion->lambda[k];
     return 0;
 }
 
 /*
- * Compute the rates of the integrated state. Near a singular position, the policy in `discrete` decides: project the
- * state, continue the motion, or report NEAR. Returns a status.
+ * Compute the rates dy of the integrated state y and the outputs rhs. Return 0 or a status. Near a singular position,
+ * the policy in `discrete` decides. The state is projected and evaluated there, the motion is continued from both
+ * sides, NEAR is returned, or the state is evaluated without treatment.
  */
 int motion(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     ContinuedMotion at;
     if (discrete->singular_policy == SINGULAR_PROJECT || discrete->singular_policy == SINGULAR_PROJECT_OR_IGNORE) {
-        double there[N_Y];
-        memcpy(there, y, sizeof there);
-        if (!close_state(t, there, discrete, p, MAX_CLOSING_MOVE, dy, rhs)) {
+        double projected[N_Y];
+        memcpy(projected, y, sizeof projected);
+        if (!project_and_evaluate(t, projected, discrete, p, MAX_CLOSING_MOVE, dy, rhs)) {
             for (int k = 0; k < N_X; k++)
                 dy[k] = y[N_X + k];
             return 0;
@@ -155,18 +168,20 @@ int motion(double t, const double *y, DiscreteState *discrete, const Parameters 
         return copy_continued_motion(y, &at, dy, rhs);
     if (discrete->singular_policy == SINGULAR_PROJECT)
         return NEAR;
-    DiscreteState now = with_usual_pivot_limits(discrete);
+    DiscreteState now = copy_with_usual_pivot_limits(discrete);
     return motion_here(t, y, &now, p, dy, rhs);
 }
 
 /*
- * Compute the steps dq, dv that return a state to the closures; near a singular position, those to the continued state.
- * Returns a status.
+ * Compute the corrections dq, dv (N_X) that return state y to the closures, and the largest residual *residual. Return
+ * 0 or a status. Near a singular position, by the policy in `discrete`, they are those to the continued state, with
+ * *residual = 0: one pass is enough. If the motion cannot be continued there, the usual limits of pivots apply. y is
+ * not changed.
  */
 int closing_of_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
-    double *worst)
+    double *residual)
 {
-    int status = closing_here(t, y, discrete, p, dq, dv, worst);
+    int status = closing_here(t, y, discrete, p, dq, dv, residual);
     if (!status || discrete->singular_policy == SINGULAR_IGNORE || discrete->singular_policy == SINGULAR_DETECT)
         return status;
     double dy[N_Y];
@@ -174,28 +189,34 @@ int closing_of_state(double t, const double *y, DiscreteState *discrete, const P
     ContinuedMotion at;
     DiscreteState now = *discrete;
     if (motion_here(t, y, &now, p, dy, &rhs) != NEAR || !continue_motion(t, y, discrete, p, &at)) {
-        now = with_usual_pivot_limits(discrete);
-        return closing_here(t, y, &now, p, dq, dv, worst);
+        now = copy_with_usual_pivot_limits(discrete);
+        return closing_here(t, y, &now, p, dq, dv, residual);
     }
     for (int k = 0; k < N_X; k++) {
         dq[k] = y[k] - at.y[k];
         dv[k] = y[N_X + k] - at.y[N_X + k];
     }
-    *worst = 0.0; /* one pass is enough */
+    *residual = 0.0; /* one pass is enough */
     return 0;
 }
 
 #else
-/* Compute the rates of the integrated state at the state itself: the scene has no continuation. Returns a status. */
+/*
+ * Compute the rates dy of the integrated state y and the outputs rhs; the scene has no continuation. Return 0 or a
+ * status.
+ */
 int motion(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     return motion_here(t, y, discrete, p, dy, rhs);
 }
 
-/* Compute the steps dq, dv that return a state to the closures, at the state itself. Returns a status. */
+/*
+ * Compute the corrections dq, dv (N_X) that return state y to the closures, and the largest residual *residual. Return
+ * 0 or a status. The scene has no continuation.
+ */
 int closing_of_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
-    double *worst)
+    double *residual)
 {
-    return closing_here(t, y, discrete, p, dq, dv, worst);
+    return closing_here(t, y, discrete, p, dq, dv, residual);
 }
 #endif

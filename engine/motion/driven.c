@@ -4,23 +4,23 @@
  */
 #if N_CHAIN
 /*
- * Compute the rates dy of the integrated state y: independent tree coordinates, their rates, works. Coordinates of
- * driven loops are evaluated at t. Returns a status.
+ * Compute the rates dy of the integrated state y: independent tree coordinates, their rates, works. Return 0 or a
+ * status. Coordinates of driven loops are not in y: they are solved for at time t.
  */
 int motion_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    TreeState at;
-    int status = tree_state(t, y, discrete, p, &at);
+    TreeState tree;
+    int status = tree_state(t, y, discrete, p, &tree);
     if (status)
         return status;
 #if !SMOOTH_CHAINS
-    loop_switches(t, at.q, discrete, p, rhs->g);
+    loop_switches(t, tree.q, discrete, p, rhs->g);
 #endif
 #ifdef N_IDLE
     for (int i = 0; i < N_IDLE; i++)
         rhs->g[idle[i]] = NAN; /* these switching functions are not in use */
 #endif
-    status = reduced_dynamics(t, at.q, at.v, discrete, p, dy + N_X, rhs);
+    status = reduced_dynamics(t, tree.q, tree.v, discrete, p, dy + N_X, rhs);
     for (int k = 0; k < N_X; k++)
         dy[k] = y[N_X + k];
     for (int k = 0; k < N_WORK; k++)
@@ -28,25 +28,29 @@ int motion_here(double t, const double *y, DiscreteState *discrete, const Parame
     return status;
 }
 
-/* Evaluate the contacts of joints with play at a state, without accelerations. Returns a status. */
+/*
+ * Evaluate the contacts of joints with play at state y into `rhs`, without solving for accelerations. Return 0 or a
+ * status. Driven loops are solved at time t first.
+ */
 int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
-    TreeState at;
-    const int status = tree_state(t, y, discrete, p, &at);
+    TreeState tree;
+    const int status = tree_state(t, y, discrete, p, &tree);
     if (status)
         return status;
 #if !SMOOTH_CHAINS
-    loop_switches(t, at.q, discrete, p, rhs->g);
+    loop_switches(t, tree.q, discrete, p, rhs->g);
 #endif
-    return reduced_dynamics(t, at.q, at.v, discrete, p, NULL, rhs);
+    return reduced_dynamics(t, tree.q, tree.v, discrete, p, NULL, rhs);
 }
 
 /*
- * Compute the driven loops at a time at which a loop lies flat, so that its closures do not determine it. They are
- * extrapolated from the nearest regular time, or taken from the last accepted state if there is none.
+ * Compute the driven loops at a time t at which a loop lies flat, so that its closures do not determine it. They are
+ * extrapolated from the nearest time at which they can be solved, within 0.05 of the fastest coordinate's motion. If
+ * there is none, they are those of the last accepted state. The result is in `tree`.
  */
-static void extrapolate_flat_chains(
-    double t, const double *y, const DiscreteState *discrete, const Parameters *p, TreeState *at)
+static void extrapolate_flat_loops(
+    double t, const double *y, const DiscreteState *discrete, const Parameters *p, TreeState *tree)
 {
     double fastest = 1e-300;
     for (int k = 0; k < N_CHAIN; k++)
@@ -55,85 +59,97 @@ static void extrapolate_flat_chains(
         for (int branch = -1; branch <= 1; branch += 2) {
             const double h = branch * e / fastest;
             DiscreteState now = *discrete;
-            if (tree_state(t - h, y, &now, p, at))
+            if (tree_state(t - h, y, &now, p, tree))
                 continue;
             for (int k = 0; k < N_CHAIN; k++) {
-                at->q[N_X + k] += h * (at->v[N_X + k] + 0.5 * h * at->v[N_X + N_CHAIN + k]);
-                at->v[N_X + k] += h * at->v[N_X + N_CHAIN + k];
+                tree->q[N_X + k] += h * (tree->v[N_X + k] + 0.5 * h * tree->v[N_X + N_CHAIN + k]);
+                tree->v[N_X + k] += h * tree->v[N_X + N_CHAIN + k];
             }
-            chain_directions(t, at->q, discrete, p, at->q);
+            chain_directions(t, tree->q, discrete, p, tree->q);
             return;
         }
-    restore_chains(&discrete->chain, at);
-}
-
-/* Compute the state of all bodies, (q, v, works), from the integrated state y. */
-void to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p, double *all)
-{
-    TreeState at;
-    DiscreteState now = *discrete;
-    if (tree_state(t, y, &now, p, &at))
-        extrapolate_flat_chains(t, y, discrete, p, &at);
-    expand(t, at.q, at.v, p, all, all + N_Q);
-    for (int k = 0; k < N_WORK; k++)
-        all[2 * N_Q + k] = y[2 * N_X + k];
+    restore_chains(&discrete->chain, tree);
 }
 
 /*
- * Compute the integrated state y from the state of all bodies (q, v, works), and the positions of the driven loops in
- * `discrete`.
+ * Compute the state of all bodies, (q, v, works) in `absolute_state`, from the integrated state y; driven loops are
+ * solved at time t. If they cannot be solved, they are extrapolated (extrapolate_flat_loops()).
  */
-void from_absolute(double t, const double *all, DiscreteState *discrete, const Parameters *p, double *y)
+void to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
+    double *absolute_state)
 {
-    TreeState at;
-    reduce_state(t, all, all + N_Q, p, at.q, at.v);
-    solve_driven_loops(t, at.q + N_X, discrete, p);
+    TreeState tree;
+    DiscreteState now = *discrete;
+    if (tree_state(t, y, &now, p, &tree))
+        extrapolate_flat_loops(t, y, discrete, p, &tree);
+    expand(t, tree.q, tree.v, p, absolute_state, absolute_state + N_Q);
+    for (int k = 0; k < N_WORK; k++)
+        absolute_state[2 * N_Q + k] = y[2 * N_X + k];
+}
+
+/*
+ * Compute the integrated state y from the state of all bodies, (q, v, works) in `absolute_state`. The positions of the
+ * driven loops are stored in `discrete`, from which they are followed.
+ */
+void from_absolute(double t, const double *absolute_state, DiscreteState *discrete, const Parameters *p,
+    double *y)
+{
+    TreeState tree;
+    reduce_state(t, absolute_state, absolute_state + N_Q, p, tree.q, tree.v);
+    solve_driven_loops(t, tree.q + N_X, discrete, p);
     for (int k = 0; k < N_X; k++) {
-        y[k] = at.q[k];
-        y[N_X + k] = at.v[k];
+        y[k] = tree.q[k];
+        y[N_X + k] = tree.v[k];
     }
     for (int k = 0; k < N_WORK; k++)
-        y[2 * N_X + k] = all[2 * N_Q + k];
+        y[2 * N_X + k] = absolute_state[2 * N_Q + k];
 }
 
-/* Compute the steps dq, dv that return a state to the closures, and the largest residual `worst`. Returns a status. */
+/*
+ * Compute the corrections dq, dv (N_X) that return state y to the closures, and the largest residual *residual. Return
+ * 0 or a status. Driven loops are solved at time t first. y is not changed.
+ */
 int closing_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
-    double *worst)
+    double *residual)
 {
-    TreeState at;
-    const int status = tree_state(t, y, discrete, p, &at);
-    return status ? status : closing_step(t, at.q, at.v, discrete, p, dq, dv, worst);
+    TreeState tree;
+    const int status = tree_state(t, y, discrete, p, &tree);
+    return status ? status : closing_step(t, tree.q, tree.v, discrete, p, dq, dv, residual);
 }
 
-/* Linearize the equations of motion at a state with accelerations a. Returns a status. */
+/*
+ * Linearize the equations of motion at state y with accelerations a (N_X) into `linear`. Return 0 or the status of the
+ * driven loops.
+ */
 int linearize_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const double *a,
-    const RhsOutputs *rhs, Linear *lin)
+    const RhsOutputs *rhs, Linear *linear)
 {
-    TreeState at;
-    const int status = tree_state(t, y, discrete, p, &at);
+    TreeState tree;
+    const int status = tree_state(t, y, discrete, p, &tree);
     if (status)
         return status;
-    chain_third(t, at.q, at.v, discrete, p, at.v + N_X + 2 * N_CHAIN);
-    linearize(t, at.q, at.v, discrete, p, a, rhs, lin);
+    chain_third(t, tree.q, tree.v, discrete, p, tree.v + N_X + 2 * N_CHAIN);
+    linearize(t, tree.q, tree.v, discrete, p, a, rhs, linear);
     return 0;
 }
 
 /*
- * Accept a state: update the maxima of |Phi| and |Phi_dot|. Driven loops are followed from here on. Returns a status.
+ * Accept a state: update the maxima of |Phi| and |Phi_dot| of the closures. Return 0 or a status. Driven loops are
+ * stored in `discrete` and followed from here on.
  */
 int accept_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const RhsOutputs *rhs,
     double *phi_max, double *phi_dot_max)
 {
-    TreeState at;
+    TreeState tree;
     (void)rhs;
-    int status = tree_state(t, y, discrete, p, &at);
+    int status = tree_state(t, y, discrete, p, &tree);
     if (!status)
-        status = accept_chains(t, &at, discrete, p);
+        status = accept_chains(t, &tree, discrete, p);
     if (status)
         return status;
     double phi[N_LOOPS + 1], phi_dot[N_LOOPS + 1];
-    closures(t, at.q, p, phi);
-    closure_rates(t, at.q, at.v, p, phi_dot);
+    closures(t, tree.q, p, phi);
+    closure_rates(t, tree.q, tree.v, p, phi_dot);
     for (int r = 0; r < N_LOOPS; r++) {
         *phi_max = max_of(fabs(phi[r]), *phi_max);
         *phi_dot_max = max_of(fabs(phi_dot[r]), *phi_dot_max);
@@ -143,20 +159,20 @@ int accept_state(double t, const double *y, DiscreteState *discrete, const Param
 
 #else
 /*
- * Compute the steps dq, dv that return a state (q, v) to the closures, and the largest residual `worst`. Returns a
- * status.
+ * Compute the corrections dq, dv (N_X) that return state y to the closures, and the largest residual *residual. Return
+ * 0 or a status. y is not changed.
  */
 int closing_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
-    double *worst)
+    double *residual)
 {
-    return closing_step(t, y, y + N_X, discrete, p, dq, dv, worst);
+    return closing_step(t, y, y + N_X, discrete, p, dq, dv, residual);
 }
 
-/* Linearize the equations of motion at a state (q, v) with accelerations a. Returns a status. */
+/* Linearize the equations of motion at state y with accelerations a (N_X) into `linear`. Return 0. */
 int linearize_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const double *a,
-    const RhsOutputs *rhs, Linear *lin)
+    const RhsOutputs *rhs, Linear *linear)
 {
-    linearize(t, y, y + N_X, discrete, p, a, rhs, lin);
+    linearize(t, y, y + N_X, discrete, p, a, rhs, linear);
     return 0;
 }
 #endif

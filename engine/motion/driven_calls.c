@@ -1,8 +1,11 @@
+/* Calls from Python in tree coordinates, for scenes with driven loops. */
+
 /*
- * Build the state that the tree's kernels read from q and v of a call; driven loops are solved at t. Returns a status.
+ * Build the state `tree` that the scene's functions read from the coordinates q and rates v of a call from Python.
+ * Driven loops are solved at time t from the guess in q. Return 0 or a status.
  */
 static int close_tree_state(
-    double t, const double *q, const double *v, DiscreteState *discrete, const Parameters *p, TreeState *at)
+    double t, const double *q, const double *v, DiscreteState *discrete, const Parameters *p, TreeState *tree)
 {
     double y[N_Y];
     for (int k = 0; k < N_X; k++) {
@@ -10,39 +13,43 @@ static int close_tree_state(
         y[N_X + k] = v[k];
     }
     solve_driven_loops(t, q + N_X, discrete, p);
-    return tree_state(t, y, discrete, p, at);
+    return tree_state(t, y, discrete, p, tree);
 }
 
-/* Compute positions and velocities of all bodies from tree coordinates. */
+/*
+ * Compute positions and velocities of all bodies (N_Q each) from tree coordinates q and rates v; driven loops are
+ * solved at t.
+ */
 void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v)
 {
     DiscreteState now = {0};
-    TreeState at = {0};
-    close_tree_state(t, q, v, &now, (const Parameters *)p, &at);
-    expand(t, at.q, at.v, (const Parameters *)p, all_q, all_v);
+    TreeState tree = {0};
+    close_tree_state(t, q, v, &now, (const Parameters *)p, &tree);
+    expand(t, tree.q, tree.v, (const Parameters *)p, all_q, all_v);
 }
 
-/* Compute tree coordinates and their rates from positions and velocities of all bodies. */
+/* Compute tree coordinates q and rates v from positions and velocities of all bodies (N_Q each). */
 void gudgeon_reduce(double t, const double *all_q, const double *all_v, const double *p, double *q, double *v)
 {
     reduce_state(t, all_q, all_v, (const Parameters *)p, q, v);
 }
 
 /*
- * Compute accelerations of the tree coordinates, multipliers of the closures and powers. discrete: N_DISCRETE numbers
- * of a sample. Returns a status.
+ * Compute accelerations a of the tree coordinates, multipliers of the closures and powers at a state. Return 0 or a
+ * status. Driven loops are solved at t. discrete: discrete state as in a sample (N_DISCRETE numbers); a: N_X, lambda:
+ * N_LOOPS, power: N_WORK.
  */
 int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *discrete, const double *p, double *a,
     double *lambda, double *power)
 {
     DiscreteState now = {0};
     RhsOutputs rhs;
-    TreeState at;
+    TreeState tree;
     read_discrete_state(discrete, &now);
-    int status = close_tree_state(t, q, v, &now, (const Parameters *)p, &at);
+    int status = close_tree_state(t, q, v, &now, (const Parameters *)p, &tree);
     if (status)
         return status;
-    status = reduced_dynamics(t, at.q, at.v, &now, (const Parameters *)p, a, &rhs);
+    status = reduced_dynamics(t, tree.q, tree.v, &now, (const Parameters *)p, a, &rhs);
     for (int r = 0; r < N_LOOPS; r++)
         lambda[r] = rhs.lambda[r];
     for (int k = 0; k < N_WORK; k++)
@@ -50,42 +57,51 @@ int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double
     return status;
 }
 
-/* Compute the closures Phi_s and their rates. */
+/*
+ * Compute the residuals phi of the closures and their rates phi_dot (N_LOOPS each) at a state; driven loops are solved
+ * at t.
+ */
 void gudgeon_closures(double t, const double *q, const double *v, const double *p, double *phi, double *phi_dot)
 {
     DiscreteState now = {0};
-    TreeState at = {0};
-    close_tree_state(t, q, v, &now, (const Parameters *)p, &at);
-    closures(t, at.q, (const Parameters *)p, phi);
-    closure_rates(t, at.q, at.v, (const Parameters *)p, phi_dot);
+    TreeState tree = {0};
+    close_tree_state(t, q, v, &now, (const Parameters *)p, &tree);
+    closures(t, tree.q, (const Parameters *)p, phi);
+    closure_rates(t, tree.q, tree.v, (const Parameters *)p, phi_dot);
 }
 
-/* Compute the smallest step x in the norm of M_s with Phi_s x = r. Returns a status. */
+/*
+ * Compute the smallest step x (N_X) in the norm of the tree's mass matrix M_s with Phi_s x = r. Return 0 or a status.
+ * Driven loops are solved at t.
+ */
 int gudgeon_reduced_project(double t, const double *q, const double *r, const double *p, double *x)
 {
     DiscreteState now = {0};
-    TreeState at;
-    const int status = close_tree_state(t, q, q, &now, (const Parameters *)p, &at);
-    return status ? status : reduced_project(t, at.q, r, (const Parameters *)p, x);
+    TreeState tree;
+    const int status = close_tree_state(t, q, q, &now, (const Parameters *)p, &tree);
+    return status ? status : reduced_project(t, tree.q, r, (const Parameters *)p, x);
 }
 
 #if RESCUED
-/* Compute the accelerations by the equations of all bodies, as where a pivot vanishes, at any state; for tests. */
+/*
+ * Compute the tree accelerations a by the equations of all bodies at any state; for tests. Return 0 or a status. The
+ * engine solves so only where a pivot vanishes. discrete: as for gudgeon_reduced_rhs().
+ */
 int gudgeon_reduced_rescue(
     double t, const double *q, const double *v, const double *discrete, const double *p, double *a)
 {
     DiscreteState now = {0};
     RhsOutputs rhs;
-    TreeState at;
+    TreeState tree;
     read_discrete_state(discrete, &now);
-    const int status = close_tree_state(t, q, v, &now, (const Parameters *)p, &at);
-    return status ? status : solve_by_absolute(t, at.q, at.v, &now, (const Parameters *)p, a, &rhs);
+    const int status = close_tree_state(t, q, v, &now, (const Parameters *)p, &tree);
+    return status ? status : solve_by_absolute(t, tree.q, tree.v, &now, (const Parameters *)p, a, &rhs);
 }
 
 #endif
 /*
- * Solve the driven loops at t from the guess in q (N_CHAIN); v: three rates of each coordinate (3 N_CHAIN). Returns 0
- * or the number of a closure.
+ * Solve the driven loops at time t from the guess in q (N_CHAIN), which is replaced, and compute three rates of each in
+ * v (3 N_CHAIN). Return 0 or the number of a closure that cannot be solved.
  */
 int gudgeon_chains(double t, double *q, const double *p, double *v)
 {
@@ -99,9 +115,9 @@ int gudgeon_chains(double t, double *q, const double *p, double *v)
 }
 
 /*
- * Evaluate the reduced right-hand side `count` times for benchmarks; each call depends on the one before. Driven loops
- * are solved anew each time, from a time at which the first of them differed by about 0.1 rad. Returns a sum that keeps
- * the calls.
+ * Evaluate the right-hand side `count` times for benchmarks, each time at a state that depends on the result before.
+ * Driven loops are solved anew each time, from a time at which the first of them differed by about 0.1 rad. Return a
+ * sum of results, which keeps the compiler from omitting calls.
  */
 double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *discrete,
     const double *parameters)

@@ -10,119 +10,125 @@ enum { MAX_CHAIN_STEPS = 8, MAX_CHAIN_PARTS = 60, FLAT_NODES = 4 };
 #define CHAIN_STRAIGHT 1e-3 /* the same: largest difference of positions from the integral of the rates */
 
 /*
- * Solve the closures of the driven loops by Chebyshev's method, from the guess in q. Of two Newton steps, `bend` is the
- * second one; the error after it is about bend^2/step. If it is not much smaller than the first, no root is near (L. V.
- * Kantorovich). moved: the sum of the steps. Returns 0 or the number of a closure.
+ * Solve the closures of the driven loops at time t by Chebyshev's method, from the guess in q, which is replaced. Of
+ * two Newton steps, `second_step` is the second one; the error after it is about second_step^2/step. If it is not much
+ * smaller than the first, no root is near (L. V. Kantorovich). step_sum: set to the sum of the steps. Return 0 or the
+ * number of a closure.
  */
-static int close_chains(double t, double *q, const DiscreteState *discrete, const Parameters *p, double *moved)
+static int solve_loop_closures(double t, double *q, const DiscreteState *discrete, const Parameters *p,
+    double *step_sum)
 {
-    double step[N_CHAIN], bend[N_CHAIN];
+    double step[N_CHAIN], second_step[N_CHAIN];
     int row = 1;
-    *moved = 0.0;
+    *step_sum = 0.0;
     chain_directions(t, q, discrete, p, q);
     for (int i = 0; i < MAX_CHAIN_STEPS; i++) {
-        double size = 0.0, bent = 0.0, sum = 0.0;
-        const int status = chain_step(t, q, discrete, p, step, bend, &row);
+        double size = 0.0, second_size = 0.0, sum = 0.0;
+        const int status = chain_step(t, q, discrete, p, step, second_step, &row);
         if (status)
             return status;
         for (int k = 0; k < N_CHAIN; k++) {
             size = max_of(size, fabs(step[k]) * chain_share(p, k));
-            bent = max_of(bent, fabs(bend[k]) * chain_share(p, k));
+            second_size = max_of(second_size, fabs(second_step[k]) * chain_share(p, k));
             sum += step[k];
             q[N_X + k] -= step[k];
         }
-        *moved += size;
+        *step_sum += size;
         if (size > TURN_SMALL) {
             chain_directions(t, q, discrete, p, q);
         } else {
             turn_directions(q, step, p);
         }
-        if (!isfinite(sum) || bent > 0.25 * size)
+        if (!isfinite(sum) || second_size > 0.25 * size)
             return row;
         /* the second step may vanish although the cube of the first is not negligible */
-        if ((4.0 * bent * bent < 1e-17 * size && size * size * size < 1e-17) || size < 1e-15)
+        if ((4.0 * second_size * second_size < 1e-17 * size && size * size * size < 1e-17) || size < 1e-15)
             return 0;
     }
-    return *moved < 1e-9 ? 0 : row;
+    return *step_sum < 1e-9 ? 0 : row;
 }
 
-/* Store the driven loops' coordinates and two rates at time t. */
-static inline void store_chains(double t, const TreeState *at, Chain *place)
+/* Store the driven loops' coordinates and two rates at time t from `tree` in `loops`. */
+static inline void store_driven_loops(double t, const TreeState *tree, Chain *loops)
 {
-    place->t = t;
+    loops->t = t;
     for (int k = 0; k < N_LED; k++)
-        place->q[k] = at->q[N_X + k];
+        loops->q[k] = tree->q[N_X + k];
     for (int k = 0; k < 2 * N_CHAIN; k++)
-        place->v[k] = at->v[N_X + k];
-}
-
-/* Restore stored coordinates and two rates; third rates are computed where they are needed. */
-static void restore_chains(const Chain *from, TreeState *at)
-{
-    for (int k = 0; k < N_LED; k++)
-        at->q[N_X + k] = from->q[k];
-    for (int k = 0; k < 2 * N_CHAIN; k++)
-        at->v[N_X + k] = from->v[k];
+        loops->v[k] = tree->v[N_X + k];
 }
 
 /*
- * Return the error of the Euler-Maclaurin rule between two times, h apart, for the driven loops' positions; lengths are
- * divided by the size.
+ * Copy stored coordinates and two rates of the driven loops to `tree`; third rates are computed where they are needed.
  */
-static double chain_position_error(double h, const Chain *a, const TreeState *b, const Parameters *p)
+static void restore_chains(const Chain *start, TreeState *tree)
+{
+    for (int k = 0; k < N_LED; k++)
+        tree->q[N_X + k] = start->q[k];
+    for (int k = 0; k < 2 * N_CHAIN; k++)
+        tree->v[N_X + k] = start->v[k];
+}
+
+/*
+ * Return the largest difference of the driven loops' positions at b from their Euler-Maclaurin integral from a, h (s)
+ * earlier. In rad; lengths are divided by the size of the mechanism.
+ */
+static double compute_loop_position_error(double h, const Chain *a, const TreeState *b, const Parameters *p)
 {
     const double *q = b->q + N_X, *rate = b->v + N_X, *second = rate + N_CHAIN;
     double most = 0.0;
     for (int k = 0; k < N_CHAIN; k++) {
-        const double way = 0.5 * h * (a->v[k] + rate[k] + (1.0 / 6.0) * h * (a->v[N_CHAIN + k] - second[k]));
-        most = max_of(most, chain_share(p, k) * fabs(q[k] - a->q[k] - way));
+        const double distance = 0.5 * h * (a->v[k] + rate[k] + (1.0 / 6.0) * h * (a->v[N_CHAIN + k] - second[k]));
+        most = max_of(most, chain_share(p, k) * fabs(q[k] - a->q[k] - distance));
     }
     return most;
 }
 
 /*
- * Solve the driven loops at time t from their state at a near time. Returns 0, or the number of a closure if the branch
- * is not certain.
+ * Solve the driven loops at time t, with two rates, from their state `start` at a near time. Return 0, or the number of
+ * a closure if they cannot be solved or the branch is not certain. The branch is certain if the move is short and the
+ * positions agree with the integral of the rates.
  */
-static int move_chains(double t, const Chain *from, const DiscreteState *discrete, const Parameters *p, TreeState *at)
+static int advance_driven_loops(double t, const Chain *start, const DiscreteState *discrete, const Parameters *p,
+    TreeState *tree)
 {
-    const double h = t - from->t, *rate = from->v, *second = rate + N_CHAIN, *third = second + N_CHAIN;
-    double moved;
+    const double h = t - start->t, *rate = start->v, *second = rate + N_CHAIN, *third = second + N_CHAIN;
+    double step_sum;
     for (int k = 0; k < N_CHAIN; k++)
-        at->q[N_X + k] = from->q[k] + h * (rate[k] + 0.5 * h * (second[k] + (1.0 / 3.0) * h * third[k]));
-    int status = close_chains(t, at->q, discrete, p, &moved);
+        tree->q[N_X + k] = start->q[k] + h * (rate[k] + 0.5 * h * (second[k] + (1.0 / 3.0) * h * third[k]));
+    int status = solve_loop_closures(t, tree->q, discrete, p, &step_sum);
     if (!status)
-        status = chain_rates(t, at->q, discrete, p, at->v);
+        status = chain_rates(t, tree->q, discrete, p, tree->v);
     if (status)
         return status;
-    return moved <= CHAIN_REACH && chain_position_error(h, from, at, p) <= CHAIN_STRAIGHT ? 0 : 1;
+    return step_sum <= CHAIN_REACH && compute_loop_position_error(h, start, tree, p) <= CHAIN_STRAIGHT ? 0 : 1;
 }
 
 /*
- * Solve the driven loops at time t in parts, if one move is too long. Returns 0, or the number of a closure that cannot
- * be followed.
+ * Solve the driven loops at time t from the last accepted state in parts, whose length is halved where a move is too
+ * long. Return 0, or the number of a closure that cannot be followed in MAX_CHAIN_PARTS parts.
  */
-static int follow_chains_in_parts(double t, const DiscreteState *discrete, const Parameters *p, TreeState *at)
+static int follow_driven_loops_in_parts(double t, const DiscreteState *discrete, const Parameters *p, TreeState *tree)
 {
-    Chain here = discrete->chain;
-    double h = 0.5 * (t - here.t);
+    Chain start = discrete->chain;
+    double h = 0.5 * (t - start.t);
     int status = 1;
     for (int part = 0; part < MAX_CHAIN_PARTS; part++) {
-        const int last = fabs(h) >= fabs(t - here.t);
-        const double next = last ? t : here.t + h;
-        status = move_chains(next, &here, discrete, p, at);
+        const int last = fabs(h) >= fabs(t - start.t);
+        const double next = last ? t : start.t + h;
+        status = advance_driven_loops(next, &start, discrete, p, tree);
         if (!status && last)
             return 0;
         if (status) {
             h *= 0.5;
             continue;
         }
-        here.t = next;
+        start.t = next;
         for (int k = 0; k < N_CHAIN; k++)
-            here.q[k] = at->q[N_X + k];
+            start.q[k] = tree->q[N_X + k];
         for (int k = 0; k < 2 * N_CHAIN; k++)
-            here.v[k] = at->v[N_X + k];
-        chain_third(next, at->q, at->v, discrete, p, here.v + 2 * N_CHAIN);
+            start.v[k] = tree->v[N_X + k];
+        chain_third(next, tree->q, tree->v, discrete, p, start.v + 2 * N_CHAIN);
         h *= 2.0;
     }
     return status ? status : 1;
@@ -130,10 +136,10 @@ static int follow_chains_in_parts(double t, const DiscreteState *discrete, const
 
 /*
  * Interpolate the driven loops at a time at which a loop lies flat and its closures do not determine it. Polynomials in
- * time pass through regular states before and after. Directions are not computed. Returns 0, or nonzero if the
- * polynomials do not agree.
+ * time pass through regular states before and after; the result is in `loops`, without directions. Return 0, or
+ * nonzero if nothing moves, a node cannot be solved or the polynomials do not agree.
  */
-static int interpolate_flat_chains(double t, const DiscreteState *discrete, const Parameters *p, Chain *place)
+static int interpolate_flat_loops(double t, const DiscreteState *discrete, const Parameters *p, Chain *loops)
 {
     double fastest = 0.0, lower[N_CHAIN];
     int status = discrete->chain.failed;
@@ -141,100 +147,107 @@ static int interpolate_flat_chains(double t, const DiscreteState *discrete, cons
         fastest = max_of(fastest, fabs(discrete->chain.v[k]) * chain_share(p, k));
     if (status || !(fastest > 0.0))
         return 1;
-    *place = (Chain){.t = t};
+    *loops = (Chain){.t = t};
     for (int i = 0; i < N_CHAIN; i++)
         lower[i] = 0.0;
     for (int j = 0; j < 2 * FLAT_NODES && !status; j++) {
         const int k = j / 2 + 1;
-        const double when = t + (j % 2 ? -k : k) * FLAT_TURN / fastest;
-        TreeState at;
-        if (move_chains(when, &discrete->chain, discrete, p, &at))
-            status = follow_chains_in_parts(when, discrete, p, &at);
+        const double t_node = t + (j % 2 ? -k : k) * FLAT_TURN / fastest;
+        TreeState tree;
+        if (advance_driven_loops(t_node, &discrete->chain, discrete, p, &tree))
+            status = follow_driven_loops_in_parts(t_node, discrete, p, &tree);
         if (!status)
-            status = chain_third(when, at.q, at.v, discrete, p, at.v + N_X + 2 * N_CHAIN);
+            status = chain_third(t_node, tree.q, tree.v, discrete, p, tree.v + N_X + 2 * N_CHAIN);
         for (int i = 0; i < N_CHAIN && !status; i++) {
-            place->q[i] += weight_at(FLAT_NODES, k) * at.q[N_X + i];
-            lower[i] += k < FLAT_NODES ? weight_at(FLAT_NODES - 1, k) * at.q[N_X + i] : 0.0;
+            loops->q[i] += weight_at(FLAT_NODES, k) * tree.q[N_X + i];
+            lower[i] += k < FLAT_NODES ? weight_at(FLAT_NODES - 1, k) * tree.q[N_X + i] : 0.0;
         }
         for (int i = 0; i < 3 * N_CHAIN && !status; i++)
-            place->v[i] += weight_at(FLAT_NODES, k) * at.v[N_X + i];
+            loops->v[i] += weight_at(FLAT_NODES, k) * tree.v[N_X + i];
     }
     for (int i = 0; i < N_CHAIN && !status; i++)
-        status = !(fabs(place->q[i] - lower[i]) * chain_share(p, i) <= FLAT_SMOOTH);
+        status = !(fabs(loops->q[i] - lower[i]) * chain_share(p, i) <= FLAT_SMOOTH);
     return status;
 }
 
 /*
- * Store the driven loops of an accepted state, with third rates; they are followed from there. Returns 0, or the number
- * of a closure that fails.
+ * Store the driven loops of an accepted state in `discrete`, with third rates; they are followed from there. If third
+ * rates cannot be solved, as where a loop lies flat, the loops are interpolated. Return 0, or the number of a closure
+ * that fails.
  */
-static int accept_chains(double t, const TreeState *at, DiscreteState *discrete, const Parameters *p)
+static int accept_chains(double t, const TreeState *tree, DiscreteState *discrete, const Parameters *p)
 {
-    Chain place = {0}, flat;
-    store_chains(t, at, &place);
-    place.failed = chain_third(t, at->q, at->v, discrete, p, place.v + 2 * N_CHAIN);
-    if (place.failed && !interpolate_flat_chains(t, discrete, p, &flat)) {
+    Chain loops = {0}, flat;
+    store_driven_loops(t, tree, &loops);
+    loops.failed = chain_third(t, tree->q, tree->v, discrete, p, loops.v + 2 * N_CHAIN);
+    if (loops.failed && !interpolate_flat_loops(t, discrete, p, &flat)) {
         for (int k = N_CHAIN; k < N_LED; k++)
-            flat.q[k] = place.q[k];
-        place = flat;
+            flat.q[k] = loops.q[k];
+        loops = flat;
     }
-    discrete->chain = discrete->recent = place;
-    return place.failed;
+    discrete->chain = discrete->recent = loops;
+    return loops.failed;
 }
 
 /*
- * Compute the driven loops at time t: those found at that time before, or from the last accepted state. Returns 0, or
- * the number of a closure that cannot be followed.
+ * Compute the driven loops at time t in `tree`, from the last accepted state; those found last are reused at the same
+ * time. If one move fails, they are solved in parts, then interpolated. Return 0, or the number of a closure that
+ * cannot be followed.
  */
-static inline int follow_chains(double t, const DiscreteState *discrete, const Parameters *p, TreeState *at)
+static inline int follow_driven_loops(double t, const DiscreteState *discrete, const Parameters *p, TreeState *tree)
 {
     if (discrete->chain.failed)
         return discrete->chain.failed;
 #if SMOOTH_CHAINS
     if (discrete->recent.t == t) {
-        restore_chains(&discrete->recent, at);
+        restore_chains(&discrete->recent, tree);
         return 0;
     }
 #endif
-    if (!move_chains(t, &discrete->chain, discrete, p, at))
+    if (!advance_driven_loops(t, &discrete->chain, discrete, p, tree))
         return 0;
-    const int status = follow_chains_in_parts(t, discrete, p, at);
+    const int status = follow_driven_loops_in_parts(t, discrete, p, tree);
     Chain flat;
-    if (!status || interpolate_flat_chains(t, discrete, p, &flat))
+    if (!status || interpolate_flat_loops(t, discrete, p, &flat))
         return status;
-    restore_chains(&flat, at);
-    chain_directions(t, at->q, discrete, p, at->q);
+    restore_chains(&flat, tree);
+    chain_directions(t, tree->q, discrete, p, tree->q);
     return 0;
 }
 
 /*
- * Build all that the tree's kernels read at (t, y). Several stages of a method share a time. A positive status
- * is a closure of a driven loop, numbered after the TREE_PIVOTS pivots.
+ * Build all that the scene's functions read at (t, y): driven loops solved at t, and the independent coordinates and
+ * rates of y. Several stages of a method share a time. Return 0, or TREE_PIVOTS plus the number of a closure of a
+ * driven loop.
  */
-static inline int tree_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, TreeState *at)
+static inline int tree_state(double t, const double *y, DiscreteState *discrete, const Parameters *p,
+    TreeState *tree)
 {
-    const int status = follow_chains(t, discrete, p, at);
+    const int status = follow_driven_loops(t, discrete, p, tree);
 #if SMOOTH_CHAINS
     if (!status && discrete->recent.t != t)
-        store_chains(t, at, &discrete->recent);
+        store_driven_loops(t, tree, &discrete->recent);
 #endif
     for (int k = 0; k < N_X; k++) {
-        at->q[k] = y[k];
-        at->v[k] = y[N_X + k];
+        tree->q[k] = y[k];
+        tree->v[k] = y[N_X + k];
     }
     return status ? TREE_PIVOTS + status : 0;
 }
 
-/* Solve the driven loops at t from a guess of their coordinates (N_CHAIN), and follow them from there. */
+/*
+ * Solve the driven loops at time t from a guess of their coordinates (N_CHAIN), and store them in `discrete`. They are
+ * followed from there. A failure is stored in discrete->chain.failed.
+ */
 void solve_driven_loops(double t, const double *guess, DiscreteState *discrete, const Parameters *p)
 {
-    TreeState at = {0};
-    double moved;
+    TreeState tree = {0};
+    double step_sum;
     for (int k = 0; k < N_CHAIN; k++)
-        at.q[N_X + k] = guess[k];
-    int status = close_chains(t, at.q, discrete, p, &moved);
+        tree.q[N_X + k] = guess[k];
+    int status = solve_loop_closures(t, tree.q, discrete, p, &step_sum);
     if (!status)
-        status = chain_rates(t, at.q, discrete, p, at.v);
-    const int last = accept_chains(t, &at, discrete, p);
+        status = chain_rates(t, tree.q, discrete, p, tree.v);
+    const int last = accept_chains(t, &tree, discrete, p);
     discrete->chain.failed = status ? status : last;
 }

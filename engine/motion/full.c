@@ -1,33 +1,39 @@
-/* Compute the rates of the state in absolute coordinates. Returns a status. */
+/* The integrated state in absolute coordinates: right-hand side, conversions, accepted states. */
+
+/* Compute the rates dy of the state y in absolute coordinates and the outputs rhs. Return 0 or a status. */
 int motion_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     return state_equation(t, y, discrete, p, dy, rhs);
 }
 
-/* Evaluate the contacts of joints with play at a state. Returns a status. */
+/*
+ * Evaluate the contacts of joints with play at state y into `rhs`, by the whole right-hand side. Return 0 or a status.
+ */
 int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
     double dy[N_Y];
     return state_equation(t, y, discrete, p, dy, rhs);
 }
 
-/* Copy the integrated state to the state of all bodies, (q, v, works). */
-void to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p, double *all)
+/* Copy the integrated state y to the state of all bodies, (q, v, works) in `absolute_state`: both are the same. */
+void to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
+    double *absolute_state)
 {
     (void)t, (void)discrete, (void)p;
     for (int k = 0; k < N_S; k++)
-        all[k] = y[k];
+        absolute_state[k] = y[k];
 }
 
-/* Copy the state of all bodies, (q, v, works), to the integrated state. */
-void from_absolute(double t, const double *all, DiscreteState *discrete, const Parameters *p, double *y)
+/* Copy the state of all bodies, (q, v, works) in `absolute_state`, to the integrated state y: both are the same. */
+void from_absolute(double t, const double *absolute_state, DiscreteState *discrete, const Parameters *p,
+    double *y)
 {
     (void)t, (void)discrete, (void)p;
     for (int k = 0; k < N_S; k++)
-        y[k] = all[k];
+        y[k] = absolute_state[k];
 }
 
-/* Accept a state: update the maxima of |Phi| and |Phi_dot|. Returns a status. */
+/* Update the maxima of |Phi| and |Phi_dot| with an accepted state, from its outputs rhs. Return 0. */
 int accept_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const RhsOutputs *rhs,
     double *phi_max, double *phi_dot_max)
 {

@@ -1,16 +1,19 @@
+/* Tree accelerations by the equations of all bodies, where a pivot of the reduced equations vanishes. */
+
 /*
- * Compute the tree's accelerations and the closures' multipliers by the equations of all bodies. Returns NEAR near a
- * singular position if that is to be reported, or a status.
+ * Compute tree accelerations a and multipliers of the closures by the equations of all bodies, where a pivot of the
+ * tree vanishes. Return 0 or a status. Return NEAR near a singular position if such positions are to be detected. If
+ * they are, and this is none, the reduced equations are solved with the usual limits of pivots.
  */
 int solve_by_absolute(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     double *a, RhsOutputs *rhs)
 {
     double all_q[N_Q], all_v[N_Q], all_a[N_Q];
-    RhsOutputs whole;
+    RhsOutputs all_bodies;
     DiscreteState now = *discrete;
     now.held = 0; /* switching functions have other indices there */
     expand(t, q, v, p, all_q, all_v);
-    const int status = dynamics(t, all_q, all_v, &now, p, all_a, &whole);
+    const int status = dynamics(t, all_q, all_v, &now, p, all_a, &all_bodies);
     if (discrete->least > NEARLY_SINGULAR && status == NEAR)
         return NEAR;
     if (discrete->least > NEARLY_SINGULAR && status != STOPPED) {
@@ -21,6 +24,6 @@ int solve_by_absolute(double t, const double *q, const double *v, const Discrete
         return reduced_dynamics(t, q, v, &now, p, a, rhs);
     }
     reduce_accelerations(t, all_q, all_v, all_a, p, a);
-    tree_multipliers(whole.lambda, rhs->lambda);
+    tree_multipliers(all_bodies.lambda, rhs->lambda);
     return status;
 }

@@ -9,8 +9,8 @@ typedef double SeriesRow __attribute__((vector_size(REGISTER)));
 #include "../both/series.h"
 
 /*
- * Compute the coefficients c[k], k = 0 ... order, of the integrated state in powers of time from t on, where it is y.
- * Returns 0 or the number of the pivot that vanished.
+ * Compute the coefficients c[k], k = 0 ... order, of the Taylor series of the integrated state at time t, where it is
+ * y. Return 0 or the number of the pivot that vanished; then only c[0] is valid.
  */
 int taylor_series(double t, const double *y, const Parameters *p, int order, double (*c)[TAYLOR_Y])
 {

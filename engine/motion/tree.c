@@ -8,26 +8,35 @@
 #define CLOSURE_RATES(t, q, v, discrete, p, phi_dot) closure_rates(t, q, v, p, phi_dot)
 #include "../both/motion.h"
 
-/* Evaluate the contacts of joints with play at a state, without accelerations. Returns a status. */
+/*
+ * Evaluate the contacts of joints with play at state y into `rhs`, without solving for accelerations. Return 0 or a
+ * status.
+ */
 int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
     return reduced_dynamics(t, y, y + N_X, discrete, p, NULL, rhs);
 }
 
-/* Compute the state of all bodies, (q, v, works), from the integrated state y. */
-void to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p, double *all)
+/*
+ * Compute the state of all bodies, (q, v, works) in `absolute_state`, from the integrated state y in tree coordinates.
+ */
+void to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
+    double *absolute_state)
 {
     (void)discrete;
-    expand(t, y, y + N_X, p, all, all + N_Q);
+    expand(t, y, y + N_X, p, absolute_state, absolute_state + N_Q);
     for (int k = 0; k < N_WORK; k++)
-        all[2 * N_Q + k] = y[2 * N_X + k];
+        absolute_state[2 * N_Q + k] = y[2 * N_X + k];
 }
 
-/* Compute the integrated state y from the state of all bodies, (q, v, works). */
-void from_absolute(double t, const double *all, DiscreteState *discrete, const Parameters *p, double *y)
+/*
+ * Compute the integrated state y in tree coordinates from the state of all bodies, (q, v, works) in `absolute_state`.
+ */
+void from_absolute(double t, const double *absolute_state, DiscreteState *discrete, const Parameters *p,
+    double *y)
 {
     (void)discrete;
-    reduce_state(t, all, all + N_Q, p, y, y + N_X);
+    reduce_state(t, absolute_state, absolute_state + N_Q, p, y, y + N_X);
     for (int k = 0; k < N_WORK; k++)
-        y[2 * N_X + k] = all[2 * N_Q + k];
+        y[2 * N_X + k] = absolute_state[2 * N_Q + k];
 }

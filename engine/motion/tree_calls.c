@@ -1,18 +1,20 @@
-/* Compute positions and velocities of all bodies from tree coordinates. */
+/* Calls from Python in tree coordinates, for scenes without driven loops. */
+
+/* Compute positions and velocities of all bodies (N_Q each) from tree coordinates q and rates v (N_X each). */
 void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v)
 {
     expand(t, q, v, (const Parameters *)p, all_q, all_v);
 }
 
-/* Compute tree coordinates and their rates from positions and velocities of all bodies. */
+/* Compute tree coordinates q and rates v (N_X each) from positions and velocities of all bodies (N_Q each). */
 void gudgeon_reduce(double t, const double *all_q, const double *all_v, const double *p, double *q, double *v)
 {
     reduce_state(t, all_q, all_v, (const Parameters *)p, q, v);
 }
 
 /*
- * Compute accelerations of the tree coordinates, multipliers of the closures and powers. discrete: N_DISCRETE numbers
- * of a sample. Returns a status.
+ * Compute accelerations a of the tree coordinates, multipliers of the closures and powers at a state. Return 0 or a
+ * status. discrete: discrete state as in a sample (N_DISCRETE numbers); a: N_X, lambda: N_LOOPS, power: N_WORK.
  */
 int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *discrete, const double *p, double *a,
     double *lambda, double *power)
@@ -28,21 +30,26 @@ int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double
     return status;
 }
 
-/* Compute the closures Phi_s and their rates. */
+/* Compute the residuals phi of the closures and their rates phi_dot (N_LOOPS each) at a state. */
 void gudgeon_closures(double t, const double *q, const double *v, const double *p, double *phi, double *phi_dot)
 {
     closures(t, q, (const Parameters *)p, phi);
     closure_rates(t, q, v, (const Parameters *)p, phi_dot);
 }
 
-/* Compute the smallest step x in the norm of M_s with Phi_s x = r. Returns a status. */
+/*
+ * Compute the smallest step x (N_X) in the norm of the tree's mass matrix M_s with Phi_s x = r. Return 0 or a status.
+ */
 int gudgeon_reduced_project(double t, const double *q, const double *r, const double *p, double *x)
 {
     return reduced_project(t, q, r, (const Parameters *)p, x);
 }
 
 #if RESCUED
-/* Compute the accelerations by the equations of all bodies, as where a pivot vanishes, at any state; for tests. */
+/*
+ * Compute the tree accelerations a by the equations of all bodies at any state; for tests. Return 0 or a status. The
+ * engine solves so only where a pivot vanishes. discrete: as for gudgeon_reduced_rhs().
+ */
 int gudgeon_reduced_rescue(
     double t, const double *q, const double *v, const double *discrete, const double *p, double *a)
 {
@@ -54,8 +61,8 @@ int gudgeon_reduced_rescue(
 
 #endif
 /*
- * Evaluate the reduced right-hand side `count` times for benchmarks; each call depends on the one before. Returns a sum
- * that keeps the calls.
+ * Evaluate the reduced right-hand side `count` times for benchmarks, each time at a state that depends on the result
+ * before. Return a sum of results, which keeps the compiler from omitting calls.
  */
 double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *discrete,
     const double *p)
