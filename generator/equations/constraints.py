@@ -40,139 +40,183 @@ class Constraints(Freezable):
     """Derives the constraint equations; `t` is the symbol of time, `drive_angles` the prescribed values by drive."""
 
     def __init__(self, geometry: Geometry) -> None:
-        """Begin without drives, on the symbols and points of a geometry."""
+        """Begin without drives.
+
+        `geometry` supplies the symbols and points; the symbol of time is made here.
+        """
         self.geometry, self.symbols = geometry, geometry.symbols
         self.t = self.symbols.new("time", Place("t"), "time", "s")
         self.drive_angles: dict[str, tuple[sp.Symbol, sp.Symbol, sp.Symbol]] = {}
 
     def joint_rows(self, joint: Joint) -> list[Row]:
-        """Return the constraint equations of a joint, named "<joint>.<row>"."""
+        """Return the constraint equations of a joint in the order of its type, named "<joint>.<row>".
+
+        Further bodies of the type, such as the carrier of a gear, are differentiated too.
+        """
         kind = joint_types()[joint.kind]
         first, second = self._point(joint.first), self._point(joint.second)
         expressions = kind.rows(first, second, JointFields(joint, self.geometry))
-        named = zip(kind.row_names, kind.row_units, expressions, strict=True)
-        others = [joint.options[name] for name in kind.further_bodies]  # a gear's carrier
-        bodies = self._bodies(first, second) + [self.geometry.bodies[name] for name in others if name != GROUND]
+        named_expressions = zip(kind.row_names, kind.row_units, expressions, strict=True)
+        other_bodies = [joint.options[name] for name in kind.further_bodies]  # a gear's carrier
+        bodies = self._list_bodies(first, second) + [
+            self.geometry.bodies[name] for name in other_bodies if name != GROUND
+        ]
         return [
-            self._row(f"{joint.name}.{name}", joint.name, "joint", unit, sp.expand(phi), bodies)
-            for name, unit, phi in named
+            self._derive_row(f"{joint.name}.{name}", joint.name, "joint", unit, sp.expand(phi), bodies)
+            for name, unit, phi in named_expressions
         ]
 
     def drive_rows(self, drive: Drive) -> list[Row]:
-        """Return the constraint equation of a drive in a list: the driven quantity less f(t)."""
-        measured, bodies, unit = self._measured(drive)
-        phi = measured - self.drive_value(drive)
-        return [self._row(drive.name, drive.name, "drive", unit, phi, bodies)]
+        """Return the constraint equation of a drive, in a list of one: the driven quantity less f(t)."""
+        quantity, bodies, unit = self._find_driven_quantity(drive)
+        phi = quantity - self.drive_value(drive)
+        return [self._derive_row(drive.name, drive.name, "drive", unit, phi, bodies)]
 
     def _point(self, ref: PointRef) -> PointFrame:
         """Return the frame of a named point."""
         return self.geometry.point(ref)
 
-    def _pairs(self, bodies: list[BodySymbols]) -> list[tuple[sp.Symbol, sp.Symbol]]:
-        """Return the pairs (coordinate, velocity) that move the bodies."""
+    def _find_coordinate_pairs(self, bodies: list[BodySymbols]) -> list[tuple[sp.Symbol, sp.Symbol]]:
+        """Return the pairs (coordinate, velocity) of the bodies that a constraint equation may depend on.
+
+        TreeConstraints returns those of the tree.
+        """
         return [(q, v) for body in bodies for q, v in zip(body.q, body.v, strict=True)]
 
-    def _measured(self, drive: Drive) -> tuple[sp.Expr, list[BodySymbols], str]:
-        """Return the quantity that a drive prescribes, the bodies on which it depends, and its unit."""
+    def _find_driven_quantity(self, drive: Drive) -> tuple[sp.Expr, list[BodySymbols], str]:
+        """Return the quantity that a drive prescribes, the bodies on which it depends, and its unit.
+
+        It is a distance of two points, a coordinate of a body, or an angle, which may be relative to a reference body.
+        """
         if drive.kind == "distance":
             first, second = (self._point(ref) for ref in drive.points)
-            return self._distance(drive.name, first, second), self._bodies(first, second), "m"
+            return self._define_distance(drive.name, first, second), self._list_bodies(first, second), "m"
         bodies = [self.geometry.bodies[name] for name in (drive.body, drive.reference) if name]
         if drive.kind == "coordinate" and drive.coordinate != "theta":
             return getattr(bodies[0], drive.coordinate), bodies, "m"
-        measured = bodies[0].theta - bodies[1].theta if len(bodies) > 1 else bodies[0].theta
-        return measured, bodies, "rad"
+        quantity = bodies[0].theta - bodies[1].theta if len(bodies) > 1 else bodies[0].theta
+        return quantity, bodies, "rad"
 
-    def _distance(self, name: str, first: PointFrame, second: PointFrame) -> sp.Symbol:
+    def _define_distance(self, name: str, first: PointFrame, second: PointFrame) -> sp.Symbol:
         """Return ‖r_Q − r_P‖ as a symbol, with the rules of its derivatives.
 
-        With its direction u: d length = u · dr and du = (ẑ × u)(ẑ × u · dr)/length.
-        Written out, the second derivatives of the root would be thousands of terms.
+        `name`: the drive, from which the names of the symbols are made. With its direction u: d length = u · dr and du
+        = (ẑ × u)(ẑ × u · dr)/length. Written out, the second derivatives of the root would be thousands of terms.
         """
         define, rules = self.symbols.define, self.symbols.rules
-        span = (second.x - first.x, second.y - first.y)
-        x, y = (define(f"{name}_span_{axis}", value, None, "span") for axis, value in zip("xy", span, strict=True))
+        difference = (second.x - first.x, second.y - first.y)
+        x, y = (
+            define(f"{name}_span_{axis}", value, None, "span") for axis, value in zip("xy", difference, strict=True)
+        )
         length = define(f"{name}_length", sp.sqrt(x**2 + y**2), None, "its length")
-        u_x, u_y = (
+        direction_x, direction_y = (
             define(f"{name}_along_{axis}", value / length, None, "its direction")
             for axis, value in zip("xy", (x, y), strict=True)
         )
-        rules[length], rules[u_x], rules[u_y] = {}, {}, {}
-        for q in [*(q for q, _ in self._pairs(self._bodies(first, second))), self.t]:
-            dx, dy = (self.symbols.diff(value, q) for value in span)
+        rules[length], rules[direction_x], rules[direction_y] = {}, {}, {}
+        for q in [*(q for q, _ in self._find_coordinate_pairs(self._list_bodies(first, second))), self.t]:
+            dx, dy = (self.symbols.diff(value, q) for value in difference)
             if dx == dy == 0:
                 continue
-            rules[length][q] = u_x * dx + u_y * dy
-            turn = (u_x * dy - u_y * dx) / length
-            rules[u_x][q], rules[u_y][q] = -u_y * turn, u_x * turn
+            rules[length][q] = direction_x * dx + direction_y * dy
+            turning_rate = (direction_x * dy - direction_y * dx) / length
+            rules[direction_x][q], rules[direction_y][q] = -direction_y * turning_rate, direction_x * turning_rate
         return length
 
     def drive_value(self, drive: Drive) -> sp.Symbol:
-        """Return the symbol of a drive's f(t); f, f′ and f″ are defined once, as each other's derivatives."""
+        """Return the symbol of a drive's f(t).
+
+        At the first call f, f′ and f″ are defined as symbols with rules, and stored in `drive_angles`.
+        """
         if drive.name in self.drive_angles:
             return self.drive_angles[drive.name][0]
-        slots, define = self.geometry.slots, self.symbols.define
+        parameter_table, define = self.geometry.slots, self.symbols.define
 
         def symbol_of(path: str) -> sp.Symbol:
-            """Return the symbol of time or of a parameter."""
-            return self.t if path == "t" else slots.entries[f"parameters.{path}"].symbol
+            """Return the symbol of time or of a parameter by its name in the file."""
+            return self.t if path == "t" else parameter_table.entries[f"parameters.{path}"].symbol
 
-        value = quantity_to_sympy(drive.value, symbol_of)
-        f = define(f"{drive.name}_value", value, None, f"drive {drive.name}")
-        first = _rate(value, self.t)
-        rate = define(f"{drive.name}_rate", first, None, "its rate")
-        second = define(f"{drive.name}_acceleration", _rate(first, self.t), None, "its second rate")
-        self.symbols.rules[f], self.symbols.rules[rate] = {self.t: rate}, {self.t: second}
-        self.drive_angles[drive.name] = f, rate, second
+        expression = quantity_to_sympy(drive.value, symbol_of)
+        f = define(f"{drive.name}_value", expression, None, f"drive {drive.name}")
+        first_derivative = _differentiate_by_time(expression, self.t)
+        rate = define(f"{drive.name}_rate", first_derivative, None, "its rate")
+        second_derivative = define(
+            f"{drive.name}_acceleration", _differentiate_by_time(first_derivative, self.t), None, "its second rate"
+        )
+        self.symbols.rules[f], self.symbols.rules[rate] = {self.t: rate}, {self.t: second_derivative}
+        self.drive_angles[drive.name] = f, rate, second_derivative
         return f
 
     @staticmethod
-    def _bodies(*points: PointFrame) -> list[BodySymbols]:
-        """Return the bodies of some points, without the ground."""
+    def _list_bodies(*points: PointFrame) -> list[BodySymbols]:
+        """Return the bodies of some points, without the ground, in the order of the points."""
         return [point.body for point in points if point.body is not None]
 
-    def _row(self, name: str, owner: str, kind: str, unit: str, phi: sp.Expr, bodies: list[BodySymbols]) -> Row:
-        """Return the constraint equation `phi` = 0 with Φ_q, Φ_q q̇, ν and γ by differentiation."""
+    def _derive_row(self, name: str, owner: str, kind: str, unit: str, phi: sp.Expr, bodies: list[BodySymbols]) -> Row:
+        """Return the constraint equation `phi` = 0 with Φ_q, Φ_q q̇, ν and γ by differentiation.
+
+        `bodies`: those that phi depends on; γ is expanded if that has fewer operations.
+        """
         diff, t = self.symbols.diff, self.t
-        pairs = self._pairs(bodies)
-        phi_q = {q: entry for q, _ in pairs if (entry := sp.expand(diff(phi, q))) != 0}
-        phi_q_v = sum((phi_q[q] * v for q, v in pairs if q in phi_q), sp.Integer(0))
+        coordinate_pairs = self._find_coordinate_pairs(bodies)
+        phi_q = {q: entry for q, _ in coordinate_pairs if (entry := sp.expand(diff(phi, q))) != 0}
+        phi_q_v = sum((phi_q[q] * v for q, v in coordinate_pairs if q in phi_q), sp.Integer(0))
         phi_t = diff(phi, t)
-        gamma = -sum((diff(phi_q_v, q) * v for q, v in pairs), sp.Integer(0)) - 2 * diff(phi_q_v, t) - diff(phi_t, t)
+        gamma = (
+            -sum((diff(phi_q_v, q) * v for q, v in coordinate_pairs), sp.Integer(0))
+            - 2 * diff(phi_q_v, t)
+            - diff(phi_t, t)
+        )
         gamma = min(sp.expand(gamma), gamma, key=sp.count_ops)
         return Row(name, owner, kind, unit, phi, phi_q, phi_q_v, -phi_t, gamma)
 
 
 @lru_cache(maxsize=256)
 def rate_jumps(drive: Drive) -> bool:
-    """Return whether the rate of a drive may jump, because its expression has switching points or a root of a square.
+    """Return whether the rate of a drive may jump: its expression has switching points or a root of a square.
 
-    The linkage then follows by an impulse.
+    The linkage then follows by an impulse. Results are cached.
     """
     if not CORNERED.isdisjoint(functions(drive.value.value)):
         return True
     return bool(to_sympy(drive.value.value, lambda path: sp.Symbol(path, real=True)).has(sp.Abs))
 
 
-_WITH_CORNERS = (Pick, Upon, Apart, Largest, Smallest, sp.Abs, sp.Max, sp.Min, sp.sign, sp.Heaviside, sp.DiracDelta)
+_SWITCHING_CLASSES = (
+    Pick,
+    Upon,
+    Apart,
+    Largest,
+    Smallest,
+    sp.Abs,
+    sp.Max,
+    sp.Min,
+    sp.sign,
+    sp.Heaviside,
+    sp.DiracDelta,
+)
 
 
-def _rate(value: sp.Expr, t: sp.Symbol) -> sp.Expr:
+def _differentiate_by_time(value: sp.Expr, t: sp.Symbol) -> sp.Expr:
     """Return d/dt of an expression; at a switching point of min, max and abs it is the rate before the point.
 
-    No impulse arises there. The rate of max and min is that of one argument, also where several are equal.
+    No impulse arises there: Dirac deltas are dropped. The rate of max and min is that of one argument, also where
+    several are equal.
     """
-    if value.has(*_WITH_CORNERS):
+    if value.has(*_SWITCHING_CLASSES):
         value = value.replace(Pick, lambda side, a, b: Pick(side.replace(sp.sign, Apart), a, b))
-        value = value.replace(sp.Abs, _plain).replace(sp.Max, Largest).replace(sp.Min, Smallest)
+        value = value.replace(sp.Abs, _make_differentiable_abs).replace(sp.Max, Largest).replace(sp.Min, Smallest)
     rate = partial(value, t)
-    if not rate.has(*_WITH_CORNERS):
+    if not rate.has(*_SWITCHING_CLASSES):
         return rate
     rate = rate.replace(sp.DiracDelta, lambda *_: sp.Integer(0))
     rate = rate.replace(Upon, sp.sign).replace(sp.sign, lambda x: 2 * sp.Heaviside(x) - 1)
     return rate.replace(Apart, sp.sign).replace(Largest, sp.Max).replace(Smallest, sp.Min)
 
 
-def _plain(x: sp.Expr) -> sp.Expr:
-    """Return |x| in a form that SymPy differentiates without real and imaginary parts, such as for acos(t) beyond 1."""
+def _make_differentiable_abs(x: sp.Expr) -> sp.Expr:
+    """Return |x| in a form that SymPy differentiates without real and imaginary parts, also if x may be complex.
+
+    An example is acos(t) beyond t = 1.
+    """
     return sp.Abs(x) if x.is_real else x * Upon(x)

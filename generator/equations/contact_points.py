@@ -50,59 +50,92 @@ class Place:
     wall: Wall | None = None
 
 
-def places_of(joint: Joint, measures: Bearing | Guide, geometry: Geometry, slots: ParameterTable) -> Iterator[Place]:
-    """Yield the contact points of a joint with play: one of a revolute joint, four of a translational one."""
-    if isinstance(measures, Guide):
-        yield from _corners(joint, measures, geometry, slots)
+def places_of(
+    joint: Joint, dimensions: Bearing | Guide, geometry: Geometry, parameter_table: ParameterTable
+) -> Iterator[Place]:
+    """Yield the contact points of a joint with play: one of a revolute joint, four of a translational one.
+
+    `dimensions`: dimensions of the bearing or guide, which become parameters in `parameter_table`.
+    """
+    if isinstance(dimensions, Guide):
+        yield from _make_corner_points(joint, dimensions, geometry, parameter_table)
         return
-    pair = _pair(measures, slots)
-    yield Place(joint.name, joint.name, geometry.point(joint.first), geometry.point(joint.second), pair, pair)
+    bearing_symbols = _make_bearing_symbols(dimensions, parameter_table)
+    yield Place(
+        joint.name,
+        joint.name,
+        geometry.point(joint.first),
+        geometry.point(joint.second),
+        bearing_symbols,
+        bearing_symbols,
+    )
 
 
-def _pair(bearing: Bearing, slots: ParameterTable) -> PairSymbols:
-    """Return radii, clearance, length and elastic constants of a bearing and its journal as parameters."""
-    R_i, c = slots.use(bearing.radius), slots.use(bearing.clearance)
-    R_j = slots.derive(f"R_j_{bearing.name}", R_i - c, "journal radius")
-    return PairSymbols(R_i, R_j, c, slots.use(bearing.length), *_elastic(bearing, slots))
+def _make_bearing_symbols(bearing: Bearing, parameter_table: ParameterTable) -> PairSymbols:
+    """Return radii, clearance, length and elastic constants of a bearing and its journal as parameters.
+
+    The radius of the journal is derived: that of the bearing less the clearance.
+    """
+    R_i, c = parameter_table.use(bearing.radius), parameter_table.use(bearing.clearance)
+    R_j = parameter_table.derive(f"R_j_{bearing.name}", R_i - c, "journal radius")
+    return PairSymbols(
+        R_i, R_j, c, parameter_table.use(bearing.length), *_make_elastic_constants(bearing, parameter_table)
+    )
 
 
-def _elastic(measures: Bearing | Guide, slots: ParameterTable) -> list[sp.Expr]:
-    """Return E_i, ν_i, E_j, ν_j of both bodies as parameters."""
-    materials = measures.bearing_material, measures.journal_material
-    return [slots.use(material.numbers[what]) for material in materials for what in ("E", "nu")]
+def _make_elastic_constants(dimensions: Bearing | Guide, parameter_table: ParameterTable) -> list[sp.Expr]:
+    """Return E_i, ν_i, E_j, ν_j of bearing and journal (or guide and slider) as parameters."""
+    materials = dimensions.bearing_material, dimensions.journal_material
+    return [parameter_table.use(material.numbers[key]) for material in materials for key in ("E", "nu")]
 
 
-def _corners(joint: Joint, guide: Guide, geometry: Geometry, slots: ParameterTable) -> Iterator[Place]:
-    """Yield the four corners of a slider in its guide as contact points."""
+def _make_corner_points(
+    joint: Joint, guide: Guide, geometry: Geometry, parameter_table: ParameterTable
+) -> Iterator[Place]:
+    """Yield the four corners of a slider in its guide as contact points, each with its wall.
+
+    Parameters for their distances from the slider's point are derived here; labels differ from names of joints.
+    """
     first = geometry.point(joint.first)
-    a, b, c = (slots.use(number) for number in (guide.half_length, guide.half_height, guide.gap))
-    radius = sp.Integer(0) if guide.corner_radius is None else slots.use(guide.corner_radius)
-    named = (("reach", a - radius, "half-length"), ("rise", b - radius, "half-height"))
-    reach, rise = (slots.derive(f"{what}_{guide.name}", x, f"{message} less radius") for what, x, message in named)
-    width = slots.derive(f"half_width_{guide.name}", b + c, "half the guide's width")
-    pair = PairSymbols(width, radius, c, sp.nan, *_elastic(guide, slots))
+    a, b, c = (parameter_table.use(quantity) for quantity in (guide.half_length, guide.half_height, guide.gap))
+    radius = sp.Integer(0) if guide.corner_radius is None else parameter_table.use(guide.corner_radius)
+    distances = (("reach", a - radius, "half-length"), ("rise", b - radius, "half-height"))
+    axial_distance, normal_distance = (
+        parameter_table.derive(f"{symbol_name}_{guide.name}", x, f"{meaning} less radius")
+        for symbol_name, x, meaning in distances
+    )
+    width = parameter_table.derive(f"half_width_{guide.name}", b + c, "half the guide's width")
+    corner_symbols = PairSymbols(width, radius, c, sp.nan, *_make_elastic_constants(guide, parameter_table))
     fields = JointFields(joint, geometry)
     axis_x, axis_y = first.direction(fields.direction("axis"))
-    along_x, along_y = _axis_in_slider(fields, slots, joint.name)
-    used = set(geometry.mechanism.joints)
+    along_x, along_y = _find_axis_in_slider(fields, parameter_table, joint.name)
+    used_names = set(geometry.mechanism.joints)
     for corner, (front, upper) in CORNERS.items():
         label = f"{joint.name}_{corner}"
-        while label in used:
+        while label in used_names:
             label += "_"
-        x, y = front * reach, upper * rise
+        x, y = front * axial_distance, upper * normal_distance
         offset = (along_x * x - along_y * y, along_y * x + along_x * y)
-        wall = Wall((-upper * axis_y, upper * axis_x), rise)
+        wall = Wall((-upper * axis_y, upper * axis_x), normal_distance)
         second = geometry.beside(joint.second, offset, label)
-        yield Place(f"{joint.name}.{corner}", label, first, second, pair, replace(pair, R_i=sp.oo), wall)
+        yield Place(
+            f"{joint.name}.{corner}", label, first, second, corner_symbols, replace(corner_symbols, R_i=sp.oo), wall
+        )
 
 
-def _axis_in_slider(fields: JointFields, slots: ParameterTable, joint: str) -> tuple[sp.Expr, sp.Expr]:
-    """Return the guide's axis in the slider's frame, with the slider at the angle that the joint prescribes."""
-    along = fields.angle_of("axis")
-    turned = fields.quantity("angle", along)
-    if turned == along:
+def _find_axis_in_slider(fields: JointFields, parameter_table: ParameterTable, joint: str) -> tuple[sp.Expr, sp.Expr]:
+    """Return the components of the guide's axis in the slider's frame.
+
+    The slider is at the angle that the joint prescribes; the components are (1, 0) if that angle is the axis' own.
+    """
+    axis_angle = fields.angle_of("axis")
+    slider_angle = fields.quantity("angle", axis_angle)
+    if slider_angle == axis_angle:
         return sp.Integer(1), sp.Integer(0)
     cos, sin = (
-        slots.derive(f"{f.__name__}_slider_{joint}", f(along - turned), "axis in the slider") for f in (sp.cos, sp.sin)
+        parameter_table.derive(
+            f"{function.__name__}_slider_{joint}", function(axis_angle - slider_angle), "axis in the slider"
+        )
+        for function in (sp.cos, sp.sin)
     )
     return cos, sin

@@ -26,36 +26,41 @@ class Step:
     value: sp.Expr
 
 
-def _symbol(name: str) -> sp.Symbol:
+def _make_symbol(name: str) -> sp.Symbol:
     """Return the real symbol of a name."""
     return sp.Symbol(name, real=True)
 
 
-e_x, e_y, de_x, de_y, omega_i, omega_j = map(_symbol, ("e_x", "e_y", "de_x", "de_y", "omega_i", "omega_j"))
-e, n_x, n_y, delta, deltadot, de_t = map(_symbol, ("e", "n_x", "n_y", "delta", "deltadot", "de_t"))
-stored, ratio, a_i, a_j, v_t = map(_symbol, ("stored", "ratio", "a_i", "a_j", "v_t"))
-depth = _symbol("depth")  # what a law of the dry contact is given for δ
-epsilon, w_n, w_t, share = map(_symbol, ("epsilon", "w_n", "w_t", "share"))
-F_along_n, F_along_t, F_x, F_y, M_i, M_j = map(_symbol, ("F_along_n", "F_along_t", "F_x", "F_y", "M_i", "M_j"))
+e_x, e_y, de_x, de_y, omega_i, omega_j = map(_make_symbol, ("e_x", "e_y", "de_x", "de_y", "omega_i", "omega_j"))
+e, n_x, n_y, delta, deltadot, de_t = map(_make_symbol, ("e", "n_x", "n_y", "delta", "deltadot", "de_t"))
+stored, ratio, a_i, a_j, v_t = map(_make_symbol, ("stored", "ratio", "a_i", "a_j", "v_t"))
+depth = _make_symbol("depth")  # what a law of the dry contact is given for δ
+epsilon, w_n, w_t, share = map(_make_symbol, ("epsilon", "w_n", "w_t", "share"))
+F_along_n, F_along_t, F_x, F_y, M_i, M_j = map(_make_symbol, ("F_along_n", "F_along_t", "F_x", "F_y", "M_i", "M_j"))
 
 # Of a bearing with a contour, which has a depth more than its circle at each angle:
-theta_i, beta_i, u_x, u_y, worn, worn_slope = map(_symbol, ("theta_i", "beta_i", "u_x", "u_y", "worn", "worn_slope"))
-beta_rate, slant, steep, F_N = map(_symbol, ("beta_rate", "slant", "steep", "F_N"))
-along = _symbol("along")  # position of a slider's corner along its guide
-de_n, across, lean = map(_symbol, ("de_n", "across", "lean"))  # rates along e and across it, w′/e
+theta_i, beta_i, u_x, u_y, worn, worn_slope = map(
+    _make_symbol, ("theta_i", "beta_i", "u_x", "u_y", "worn", "worn_slope")
+)
+beta_rate, slant, steep, F_N = map(_make_symbol, ("beta_rate", "slant", "steep", "F_N"))
+along = _make_symbol("along")  # position of a slider's corner along its guide
+de_n, across, lean = map(_make_symbol, ("de_n", "across", "lean"))  # rates along e and across it, w′/e
 
 
 def of_part(symbol: sp.Symbol, part: str) -> sp.Symbol:
-    """Return the symbol of F_t, M_i or M_j of one part: "dry" for the dry contact, "film" for the film."""
-    return _symbol(f"{symbol.name}_{part}")
+    """Return the symbol of F_t, M_i or M_j of one part of the force: "dry" for the dry contact, "film" for the film."""
+    return _make_symbol(f"{symbol.name}_{part}")
 
 
 def gap(clearance: Clearance) -> list[Step]:
-    """Return the equations of e, the normal n, the penetration δ and their rates; t is n turned by +90°."""
+    """Return the equations of e, the normal n, the penetration δ and their rates, in the order of their use.
+
+    t is n turned by +90°. A bearing with a contour and a slider's corner at a wall have equations of their own.
+    """
     if clearance.contour:
-        return _gap_of_contour(clearance, clearance.contour)
+        return _make_contour_gap(clearance, clearance.contour)
     if clearance.wall:
-        return _gap_at_wall(clearance, clearance.wall)
+        return _make_wall_gap(clearance, clearance.wall)
     return [
         Step(e, sp.sqrt(e_x**2 + e_y**2)),
         Step(n_x, e_x / e),
@@ -66,12 +71,11 @@ def gap(clearance: Clearance) -> list[Step]:
     ]
 
 
-def _gap_of_contour(clearance: Clearance, contour: Contour) -> list[Step]:
+def _make_contour_gap(clearance: Clearance, contour: Contour) -> list[Step]:
     """Return the equations of the gap of a bearing with a contour: δ = e − c − w(β), β the angle of e in it.
 
     An elastic force −U′(δ) has the energy U if it acts along the gradient of δ. By e that gradient is u − w′/e t, with
-    u
-    along e and t across it; its length is `steep`. By the bearing's angle it is w′. So n is that direction, `slant` =
+    u along e and t across it; its length is `steep`. By the bearing's angle it is w′. So n is that direction, `slant` =
     e steep, and the bearing takes the moment −F_n w′ of a force through the journal's centre.
     """
     return [
@@ -92,11 +96,11 @@ def _gap_of_contour(clearance: Clearance, contour: Contour) -> list[Step]:
     ]
 
 
-def _gap_at_wall(clearance: Clearance, wall: Wall) -> list[Step]:
+def _make_wall_gap(clearance: Clearance, wall: Wall) -> list[Step]:
     """Return the equations of the gap of a slider's corner at a wall of its guide.
 
     The outward normal n turns with the guide: ṅ = ω_i t. (e_x, e_y) leads from the guide's point to the centre of the
-    corner's radius; e is its displacement towards the wall from the middle of the guide.
+    corner's radius. e is the displacement of that centre towards the wall from the middle of the guide.
     """
     return [
         Step(along, e_y * n_x - e_x * n_y),
@@ -108,12 +112,12 @@ def _gap_at_wall(clearance: Clearance, wall: Wall) -> list[Step]:
 
 
 def penetration(clearance: Clearance) -> Step:
-    """Return the equation of the penetration δ: without a contour it depends on e alone."""
+    """Return the equation of the penetration δ of a joint; without a contour it depends on e alone."""
     return next(step for step in gap(clearance) if step.symbol == delta)
 
 
 def gap_by_angle(clearance: Clearance) -> list[Step]:
-    """Return the equations of the gap of a contour in directions along e and across it.
+    """Return the equations of δ, δ̇ and ė_t of a contour in directions along e and across it.
 
     `de_n` and `across` are the rates of e in these directions, `worn` and `worn_slope` the depth w and its derivative
     w′.
@@ -128,34 +132,46 @@ def gap_by_angle(clearance: Clearance) -> list[Step]:
 
 
 def before_dry(clearance: Clearance) -> list[Step]:
-    """Return the equations of the lever arms of the contact point, mid-penetration, and of the slip v_t."""
-    pair = clearance.pair
+    """Return the equations that precede the laws of a dry contact: lever arms of the contact point and slip v_t.
+
+    The contact point is at mid-penetration. With `clip_ratio` the clipped ratio of velocities follows.
+    """
+    dimensions = clearance.pair
     clipped = [Step(ratio, sp.Max(-1, sp.Min(1, deltadot / stored)))] if clearance.clip_ratio else []
     if clearance.contour:
-        levers = [Step(a_j, pair.R_j - delta / (2 * steep)), Step(a_i, e / steep + a_j)]
+        levers = [Step(a_j, dimensions.R_j - delta / (2 * steep)), Step(a_i, e / steep + a_j)]
         return [*levers, Step(v_t, de_t + omega_j * a_j - omega_i * a_i), *clipped]
     return [
-        Step(a_i, pair.R_i + delta / 2),
-        Step(a_j, pair.R_j - delta / 2),
+        Step(a_i, dimensions.R_i + delta / 2),
+        Step(a_j, dimensions.R_j - delta / 2),
         Step(v_t, de_t + omega_j * a_j - omega_i * a_i),
         *clipped,
     ]
 
 
 def pressing(clearance: Clearance) -> list[Step]:
-    """Return the equation of the normal force of a contour, on which friction depends; none without a contour."""
-    return [Step(F_N, steep * _symbol("F_n"))] if clearance.contour else []
+    """Return the equation of the normal force of a contour, on which friction depends.
+
+    The list is empty without a contour.
+    """
+    return [Step(F_N, steep * _make_symbol("F_n"))] if clearance.contour else []
 
 
 def along_eccentricity(F_n: sp.Expr, tangential: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """Return the force of a contour along e and across it: −F_n along the gradient of δ, friction across it."""
+    """Return the force of a contour along e and across it.
+
+    −F_n acts along the gradient of δ, the friction force `tangential` across it.
+    """
     return -F_n + tangential * lean / steep, F_n * lean + tangential / steep
 
 
 def after_dry(clearance: Clearance) -> list[Step]:
-    """Return the equations of the moments of the dry contact about the centres of bearing i and journal j."""
+    """Return the equations of the moments of the dry contact about the centres of bearing i and journal j.
+
+    With a contour the bearing takes −w′ F_n in addition.
+    """
     tangential = of_part(F_along_t, "dry")
-    moment = -worn_slope * _symbol("F_n") if clearance.contour else 0
+    moment = -worn_slope * _make_symbol("F_n") if clearance.contour else 0
     return [
         Step(of_part(M_i, "dry"), -a_i * tangential + moment),
         Step(of_part(M_j, "dry"), a_j * tangential),
@@ -163,30 +179,35 @@ def after_dry(clearance: Clearance) -> list[Step]:
 
 
 def at_wall(F_n: sp.Expr) -> Step:
-    """Return the equation of the moment about the guide's point, with the lever arm of the force along n."""
+    """Return the equation of the moment about the guide's point, with the lever arm of the normal force F_n."""
     return Step(M_i, of_part(M_i, "dry") - along * F_n)
 
 
 def before_film(clearance: Clearance, film: LawEquations) -> list[Step]:
-    """Return the equations of the eccentricity ratio ε and of the effective squeeze velocity w over the clearance."""
+    """Return the equations of the eccentricity ratio ε and of the effective squeeze velocity w over the clearance.
+
+    ε is capped at EPSILON_MAX. A film may have a clearance of its own, and its option selects relative or summed
+    angular velocities.
+    """
     c = clearance.constants.get("film_clearance", clearance.constants.get(MEAN_CLEARANCE, clearance.pair.c))
-    turning = omega_j - omega_i if film.options.get("angular_velocity") == "relative" else omega_i + omega_j
+    angular_velocity = omega_j - omega_i if film.options.get("angular_velocity") == "relative" else omega_i + omega_j
     return [
         Step(epsilon, sp.Min(e / c, sp.Float(EPSILON_MAX))),
         Step(w_n, deltadot / c),
-        Step(w_t, (de_t - turning * e / 2) / c),
+        Step(w_t, (de_t - angular_velocity * e / 2) / c),
     ]
 
 
 def after_film(film: LawEquations) -> list[Step]:
     """Return the equations of the moments of the film about both centres.
 
-    Without shear the resultant acts at the journal's centre; with shear, at the middle between both centres.
+    Without `shear` the resultant acts at the journal's centre, and the journal's moment is 0. With it, it acts at the
+    middle between both centres, and the drag is added.
     """
     tangential = of_part(F_along_t, "film")
     if not film.options.get("shear", False):
         return [Step(of_part(M_i, "film"), -e * tangential), Step(of_part(M_j, "film"), sp.Integer(0))]
-    drag = _symbol("T0") * (omega_j - omega_i)
+    drag = _make_symbol("T0") * (omega_j - omega_i)
     return [
         Step(of_part(M_i, "film"), drag - e * tangential / 2),
         Step(of_part(M_j, "film"), -drag - e * tangential / 2),
@@ -194,42 +215,54 @@ def after_film(film: LawEquations) -> list[Step]:
 
 
 def blend(clearance: Clearance, closed: bool = False) -> list[Step]:
-    """Return the equations of the fraction of the dry contact: 0 at e = c, 1 at e = c + e_0 (the paper's Eq. 17).
+    """Return the equations of the fraction of the dry contact: 0 at e = c, 1 at e = c + e_0 (the paper's Eq.
 
-    A law of mixed lubrication replaces it. For a `closed` contact it has no switching point at e = c, which opening and
-    closing represent. The law is given `depth`, since it may be undefined at δ < 0, where samples before a separation
-    lie.
+    17). A law of mixed lubrication replaces it. For a `closed` contact it has no switching point at e = c, which
+    opening and closing represent. The law reads `depth` then, since it may be undefined at δ < 0, where samples before
+    a separation lie.
     """
     if clearance.mixed is not None:
-        own = {delta: depth if closed else sp.Max(0, delta)}
-        return [Step(_symbol(name), sp.sympify(x).xreplace(own)) for name, x in clearance.mixed.steps.items()]
-    of_closed = sp.Min(1, delta / clearance.transition)
-    return [Step(share, of_closed if closed else sp.Max(0, of_closed))]
+        replacement = {delta: depth if closed else sp.Max(0, delta)}
+        return [
+            Step(_make_symbol(name), sp.sympify(expression).xreplace(replacement))
+            for name, expression in clearance.mixed.steps.items()
+        ]
+    fraction = sp.Min(1, delta / clearance.transition)
+    return [Step(share, fraction if closed else sp.Max(0, fraction))]
 
 
 def resultant(clearance: Clearance) -> list[Step]:
-    """Return the equations of the force on the journal in ground axes and of both moments.
+    """Return the equations of the force on the journal in ground axes, and of the moments if parts are blended.
 
-    If the joint has a film and a dry contact, these are blended.
+    A film and a dry contact are blended by the fraction `share`; a wall has the moment of its normal force in addition.
     """
     dry, film = clearance.normal is not None, clearance.film is not None
-    normal, radial = -(F_N if clearance.contour else _symbol("F_n")), _symbol("F_r")
-    steps: list[Step] = []
+    normal, radial = -(F_N if clearance.contour else _make_symbol("F_n")), _make_symbol("F_r")
+    equations: list[Step] = []
     if dry and film:
-        steps += blend(clearance) if clearance.mixed is None else []  # a law of mixed lubrication is printed by itself
-        mixed = {s: (of_part(s, "dry"), of_part(s, "film")) for s in (F_along_t, M_i, M_j)}
-        mixed = {F_along_n: (normal, radial), **mixed}
-        steps += [Step(s, share * of_dry + (1 - share) * of_film) for s, (of_dry, of_film) in mixed.items()]
-        along = F_along_n
+        equations += (
+            blend(clearance) if clearance.mixed is None else []
+        )  # a law of mixed lubrication is printed by itself
+        blended = {symbol: (of_part(symbol, "dry"), of_part(symbol, "film")) for symbol in (F_along_t, M_i, M_j)}
+        blended = {F_along_n: (normal, radial), **blended}
+        equations += [
+            Step(symbol, share * dry_value + (1 - share) * film_value)
+            for symbol, (dry_value, film_value) in blended.items()
+        ]
+        normal_force = F_along_n
     else:
-        along = normal if dry else radial
+        normal_force = normal if dry else radial
     tangential = F_along_t if dry and film else of_part(F_along_t, "dry" if dry else "film")
-    steps += [at_wall(_symbol("F_n"))] if clearance.wall else []
-    return [*steps, Step(F_x, along * n_x - tangential * n_y), Step(F_y, along * n_y + tangential * n_x)]
+    equations += [at_wall(_make_symbol("F_n"))] if clearance.wall else []
+    return [
+        *equations,
+        Step(F_x, normal_force * n_x - tangential * n_y),
+        Step(F_y, normal_force * n_y + tangential * n_x),
+    ]
 
 
 def moments(clearance: Clearance) -> tuple[sp.Symbol, sp.Symbol]:
-    """Return the symbols of the moments about both centres."""
+    """Return the symbols of the moments about both centres, by which parts of the force the joint has."""
     if clearance.normal is not None and clearance.film is not None:
         return M_i, M_j
     part = "film" if clearance.normal is None else "dry"

@@ -22,32 +22,32 @@ class JointFields:
     """The fields that the file of a joint type may read; values are parameters or derived parameters."""
 
     def __init__(self, joint: Joint, geometry: Geometry) -> None:
-        """Read the fields of one joint, on the symbols of a geometry."""
-        self._joint, self._slots, self._geometry = joint, geometry.slots, geometry
+        """Begin with one joint, whose fields become parameters of the geometry's table when they are read."""
+        self._joint, self._parameter_table, self._geometry = joint, geometry.slots, geometry
 
     def direction(self, name: str) -> tuple[sp.Expr, sp.Expr]:
         """Return a vector field as a unit vector; along an axis it is exactly (±1, 0) or (0, ±1)."""
-        return unit_vector(self._joint.vectors[name], self._joint.name, name, self._slots)
+        return unit_vector(self._joint.vectors[name], self._joint.name, name, self._parameter_table)
 
     def angle_of(self, name: str) -> sp.Expr:
-        """Return the angle of a vector field in its body's frame, in rad."""
+        """Return the angle of a vector field in its body's frame, in rad, as a derived parameter."""
         x, y = self.direction(name)
-        return self._slots.derive(
+        return self._parameter_table.derive(
             f"{self._joint.name}_{name}_angle",
             sp.atan2(y, x),
             "direction of the axis",
-            of=Owned(self._joint.name, f"{name}_angle"),
+            role=Owned(self._joint.name, f"{name}_angle"),
         )
 
     def quantity(self, name: str, default: sp.Expr) -> sp.Expr:
-        """Return a number field, or `default` if the user gave none."""
+        """Return a number field as a parameter, or `default` if the user specified none."""
         quantity = self._joint.quantities.get(name)
-        return sp.sympify(default) if quantity is None else self._slots.use(quantity)
+        return sp.sympify(default) if quantity is None else self._parameter_table.use(quantity)
 
     def vector(self, name: str) -> tuple[sp.Expr, sp.Expr]:
         """Return both components of a vector field as parameters."""
         x, y = self._joint.vectors[name]
-        return self._slots.use(x), self._slots.use(y)
+        return self._parameter_table.use(x), self._parameter_table.use(y)
 
     def option(self, name: str) -> str:
         """Return the value of a field with fixed choices."""
@@ -59,62 +59,85 @@ class JointFields:
         return ZERO if body == GROUND else self._geometry.bodies[body].theta
 
     def direction_on(self, name: str, body: str) -> tuple[sp.Expr, sp.Expr]:
-        """Return a unit vector field that is fixed in the body that the field `body` names, in ground axes."""
+        """Return a unit vector field in ground axes; it is fixed in the body that the field `body` names."""
         local, owner = self.direction(name), self._joint.options[body]
         if owner == GROUND:
             return local
         return self._geometry.turn(self._geometry.bodies[owner], local, f"axis_{owner}")
 
     def profile(self, name: str, cam: sp.Expr, carrier: sp.Expr) -> sp.Expr:
-        """Return the expression of phi = `cam` − `carrier` that a field holds, as a symbol that knows its slopes."""
-        symbols, phi, slots = self._geometry.symbols, sp.Dummy("phi", real=True), self._slots.entries
-        value = quantity_to_sympy(
-            self._joint.quantities[name], lambda path: phi if path == "phi" else slots[f"parameters.{path}"].symbol
+        """Return the profile of a cam as a symbol with rules for its derivatives.
+
+        It is a function of phi = `cam` − `carrier`, both angles in rad. `name`: the field that holds the expression.
+        The value and three derivatives by phi become symbols.
+        """
+        symbols, phi, parameter_table = (
+            self._geometry.symbols,
+            sp.Dummy("phi", real=True),
+            self._parameter_table.entries,
         )
-        found, turned = [], cam - carrier
-        for what in ("", "_slope", "_bend", "_third"):
-            text = f"{what[1:] or 'value'} of {self._joint.name}'s {name}"
-            found.append(symbols.define(f"{self._joint.name}_{name}{what}", value.xreplace({phi: turned}), None, text))
+        value = quantity_to_sympy(
+            self._joint.quantities[name],
+            lambda path: phi if path == "phi" else parameter_table[f"parameters.{path}"].symbol,
+        )
+        derivatives, angle = [], cam - carrier
+        for suffix in ("", "_slope", "_bend", "_third"):
+            meaning = f"{suffix[1:] or 'value'} of {self._joint.name}'s {name}"
+            derivatives.append(
+                symbols.define(f"{self._joint.name}_{name}{suffix}", value.xreplace({phi: angle}), None, meaning)
+            )
             value = derivative(value, phi)
-        bases = sorted({s for angle in turned.free_symbols for s in symbols.rules.get(angle, (angle,))}, key=str)
-        rates = {base: rate for base in bases if (rate := symbols.diff(turned, base)) != 0}
-        for lower, upper in pairwise(found):
-            symbols.rules[lower] = {base: rate * upper for base, rate in rates.items()}
-        return found[0]
+        bases = sorted({base for s in angle.free_symbols for base in symbols.rules.get(s, (s,))}, key=str)
+        rates = {base: rate for base in bases if (rate := symbols.diff(angle, base)) != 0}
+        for function, next_derivative in pairwise(derivatives):
+            symbols.rules[function] = {base: rate * next_derivative for base, rate in rates.items()}
+        return derivatives[0]
 
     def derive(self, name: str, expression: sp.Expr) -> sp.Expr:
-        """Return a derived parameter of the joint, computed once a run from other parameters."""
-        return self._slots.derive(
-            f"{self._joint.name}_{name}", expression, f"of joint {self._joint.name}", of=Owned(self._joint.name, name)
+        """Return a derived parameter of the joint from an expression of parameters; it is computed once a run."""
+        return self._parameter_table.derive(
+            f"{self._joint.name}_{name}", expression, f"of joint {self._joint.name}", role=Owned(self._joint.name, name)
         )
 
     def at_guess(self, name: str, expression: sp.Expr) -> sp.Expr:
-        """Return `expression` with the angles at the start's guess or set values, 0 where there are none."""
+        """Return `expression` as a derived parameter, with each body's angle at its value in the start.
+
+        A set value is used before a guess; an angle with neither is 0.
+        """
         start = self._geometry.mechanism.start
         values = {}
         for body in self._geometry.bodies.values():
             key = f"{body.name}.theta"
             quantity = start.set.get(key) or start.guess.get(key)
-            values[body.theta] = ZERO if quantity is None else self._slots.use(quantity)
+            values[body.theta] = ZERO if quantity is None else self._parameter_table.use(quantity)
         return self.derive(name, expression.xreplace(values))
 
 
-def unit_vector(vector: Vector, owner: str, name: str, slots: ParameterTable) -> tuple[sp.Expr, sp.Expr]:
-    """Return the direction of a vector of the file; along an axis it is exactly (±1, 0) or (0, ±1)."""
-    x, y = slots.use(vector[0]), slots.use(vector[1])
+def unit_vector(vector: Vector, owner: str, name: str, parameter_table: ParameterTable) -> tuple[sp.Expr, sp.Expr]:
+    """Return the direction of a vector of the file as a unit vector; along an axis it is exactly (±1, 0) or (0, ±1).
+
+    `owner` and `name`: the joint or element and its field, for the names of derived parameters. The sign of a component
+    along an axis is recorded in `slots.signs`, since the equations rely on it.
+    """
+    x, y = parameter_table.use(vector[0]), parameter_table.use(vector[1])
     length = sp.sqrt(x**2 + y**2)
 
-    def component(axis: str, own: sp.Expr, other: sp.Expr) -> sp.Expr:
-        """Return one component: 0, ±1 by the sign of the value, or a derived parameter."""
-        if own == 0:
+    def component(axis: str, value: sp.Expr, other_value: sp.Expr) -> sp.Expr:
+        """Return one component: 0, ±1 by the sign of the value, or a derived parameter.
+
+        `value`, `other_value`: both components of the vector.
+        """
+        if value == 0:
             return ZERO
-        if other == 0:
-            entry = next((e for e in slots.entries.values() if e.symbol == own), None)
+        if other_value == 0:
+            entry = next((e for e in parameter_table.entries.values() if e.symbol == value), None)
             if entry is not None and not entry.follows:  # only its sign matters, and the sign is structural
-                if entry.address not in slots.signs:
-                    slots.signs[entry.address] = ">" if entry.default > 0 else "<"
+                if entry.address not in parameter_table.signs:
+                    parameter_table.signs[entry.address] = ">" if entry.default > 0 else "<"
                 return sp.Integer(1 if entry.default > 0 else -1)
-        return slots.derive(f"{owner}_{name}_{axis}", own / length, "unit vector", of=Owned(owner, name, axis))
+        return parameter_table.derive(
+            f"{owner}_{name}_{axis}", value / length, "unit vector", role=Owned(owner, name, axis)
+        )
 
     return component("x", x, y), component("y", y, x)
 
@@ -131,21 +154,21 @@ class ElementFields:
         return unit_vector(self._element.vectors[name], self._element.name, name, self._geometry.slots)
 
     def quantity(self, name: str) -> sp.Expr:
-        """Return a number field; 0 if the user gave none."""
+        """Return a number field as a parameter or expression; 0 if the user specified none."""
         quantity = self._element.quantities.get(name)
-        return ZERO if quantity is None else self._value(quantity)
+        return ZERO if quantity is None else self._convert_quantity(quantity)
 
     def vector(self, name: str) -> tuple[sp.Expr, sp.Expr]:
         """Return both components of a vector field."""
         x, y = self._element.vectors[name]
-        return self._value(x), self._value(y)
+        return self._convert_quantity(x), self._convert_quantity(y)
 
     def option(self, name: str) -> str:
         """Return the value of a field with fixed choices."""
         return self._element.options[name]
 
     def named(self, name: str, value: sp.Expr) -> sp.Expr:
-        """Return the value as a named local of the emitted code; numbers and symbols stay as they are."""
+        """Return the value as a named local of the emitted code; numbers and symbols are returned unchanged."""
         if value.is_number or value.is_Symbol:
             return value
         return self._geometry.symbols.define(
@@ -156,8 +179,8 @@ class ElementFields:
         """Return both components as named locals of the emitted code."""
         return self.named(f"{name}_x", value[0]), self.named(f"{name}_y", value[1])
 
-    def _value(self, quantity: Quantity) -> sp.Expr:
-        """Return a quantity: a parameter, or its expression if that contains t or the motion."""
+    def _convert_quantity(self, quantity: Quantity) -> sp.Expr:
+        """Return a quantity: a parameter, or its expression if it contains t, coordinates or velocities."""
         variable = VariableNames(self._geometry, self._t)
         if not any(variable.is_variable(name) for name in names(quantity.value)):
             return self._geometry.slots.use(quantity)
@@ -176,19 +199,22 @@ class VariableNames:
         return name.path == "t" or "." in name.path
 
     def __call__(self, path: str) -> sp.Expr:
-        """Return the expression of a name, such as "t", "k", "rod.theta" or "rod.head.vx"."""
+        """Return the SymPy expression of a name, such as "t", "k", "rod.theta" or "rod.head.vx".
+
+        These are time, a parameter, a coordinate of a body and a coordinate or velocity of a point.
+        """
         if path == "t":
             return self._t
         if "." not in path:
             return self._geometry.slots.entries[f"parameters.{path}"].symbol
-        owner, _, what = path.rpartition(".")
+        owner, _, component = path.rpartition(".")
         if owner in self._geometry.bodies:
-            return getattr(self._geometry.bodies[owner], what)
+            return getattr(self._geometry.bodies[owner], component)
         body, _, point = owner.partition(".")
-        return _OF_POINT[what](self._geometry.point(PointRef(body, point, _NOWHERE)))
+        return _POINT_COMPONENTS[component](self._geometry.point(PointRef(body, point, _NO_LOCATION)))
 
 
-_OF_POINT: Mapping[str, Callable[[PointFrame], sp.Expr]] = {
+_POINT_COMPONENTS: Mapping[str, Callable[[PointFrame], sp.Expr]] = {
     "x": lambda point: point.x,
     "y": lambda point: point.y,
     "vx": lambda point: point.velocity[0],
@@ -196,4 +222,4 @@ _OF_POINT: Mapping[str, Callable[[PointFrame], sp.Expr]] = {
 }
 
 
-_NOWHERE = Location("", 0, 0)
+_NO_LOCATION = Location("", 0, 0)

@@ -17,7 +17,7 @@ from gudgeon.generator.symbols.storage import Freezable, Place
 from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO, ONE = sp.Integer(0), sp.Integer(1)
-_SMALL = 1e-12  # m^2: where every point is a centre of mass
+_MIN_SQUARED_RADIUS = 1e-12  # m^2: where every point is a centre of mass
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class PointFrame:
         return self.body.vx - self.arm[1] * self.body.omega, self.body.vy + self.arm[0] * self.body.omega
 
     def direction(self, local: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
-        """Return a direction that is fixed in the body, in ground axes."""
+        """Return a direction that is fixed in the body, with `local` its components there, in ground axes."""
         return local if self.body is None else self.geometry.turn(self.body, local, f"axis_{self.body.name}")
 
 
@@ -101,52 +101,72 @@ class Turned(NamedTuple):
 class Geometry(Freezable):
     """Makes the symbols of bodies and points, each once."""
 
-    def __init__(self, scene: Scene, symbols: Symbols, slots: ParameterTable) -> None:
-        """Make the bodies of a scene and the local vectors of all their points."""
-        self.symbols, self.slots, self.mechanism = symbols, slots, scene.mechanism
-        self.bodies = {name: self._body(i, body) for i, (name, body) in enumerate(self.mechanism.bodies.items())}
+    def __init__(self, scene: Scene, symbols: Symbols, parameter_table: ParameterTable) -> None:
+        """Make the symbols of all bodies of a scene and the vectors from the centres of mass to all points.
+
+        Bodies of a massless mechanism get mass 1 and one moment of inertia, which define a metric.
+        """
+        self.symbols, self.slots, self.mechanism = symbols, parameter_table, scene.mechanism
+        self.bodies = {
+            name: self._make_body_symbols(i, body) for i, (name, body) in enumerate(self.mechanism.bodies.items())
+        }
         self.local = {
-            (body.name, point): self._local(body, point)
+            (body.name, point): self._derive_local_vector(body, point)
             for body in self.mechanism.bodies.values()
             for point in self.point_names(body)
         }
         if is_massless(self.mechanism):
-            unit = self._unit_inertia()
+            unit = self._derive_unit_inertia()
             self.bodies = {name: replace(body, mass=ONE, inertia=unit) for name, body in self.bodies.items()}
         self.turned: dict[sp.Symbol, Turned] = {}
         self._turned: dict[tuple[str, sp.Expr, sp.Expr], tuple[sp.Expr, sp.Expr]] = {}
         self._angles: dict[str, tuple[sp.Symbol, sp.Symbol]] = {}
 
-    def _body(self, number: int, body: Body) -> BodySymbols:
-        """Return the symbols of the body with a number: three coordinates, three velocities, mass and inertia."""
-        new, index, name = self.symbols.new, 3 * number, body.name
+    def _make_body_symbols(self, index: int, body: Body) -> BodySymbols:
+        """Return the symbols of the body with an index: three coordinates, three velocities, mass and inertia.
+
+        A body without mass or inertia gets 1 for both.
+        """
+        new, first_index, name = self.symbols.new, 3 * index, body.name
         (x, y, theta), (vx, vy, omega) = (
-            [new(f"{name}_{c}", Place(array)[index + k], f"{name}.{c}") for k, c in enumerate(coordinates)]
+            [
+                new(f"{name}_{coordinate}", Place(array)[first_index + k], f"{name}.{coordinate}")
+                for k, coordinate in enumerate(coordinates)
+            ]
             for array, coordinates in (("q", ("x", "y", "theta")), ("v", ("vx", "vy", "omega")))
         )
         mass, inertia = ONE, ONE
         if not is_massless(self.mechanism) and body.mass and body.inertia:
             mass, inertia = self.slots.use(body.mass), self.slots.use(body.inertia, zero=True)
-        return BodySymbols(name, index, x, y, theta, vx, vy, omega, mass, inertia)
+        return BodySymbols(name, first_index, x, y, theta, vx, vy, omega, mass, inertia)
 
-    def _unit_inertia(self) -> sp.Expr:
-        """Return the inertia that replaces missing ones: of 1 kg at the mean squared distance of all points.
+    def _derive_unit_inertia(self) -> sp.Expr:
+        """Return the moment of inertia of every body of a massless mechanism as a parameter.
 
-        It defines only the metric in which a closed linkage is solved.
+        It is that of 1 kg at the mean squared distance of all points, and defines only the metric in which a closed
+        linkage is solved.
         """
-        lengths = [x for pair in self.local.values() for x in pair if x != 0]
-        size = sp.Add(*(x**2 for x in lengths)) / max(len(lengths), 1)
-        return self.slots.derive("unit_inertia", size + sp.Float(_SMALL, 17), "in place of moments of inertia")
+        components = [component for vector in self.local.values() for component in vector if component != 0]
+        mean_square = sp.Add(*(component**2 for component in components)) / max(len(components), 1)
+        return self.slots.derive(
+            "unit_inertia", mean_square + sp.Float(_MIN_SQUARED_RADIUS, 17), "in place of moments of inertia"
+        )
 
     @staticmethod
     def point_names(body: Body) -> list[str]:
-        """Return the names of all points of a body: head, tail, origin and com, then the user's."""
+        """Return the names of all points of a body: head and tail, origin and com, then the user's.
+
+        Only a body with a length has a head and a tail.
+        """
         # the head first: a bar's other points are then written with its positive length
         implied = (["head", "tail"] if body.length else []) + ["origin", "com"]
         return implied + [name for name in body.points if name not in implied]
 
-    def _in_body(self, body: Body, point: str, com: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
-        """Return a point in the body's own frame, whose origin the user chose."""
+    def _find_body_vector(self, body: Body, point: str, com: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
+        """Return a point in the body's own frame, whose origin the user chose, as parameters.
+
+        `com`: the centre of mass in that frame.
+        """
         if point in body.points:
             x, y = body.points[point]
             return self.slots.use(x), self.slots.use(y)
@@ -154,13 +174,16 @@ class Geometry(Freezable):
             return com
         return (self.slots.use(body.length), ZERO) if point == "head" and body.length else (ZERO, ZERO)
 
-    def _local(self, body: Body, point: str) -> tuple[sp.Expr, sp.Expr]:
-        """Return a point in the centre-of-mass frame, as derived parameters."""
+    def _derive_local_vector(self, body: Body, point: str) -> tuple[sp.Expr, sp.Expr]:
+        """Return the vector from a body's centre of mass to a point in its frame, as derived parameters.
+
+        Without a specified centre of mass the middle of the length is used, or else the origin.
+        """
         if body.com is not None:
             com = (self.slots.use(body.com[0]), self.slots.use(body.com[1]))
         else:
             com = (self.slots.use(body.length) / 2, ZERO) if body.length else (ZERO, ZERO)
-        s = self._in_body(body, point, com)
+        point_vector = self._find_body_vector(body, point, com)
         x, y = (
             self.slots.derive_signed(
                 f"{body.name}_{point}_{axis}",
@@ -168,7 +191,7 @@ class Geometry(Freezable):
                 "point from the centre of mass",
                 f"{body.name}_{point}_s_{axis}",
             )
-            for axis, value, origin in zip("xy", s, com, strict=True)
+            for axis, value, origin in zip("xy", point_vector, com, strict=True)
         )
         return x, y
 
@@ -177,7 +200,7 @@ class Geometry(Freezable):
         return self.slots.use(vector[0]), self.slots.use(vector[1])
 
     def angle(self, body: BodySymbols) -> tuple[sp.Symbol, sp.Symbol]:
-        """Return cos θ and sin θ of a body as symbols."""
+        """Return cos θ and sin θ of a body as symbols with rules; they are defined at the first call."""
         if body.name not in self._angles:
             define, name = self.symbols.define, body.name
             cos = define(f"cos_theta_{name}", sp.cos(body.theta), None, f"cos of {name}.theta")
@@ -187,11 +210,12 @@ class Geometry(Freezable):
         return self._angles[body.name]
 
     def turn(
-        self, body: BodySymbols, s: tuple[sp.Expr, sp.Expr], expected: str, point: str = ""
+        self, body: BodySymbols, s: tuple[sp.Expr, sp.Expr], base_name: str, point: str = ""
     ) -> tuple[sp.Expr, sp.Expr]:
-        """Return A(θ) s as a pair of symbols; the opposite of a known arm is its negative.
+        """Return A(θ) s of a vector s of a body as a pair of symbols; the opposite of a known arm is its negative.
 
-        `expected`: base of the symbols' names. `point`: the point whose arm it is.
+        Known vectors are not defined again, and vectors along an axis of the body use cos θ and sin θ themselves.
+        `base_name`: base of the symbols' names. `point`: the point whose arm it is, or "" for a direction.
         """
         if s == (ZERO, ZERO):
             return ZERO, ZERO
@@ -202,51 +226,64 @@ class Geometry(Freezable):
             cos, sin = self.angle(body)
             if all(component in (-1, 0, 1) for component in s):  # along an axis of the body: cos and sin themselves
                 return cos * s[0] - sin * s[1], sin * s[0] + cos * s[1]
-            x = self.symbols.define(f"{expected}_x", cos * s[0] - sin * s[1], None, "A(theta) s, x")
-            y = self.symbols.define(f"{expected}_y", sin * s[0] + cos * s[1], None, "A(theta) s, y")
+            x = self.symbols.define(f"{base_name}_x", cos * s[0] - sin * s[1], None, "A(theta) s, x")
+            y = self.symbols.define(f"{base_name}_y", sin * s[0] + cos * s[1], None, "A(theta) s, y")
             self.symbols.rules[x], self.symbols.rules[y] = {body.theta: -y}, {body.theta: x}
             self._turned[body.name, *s] = x, y
-            before = (of for of in self.turned.values() if (of.body, of.point, of.axis) == (body.name, "", "x"))
-            number = 1 if point else 1 + sum(1 for _ in before)
-            self.turned[x], self.turned[y] = (Turned(body.name, point, axis, number) for axis in ("x", "y"))
+            first_components = (
+                component
+                for component in self.turned.values()
+                if (component.body, component.point, component.axis) == (body.name, "", "x")
+            )
+            direction_number = 1 if point else 1 + sum(1 for _ in first_components)
+            self.turned[x], self.turned[y] = (Turned(body.name, point, axis, direction_number) for axis in ("x", "y"))
         return self._turned[body.name, *s]
 
-    def beside(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], expected: str) -> PointFrame:
+    def beside(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], base_name: str) -> PointFrame:
         """Return the frame of a point at an offset from a named point, given in its body's frame.
 
-        `expected` is the base of its symbols' names.
+        `base_name` is the base of its symbols' names.
         """
-        s = self._offset_vector(ref, offset, expected)
+        s = self._find_offset_vector(ref, offset, base_name)
         if ref.body == GROUND:
             return PointFrame(self, None, s)
         body = self.bodies[ref.body]
-        return PointFrame(self, body, self.turn(body, s, f"arm_{expected}"))
+        return PointFrame(self, body, self.turn(body, s, f"arm_{base_name}"))
 
-    def _offset_vector(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], expected: str) -> tuple[sp.Expr, sp.Expr]:
-        """Return the vector to such a point from the centre of mass, or its position on the ground.
+    def _find_offset_vector(
+        self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], base_name: str
+    ) -> tuple[sp.Expr, sp.Expr]:
+        """Return the vector from the centre of mass to a point at an offset from a named point.
 
-        The opposite of a known vector is its negative.
+        On the ground it is the position. The opposite of a known vector is its negative.
         """
         if ref.body == GROUND:
-            of = self.ground_vector(self.mechanism.ground[ref.point]) if ref.point else (ZERO, ZERO)
+            base_vector = self.ground_vector(self.mechanism.ground[ref.point]) if ref.point else (ZERO, ZERO)
         else:
-            of = self.local[ref.body, ref.point]
+            base_vector = self.local[ref.body, ref.point]
         x, y = (
-            more if own == 0 else self.slots.derive_signed(f"{expected}_{axis}", own + more, "corner of a slider")
-            for axis, own, more in zip("xy", of, offset, strict=True)
+            increment
+            if value == 0
+            else self.slots.derive_signed(f"{base_name}_{axis}", value + increment, "corner of a slider")
+            for axis, value, increment in zip("xy", base_vector, offset, strict=True)
         )
         return x, y
 
     def point(self, ref: PointRef) -> PointFrame:
-        """Return the frame of a named point."""
+        """Return the frame of a named point of a body or of the ground.
+
+        A point opposite to another one of the body uses that arm with a negative sign.
+        """
         if ref.body == GROUND:
-            at = self.ground_vector(self.mechanism.ground[ref.point]) if ref.point else (ZERO, ZERO)
-            return PointFrame(self, None, at)
-        body, s = self.bodies[ref.body], self.local[ref.body, ref.point]
-        opposite = (-s[0], -s[1])
+            position = self.ground_vector(self.mechanism.ground[ref.point]) if ref.point else (ZERO, ZERO)
+            return PointFrame(self, None, position)
+        body, local_vector = self.bodies[ref.body], self.local[ref.body, ref.point]
+        opposite = (-local_vector[0], -local_vector[1])
         names = self.point_names(self.mechanism.bodies[ref.body])
-        twin = next((name for name in names if self.local[ref.body, name] == opposite), None)
-        if twin is not None and s[0].could_extract_minus_sign():  # a bar's tail is its head turned over
-            x, y = self.turn(body, opposite, f"arm_{ref.body}_{twin}", twin)
+        opposite_name = next((name for name in names if self.local[ref.body, name] == opposite), None)
+        if (
+            opposite_name is not None and local_vector[0].could_extract_minus_sign()
+        ):  # a bar's tail is its head turned over
+            x, y = self.turn(body, opposite, f"arm_{ref.body}_{opposite_name}", opposite_name)
             return PointFrame(self, body, (-x, -y))
-        return PointFrame(self, body, self.turn(body, s, f"arm_{ref.body}_{ref.point}", ref.point))
+        return PointFrame(self, body, self.turn(body, local_vector, f"arm_{ref.body}_{ref.point}", ref.point))

@@ -37,12 +37,15 @@ class AppliedElement:
     loads: Loads
 
     def on_points(self) -> list[PointLoad]:
-        """Return the loads of the element with the points at which they act."""
+        """Return the forces and moments of the element, each with the point at which it acts."""
         loads = self.loads.loads
         return [PointLoad(self.targets[load.target], load.x, load.y, load.moment) for load in loads]
 
     def add_to(self, forces: list[sp.Expr]) -> None:
-        """Add the generalized forces to `forces` (n) in place: F at the centre of mass, moment arm × F + M."""
+        """Add the generalized forces of the element to `forces` (n) in place.
+
+        They are F at the centre of mass and the moment arm × F + M; loads on the ground are skipped.
+        """
         for load in self.loads.loads:
             point = self.targets[load.target]
             if point.body is not None:
@@ -53,7 +56,7 @@ class AppliedElement:
 
 
 def apply_element(element: ForceElement, geometry: Geometry, t: sp.Symbol) -> AppliedElement:
-    """Return a force element with its equations on a geometry; `t` is the symbol of time."""
+    """Return a force element with its loads on a geometry; `t` is the symbol of time."""
     targets = tuple(geometry.point(ref) for ref in element.targets)
     loads = element_types()[element.kind].build(targets, ElementFields(element, geometry, t))
     return AppliedElement(element, targets, loads)
@@ -70,12 +73,12 @@ class Friction:
 
 
 def make_friction(
-    name: str, slip: Slip, pairs: Sequence[tuple[sp.Symbol, sp.Symbol]], t: sp.Symbol, symbols: Symbols
+    name: str, slip: Slip, coordinate_pairs: Sequence[tuple[sp.Symbol, sp.Symbol]], t: sp.Symbol, symbols: Symbols
 ) -> Friction:
-    """Return a friction with J = ∂v/∂q̇ and γ = −J̇ q̇ + ∂speed/∂t.
+    """Return a friction element with J = ∂v/∂q̇ and γ = −J̇ q̇ + ∂speed/∂t.
 
-    `pairs` are the coordinates with their velocities.
+    `slip`: its slip velocity and friction forces; `coordinate_pairs`: the coordinates with their velocities.
     """
-    jacobian = {q: entry for q, v in pairs if (entry := sp.expand(symbols.diff(slip.v, v))) != 0}
-    gamma = -sum((symbols.diff(slip.v, q) * v for q, v in pairs), sp.Integer(0)) - symbols.diff(slip.v, t)
+    jacobian = {q: entry for q, v in coordinate_pairs if (entry := sp.expand(symbols.diff(slip.v, v))) != 0}
+    gamma = -sum((symbols.diff(slip.v, q) * v for q, v in coordinate_pairs), sp.Integer(0)) - symbols.diff(slip.v, t)
     return Friction(name, slip, jacobian, sp.expand(gamma))

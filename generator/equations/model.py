@@ -45,18 +45,21 @@ class Event:
 
 
 def make_event(event: EventSpec, geometry: Geometry, t: sp.Symbol) -> Event:
-    """Return an event of the scene. Raise BadValueError for an expression that is finite for no motion."""
+    """Return an event of the user with its expression on a geometry.
+
+    Raise BadValueError for an expression that is finite for no motion.
+    """
     expression = quantity_to_sympy(event.zero, VariableNames(geometry, t))
     return Event(event.name, expression, event.action, event.direction)
 
 
-def check_event_varies(event: EventSpec, made: Event, geometry: Geometry, t: sp.Symbol) -> None:
-    """Raise BadValueError if an event's expression contains nothing that moves.
+def check_event_varies(event: EventSpec, derived_event: Event, geometry: Geometry, t: sp.Symbol) -> None:
+    """Raise BadValueError if an event's expression depends on neither time nor motion.
 
-    geometry: that of the absolute coordinates.
+    `derived_event`: the event as derived; `geometry`: that of the absolute coordinates.
     """
     moving = {t, *(symbol for body in geometry.bodies.values() for symbol in (*body.q, *body.v))}
-    if not geometry.symbols.explicit(made.expression).free_symbols & moving:
+    if not geometry.symbols.explicit(derived_event.expression).free_symbols & moving:
         message, hint = f"{event.zero.address} never changes: its terms cancel", "expected an expression that varies"
         raise BadValueError(message, event.zero.where, hint)
 
@@ -80,26 +83,32 @@ class NotatedMatrix(sp.Matrix):
 
 
 def with_notation(matrix: sp.Matrix, letters: Callable[[], Any] | None) -> NotatedMatrix:
-    """Return a matrix with the same entries that prints in the given notation; None: as SymPy prints it."""
-    found = NotatedMatrix._fromrep(matrix._rep)
-    found.letters = letters
-    return found
+    """Return a matrix with the same entries that prints in a notation.
+
+    `letters` returns the printer of the notation; None: the matrix prints as SymPy does.
+    """
+    result = NotatedMatrix._fromrep(matrix._rep)
+    result.letters = letters
+    return result
 
 
 def start_values(model: Model) -> dict[str, list[tuple[Quantity, int]]]:
-    """Return the quantities of `guess`, `set` and `rates`, each with its sign; after the last two those of journals."""
-    start, apart = model.scene.mechanism.start, eccentricity_rows(model)
-    slides = {c.joint.name for c in model.clearances if c.wall}
-    signs = [-1 if model.all_rows[k].owner in slides else 1 for k, _, _ in apart]
+    """Return the quantities of `guess`, `set` and `rates` in the file's start, each with its sign.
+
+    Eccentricities of journals follow the set values, their rates follow the rates. Those of sliders have the sign −1.
+    """
+    start, eccentricities = model.scene.mechanism.start, eccentricity_rows(model)
+    slider_names = {c.joint.name for c in model.clearances if c.wall}
+    signs = [-1 if model.all_rows[k].owner in slider_names else 1 for k, _, _ in eccentricities]
     return {
         "guess": [(quantity, 1) for quantity in start.guess.values()],
         "set": [
             *((quantity, 1) for quantity in start.set.values()),
-            *((e, sign) for (_, e, _), sign in zip(apart, signs, strict=True)),
+            *((e, sign) for (_, e, _), sign in zip(eccentricities, signs, strict=True)),
         ],
         "rates": [
             *((quantity, 1) for quantity in start.rates.values()),
-            *((rate, sign) for (_, _, rate), sign in zip(apart, signs, strict=True)),
+            *((rate, sign) for (_, _, rate), sign in zip(eccentricities, signs, strict=True)),
         ],
     }
 
@@ -108,14 +117,13 @@ def eccentricity_rows(model: Model) -> list[tuple[int, Quantity, Quantity]]:
     """Return the equations of Φ that the start violates by a journal's eccentricity: index, e and its rate.
 
     Φ of such a joint is r_i − r_j = −e (physics.md, section 2), so that Φ + e = 0 and Φ_q v = ν − ė. Φ of a slider is
-    its
-    offset and its tilt, which are −e there (`start_kernel`).
+    its offset and its tilt, which are −e there (`start_kernel`). Joints without a specified start are left out.
     """
-    given, found = model.scene.mechanism.start.play, []
+    starts, result = model.scene.mechanism.start.play, []
     for name in model.scene.play:
-        rows = [k for k, row in enumerate(model.all_rows) if row.owner == name and name in given]
-        found += [(k, given[name].e[axis], given[name].rate[axis]) for axis, k in enumerate(rows)]
-    return found
+        rows = [k for k, row in enumerate(model.all_rows) if row.owner == name and name in starts]
+        result += [(k, starts[name].e[axis], starts[name].rate[axis]) for axis, k in enumerate(rows)]
+    return result
 
 
 @dataclass(frozen=True)
@@ -160,7 +168,7 @@ class Model:
         return replace(self, rows=kept, redundancy=redundancy)
 
     def thawed(self) -> Model:
-        """Return a copy whose symbols and derived parameters one program may extend."""
+        """Return a copy whose symbols and derived parameters one program may extend; this model stays unchanged."""
         symbols = self.symbols.thawed()
         return replace(self, symbols=symbols, slots=self.slots.thawed().beside(symbols))
 
@@ -211,34 +219,37 @@ class Model:
 
     @property
     def has_changing_constraints(self) -> bool:
-        """Return whether constraint equations come and go with the motion: dry friction or rigid contacts.
+        """Return whether constraint equations are active only at times: dry friction or rigid contacts.
 
         A vanishing pivot is then reported, not handled by the singular equations.
         """
         return bool(self.frictions or self.rigid)
 
     def squared_arms(self, body: str) -> tuple[sp.Expr, ...]:
-        """Return s_x², s_y² of each joint's point on a body, s measured from its centre of mass."""
+        """Return s_x², s_y² of each joint's point on a body, s measured from its centre of mass.
+
+        A point of several joints is counted once.
+        """
         mechanism, local = self.scene.mechanism, self.geometry.local
         ends = [end for joint in mechanism.joints.values() for end in (joint.first, joint.second)]
         points = dict.fromkeys((end.body, end.point) for end in ends if end.body == body and (body, end.point) in local)
         return tuple(s**2 for point in points for s in local[point])
 
     def turning_inertia(self, body: str) -> sp.Expr:
-        """Return J + Σ m s² of a body, s from its centre of mass to the points of its joints."""
-        of = self.geometry.bodies[body]
-        return sp.Add(of.inertia, *(of.mass * square for square in self.squared_arms(body)))
+        """Return J + Σ m s² of a body, with s from its centre of mass to the points of its joints."""
+        body_symbols = self.geometry.bodies[body]
+        return sp.Add(body_symbols.inertia, *(body_symbols.mass * square for square in self.squared_arms(body)))
 
     def is_light(self, body: str, joint: Joint | None) -> bool:
-        """Return whether a body has nearly no moment of inertia about a joint: its mass is lumped there.
+        """Return whether a body has nearly no moment of inertia about a joint, because its mass is lumped there.
 
-        Values are the defaults of the file. No joint: about its centre of mass.
+        With `joint` None the centre of mass replaces the joint. Values are the defaults of the file.
         """
-        of, default = self.geometry.bodies[body], self.slots.default
+        body_symbols, default = self.geometry.bodies[body], self.slots.default
         ends = [end for end in (joint.first, joint.second) if end.body == body] if joint else []
         arm = self.geometry.local.get((body, ends[0].point), ()) if ends else ()
-        about = of.inertia + sp.Add(*(of.mass * s**2 for s in arm))
-        return default(about) < LIGHT_BODY * default(self.turning_inertia(body))
+        inertia = body_symbols.inertia + sp.Add(*(body_symbols.mass * s**2 for s in arm))
+        return default(inertia) < LIGHT_BODY * default(self.turning_inertia(body))
 
     @cached_property
     def masses(self) -> tuple[sp.Expr, ...]:
@@ -255,31 +266,39 @@ class Model:
         return self.written("numpy")
 
     def written(self, target: str) -> Any:
-        """Return the equations in another language, made once, by the name of a folder in generator/targets."""
+        """Return the equations in another language, derived once and then cached.
+
+        `target`: name of a folder in generator/targets. Raise ValueError for an unknown target.
+        """
         if target not in self.targets:
             known = ", ".join(self.targets) or "none: it was not derived by the pipeline, which knows them"
             raise ValueError(f"no target {target!r} of a model: there is {known}")
-        if target not in self._written:
-            self._written[target] = self.targets[target](self)
-        return self._written[target]
+        if target not in self._targets_cache:
+            self._targets_cache[target] = self.targets[target](self)
+        return self._targets_cache[target]
 
     @cached_property
-    def _written(self) -> dict[str, Any]:
+    def _targets_cache(self) -> dict[str, Any]:
         """Return the cache of equations in other languages, by target."""
         return {}
 
-    def _column(self, expressions: Iterable[sp.Expr]) -> sp.Matrix:
-        """Return expressions as a column matrix, written out in q, q̇, t and parameters."""
-        return self._lettered([as_written(self.symbols.explicit(e)) for e in expressions])
+    def _make_column(self, expressions: Iterable[sp.Expr]) -> sp.Matrix:
+        """Return expressions as a column matrix in q, q̇, t and parameters only.
 
-    def _lettered(self, entries: list[Any]) -> sp.Matrix:
-        """Return a matrix that prints in the notation of the scene's documents."""
+        Derived symbols are replaced by their definitions; the matrix prints in the scene's notation.
+        """
+        return self._make_printable_matrix(
+            [as_written(self.symbols.explicit(expression)) for expression in expressions]
+        )
+
+    def _make_printable_matrix(self, entries: list[Any]) -> sp.Matrix:
+        """Return a matrix of entries that prints in the notation of the scene's documents, if the model knows it."""
         return with_notation(
             sp.Matrix(entries), (lambda: self.written("letters")) if "letters" in self.targets else None
         )
 
     def _repr_latex_(self) -> str:
-        """Return Φ(q, t) = 0 as LaTeX for notebooks."""
+        """Return Φ(q, t) = 0 as LaTeX for notebooks; "" without a notation."""
         return f"$\\displaystyle {self.written('letters').equation().latex}$" if "letters" in self.targets else ""
 
     def _repr_html_(self) -> str | None:
@@ -287,7 +306,7 @@ class Model:
         return str(self.written("letters").html()) if "letters" in self.targets else None
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
-        """Return Φ(q, t) = 0 as text, HTML and LaTeX, which notebooks ask for first."""
+        """Return Φ(q, t) = 0 as text, HTML and LaTeX, which notebooks ask for first; empty without a notation."""
         if "letters" not in self.targets:
             return {}
         text = self.written("letters").equation().text
@@ -296,28 +315,30 @@ class Model:
     @cached_property
     def Phi(self) -> sp.Matrix:
         """Return Φ(q, t), (m, 1); m and rad."""
-        return self._column(row.phi for row in self.rows)
+        return self._make_column(row.phi for row in self.rows)
 
     @cached_property
     def Phi_q(self) -> sp.Matrix:
-        """Return ∂Φ/∂q, (m, n)."""
+        """Return the constraint Jacobian ∂Φ/∂q as a dense matrix, (m, n), in q, t and parameters."""
         zero = sp.Integer(0)
-        return self._lettered([[self.symbols.explicit(row.phi_q.get(q, zero)) for q in self.q] for row in self.rows])
+        return self._make_printable_matrix(
+            [[self.symbols.explicit(row.phi_q.get(q, zero)) for q in self.q] for row in self.rows]
+        )
 
     @cached_property
     def nu(self) -> sp.Matrix:
         """Return ν = −Φ_t, (m, 1): Φ_q q̇ = ν."""
-        return self._column(row.nu for row in self.rows)
+        return self._make_column(row.nu for row in self.rows)
 
     @cached_property
     def gamma(self) -> sp.Matrix:
         """Return γ, (m, 1): Φ_q q̈ = γ."""
-        return self._column(row.gamma for row in self.rows)
+        return self._make_column(row.gamma for row in self.rows)
 
     @cached_property
     def M(self) -> sp.Matrix:
         """Return the mass matrix, (n, n), diagonal: the coordinates are those of the centres of mass."""
-        return self._lettered(sp.diag(*self.masses).tolist())
+        return self._make_printable_matrix(sp.diag(*self.masses).tolist())
 
     @cached_property
     def g(self) -> sp.Matrix:
@@ -326,47 +347,53 @@ class Model:
         forces = [f for body in self.bodies for f in (body.mass * gx, body.mass * gy, sp.Integer(0))]
         for element in self.elements.values():
             element.add_to(forces)
-        return self._column(forces)
+        return self._make_column(forces)
 
 
 def make_model(scene: Scene) -> Model:
-    """Derive the equations of one scene, joint by joint."""
+    """Derive the equations of motion of one scene and return them as a model that cannot be changed.
+
+    Raise LawError for an inconsistent user-defined law, and BadValueError for an event that never changes or a value
+    that is never finite.
+    """
     check_own_laws(scene)
     mechanism, symbols = scene.mechanism, Symbols()
-    slots = ParameterTable(scene, symbols)
-    geometry = Geometry(scene, symbols, slots)
+    parameter_table = ParameterTable(scene, symbols)
+    geometry = Geometry(scene, symbols, parameter_table)
     constraints = Constraints(geometry)
     rate = dimension(time=-1)
     baumgarte = (
-        slots.constant("baumgarte.alpha", "alpha", BAUMGARTE, rate),
-        slots.constant("baumgarte.beta", "beta", BAUMGARTE, rate),
+        parameter_table.constant("baumgarte.alpha", "alpha", BAUMGARTE, rate),
+        parameter_table.constant("baumgarte.beta", "beta", BAUMGARTE, rate),
     )
     rows = [row for joint in mechanism.joints.values() for row in constraints.joint_rows(joint)]
     rows += [row for drive in mechanism.drives.values() for row in constraints.drive_rows(drive)]
     clearances = [
         clearance
         for name, play in scene.play.items()
-        for clearance in make_clearances(mechanism.joints[name], play, geometry, slots)
+        for clearance in make_clearances(mechanism.joints[name], play, geometry, parameter_table)
     ]
     gravity = geometry.ground_vector(mechanism.gravity) if mechanism.gravity else (sp.Integer(0), sp.Integer(0))
-    elements = {e.name: apply_element(e, geometry, constraints.t) for e in mechanism.forces.values()}
-    pairs = [(q, v) for body in geometry.bodies.values() for q, v in zip(body.q, body.v, strict=True)]
+    elements = {element.name: apply_element(element, geometry, constraints.t) for element in mechanism.forces.values()}
+    coordinate_pairs = [(q, v) for body in geometry.bodies.values() for q, v in zip(body.q, body.v, strict=True)]
     frictions = tuple(
-        make_friction(name, e.loads.slip, pairs, constraints.t, symbols) for name, e in elements.items() if e.loads.slip
+        make_friction(name, element.loads.slip, coordinate_pairs, constraints.t, symbols)
+        for name, element in elements.items()
+        if element.loads.slip
     )
-    kept = tuple(row for row in rows if row.owner not in scene.play)
+    active_rows = tuple(row for row in rows if row.owner not in scene.play)
     events = tuple(make_event(event, geometry, constraints.t) for event in scene.events.values())
     for event in events:
         check_event_varies(scene.events[event.name], event, geometry, constraints.t)
-    add_material_parameters(scene, slots)
+    add_material_parameters(scene, parameter_table)
     model = Model(
         scene,
         symbols,
-        slots,
+        parameter_table,
         geometry,
         constraints,
         tuple(rows),
-        kept,
+        active_rows,
         tuple(clearances),
         elements,
         frictions,
@@ -380,21 +407,27 @@ def make_model(scene: Scene) -> Model:
     return model
 
 
-def add_material_parameters(scene: Scene, slots: ParameterTable) -> None:
-    """Make parameters of all materials that a run may choose for this scene, and of the choice itself."""
+def add_material_parameters(scene: Scene, parameter_table: ParameterTable) -> None:
+    """Add parameters for all materials that a run may choose for this scene, and for the choice itself.
+
+    Materials without one of the numbers in use are left out; choices of which no number is in use get no parameter.
+    """
     for choice in scene.mechanism.choices.values():
-        if any(number.address in slots.entries for number in choice.numbers.values()):
-            of = scene.mechanism.materials.values()
-            fitting = [material for material in of if choice.numbers.keys() <= material.numbers.keys()]
-            for material in fitting:
-                for what in choice.numbers:
-                    slots.use(material.numbers[what])
-            words = tuple(material.name for material in fitting)
-            slots.choice(choice.address, words, scene.materials[choice.address])
+        if any(quantity.address in parameter_table.entries for quantity in choice.numbers.values()):
+            materials = scene.mechanism.materials.values()
+            matching = [material for material in materials if choice.numbers.keys() <= material.numbers.keys()]
+            for material in matching:
+                for name in choice.numbers:
+                    parameter_table.use(material.numbers[name])
+            names = tuple(material.name for material in matching)
+            parameter_table.choice(choice.address, names, scene.materials[choice.address])
 
 
 def add_further_parameters(model: Model) -> None:
-    """Make parameters of the values that no equation contains: ground points, the start, settings of methods."""
+    """Add parameters for the values that no equation contains: ground points, the start, and the gain of stick.
+
+    The gain is added only if there is friction that may stick.
+    """
     for vector in model.scene.mechanism.ground.values():
         model.geometry.ground_vector(vector)
     for group in start_values(model).values():
@@ -405,5 +438,8 @@ def add_further_parameters(model: Model) -> None:
 
 
 def stick_gain(model: Model) -> sp.Expr:
-    """Return 2α of a sticking friction as a derived parameter; methods that project stabilise nothing else."""
+    """Return 2α, in 1/s, of a sticking friction as a derived parameter.
+
+    Methods that project stabilise nothing else.
+    """
     return model.slots.derive("two_alpha_stick", 2 * model.slots.entries[STICK].symbol, "2 alpha of a stick")

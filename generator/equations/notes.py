@@ -11,7 +11,11 @@ from gudgeon.generator.mechanism import Body, Mechanism
 
 
 def scene_notes(model: Model) -> tuple[str, ...]:
-    """Return sentences on what this scene leaves out: redundant equations, massless bodies and the like."""
+    """Return sentences for the user about a scene: what it leaves out, and consequences of its choices.
+
+    Topics are redundant equations, missing masses, excess equations, missing play or film, inner states, impacts,
+    gravity and drives with jumps.
+    """
     notes = []
     if model.redundancy.dropped:
         notes.append(
@@ -34,7 +38,7 @@ def scene_notes(model: Model) -> tuple[str, ...]:
     elif not any(c.film for c in model.clearances):
         notes.append("no film: dry contact only")
     options = {c.joint.name: c.normal.options for c in model.clearances if c.wall and c.normal}
-    for joint in (name for name, own in options.items() if own.get("geometry") == "internal"):
+    for joint in (name for name, law_options in options.items() if law_options.get("geometry") == "internal"):
         notes.append(f"geometry: internal says nothing in {joint}: its wall is flat, K is by the corner's radius")
     if states := [f"{c.name}.{state.name}" for c in model.clearances for state in c.states]:
         notes.append(f"inner states of laws, {', '.join(states)}: integrated with the motion, which peers do not do")
@@ -51,25 +55,25 @@ def scene_notes(model: Model) -> tuple[str, ...]:
 
 
 def has_jumps(model: Model) -> bool:
-    """Return whether the rate of any drive may jump, whatever the degrees of freedom."""
+    """Return whether the rate of any drive may jump, also in a scene without degrees of freedom."""
     return any(map(rate_jumps, model.scene.mechanism.drives.values()))
 
 
 def drives_with_jumps(model: Model) -> tuple[str, ...]:
-    """Return the drives whose rate may jump in a scene with degrees of freedom."""
+    """Return the names of the drives whose rate may jump; empty if the scene has no degree of freedom."""
     drives = model.scene.mechanism.drives.values() if model.degrees_of_freedom else ()
     return tuple(drive.name for drive in drives if rate_jumps(drive))
 
 
 def check_masses(model: Model) -> None:
-    """Raise MissingKeyError for bodies without mass or inertia if the motion depends on them."""
-    asks = _reason_for_masses(model)
-    if asks and (errors := list(lacking(model.scene.mechanism, f"scene {model.scene.name} {asks}"))):
+    """Raise MissingKeyError for bodies without mass or inertia if the motion of the scene depends on them."""
+    reason = _reason_for_masses(model)
+    if reason and (errors := list(lacking(model.scene.mechanism, f"scene {model.scene.name} {reason}"))):
         raise together(errors)
 
 
 def _reason_for_masses(model: Model) -> str:
-    """Return why a scene needs masses, for messages; "" if it does not."""
+    """Return why a scene needs masses, for messages: play, degrees of freedom or friction; "" if it does not."""
     if model.clearances:
         return f"has play in {', '.join(clearance.name for clearance in model.clearances)}"
     if (free := model.degrees_of_freedom) > 0:
@@ -79,18 +83,21 @@ def _reason_for_masses(model: Model) -> str:
     return ""
 
 
-def lacking(mechanism: Mechanism, asks: str) -> Iterator[MissingKeyError]:
-    """Yield one error for all bodies that lack the same of mass and inertia; `asks` says why they are needed."""
-    alike: dict[tuple[str, ...], list[Body]] = {}
+def lacking(mechanism: Mechanism, reason: str) -> Iterator[MissingKeyError]:
+    """Yield one MissingKeyError for all bodies that lack the same of mass and inertia.
+
+    `reason` says why they are needed.
+    """
+    bodies_by_missing_keys: dict[tuple[str, ...], list[Body]] = {}
     for body in mechanism.bodies.values():
         if body.lacks:
-            alike.setdefault(tuple(body.lacks), []).append(body)
-    for lacks, bodies in alike.items():
-        whose = bodies[0].name if len(bodies) == 1 else "each"
+            bodies_by_missing_keys.setdefault(tuple(body.lacks), []).append(body)
+    for missing_keys, bodies in bodies_by_missing_keys.items():
+        owner = bodies[0].name if len(bodies) == 1 else "each"
         hint = (
-            f"expected {' and '.join(f'{key}:' for key in lacks)} of {whose}, or a shape: with a density;"
+            f"expected {' and '.join(f'{key}:' for key in missing_keys)} of {owner}, or a shape: with a density;"
             " only where drives determine every motion, without play, none is needed"
         )
         names = ", ".join([bodies[0].name, *(f"{body.name} (line {body.where.line})" for body in bodies[1:])])
-        who = f"body {names} has" if len(bodies) == 1 else f"bodies {names} have"
-        yield MissingKeyError(f"{who} no {' and no '.join(lacks)}, and {asks}", bodies[0].where, hint)
+        subject = f"body {names} has" if len(bodies) == 1 else f"bodies {names} have"
+        yield MissingKeyError(f"{subject} no {' and no '.join(missing_keys)}, and {reason}", bodies[0].where, hint)

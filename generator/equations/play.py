@@ -52,7 +52,7 @@ class LawEquations:
 
     @property
     def results(self) -> tuple[str, ...]:
-        """Return the names in `steps` of the role's results and of the rates of inner states."""
+        """Return the names in `steps` of the results of the role and of the rates of inner states."""
         return tuple(letter_of(self.law, name) for name in self.law.results)
 
     @property
@@ -69,7 +69,7 @@ class Contour:
     count: int
 
     def at(self, angle: sp.Expr, order: int) -> sp.Expr:
-        """Return the depth w at an angle, or its derivative of an `order`, as an expression."""
+        """Return the depth w at an angle in m, or its derivative of an `order` by the angle, as an expression."""
         return contour_of(self.table, self.count, order, angle)
 
 
@@ -144,50 +144,64 @@ class Clearance:
         return [PointLoad(self.first, -F[0], -F[1], moments[0]), PointLoad(self.second, F[0], F[1], moments[1])]
 
     def power(self, F: Sequence[sp.Expr], edot: Sequence[sp.Expr], moments: Sequence[sp.Expr]) -> sp.Expr:
-        """Return the power F · ė + M_i ω_i + M_j ω_j in W."""
+        """Return the power F · ė + M_i ω_i + M_j ω_j in W of the force F and moments on the journal and bearing."""
         turning = moments[0] * self.first.omega + moments[1] * self.second.omega
         return F[0] * edot[0] + F[1] * edot[1] + turning
 
 
-def make_clearances(joint: Joint, play: Play, geometry: Geometry, slots: ParameterTable) -> list[Clearance]:
-    """Return the equations of one joint with play at each of its contact points."""
-    made = [_clearance(joint, play, slots, place) for place in places_of(joint, play.bearing, geometry, slots)]
-    return [replace(one, contour=_contour(joint, play, slots)) for one in made]
+def make_clearances(joint: Joint, play: Play, geometry: Geometry, parameter_table: ParameterTable) -> list[Clearance]:
+    """Return the equations of one joint with play, in one object for each of its contact points."""
+    clearances = [
+        _derive_clearance(joint, play, parameter_table, point)
+        for point in places_of(joint, play.bearing, geometry, parameter_table)
+    ]
+    return [replace(clearance, contour=_make_contour(joint, play, parameter_table)) for clearance in clearances]
 
 
-def _clearance(joint: Joint, play: Play, slots: ParameterTable, place: Place) -> Clearance:
-    """Return the equations at one contact point."""
+def _derive_clearance(joint: Joint, play: Play, parameter_table: ParameterTable, place: Place) -> Clearance:
+    """Return the equations at one contact point: its laws with parameters, transition, and least impact velocity.
+
+    The constants that a report prints are collected on the way.
+    """
     constants: dict[str, sp.Expr] = {}
-    pair = place.pair
+    bearing_symbols = place.pair
 
     def derive(name: str, expression: sp.Expr, meaning: str) -> sp.Expr:
-        """Return a derived parameter named after contact and bearing, which joints with the same ones share."""
+        """Return a derived parameter named after contact and bearing, and record it among the constants.
+
+        Joints with the same contact and bearing share it.
+        """
         # named after what it is made of: joints with the same bearing and contact share it
-        expected = f"{play.contact.name}_{play.bearing.name}_{name}"
-        constants[name] = slots.derive(expected, expression, meaning)
+        parameter_name = f"{play.contact.name}_{play.bearing.name}_{name}"
+        constants[name] = parameter_table.derive(parameter_name, expression, meaning)
         return constants[name]
 
-    def law(use: LawUse | None, of: PairSymbols = place.of_laws) -> LawEquations | None:
-        """Return a law of the contact with its symbols filled in; None if it has none."""
-        return None if use is None else _law(use, of, slots, derive)
+    def law(use: LawUse | None, symbols: PairSymbols = place.of_laws) -> LawEquations | None:
+        """Return a law of the contact with its symbols, or None if `use` is None.
+
+        `symbols`: radii, clearance and elastic constants.
+        """
+        return None if use is None else _derive_law(use, symbols, parameter_table, derive)
 
     contact = play.contact
     normal, friction, mixed = law(contact.normal), law(contact.friction), law(contact.mixed)
-    film = law(contact.film, replace(pair, c=constants.get(MEAN_CLEARANCE, pair.c)))
+    film = law(contact.film, replace(bearing_symbols, c=constants.get(MEAN_CLEARANCE, bearing_symbols.c)))
     floor: sp.Expr = sp.Integer(0)  # of surfaces that give alone
     if contact.velocity_floor:
-        floor = slots.use(contact.velocity_floor)
+        floor = parameter_table.use(contact.velocity_floor)
     elif not (normal and normal.law.rigid):
-        floor = slots.constant(f"contacts.{contact.name}.velocity_floor", "velocity_floor", VELOCITY_FLOOR, VELOCITY)
-    transition = slots.use(contact.transition) if contact.transition is not None else None
-    constants["c"], constants["R_i"], constants["R_j"] = pair.c, pair.R_i, pair.R_j
+        floor = parameter_table.constant(
+            f"contacts.{contact.name}.velocity_floor", "velocity_floor", VELOCITY_FLOOR, VELOCITY
+        )
+    transition = parameter_table.use(contact.transition) if contact.transition is not None else None
+    constants["c"], constants["R_i"], constants["R_j"] = bearing_symbols.c, bearing_symbols.R_i, bearing_symbols.R_j
     return Clearance(
         place.name,
         place.label,
         joint,
         place.first,
         place.second,
-        pair,
+        bearing_symbols,
         normal,
         friction,
         film,
@@ -200,53 +214,60 @@ def _clearance(joint: Joint, play: Play, slots: ParameterTable, place: Place) ->
     )
 
 
-def _contour(joint: Joint, play: Play, slots: ParameterTable) -> Contour | None:
-    """Return the contour of a bearing as a table of parameters; None if it is a circle."""
+def _make_contour(joint: Joint, play: Play, parameter_table: ParameterTable) -> Contour | None:
+    """Return the contour of a bearing as a table of parameters; None if the bearing is a circle."""
     if not play.contour:
         return None
-    return Contour(slots.table(f"contour_{joint.name}", play.contour), len(play.contour))
+    return Contour(parameter_table.table(f"contour_{joint.name}", play.contour), len(play.contour))
 
 
-def _law(use: LawUse, pair: PairSymbols, slots: ParameterTable, derive: Derive) -> LawEquations:
-    """Return a law with the symbols of its parameters and variables filled in.
+def _derive_law(
+    use: LawUse, bearing_symbols: PairSymbols, parameter_table: ParameterTable, derive: Derive
+) -> LawEquations:
+    """Return a law with the symbols of its parameters and variables inserted.
 
-    `derive` makes derived parameters from name, value and meaning.
+    `use`: the law as the file uses it; `derive` makes derived parameters from name, value and meaning. Variables that
+    the law may read but does not are left out. A user-defined law is checked (LawError), and its names get an ending of
+    their own.
     """
     law = laws()[use.law]
     variables = {name: sp.Symbol(name, real=True) for name in law.variables}
-    forces = {own.name for own in law.expressions}
-    parameters = {name: slots.use(quantity) for name, quantity in use.quantities.items() if name not in forces}
-    for name in forces:
-        most = number_of(slots, parameters.get(DEEPEST, pair.c))
-        parameters[name] = force_of(use.quantities[name], variables["delta"], most, slots)
+    force_names = {own_variables.name for own_variables in law.expressions}
+    parameters = {
+        name: parameter_table.use(quantity) for name, quantity in use.quantities.items() if name not in force_names
+    }
+    for name in force_names:
+        max_penetration = number_of(parameter_table, parameters.get(DEEPEST, bearing_symbols.c))
+        parameters[name] = force_of(use.quantities[name], variables["delta"], max_penetration, parameter_table)
     derived: dict[str, sp.Expr] = {}
 
-    def message(name: str, expression: sp.Expr, meaning: str) -> sp.Expr:
+    def derive_and_record(name: str, expression: sp.Expr, meaning: str) -> sp.Expr:
         """Return a derived parameter and record it under its name in the law."""
         derived[name] = derive(name, expression, meaning)
         return derived[name]
 
-    steps = build(law, LawInputs(parameters, use.options, pair, variables, message, Whole))
-    read = {symbol.name for step in steps.values() for symbol in step.free_symbols}
-    unread = {name for name in law.further if name not in read}
-    own = tuple(symbol for name, symbol in variables.items() if name not in unread)
+    steps = build(law, LawInputs(parameters, use.options, bearing_symbols, variables, derive_and_record, Whole))
+    read_names = {symbol.name for step in steps.values() for symbol in step.free_symbols}
+    unread_names = {name for name in law.further if name not in read_names}
+    own_variables = tuple(symbol for name, symbol in variables.items() if name not in unread_names)
     if law.name in USER_LAWS:
-        check_numbers(law, own, steps, slots)
-    equations = LawEquations(law, use.options, own, steps, parameters, derived)
-    return _with_its_names(equations) if law.name in USER_LAWS else equations
+        check_numbers(law, own_variables, steps, parameter_table)
+    equations = LawEquations(law, use.options, own_variables, steps, parameters, derived)
+    return _rename_user_law(equations) if law.name in USER_LAWS else equations
 
 
 def letter_of(law: Law, name: str) -> str:
-    """Return the identifier for `name` in a law; a user-defined law gets one that nothing else has.
+    """Return the identifier for `name` in a law.
 
-    Names of the role (`delta`, `F_n`) are kept. No fixed name contains `__`, and neither does `made_name`.
+    Names of a user-defined law get the ending `__`, except those of the role (`delta`, `F_n`). No fixed name contains
+    `__`, and neither does `made_name`.
     """
     fixed = {*VARIABLES[law.role], *law.further, *RESULTS[law.role]}
     return f"{name}__" if law.name in USER_LAWS and name not in fixed else name
 
 
-def _with_its_names(equations: LawEquations) -> LawEquations:
-    """Return the equations of a user-defined law with its abbreviations and states under names of their own."""
+def _rename_user_law(equations: LawEquations) -> LawEquations:
+    """Return the equations of a user-defined law with its abbreviations and states renamed by `letter_of`."""
     law = equations.law
     symbols = {
         sp.Symbol(name, real=True): sp.Symbol(letter_of(law, name), real=True)

@@ -67,9 +67,10 @@ class System:
     in_tree: ClassVar[bool] = False  # whether the coordinates are those of a tree
 
     def turning_inertia(self, k: int) -> sp.Expr:
-        """Return the inertia about an angle k, 0 for other coordinates: J and m s² of its joints' points.
+        """Return the inertia about coordinate k if it is an angle, else 0.
 
-        s is measured from the centre of mass. It is a derived parameter, to which pivots of M are compared.
+        It is J + m s² of its joints' points, s measured from the centre of mass. It is a derived parameter, with which
+        pivots of M are compared.
         """
         if k % 3 != 2:
             return ZERO
@@ -77,22 +78,31 @@ class System:
         return self.model.slots.derive(f"{name}_turning", self.model.turning_inertia(name), "J and m s^2 of its joints")
 
     def inertia_of_unit_mass(self, k: int) -> sp.Expr:
-        """Return what coordinate k moves if bodies had 1 kg: s² of its joints' points for an angle, else 1."""
+        """Return what coordinate k moves if bodies had 1 kg: s² of its joints' points for an angle, else 1.
+
+        It sets least masses in projections.
+        """
         return sp.Add(*self.model.squared_arms(self.model.bodies[k // 3].name)) if k % 3 == 2 else ONE
 
     def generalized(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
-        """Return the generalized forces (n) Jᵀ f of loads, and those on prescribed coordinates by name."""
-        total = [ZERO] * len(self.q)
+        """Return the generalized forces (n) Jᵀ f of loads, and those on prescribed coordinates by name.
+
+        In absolute coordinates the second result is empty; loads on the ground are skipped.
+        """
+        forces = [ZERO] * len(self.q)
         for point, x, y, moment in loads:
             if point.body is not None:
                 k = point.body.index
-                total[k] += x
-                total[k + 1] += y
-                total[k + 2] += point.arm[0] * y - point.arm[1] * x + moment
-        return total, {}
+                forces[k] += x
+                forces[k + 1] += y
+                forces[k + 2] += point.arm[0] * y - point.arm[1] * x + moment
+        return forces, {}
 
     def acceleration(self, point: PointFrame, a: Mapping[int, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
-        """Return r̈ of a point at accelerations a: r̈ of the centre of mass + θ̈ ẑ × arm − ω² arm."""
+        """Return r̈ of a point at accelerations a of the coordinates: r̈ of the centre of mass + θ̈ ẑ × arm − ω² arm.
+
+        Points of the ground give (0, 0).
+        """
         if point.body is None:
             return ZERO, ZERO
         motion, (arm_x, arm_y), omega = self.motions[point.body.name], point.arm, point.body.omega
@@ -103,7 +113,7 @@ class System:
         return x - theta * arm_y - omega**2 * arm_x, y + theta * arm_x - omega**2 * arm_y
 
     def turning(self, point: PointFrame, a: Mapping[int, sp.Expr]) -> sp.Expr:
-        """Return θ̈ of a point's body at accelerations a of the coordinates."""
+        """Return θ̈ of a point's body at accelerations a of the coordinates; 0 for the ground."""
         if point.body is None:
             return ZERO
         motion = self.motions[point.body.name]
@@ -111,21 +121,24 @@ class System:
 
 
 def absolute(model: Model) -> System:
-    """Return the system in the model's own coordinates, three per body."""
+    """Return the system in the model's own coordinates, three per body, with a diagonal mass matrix."""
     motions = {
-        body.name: Motion(tuple({body.index + c: ONE} for c in range(3)), (ZERO, ZERO, ZERO)) for body in model.bodies
+        body.name: Motion(tuple({body.index + offset: ONE} for offset in range(3)), (ZERO, ZERO, ZERO))
+        for body in model.bodies
     }
-    mass = {(k, k): m for k, m in enumerate(model.masses)}
-    return System(model, model.q, model.v, motions, mass, _weights(model), (), model.rows, model.frictions)
+    mass = {(k, k): mass_entry for k, mass_entry in enumerate(model.masses)}
+    return System(model, model.q, model.v, motions, mass, _derive_weights(model), (), model.rows, model.frictions)
 
 
-def _weights(model: Model) -> tuple[sp.Expr, ...]:
-    """Return the weights of the bodies (n) as derived parameters."""
+def _derive_weights(model: Model) -> tuple[sp.Expr, ...]:
+    """Return the weights of the bodies (n) in N as derived parameters; 0 for angles and for axes without gravity."""
     forces: list[sp.Expr] = []
     for body in model.bodies:
         for axis, component in zip("xy", model.gravity, strict=True):
             weight = body.mass * component
-            named = ZERO if weight == 0 else model.slots.derive(f"weight_{body.name}_{axis}", weight, "weight")
-            forces.append(named)
+            weight_parameter = (
+                ZERO if weight == 0 else model.slots.derive(f"weight_{body.name}_{axis}", weight, "weight")
+            )
+            forces.append(weight_parameter)
         forces.append(ZERO)
     return tuple(forces)

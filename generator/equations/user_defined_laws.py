@@ -39,57 +39,63 @@ from gudgeon.language.units import (
 )
 
 N_PENETRATIONS = 400  # penetrations at which a force is sampled
-_SMALLEST = 1e-6  # of the largest of them
+_MIN_RELATIVE_PENETRATION = 1e-6  # of the largest of them
 
 
-def force_of(force: Quantity, delta: sp.Symbol, most: float, slots: ParameterTable) -> sp.Expr:
-    """Return a force of the file as an expression of `delta` and parameters, checked up to the penetration `most` (m).
+def force_of(force: Quantity, delta: sp.Symbol, max_penetration: float, parameter_table: ParameterTable) -> sp.Expr:
+    """Return a force of the file as an expression of `delta` and parameters, checked up to a penetration in m.
 
     If SymPy does not see that the force at δ = 0 is 0, its value there becomes a parameter, which every run checks.
-    Raises BadValueError for a force that is not finite, pulls, or has no slope at δ = 0.
+    Raise BadValueError for a force that does not depend on δ, is not finite, pulls, or has no slope at δ = 0.
     """
 
     def symbol(path: str) -> sp.Expr:
         """Return the symbol of a name in the expression: `delta` or a parameter."""
         if path == "delta":
             return delta
-        known: sp.Symbol = slots.entries[f"parameters.{path}"].symbol
-        slots.symbols.adopt(known)
-        return known
+        parameter: sp.Symbol = parameter_table.entries[f"parameters.{path}"].symbol
+        parameter_table.symbols.adopt(parameter)
+        return parameter
 
     value = quantity_to_sympy(force, symbol)
     if not value.has(delta):
         hint = "expected an expression such as 1e8 N/m * delta: its terms cancel"
         raise BadValueError(f"{force.address} does not follow delta, the penetration", force.where, hint)
-    _check_force(force, most, slots)
-    _check_slope(force, value, delta, slots)
+    _check_force(force, max_penetration, parameter_table)
+    _check_slope(force, value, delta, parameter_table)
     if value.subs(delta, 0) != 0:
-        slots.use(value_at_onset(force))
+        parameter_table.use(value_at_onset(force))
     return value
 
 
-def _check_force(force: Quantity, most: float, slots: ParameterTable) -> None:
-    """Raise BadValueError if the force is not finite or negative at sampled penetrations, with the scene's values."""
+def _check_force(force: Quantity, max_penetration: float, parameter_table: ParameterTable) -> None:
+    """Raise BadValueError if the force is not finite or is negative at a sampled penetration up to a largest one in m.
+
+    Parameters have the scene's default values.
+    """
     depths = np.union1d(
-        np.geomspace(_SMALLEST * most, most, N_PENETRATIONS // 2), np.linspace(0.0, most, N_PENETRATIONS // 2)[1:]
+        np.geomspace(_MIN_RELATIVE_PENETRATION * max_penetration, max_penetration, N_PENETRATIONS // 2),
+        np.linspace(0.0, max_penetration, N_PENETRATIONS // 2)[1:],
     )
-    found = np.broadcast_to(
+    forces = np.broadcast_to(
         evaluate(
             force.value,
-            lambda path: depths if path == "delta" else np.float64(slots.entries[f"parameters.{path}"].default),
+            lambda path: (
+                depths if path == "delta" else np.float64(parameter_table.entries[f"parameters.{path}"].default)
+            ),
         ),
         depths.shape,
     )
-    if len(wrong := np.flatnonzero(~(np.isfinite(found) & (found >= 0.0)))):
-        depth, load = depths[wrong[0]], found[wrong[0]]
+    if len(invalid := np.flatnonzero(~(np.isfinite(forces) & (forces >= 0.0)))):
+        first_depth, first_force = depths[invalid[0]], forces[invalid[0]]
         hint = "expected a force that is not negative up to the clearance, or to the key 'deepest'"
-        raise BadValueError(f"{force.address} is {load:.6g} N at delta = {depth:.6g} m", force.where, hint)
+        raise BadValueError(f"{force.address} is {first_force:.6g} N at delta = {first_depth:.6g} m", force.where, hint)
 
 
-def _check_slope(force: Quantity, value: sp.Expr, delta: sp.Symbol, slots: ParameterTable) -> None:
-    """Raise BadValueError if the slope at δ = 0 is infinite, so that no Jacobian exists."""
-    numbers = {entry.symbol: sp.Float(entry.default, 17) for entry in slots.entries.values()}
-    slope = sp.diff(value, delta).xreplace(numbers).subs(delta, 0)
+def _check_slope(force: Quantity, value: sp.Expr, delta: sp.Symbol, parameter_table: ParameterTable) -> None:
+    """Raise BadValueError if the derivative of the force by δ is not finite at δ = 0, so that no Jacobian exists."""
+    defaults = {entry.symbol: sp.Float(entry.default, 17) for entry in parameter_table.entries.values()}
+    slope = sp.diff(value, delta).xreplace(defaults).subs(delta, 0)
     if slope.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
         hint = "expected a slope that is a number there: delta**n has one for n >= 1"
         raise BadValueError(f"{force.address} has no slope at delta = 0", force.where, hint)
@@ -113,39 +119,52 @@ _RESULTS: Mapping[str, Dimension] = {
     "share": DIMENSIONLESS,
 }
 _PAIR: Mapping[str, Dimension] = {"E_i": PRESSURE, "E_j": PRESSURE, "nu_i": DIMENSIONLESS, "nu_j": DIMENSIONLESS}
-_SAME = classes_where(lambda f: f.units is Units.SAME)
-_RATIO = classes_where(lambda f: f.units is Units.RATIO)
+_SAME_UNIT_FUNCTIONS = classes_where(lambda f: f.units is Units.SAME)
+_RATIO_FUNCTIONS = classes_where(lambda f: f.units is Units.RATIO)
 
 
 class _Flexible:
     """A dimension that is not fixed: of a plain number, or of a value that may have any unit in the file."""
 
 
-_BARE, _ANY = _Flexible(), _Flexible()
+_PLAIN_NUMBER, _ANY_UNIT = _Flexible(), _Flexible()
 _DimensionOrFlexible = Dimension | _Flexible
 
 
 def check_units(law: Law, use: LawUse) -> None:
-    """Raise LawError if a result of a law has another unit than its role needs, or if unlike units are added."""
-    made = probe(law, use.options, use.quantities)
-    known: dict[str, _DimensionOrFlexible] = {f"probe_{name}": _PAIR.get(name, LENGTH) for name in PAIR}
-    known |= {f"probe_{name}": number.dimension or _ANY for name, number in use.quantities.items()}
-    known |= {name: _VARIABLES[name] for name in law.variables if name in _VARIABLES}
-    known |= {state.name: LENGTH for state in law.states}
-    units = _Units(law, known)
-    for name, value in made.derived.items():
-        known[f"probe_{name}"] = units.of(name, value)
-    for name, step in made.steps.items():
-        found = units.of(name, step)
-        known[name] = found
-        expected = VELOCITY if name.endswith("_rate") else _RESULTS.get(name)
-        if name in law.results and expected and isinstance(found, Dimension) and found != expected:
+    """Raise LawError if a result of a law has another unit than its role needs, or if unlike units are added.
+
+    `use`: the law as the file uses it, with options and quantities.
+    """
+    probed_law = probe(law, use.options, use.quantities)
+    dimension_of_symbol: dict[str, _DimensionOrFlexible] = {f"probe_{name}": _PAIR.get(name, LENGTH) for name in PAIR}
+    dimension_of_symbol |= {
+        f"probe_{name}": quantity.dimension or _ANY_UNIT for name, quantity in use.quantities.items()
+    }
+    dimension_of_symbol |= {name: _VARIABLES[name] for name in law.variables if name in _VARIABLES}
+    dimension_of_symbol |= {state.name: LENGTH for state in law.states}
+    units = _DimensionFinder(law, dimension_of_symbol)
+    for name, value in probed_law.derived.items():
+        dimension_of_symbol[f"probe_{name}"] = units.of(name, value)
+    for name, step in probed_law.steps.items():
+        dimension_found = units.of(name, step)
+        dimension_of_symbol[name] = dimension_found
+        expected_dimension = VELOCITY if name.endswith("_rate") else _RESULTS.get(name)
+        if (
+            name in law.results
+            and expected_dimension
+            and isinstance(dimension_found, Dimension)
+            and dimension_found != expected_dimension
+        ):
             hint = "a number with a unit is one of its fields: number(name, meaning, DIMENSION, default=…)"
-            raise LawError(f"{units.whose}{name} is {describe(found)}, expected {describe(expected)}", hint=hint)
+            raise LawError(
+                f"{units.message_prefix}{name} is {describe(dimension_found)}, expected {describe(expected_dimension)}",
+                hint=hint,
+            )
 
 
 @dataclass
-class _Units:
+class _DimensionFinder:
     """Dimensions of a law's expressions, found from those of its symbols in `known`."""
 
     law: Law
@@ -153,83 +172,116 @@ class _Units:
     seen: dict[sp.Expr, _DimensionOrFlexible] = field(default_factory=dict)
 
     @property
-    def whose(self) -> str:
+    def message_prefix(self) -> str:
         """Return the beginning of a message: the law and the file that defines it."""
         return prefix(self.law.name, ORIGINS.get(self.law.name))
 
-    def of(self, name: str, e: sp.Expr) -> _DimensionOrFlexible:
-        """Return the dimension of an expression in the step `name`. Raise LawError if it has none."""
-        if e not in self.seen:
-            self.seen[e] = self._of(name, e)
-        return self.seen[e]
+    def of(self, name: str, expression: sp.Expr) -> _DimensionOrFlexible:
+        """Return the dimension of an expression in the step `name`, from a cache.
 
-    def _of(self, name: str, e: sp.Expr) -> _DimensionOrFlexible:
-        """Return the dimension of an expression without looking it up in the cache."""
-        if e.is_number:
-            return _BARE
-        if e.is_Symbol:
-            return self.known.get(e.name, _ANY)
-        if e.is_Pow or isinstance(e, sp.exp):
-            return self._power(name, *e.as_base_exp())
-        found = [self.of(name, part) for part in e.args]
-        if e.is_Mul:
-            return self._product(found)
-        if e.is_Add or isinstance(e, (*_SAME, *_RATIO)):
-            one = self._one(name, e, found)
-            return DIMENSIONLESS if isinstance(e, _RATIO) else one
-        if type(e).__name__ == "Whole":
-            return found[0]
-        self._pure(name, type(e).__name__, found[0])
+        Raise LawError if its terms have unlike units.
+        """
+        if expression not in self.seen:
+            self.seen[expression] = self._compute_dimension(name, expression)
+        return self.seen[expression]
+
+    def _compute_dimension(self, name: str, expression: sp.Expr) -> _DimensionOrFlexible:
+        """Return the dimension of an expression without reading the cache.
+
+        Numbers, and quantities that may have any unit, give a flexible dimension.
+        """
+        if expression.is_number:
+            return _PLAIN_NUMBER
+        if expression.is_Symbol:
+            return self.known.get(expression.name, _ANY_UNIT)
+        if expression.is_Pow or isinstance(expression, sp.exp):
+            return self._raise_dimension(name, *expression.as_base_exp())
+        dimensions = [self.of(name, part) for part in expression.args]
+        if expression.is_Mul:
+            return self._multiply_dimensions(dimensions)
+        if expression.is_Add or isinstance(expression, (*_SAME_UNIT_FUNCTIONS, *_RATIO_FUNCTIONS)):
+            common = self._find_common_dimension(name, expression, dimensions)
+            return DIMENSIONLESS if isinstance(expression, _RATIO_FUNCTIONS) else common
+        if type(expression).__name__ == "Whole":
+            return dimensions[0]
+        self._check_dimensionless(name, type(expression).__name__, dimensions[0])
         return DIMENSIONLESS
 
-    def _one(self, name: str, e: sp.Expr, found: list[_DimensionOrFlexible]) -> _DimensionOrFlexible:
-        """Return the common dimension of terms that are added or compared. Raise LawError if they differ."""
-        units = sorted({x for x in found if isinstance(x, Dimension)}, key=str)
-        bare = next((part for part, x in zip(e.args, found, strict=True) if x is _BARE and not part.is_zero), None)
-        unlike = describe(units[1]) if len(units) > 1 else ""
-        if units and bare is not None and not unlike and units[0] != DIMENSIONLESS:
-            unlike = f"{float(bare):g}, a pure number"
-        if unlike:
-            what = "adds" if e.is_Add else f"takes {type(e).__name__} of"
+    def _find_common_dimension(
+        self, name: str, expression: sp.Expr, dimensions: list[_DimensionOrFlexible]
+    ) -> _DimensionOrFlexible:
+        """Return the common dimension of terms that are added or compared, from their dimensions.
+
+        Raise LawError if they differ. A plain number other than 0 counts as dimensionless.
+        """
+        known_dimensions = sorted({dimension for dimension in dimensions if isinstance(dimension, Dimension)}, key=str)
+        plain_number = next(
+            (
+                term
+                for term, dimension in zip(expression.args, dimensions, strict=True)
+                if dimension is _PLAIN_NUMBER and not term.is_zero
+            ),
+            None,
+        )
+        unlike_text = describe(known_dimensions[1]) if len(known_dimensions) > 1 else ""
+        if known_dimensions and plain_number is not None and not unlike_text and known_dimensions[0] != DIMENSIONLESS:
+            unlike_text = f"{float(plain_number):g}, a pure number"
+        if unlike_text:
+            operation = "adds" if expression.is_Add else f"takes {type(expression).__name__} of"
+            text = sp.sstr(_restore_law_names(expression))[:120]
             raise LawError(
-                f"{self.whose}{name} {what} {describe(units[0])} and {unlike}: {sp.sstr(_with_law_names(e))[:120]}",
+                f"{self.message_prefix}{name} {operation} {describe(known_dimensions[0])} and {unlike_text}: {text}",
                 hint="a number with a unit is one of the law's fields",
             )
-        return units[0] if units else _ANY if _ANY in found else _BARE
+        return known_dimensions[0] if known_dimensions else _ANY_UNIT if _ANY_UNIT in dimensions else _PLAIN_NUMBER
 
-    def _power(self, name: str, base: sp.Expr, exponent: sp.Expr) -> _DimensionOrFlexible:
-        """Return the dimension of base**exponent. Raise LawError if the exponent has a unit."""
-        self._pure(name, "an exponent", self.of(name, exponent))
-        found = self.of(name, base)
-        if not isinstance(found, Dimension) or found == DIMENSIONLESS:
-            return found
-        return found ** Fraction(str(exponent)).limit_denominator(1000) if exponent.is_number else _ANY
+    def _raise_dimension(self, name: str, base: sp.Expr, exponent: sp.Expr) -> _DimensionOrFlexible:
+        """Return the dimension of base**exponent.
 
-    def _pure(self, name: str, what: str, found: _DimensionOrFlexible) -> None:
-        """Raise LawError if a value that must be dimensionless, described by `what`, has a unit."""
-        if isinstance(found, Dimension) and found != DIMENSIONLESS:
-            message = f"{self.whose}{name} has {what} of {describe(found)}, expected {describe(DIMENSIONLESS)}"
-            raise LawError(message, hint="divide by a number of that unit: one of the law's fields")
+        It is flexible if the base has a unit and the exponent is not a number. Raise LawError if the exponent has a
+        unit.
+        """
+        self._check_dimensionless(name, "an exponent", self.of(name, exponent))
+        base_dimension = self.of(name, base)
+        if not isinstance(base_dimension, Dimension) or base_dimension == DIMENSIONLESS:
+            return base_dimension
+        return base_dimension ** Fraction(str(exponent)).limit_denominator(1000) if exponent.is_number else _ANY_UNIT
+
+    def _check_dimensionless(self, name: str, description: str, dimension: _DimensionOrFlexible) -> None:
+        """Raise LawError if a value that must be dimensionless has a unit.
+
+        `description`: the value in the message, such as "an exponent".
+        """
+        if isinstance(dimension, Dimension) and dimension != DIMENSIONLESS:
+            message = f"{name} has {description} of {describe(dimension)}, expected {describe(DIMENSIONLESS)}"
+            raise LawError(
+                f"{self.message_prefix}{message}", hint="divide by a number of that unit: one of the law's fields"
+            )
 
     @staticmethod
-    def _product(found: list[_DimensionOrFlexible]) -> _DimensionOrFlexible:
-        """Return the dimension of a product of factors."""
-        if _ANY in found:
-            return _ANY
-        units = [x for x in found if isinstance(x, Dimension)]
-        made = units[0] if units else None
-        for unit in units[1:]:
-            made = made * unit if made is not None else unit
-        return _BARE if made is None else made
+    def _multiply_dimensions(dimensions: list[_DimensionOrFlexible]) -> _DimensionOrFlexible:
+        """Return the dimension of a product from those of its factors.
+
+        It is flexible if one may have any unit, or if all are plain numbers.
+        """
+        if _ANY_UNIT in dimensions:
+            return _ANY_UNIT
+        known_dimensions = [dimension for dimension in dimensions if isinstance(dimension, Dimension)]
+        product = known_dimensions[0] if known_dimensions else None
+        for factor in known_dimensions[1:]:
+            product = product * factor if product is not None else factor
+        return _PLAIN_NUMBER if product is None else product
 
 
-def _with_law_names(e: sp.Expr) -> sp.Expr:
-    """Return an expression with parameters named as in the law, for messages."""
-    return e.xreplace({s: sp.Symbol(s.name.removeprefix("probe_"), real=True) for s in e.free_symbols})
+def _restore_law_names(expression: sp.Expr) -> sp.Expr:
+    """Return an expression with parameters named as in the law, without the prefix "probe_", for messages."""
+    return expression.xreplace(
+        {symbol: sp.Symbol(symbol.name.removeprefix("probe_"), real=True) for symbol in expression.free_symbols}
+    )
 
 
 # States at which forces are sampled: δ (m), ratios, δ̇ (m/s); F_n (N), slip (m/s); ε, 1/s. A state is a deflection (m).
-_SAMPLES: Mapping[str, tuple[float, ...]] = {
+_SAMPLE_VALUES: Mapping[str, tuple[float, ...]] = {
     "delta": (0.0, 1e-9, 1e-6, 1e-4),
     "ratio": (1.0, 0.3, 0.0, -0.4, -1.0),
     "deltadot": (1.0, 1e-3, 0.0, -1e-3, -1.0),
@@ -244,99 +296,114 @@ _UNITS = {"delta": "m", "deltadot": "m/s", "F_n": "N", "v_t": "m/s", "w_n": "1/s
 
 
 def check_own_laws(scene: Scene) -> None:
-    """Raise LawError if a name in a user-defined law has two meanings, or if units do not fit."""
+    """Raise LawError if a name in a user-defined law of the scene has two meanings, or if units do not fit."""
     for play in scene.play.values():
-        some = [(laws()[use.law], use) for use in play.contact.laws]
-        if any(law.name in USER_LAWS for law, _ in some):
-            names = {law.name: _Names(law, use) for law, use in some}
-            for law, use in (one for one in some if one[0].name in USER_LAWS):
+        laws_in_use = [(laws()[use.law], use) for use in play.contact.laws]
+        if any(law.name in USER_LAWS for law, _ in laws_in_use):
+            names = {law.name: _LawNames(law, use) for law, use in laws_in_use}
+            for law, use in (pair for pair in laws_in_use if pair[0].name in USER_LAWS):
                 names[law.name].check()
                 check_units(law, use)
-            _check_together([names[law.name] for law, _ in some if law.role != "film"])
+            _check_common_names([names[law.name] for law, _ in laws_in_use if law.role != "film"])
 
 
-class _Names:
+class _LawNames:
     """Names of the locals and parameters in the function of a law."""
 
     def __init__(self, law: Law, use: LawUse) -> None:
-        """Collect the names by building the law with probe symbols."""
-        made = probe(law, use.options, use.quantities)
+        """Collect the names of locals and parameters by building the law with probe symbols."""
+        probed_law = probe(law, use.options, use.quantities)
         self.law = law
-        self.locals = [*(state.name for state in law.states), *(name for name in made.steps if name not in law.results)]
-        self.numbers = [*use.quantities, *made.derived]
+        self.locals = [
+            *(state.name for state in law.states),
+            *(name for name in probed_law.steps if name not in law.results),
+        ]
+        self.numbers = [*use.quantities, *probed_law.derived]
 
     def check(self) -> None:
-        """Raise LawError for a name that is not an identifier, or that the law is given for something else."""
-        given = {*PAIR, "transition", *itertools.chain(*VARIABLES.values(), *FURTHER.values(), *RESULTS.values())}
-        every = [*self.locals, *self.numbers]
-        for name in every:
+        """Raise LawError for a name that is not an identifier, occurs twice, or has a fixed meaning for the law."""
+        fixed_names = {*PAIR, "transition", *itertools.chain(*VARIABLES.values(), *FURTHER.values(), *RESULTS.values())}
+        all_names = [*self.locals, *self.numbers]
+        for name in all_names:
             try:
                 check_name(name, "number or abbreviation")
             except LawError as error:
-                raise LawError(f"{_law_prefix(self.law)}{error.message}", hint=error.hint) from None
-            if name in given or every.count(name) > 1:
+                raise LawError(f"{_format_law_prefix(self.law)}{error.message}", hint=error.hint) from None
+            if name in fixed_names or all_names.count(name) > 1:
                 hint = "call the number, state or abbreviation otherwise; a number's `symbol` may be any letter"
-                raise LawError(f"{_law_prefix(self.law)}{name!r} is given to the law for something else", hint=hint)
+                raise LawError(
+                    f"{_format_law_prefix(self.law)}{name!r} is given to the law for something else", hint=hint
+                )
 
 
-def _check_together(dry: Sequence[_Names]) -> None:
+def _check_common_names(dry_laws: Sequence[_LawNames]) -> None:
     """Raise LawError if a local of one law has another meaning in the other law of a dry contact.
 
     The derivatives of a dry contact are one function, in which each local has one meaning.
     """
-    for one, other in itertools.permutations(dry, 2):
-        if both := {*one.locals} & {*other.locals, *other.numbers}:
-            message = f"{min(both)!r} names something in the contact's other law, {other.law.name}, too"
-            raise LawError(f"{_law_prefix(one.law)}{message}", hint="call the abbreviation of your own law otherwise")
+    for first_law, other_law in itertools.permutations(dry_laws, 2):
+        if common_names := {*first_law.locals} & {*other_law.locals, *other_law.numbers}:
+            message = f"{min(common_names)!r} names something in the contact's other law, {other_law.law.name}, too"
+            raise LawError(
+                f"{_format_law_prefix(first_law.law)}{message}", hint="call the abbreviation of your own law otherwise"
+            )
 
 
-def _law_prefix(law: Law) -> str:
+def _format_law_prefix(law: Law) -> str:
     """Return the beginning of a message: the law and the file that defines it."""
     return prefix(law.name, ORIGINS.get(law.name))
 
 
 def check_numbers(
-    law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str, sp.Expr], slots: ParameterTable
+    law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str, sp.Expr], parameter_table: ParameterTable
 ) -> None:
-    """Raise LawError if a force is not a finite real number at sampled states, with the values of the file."""
-    numbers = {symbol: np.float64(number_of(slots, symbol)) for symbol in _constants(steps, slots)}
-    known, functions = [*numbers, *variables], {}
+    """Raise LawError if a step of a law is not a finite real number at a sampled state, with the values of the file.
+
+    `variables`: the symbols that are sampled. A fraction `share` must be between 0 and 1, and 0 at δ = 0.
+    """
+    parameter_values = {
+        symbol: np.float64(number_of(parameter_table, symbol)) for symbol in _find_parameters(steps, parameter_table)
+    }
+    arguments, function_by_name = [*parameter_values, *variables], {}
     for name, step in steps.items():
-        functions[name] = sp.lambdify(
-            known, step, "numpy"
+        function_by_name[name] = sp.lambdify(
+            arguments, step, "numpy"
         )  # contains symbols of known names only, as `build` has checked
-        known.append(sp.Symbol(name, real=True))
-    for state in itertools.product(*(_SAMPLES.get(symbol.name, _STATE) for symbol in variables)):
-        values = [*numbers.values(), *map(np.float64, state)]
-        for name, function in functions.items():
+        arguments.append(sp.Symbol(name, real=True))
+    for state in itertools.product(*(_SAMPLE_VALUES.get(symbol.name, _STATE) for symbol in variables)):
+        values = [*parameter_values.values(), *map(np.float64, state)]
+        for name, function in function_by_name.items():
             with np.errstate(all="ignore"):
                 try:
                     values.append(np.float64(function(*values)))
                 except (ArithmeticError, TypeError, ValueError) as error:
-                    message = f"{_law_prefix(law)}{name} cannot be computed: {type(error).__name__}: {error}"
+                    message = f"{_format_law_prefix(law)}{name} cannot be computed: {type(error).__name__}: {error}"
                     raise LawError(message, hint="expected a finite real number for every δ > 0") from error
             if not math.isfinite(values[-1]):
-                at = ", ".join(
-                    f"{s.name} = {x:g} {_UNITS.get(s.name, '')}".strip() for s, x in zip(variables, state, strict=True)
+                state_text = ", ".join(
+                    f"{symbol.name} = {x:g} {_UNITS.get(symbol.name, '')}".strip()
+                    for symbol, x in zip(variables, state, strict=True)
                 )
-                message = f"{_law_prefix(law)}{name} is {values[-1]:g} at {at}"
+                message = f"{_format_law_prefix(law)}{name} is {values[-1]:g} at {state_text}"
                 raise LawError(f"{message}, with the file's numbers", hint="expected a finite real number there")
             if name == "share" and not (0.0 <= values[-1] <= 1.0 and (state[0] > 0.0 or values[-1] == 0.0)):
-                message = f"{_law_prefix(law)}share is {values[-1]:g} at δ = {state[0]:g} m"
+                message = f"{_format_law_prefix(law)}share is {values[-1]:g} at δ = {state[0]:g} m"
                 raise LawError(message, hint="expected a number between 0 and 1, and 0 at δ = 0, where film alone ends")
 
 
-def _constants(steps: Mapping[str, sp.Expr], slots: ParameterTable) -> set[sp.Symbol]:
+def _find_parameters(steps: Mapping[str, sp.Expr], parameter_table: ParameterTable) -> set[sp.Symbol]:
     """Return the parameters that the steps of a law read."""
-    members = set(slots.members())
+    members = set(parameter_table.members())
     return {symbol for step in steps.values() for symbol in step.free_symbols if symbol in members}
 
 
-def number_of(slots: ParameterTable, symbol: sp.Symbol) -> float:
-    """Return the file's value of a parameter or of a derived parameter; NaN if it is not real."""
-    for entry in slots.entries.values():
+def number_of(parameter_table: ParameterTable, symbol: sp.Symbol) -> float:
+    """Return the default value of a parameter or of a derived parameter; NaN if it is not real."""
+    for entry in parameter_table.entries.values():
         if entry.symbol == symbol:
             return entry.default
-    value = slots.derived[symbol]
-    number = value.xreplace({s: sp.Float(number_of(slots, s), 17) for s in value.free_symbols})
-    return float(number) if number.is_real else math.nan
+    value = parameter_table.derived[symbol]
+    result = value.xreplace(
+        {symbol_: sp.Float(number_of(parameter_table, symbol_), 17) for symbol_ in value.free_symbols}
+    )
+    return float(result) if result.is_real else math.nan

@@ -34,7 +34,10 @@ class Branch(Line):
 
     @property
     def side(self) -> sp.Expr:
-        """Return the active branch (sign of the switching function) that decides."""
+        """Return the symbol of the active branch, a sign.
+
+        It chooses `then` or `otherwise`.
+        """
         return self.value.args[0]
 
     @property
@@ -49,7 +52,7 @@ class Branch(Line):
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """Return the expression that is read."""
+        """Return the expression that the line reads, in a tuple of one."""
         return (self.value,)
 
     @property
@@ -66,50 +69,69 @@ class Branch(Line):
 class Branches:
     """Inserts a Branch before the first line that reads it; `names` are the names of branches by expression."""
 
-    def __init__(self, used: Iterable[str]) -> None:
-        """Begin without branches; `used`: names in use."""
+    def __init__(self, used_names: Iterable[str]) -> None:
+        """Begin without branches.
+
+        `used_names`: names that the function uses already, which branches must not get.
+        """
         self.names: dict[sp.Expr, str] = {}
-        self._taken = set(used)
-        self._message: dict[sp.Expr, sp.Expr] = {}  # sides, and the difference whose sign each is
+        self._used_names = set(used_names)
+        self._switching_functions: dict[sp.Expr, sp.Expr] = {}  # sides, and the difference whose sign each is
 
     def lines(self, lines: Iterable[Line]) -> list[Line]:
-        """Return the same lines with their branches inserted."""
-        found: list[Line] = []
+        """Return the lines with a `Branch` line inserted before the first line that reads each branch.
+
+        An assignment whose value is itself a branch becomes a `Branch` line. The names found are added to `names`.
+        Called once per section, in order, by `readable`.
+        """
+        result: list[Line] = []
         for line in lines:
-            if isinstance(line, Statement) and isinstance(line.value, Pick) and self._is_new(line.value):
-                for inner in line.value.args:
-                    found += self._branches(inner)
-                found.append(Branch(line.target, line.value, line.comment))
+            if isinstance(line, Statement) and isinstance(line.value, Pick) and self._needs_branch_line(line.value):
+                for argument in line.value.args:
+                    result += self._make_branch_lines(argument)
+                result.append(Branch(line.target, line.value, line.comment))
                 if line.defines:
                     self.names[line.value] = line.defines
                 continue
             for expression in line.expressions:
-                found += self._branches(expression)
-            found.append(line)
+                result += self._make_branch_lines(expression)
+            result.append(line)
             if isinstance(line, Statement) and isinstance(line.value, BranchOf):
-                self._message[sp.Symbol(line.defines, real=True)] = line.value.args[1]
-        return found
+                self._switching_functions[sp.Symbol(line.defines, real=True)] = line.value.args[1]
+        return result
 
-    def _branches(self, expression: sp.Basic) -> list[Line]:
-        """Return the branches in an expression that have no name yet, inner ones first."""
+    def _make_branch_lines(self, expression: sp.Basic) -> list[Line]:
+        """Return a `Branch` line for each `Pick` in an expression that has no name yet, inner ones first.
+
+        The new names are added to `names`; a `Pick` between two numbers gets none.
+        """
         if not expression.has(Pick):
             return []
-        found: list[Line] = []
+        result: list[Line] = []
         for part in sp.postorder_traversal(expression):
-            if isinstance(part, Pick) and self._is_new(part):
-                self.names[part] = self._new(part)
-                found.append(Branch(self.names[part], part))
-        return found
+            if isinstance(part, Pick) and self._needs_branch_line(part):
+                self.names[part] = self._make_branch_name(part)
+                result.append(Branch(self.names[part], part))
+        return result
 
-    def _is_new(self, pick: Pick) -> bool:
-        """Return whether a branch needs a line; a choice between two numbers does not."""
+    def _needs_branch_line(self, pick: Pick) -> bool:
+        """Return whether a `Pick` needs a `Branch` line.
+
+        It does if it has no name yet and its two values are not both numbers.
+        """
         return pick not in self.names and not all(argument.is_Number for argument in pick.args[1:])
 
-    def _new(self, pick: Pick) -> str:
-        """Return a new name for a branch: "larger", "smaller" or "branch", with a number."""
-        side, a, b = pick.args
-        difference = self._message.get(side)
-        kind = {a - b: "larger", b - a: "smaller"}.get(difference, "branch")
-        name = next(name for k in range(1, len(self._taken) + 2) if (name := f"{kind}_{k}") not in self._taken)
-        self._taken.add(name)
+    def _make_branch_name(self, pick: Pick) -> str:
+        """Return an unused name for a branch and mark it as used: "larger_k", "smaller_k" or "branch_k", k = 1, 2, ….
+
+        "larger" and "smaller" are for a maximum and a minimum, whose switching function is the difference of both
+        values.
+        """
+        branch, a, b = pick.args
+        difference = self._switching_functions.get(branch)
+        prefix = {a - b: "larger", b - a: "smaller"}.get(difference, "branch")
+        name = next(
+            name for k in range(1, len(self._used_names) + 2) if (name := f"{prefix}_{k}") not in self._used_names
+        )
+        self._used_names.add(name)
         return name

@@ -24,42 +24,50 @@ ZERO = sp.Integer(0)
 Parts = tuple[sp.Expr, sp.Expr]
 
 
-def at_complex(kernel: Kernel, arrays: Iterable[Key], zero: Iterable[str] = ()) -> Kernel:
-    """Return the complex version of a kernel, its name with SUFFIX appended.
+def at_complex(kernel: Kernel, complex_arrays: Iterable[Key], zero_arguments: Iterable[str] = ()) -> Kernel:
+    """Return the kernel for complex arguments, with "_complex" appended to its name.
 
-    arrays: which arguments are complex, with their elements; and arrays at places. `zero`: arguments that are 0 and are
-    left out. Raises ValueError for a line that has no complex counterpart.
+    `complex_arrays`: the arguments, array elements and places that are complex. `zero_arguments`: names of arguments
+    that are 0 there and are left out. Unused locals are removed. Raise ValueError for a line that has no complex
+    counterpart.
     """
-    return _ComplexConverter(kernel, frozenset(arrays), frozenset(zero)).kernel()
+    return _ComplexConverter(kernel, frozenset(complex_arrays), frozenset(zero_arguments)).kernel()
 
 
 class _ComplexConverter:
     """Converter of one kernel, line by line."""
 
-    def __init__(self, kernel: Kernel, complex_: frozenset[Key], zero: frozenset[str]) -> None:
-        """Begin with the names of complex and of vanishing arguments."""
-        self.source, self.complex, self.locals, self.zero = kernel, complex_, set[str](), zero
+    def __init__(self, kernel: Kernel, complex_keys: frozenset[Key], zero_arguments: frozenset[str]) -> None:
+        """Begin with the kernel, the keys of complex arguments and arrays, and the names of zero arguments."""
+        self.source, self.complex, self.locals, self.zero = kernel, complex_keys, set[str](), zero_arguments
         self.before: list[Line] = []  # what the next line reads
         self.counts = {"size": 0, "divisor": 0, "factor": 0}
 
     def kernel(self) -> Kernel:
-        """Return the complex version of the kernel."""
+        """Return the complex version of the kernel: all sections and arguments converted, without unused locals.
+
+        Raise ValueError for a line that cannot be converted.
+        """
         sections = tuple(
-            Section(section.title, tuple(line for each in section.statements for line in self._lines(each)))
+            Section(section.title, tuple(line for item in section.statements for line in self._convert_line(item)))
             for section in self.source.sections
         )
-        arguments = tuple(a for each in self.source.arguments for a in self._argument(each))
-        twin = replace(
+        arguments = tuple(argument for item in self.source.arguments for argument in self._convert_argument(item))
+        converted = replace(
             self.source,
             name=f"{self.source.name}{SUFFIX}",
             arguments=arguments,
             sections=sections,
             doc=(*self.source.doc, "At complex eta: real and imaginary parts alternate."),
         )
-        return without_unused(twin)
+        return without_unused(converted)
 
-    def _argument(self, argument: Argument) -> list[Argument]:
-        """Return the arguments that replace one: none, the same, or real and imaginary part."""
+    def _convert_argument(self, argument: Argument) -> list[Argument]:
+        """Return the arguments that replace one in the complex kernel.
+
+        None replace a zero argument; a complex number becomes a real and an imaginary argument. The linearization gets
+        the type Complex…; other arguments stay.
+        """
         if argument.name in self.zero:
             return []
         if argument.name == LINEARIZATION:
@@ -68,29 +76,39 @@ class _ComplexConverter:
             return [argument, replace(argument, name=argument.name + IMAGINARY)]
         return [argument]
 
-    def _lines(self, line: Line) -> list[Line]:
-        """Return the lines that replace one, with the locals that they need before them."""
-        after = self._counterparts(line)
-        before, self.before = self.before, []
-        return before + after
+    def _convert_line(self, line: Line) -> list[Line]:
+        """Return the real lines that replace a line, after the auxiliary locals that they read.
 
-    def _local(self, kind: str, value: sp.Expr) -> sp.Symbol:
-        """Return a new local of a kind for a value, declared before the next line."""
+        The list of pending locals is emptied.
+        """
+        lines = self._convert_without_locals(line)
+        locals_, self.before = self.before, []
+        return locals_ + lines
+
+    def _make_local(self, kind: str, value: sp.Expr) -> sp.Symbol:
+        """Return the symbol of a new local `<kind>_<k>` with a value.
+
+        Its statement is inserted before the line that is being converted. kind: "size", "divisor" or "factor".
+        """
         self.counts[kind] += 1
         local = sp.Symbol(f"{kind}_{self.counts[kind]}", real=True)
         self.before.append(Statement(local.name, value))
         return local
 
-    def _counterparts(self, line: Line) -> list[Line]:
-        """Return the lines that replace one."""
+    def _convert_without_locals(self, line: Line) -> list[Line]:
+        """Return the lines that replace a line, without the auxiliary locals.
+
+        Arrays are declared with twice their sizes, calls get the suffix "_complex", and lines without complex operands
+        stay. Raise ValueError for all others.
+        """
         match line:
             case Statement():
-                return self._statement(line)
+                return self._split_statement(line)
             case Declare():
                 self.complex |= {line.name}
                 return [replace(line, sizes=tuple(2 * n for n in line.sizes))]
             case Guard(test=Test() as test):
-                return self._guard(line, test)
+                return self._convert_guard(line, test)
             case Call():
                 return [replace(line, function=f"{line.function}{SUFFIX}")]
             case _ if not self._is_complex(line):
@@ -98,109 +116,139 @@ class _ComplexConverter:
         raise ValueError(f"a line of a kernel that has no complex counterpart: {line}")
 
     def _is_complex(self, line: Line) -> bool:
-        """Return whether a line reads a complex number."""
-        return any(self._pair(s) for x in line.expressions for s in x.free_symbols)
+        """Return whether any expression of a line contains a symbol with an imaginary part."""
+        return any(self._find_part_symbols(s) for x in line.expressions for s in x.free_symbols)
 
-    def _statement(self, line: Statement) -> list[Line]:
-        """Return the statements of the real and imaginary part."""
-        real, imaginary = self._value(line.value)
+    def _split_statement(self, line: Statement) -> list[Line]:
+        """Return the assignments of the real and of the imaginary part of a statement.
+
+        A local with imaginary part 0 stays single; otherwise it becomes complex for all later lines. An element of a
+        real array gets the real part alone.
+        """
+        real, imaginary = self._split_value(line.value)
         if local := line.defines:
             if imaginary == ZERO:
                 return [replace(line, value=real)]
             self.locals.add(local)
             return [replace(line, value=real), replace(line, target=local + IMAGINARY, value=imaginary)]
-        if both := self._places(line.target):
-            return [replace(line, target=both[0], value=real), replace(line, target=both[1], value=imaginary)]
+        if places := self._find_part_places(line.target):
+            return [replace(line, target=places[0], value=real), replace(line, target=places[1], value=imaginary)]
         return [replace(line, value=real)]
 
-    def _value(self, value: Value) -> tuple[Value, Value]:
-        """Return the real and imaginary part of the value of a statement."""
+    def _split_value(self, value: Value) -> tuple[Value, Value]:
+        """Return the real and the imaginary part of the value of a statement.
+
+        The value is a place, a conditional value or an expression. Raise ValueError for other kinds of values.
+        """
         match value:
             case Place():
-                return self._places(value) or (value, ZERO)
+                return self._find_part_places(value) or (value, ZERO)
             case Conditional():
-                then, otherwise = self.parts(value.then), self.parts(value.otherwise)
+                then, otherwise = self.split_expression(value.then), self.split_expression(value.otherwise)
                 parts = [replace(value, then=a, otherwise=b) for a, b in zip(then, otherwise, strict=True)]
                 return parts[0], parts[1]
             case sp.Basic():
-                return self.parts(value)
+                return self.split_expression(value)
         raise ValueError(f"a value of a kernel that has no complex counterpart: {value}")
 
-    def _places(self, place: Key) -> tuple[Place, Place] | None:
-        """Return the places of both parts of an array's element; None if it is real."""
+    def _find_part_places(self, place: Key) -> tuple[Place, Place] | None:
+        """Return the places 2k and 2k + 1 of the real and imaginary part of element k of a complex array.
+
+        Return None if the place is not an element of a complex array.
+        """
         match place:
-            case Place(base, (*of, int() as k)) if {base, Place(base, (*of,))} & self.complex:
-                return Place(base, (*of, 2 * k)), Place(base, (*of, 2 * k + 1))
+            case Place(base, (*path, int() as k)) if {base, Place(base, (*path,))} & self.complex:
+                return Place(base, (*path, 2 * k)), Place(base, (*path, 2 * k + 1))
         return None
 
-    def _pair(self, symbol: sp.Symbol) -> Parts | None:
-        """Return the symbols of both parts of a symbol; None if it is real."""
+    def _find_part_symbols(self, symbol: sp.Symbol) -> Parts | None:
+        """Return the symbols of the real and of the imaginary part of a symbol, or None if the symbol is real."""
         name = symbol.name
-        if both := self._places(key_of(symbol)):
-            return PlaceSymbol(both[0]), PlaceSymbol(both[1])
+        if places := self._find_part_places(key_of(symbol)):
+            return PlaceSymbol(places[0]), PlaceSymbol(places[1])
         return (symbol, sp.Symbol(name + IMAGINARY)) if name in self.locals or name in self.complex else None
 
-    def parts(self, value: sp.Expr) -> Parts:
-        """Return the real and imaginary part of an expression."""
+    def split_expression(self, value: sp.Expr) -> Parts:
+        """Return the real and the imaginary part of an expression.
+
+        Allowed are sums, products and integer powers; divisors and factors may become new locals. Symbols of zero
+        arguments give (0, 0). Raise ValueError for other functions of complex arguments.
+        """
         value = sp.sympify(value)
         if value.is_Symbol:
             if value.name in self.zero:
                 return ZERO, ZERO
-            return self._pair(value) or (value, ZERO)
-        if not any(self._pair(s) or s.name in self.zero for s in value.free_symbols):
+            return self._find_part_symbols(value) or (value, ZERO)
+        if not any(self._find_part_symbols(s) or s.name in self.zero for s in value.free_symbols):
             return value, ZERO
         if value.is_Add:
-            each = [self.parts(x) for x in value.args]
-            return sp.Add(*(a for a, _ in each)), sp.Add(*(b for _, b in each))
+            term_parts = [self.split_expression(x) for x in value.args]
+            return sp.Add(*(real_ for real_, _ in term_parts)), sp.Add(*(imaginary_ for _, imaginary_ in term_parts))
         if value.is_Mul:
-            return self._product(value)
+            return self._multiply_factors(value)
         base, exponent = value.as_base_exp()
         if not (value.is_Pow and exponent.is_Integer):
             raise ValueError(f"no complex counterpart of {value}")
-        found = times = self.parts(base)
+        product = factor = self.split_expression(base)
         for _ in range(abs(int(exponent)) - 1):
-            found = _times(found, times)
+            product = _multiply_complex(product, factor)
         if exponent > 0:
-            return found
-        real, imaginary = (x if x.is_Symbol else self._local("divisor", x) for x in found)
-        share = self._local("divisor", 1 / (real**2 + imaginary**2))
-        return real * share, -imaginary * share
+            return product
+        real, imaginary = (x if x.is_Symbol else self._make_local("divisor", x) for x in product)
+        reciprocal = self._make_local("divisor", 1 / (real**2 + imaginary**2))
+        return real * reciprocal, -imaginary * reciprocal
 
-    def _product(self, value: sp.Mul) -> Parts:
-        """Return the parts of a product; real factors are multiplied last, once for each part."""
-        found: Parts | None = None
-        real: list[sp.Expr] = []
-        for each in map(self.parts, value.args):
-            if each[1] == ZERO:
-                real.append(each[0])
+    def _multiply_factors(self, value: sp.Mul) -> Parts:
+        """Return the real and the imaginary part of a product.
+
+        Complex factors are multiplied first; the product of all real factors then multiplies each part once.
+        """
+        product: Parts | None = None
+        real_factors: list[sp.Expr] = []
+        for factor_parts in map(self.split_expression, value.args):
+            if factor_parts[1] == ZERO:
+                real_factors.append(factor_parts[0])
             else:
-                found = each if found is None else _times(self._simple(found), self._simple(each))
-        factor = sp.Mul(*real)
-        return (factor * found[0], factor * found[1]) if found else (factor, ZERO)
+                product = (
+                    factor_parts
+                    if product is None
+                    else _multiply_complex(self._store_long_parts(product), self._store_long_parts(factor_parts))
+                )
+        factor = sp.Mul(*real_factors)
+        return (factor * product[0], factor * product[1]) if product else (factor, ZERO)
 
-    def _simple(self, parts: Parts) -> Parts:
-        """Return the parts as locals unless they are symbols or negatives: a product reads each twice."""
-        real, imaginary = (x if (-x).is_Symbol or x.is_Symbol else self._local("factor", x) for x in parts)
+    def _store_long_parts(self, parts: Parts) -> Parts:
+        """Return both parts as symbols or negative symbols.
+
+        A longer part is stored in a new local, because a complex product reads each part twice.
+        """
+        real, imaginary = (x if (-x).is_Symbol or x.is_Symbol else self._make_local("factor", x) for x in parts)
         return real, imaginary
 
-    def _guard(self, line: Guard, test: Test) -> list[Line]:
-        """Return the test of a pivot with |real| + |imaginary| as its size."""
-        real, imaginary = self.parts(test.value)
+    def _convert_guard(self, line: Guard, test: Test) -> list[Line]:
+        """Return the test of a pivot with |real| + |imaginary| in place of its magnitude, in a list.
+
+        Complex magnitudes in the bound are replaced too. The line stays as it is if the tested value is real.
+        """
+        real, imaginary = self.split_expression(test.value)
         if imaginary == ZERO:
             return [line]
-        local = self._local("size", Size(real) + Size(imaginary))
+        local = self._make_local("size", Size(real) + Size(imaginary))
         if test.of_itself:
             bound: tuple[sp.Basic | float, ...] = (test.bound[0], local)
         else:
-            bound = tuple(self._bound(x) if isinstance(x, Size) else x for x in test.bound)
+            bound = tuple(self._convert_bound(x) if isinstance(x, Size) else x for x in test.bound)
         return [replace(line, test=replace(test, value=local, bound=bound, size=False))]
 
-    def _bound(self, size: sp.Expr) -> sp.Expr:
-        """Return a size in a bound as |real| + |imaginary| if it is complex."""
-        real, imaginary = self.parts(size.args[0])
-        return self._local("size", Size(real) + Size(imaginary)) if imaginary != ZERO else size
+    def _convert_bound(self, magnitude: sp.Expr) -> sp.Expr:
+        """Return the magnitude in a bound as a local with |real| + |imaginary|.
+
+        The magnitude of a real value is returned unchanged.
+        """
+        real, imaginary = self.split_expression(magnitude.args[0])
+        return self._make_local("size", Size(real) + Size(imaginary)) if imaginary != ZERO else magnitude
 
 
-def _times(a: Parts, b: Parts) -> Parts:
-    """Return the product of two complex numbers."""
+def _multiply_complex(a: Parts, b: Parts) -> Parts:
+    """Return the real and the imaginary part of the product of two complex expressions."""
     return a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]

@@ -27,47 +27,51 @@ class Slices:
     numbers: Mapping[Place, Marks]
 
 
-def slices(own: Readable, marks: Callable[[Statement | Branch], Marks]) -> Slices:
-    """Return the marks of all lines; those of a line are passed to every line, and parameter, on which it depends.
+def slices(function: Readable, marks: Callable[[Statement | Branch], Marks]) -> Slices:
+    """Return the marks of all statements and parameters of a function, propagated backwards along the data dependence.
 
-    `marks` gives the marks of a line by itself.
+    A line has its own marks, `marks(line)`, and those of all later lines that depend on it. The result maps the target
+    of each line, and each parameter that is read, to a set of marks; entries without marks are left out.
     """
-    needed: defaultdict[Key, set[str]] = defaultdict(set)
+    marks_by_name: defaultdict[Key, set[str]] = defaultdict(set)
     stored: defaultdict[Key, set[str]] = defaultdict(set)
-    called: dict[Key, Key] = {place: name for name, place in own.names.items() if isinstance(place, Place)}
-    for section in reversed(own.sections):
+    name_of_place: dict[Key, Key] = {place: name for name, place in function.names.items() if isinstance(place, Place)}
+    for section in reversed(function.sections):
         for line in reversed(section.statements):
             if not isinstance(line, (Statement, Branch)):
                 continue
-            name = line.defines or called.get(line.target, line.target)
-            found = needed[name] | marks(line)
-            stored[line.target] |= found
-            for used in _reads(line, own):
-                needed[used] |= found
-    numbers: defaultdict[Place, set[str]] = defaultdict(set)
-    for name, found in needed.items():
-        place = own.names.get(name, name)
+            name = line.defines or name_of_place.get(line.target, line.target)
+            line_marks = marks_by_name[name] | marks(line)
+            stored[line.target] |= line_marks
+            for key in _find_read_keys(line, function):
+                marks_by_name[key] |= line_marks
+    marks_of_parameters: defaultdict[Place, set[str]] = defaultdict(set)
+    for name, line_marks in marks_by_name.items():
+        place = function.names.get(name, name)
         if isinstance(place, Place) and place.is_parameter:
-            numbers[place] |= found
-    return Slices(_frozen(stored), _frozen(numbers))
+            marks_of_parameters[place] |= line_marks
+    return Slices(_freeze_sets(stored), _freeze_sets(marks_of_parameters))
 
 
-def _reads(line: Statement | Branch, own: Readable) -> set[Key]:
-    """Return what a line reads: names of symbols, places, names of branches that have a line of their own."""
-    found = {key_of(symbol) for x in line.expressions for symbol in x.free_symbols} | set(line.reads)
+def _find_read_keys(line: Statement | Branch, function: Readable) -> set[Key]:
+    """Return the keys that a line reads: symbol names, places, and names of branches with a line of their own.
+
+    The target of the line itself is not included.
+    """
+    keys = {key_of(symbol) for expression in line.expressions for symbol in expression.free_symbols} | set(line.reads)
     if isinstance(line, Statement) and isinstance(line.value, Place):
-        found.add(line.value)
+        keys.add(line.value)
     for expression in line.expressions:
-        if own.branches and expression.has(Pick):
-            found |= {own.branches[part] for part in expression.atoms(Pick) if part in own.branches}
-    return found - {line.target}
+        if function.branches and expression.has(Pick):
+            keys |= {function.branches[pick] for pick in expression.atoms(Pick) if pick in function.branches}
+    return keys - {line.target}
 
 
-def _frozen(found: Mapping[Any, set[str]]) -> dict[Any, Marks]:
-    """Return the entries with marks, as frozen sets."""
-    return {name: frozenset(marks) for name, marks in found.items() if marks}
+def _freeze_sets(marks_by_key: Mapping[Any, set[str]]) -> dict[Any, Marks]:
+    """Return the non-empty entries of a mapping with their sets of marks as frozen sets."""
+    return {key: frozenset(marks) for key, marks in marks_by_key.items() if marks}
 
 
 def free_names(expression: sp.Expr) -> set[str]:
-    """Return the names of an expression's symbols."""
+    """Return the set of names of the free symbols of an expression."""
     return {symbol.name for symbol in expression.free_symbols}

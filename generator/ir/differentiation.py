@@ -40,28 +40,39 @@ class Tangents:
         owner: str = "",
         share_powers: bool = False,
     ) -> None:
-        """Begin with the base symbols, each with derivative 1 by itself."""
+        """Begin with the base symbols, each with the derivative 1 by itself.
+
+        Locals that the tangents need are appended to `build`. `owner`: whose switches fix the branches; "" is the
+        scene.
+        """
         self._symbols, self._build, self._owner, self._share_powers = symbols, build, owner, share_powers
-        self._sides: dict[sp.Symbol, sp.Expr] = {}
-        self._renamed: Mapping[sp.Symbol, sp.Symbol] = {}
+        self._branches: dict[sp.Symbol, sp.Expr] = {}
+        self._symbol_map: Mapping[sp.Symbol, sp.Symbol] = {}
         self._powers: dict[sp.Expr, sp.Symbol] = {}
         self._known: dict[sp.Symbol, Tangent] = {base: {base: ONE} for base in bases}
 
     def inside(self, renamed: Mapping[sp.Symbol, sp.Symbol]) -> Tangents:
-        """Return tangents in the same kernel for expressions in other variables.
+        """Return tangents in the same kernel for expressions that use other names for the variables.
 
-        renamed: the symbols of these variables here.
+        `renamed` maps each of those variables to its symbol in this kernel; these symbols are the new bases. Branches
+        and shared powers are common to both objects.
         """
-        inner = Tangents(self._symbols, self._build, renamed.values(), self._owner, self._share_powers)
-        inner._sides, inner._powers, inner._renamed = self._sides, self._powers, renamed
-        return inner
+        tangents = Tangents(self._symbols, self._build, renamed.values(), self._owner, self._share_powers)
+        tangents._branches, tangents._powers, tangents._symbol_map = self._branches, self._powers, renamed
+        return tangents
 
     def know(self, symbol: sp.Symbol, tangent: Tangent) -> None:
-        """Set the tangent of a symbol that C computes in its own way; longer entries become locals."""
-        self._known[symbol] = {base: self._named(symbol, base, value) for base, value in tangent.items()}
+        """Store the tangent of a symbol that the kernel computes without a definition.
+
+        Entries that are more than a number or ± a symbol become locals of the kernel.
+        """
+        self._known[symbol] = {base: self._store_derivative(symbol, base, value) for base, value in tangent.items()}
 
     def of(self, symbol: sp.Symbol) -> Tangent:
-        """Return the tangent of a symbol; empty for a constant."""
+        """Return the tangent of a symbol, its non-zero derivatives by base symbol; empty for a constant.
+
+        It is computed once, from the symbol's rules or else its definition, and stored.
+        """
         if symbol not in self._known:
             self._known[symbol] = {}  # a parameter, or a multiplier that is held constant
             if symbol in self._symbols.rules:
@@ -71,28 +82,36 @@ class Tangents:
         return self._known[symbol]
 
     def through(self, tangent: Tangent) -> Tangent:
-        """Return a tangent by other symbols as a tangent by the bases (chain rule)."""
+        """Return the tangent by the base symbols of a value from its derivatives by other symbols (chain rule)."""
         return self.sum((factor, self.of(symbol)) for symbol, factor in tangent.items())
 
     def held(self, expression: sp.Expr) -> sp.Expr:
-        """Return the expression with branches taken from the switches, whose functions are printed."""
-        before = len(self._sides)
-        held = self._symbols.switches.hold(expression, self._owner, self._sides)
-        for side, value in list(self._sides.items())[before:]:
-            self._build.line(Statement(side.name, value.xreplace(self._renamed)))
-        return held.xreplace(self._renamed)
+        """Return the expression with each switching function replaced by its active branch.
+
+        The variables of `inside` are replaced by those of the kernel. A branch that is read for the first time is
+        assigned by a new line of the kernel.
+        """
+        n_known = len(self._branches)
+        fixed = self._symbols.switches.hold(expression, self._owner, self._branches)
+        for branch, value in list(self._branches.items())[n_known:]:
+            self._build.line(Statement(branch.name, value.xreplace(self._symbol_map)))
+        return fixed.xreplace(self._symbol_map)
 
     def gradient(self, expression: sp.Expr, known_as: sp.Symbol | None = None) -> Tangent:
-        """Return the non-zero derivatives of an expression by base; `known_as`: a symbol of its value."""
-        held = self.held(expression)
-        order = sorted(held.free_symbols, key=lambda s: s.name)
-        if known_as is not None and held.is_Pow and held.exp == sp.Rational(1, 2):
+        """Return the non-zero derivatives of an expression by base symbol, with branches fixed.
+
+        `known_as`: a symbol that holds the value of the expression; a square root is then differentiated by dividing by
+        that symbol.
+        """
+        fixed = self.held(expression)
+        order = sorted(fixed.free_symbols, key=lambda s: s.name)
+        if known_as is not None and fixed.is_Pow and fixed.exp == sp.Rational(1, 2):
             scale = sp.Rational(1, 2) / (known_as + TINY)
-            return self.sum((partial(held.base, s) * scale, self.of(s)) for s in order)
-        return self.sum((partial(held, s), self.of(s)) for s in order if self.of(s))
+            return self.sum((partial(fixed.base, s) * scale, self.of(s)) for s in order)
+        return self.sum((partial(fixed, s), self.of(s)) for s in order if self.of(s))
 
     def sum(self, parts: Iterable[tuple[sp.Expr, Tangent]]) -> Tangent:
-        """Return Σ factor · tangent."""
+        """Return Σ factor · tangent of pairs (factor, tangent), by base symbol; sums that vanish are left out."""
         terms: dict[sp.Symbol, list[sp.Expr]] = {}
         for factor, tangent in parts:
             for base, value in tangent.items():
@@ -100,48 +119,64 @@ class Tangents:
         sums = {base: sp.Add(*values) for base, values in terms.items()}
         return {base: value for base, value in sums.items() if value != 0}
 
-    def _named(self, symbol: sp.Symbol, base: sp.Symbol, value: sp.Expr) -> sp.Expr:
-        """Return a derivative as it is if it is simple, else as a local of the kernel."""
+    def _store_derivative(self, symbol: sp.Symbol, base: sp.Symbol, value: sp.Expr) -> sp.Expr:
+        """Return the derivative of a symbol by a base, as a new local if it is long.
+
+        The local is called `<symbol>_by_<base>`. A number or ± a symbol is returned unchanged.
+        """
         if value.is_Number or value.is_Symbol or (-value).is_Symbol:
             return value
         return self._build.local(f"{symbol.name}_by_{base.name}", self.shared(value))
 
     def shared(self, value: sp.Expr) -> sp.Expr:
-        """Return the value with denominators and powers as locals that its derivatives share."""
+        """Return the value with its denominators stored as locals that derivatives reuse.
+
+        With `share_powers` its powers become locals too. A value without powers is returned unchanged.
+        """
         if not value.has(sp.Pow):
             return value
-        divided = value.replace(is_division, lambda part: self._local("inverse", 1 / part.base) ** -part.exp)
+        divided = value.replace(is_division, lambda part: self._store_power("inverse", 1 / part.base) ** -part.exp)
         if not self._share_powers:
             return divided
-        return divided.replace(lambda part: part.is_Pow and bool(part.exp.free_symbols), self._power)
+        return divided.replace(lambda part: part.is_Pow and bool(part.exp.free_symbols), self._split_power)
 
-    def _power(self, power: sp.Pow) -> sp.Expr:
-        """Return x^n as x · x^(n−1), with the power as a local."""
+    def _split_power(self, power: sp.Pow) -> sp.Expr:
+        """Return x^n as x · x^(n−1), with the second factor as a local.
+
+        A power whose exponent has the constant term −1 becomes a local as it is.
+        """
         if power.exp.as_coeff_Add()[0] == -1:
-            return self._local("power", power)
-        return power.base * self._local("power", power.base ** (power.exp - 1))
+            return self._store_power("power", power)
+        return power.base * self._store_power("power", power.base ** (power.exp - 1))
 
-    def _local(self, what: str, value: sp.Expr) -> sp.Symbol:
-        """Return the local that holds a power, named after its base if that is a symbol."""
+    def _store_power(self, prefix: str, value: sp.Expr) -> sp.Symbol:
+        """Return the local that stores a power, created at its first use.
+
+        Its name is the prefix and the name of its base, or "sum" if the base is not a symbol.
+        """
         if value not in self._powers:
-            self._powers[value] = self._build.local(f"{what}_{base_name(value)}", value)
+            self._powers[value] = self._build.local(f"{prefix}_{base_name(value)}", value)
         return self._powers[value]
 
 
-def partial(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
-    """Return ∂/∂by of smooth pieces; x^n gives n x^(n−1), not n x^n/x, which is 0/0 at 0."""
+def partial(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
+    """Return ∂/∂symbol of a smooth expression; x^n gives n x^(n−1), not n x^n/x, which is 0/0 at 0.
+
+    Terms that may overflow get a `Slope` with a difference quotient. A root of a sum of squares gets derivative 0 where
+    it is 0/0.
+    """
     if expression.is_Add:
-        return sp.Add(*(partial(term, by) for term in expression.args if by in symbols_of(term)))
-    if expression.is_Mul and by in expression.args:  # most terms are linear: SymPy's own way is slower
-        rest = [factor for factor in expression.args if factor != by]
-        if not any(by in symbols_of(factor) for factor in rest):
-            return sp.Mul(*rest)
-    terms = {term: sp.Dummy(real=True) for term in overflowing(expression, by)}
+        return sp.Add(*(partial(term, symbol) for term in expression.args if symbol in symbols_of(term)))
+    if expression.is_Mul and symbol in expression.args:  # most terms are linear: SymPy's own way is slower
+        other_factors = [factor for factor in expression.args if factor != symbol]
+        if not any(symbol in symbols_of(factor) for factor in other_factors):
+            return sp.Mul(*other_factors)
+    terms = {term: sp.Dummy(real=True) for term in overflowing(expression, symbol)}
     if terms and expression not in terms:
-        named, back = expression.xreplace(terms), {dummy: term for term, dummy in terms.items()}
-        inner = (written(named, dummy) * partial(term, by) for term, dummy in terms.items())
-        return sp.Add(partial(named, by), *inner).xreplace(back)
-    derivative = written(expression, by)
+        renamed, terms_by_dummy = expression.xreplace(terms), {dummy: term for term, dummy in terms.items()}
+        inner_terms = (written(renamed, dummy) * partial(term, symbol) for term, dummy in terms.items())
+        return sp.Add(partial(renamed, symbol), *inner_terms).xreplace(terms_by_dummy)
+    derivative = written(expression, symbol)
     if terms:
-        return finite_slope(expression, by, derivative)
-    return flat_at_zero(derivative) if has_distance(expression, by) else derivative
+        return finite_slope(expression, symbol, derivative)
+    return flat_at_zero(derivative) if has_distance(expression, symbol) else derivative

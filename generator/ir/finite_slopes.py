@@ -16,10 +16,10 @@ from gudgeon.generator.symbols.from_expressions import CLASSES, classes_where, d
 from gudgeon.generator.symbols.switches import Largest, Pick, Smallest
 from gudgeon.generator.symbols.unevaluated import Share
 
-_SATURATING = classes_where(lambda f: f.saturates)
-_GROWING = classes_where(lambda f: f.is_exponential or f.has_pole)
-_ZERO = (sp.Integer(0), sp.Integer(0), sp.Integer(1))  # a rise, and a way
-_HIGH = 8  # a power of which neither the value nor its square overflows for a number of a mechanism
+_SATURATING_CLASSES = classes_where(lambda f: f.saturates)
+_OVERFLOWING_CLASSES = classes_where(lambda f: f.is_exponential or f.has_pole)
+_ZERO_QUOTIENT = (sp.Integer(0), sp.Integer(0), sp.Integer(1))  # a rise, and a way
+_MAX_SAFE_POWER = 8  # a power of which neither the value nor its square overflows for a number of a mechanism
 
 
 class Slope(sp.Function):
@@ -43,7 +43,7 @@ class Upon(sp.Function):
         return sp.Integer(0)
 
 
-_CORNERS = (sp.Abs, sp.Max, sp.Min, sp.sign, sp.Heaviside, Upon, Pick, Largest, Smallest)
+_SWITCHING_CLASSES = (sp.Abs, sp.Max, sp.Min, sp.sign, sp.Heaviside, Upon, Pick, Largest, Smallest)
 
 
 class JustAhead(sp.Function):
@@ -60,54 +60,70 @@ class JustBehind(sp.Function):
     is_real = True
 
 
-def overflowing(expression: sp.Expr, by: sp.Symbol) -> list[sp.Expr]:
-    """Return the outermost terms of an expression that may be finite where their derivative `by` a symbol is not."""
-    if not any(map(_saturates, expression.atoms(sp.Pow, *_SATURATING))) or by not in expression.free_symbols:
+def overflowing(expression: sp.Expr, symbol: sp.Symbol) -> list[sp.Expr]:
+    """Return the outermost terms of an expression that may be finite where their derivative by `symbol` overflows.
+
+    These are terms of a saturating function or negative power whose inner values may overflow, and terms that are a
+    `Slope` already. Empty if the expression does not depend on the symbol.
+    """
+    if (
+        not any(map(_is_saturating, expression.atoms(sp.Pow, *_SATURATING_CLASSES)))
+        or symbol not in expression.free_symbols
+    ):
         return []
     if isinstance(expression, Slope):
         return [expression]
-    if _saturates(expression):
-        within = (part for argument in expression.args for part in sp.preorder_traversal(argument))
-        if any(_grows(part, by) for part in within):
+    if _is_saturating(expression):
+        parts = (part for argument in expression.args for part in sp.preorder_traversal(argument))
+        if any(_may_overflow(part, symbol) for part in parts):
             return [expression]
-    return [term for argument in expression.args for term in overflowing(argument, by)]
+    return [term for argument in expression.args for term in overflowing(argument, symbol)]
 
 
-def _saturates(term: sp.Expr) -> bool:
-    """Return whether a term may be finite where its inner values are not."""
+def _is_saturating(term: sp.Expr) -> bool:
+    """Return whether a term may be finite where its inner values are not.
+
+    Such terms are negative or variable powers, and saturating functions.
+    """
     if term.is_Pow:
         return bool(term.exp.is_extended_negative or not term.exp.is_number)
-    return isinstance(term, _SATURATING)
+    return isinstance(term, _SATURATING_CLASSES)
 
 
-def _grows(part: sp.Basic, by: sp.Symbol) -> bool:
-    """Return whether a part of an expression may overflow as a function of a symbol."""
-    if by not in part.free_symbols:
+def _may_overflow(part: sp.Basic, symbol: sp.Symbol) -> bool:
+    """Return whether a part of an expression may overflow as a function of `symbol`.
+
+    Such parts are exponentials, functions with poles, and high, negative or variable powers.
+    """
+    if symbol not in part.free_symbols:
         return False
-    return isinstance(part, _GROWING) or bool(
-        part.is_Pow and (not part.exp.is_number or part.exp < 0 or part.exp > _HIGH)
+    return isinstance(part, _OVERFLOWING_CLASSES) or bool(
+        part.is_Pow and (not part.exp.is_number or part.exp < 0 or part.exp > _MAX_SAFE_POWER)
     )
 
 
-def finite_slope(term: sp.Expr, by: sp.Symbol, derivative: sp.Expr) -> Slope:
-    """Return ∂ term/∂ by as a Slope: the derivative as written where it is finite, else a difference quotient.
+def finite_slope(term: sp.Expr, symbol: sp.Symbol, derivative: sp.Expr) -> Slope:
+    """Return ∂term/∂symbol as a `Slope`: `derivative` where that is finite, else a difference quotient of the term.
 
-    It is 0 instead of the quotient for terms with switching points and for derivatives of derivatives.
+    The quotient is replaced by 0 for terms with switching points and for derivatives of a `Slope` with a quotient.
     """
-    if term.has(*_CORNERS) or isinstance(term, Slope) and any(x.has(Slope) for x in term.args[1:3]):
-        return Slope(derivative, *_ZERO)
-    ahead, behind = JustAhead(by), JustBehind(by)
-    return Slope(derivative, term.xreplace({by: ahead}), term.xreplace({by: behind}), ahead - behind)
+    if term.has(*_SWITCHING_CLASSES) or isinstance(term, Slope) and any(x.has(Slope) for x in term.args[1:3]):
+        return Slope(derivative, *_ZERO_QUOTIENT)
+    above, below = JustAhead(symbol), JustBehind(symbol)
+    return Slope(derivative, term.xreplace({symbol: above}), term.xreplace({symbol: below}), above - below)
 
 
-def has_distance(expression: sp.Expr, by: sp.Symbol) -> bool:
-    """Return whether an expression contains a root of a sum of squares: at 0 its derivative is 0/0."""
+def has_distance(expression: sp.Expr, symbol: sp.Symbol) -> bool:
+    """Return whether an expression contains a root of a sum of squares that depends on `symbol`.
+
+    Other fractional powers count too. The derivative of such a root is 0/0 where the sum vanishes.
+    """
     return any(
         power.exp.is_number
         and power.exp > 0
         and not power.exp.is_integer
         and power.base.is_Add
-        and by in power.base.free_symbols
+        and symbol in power.base.free_symbols
         and all(map(_is_square, power.base.args))
         for power in expression.atoms(sp.Pow)
     )
@@ -121,101 +137,119 @@ def _is_square(term: sp.Expr) -> bool:
 
 def flat_at_zero(derivative: sp.Expr) -> Slope:
     """Return the derivative as a Slope that is 0 where the derivative is not finite."""
-    return Slope(derivative, *_ZERO)
+    return Slope(derivative, *_ZERO_QUOTIENT)
 
 
 def as_written(expression: sp.Expr) -> sp.Expr:
-    """Return the expression without Slopes and with branches as step functions, for ranges, in which 0 · ∞ is 0."""
+    """Return the expression in the form for interval arithmetic, in which 0 · ∞ is 0.
+
+    It has no `Slope`, and conditional branches become Heaviside functions. Branches that are held over a step stay.
+    """
     expression = without_slopes(expression)
-    return expression.replace(Pick, _stepped) if expression.has(Pick) else expression
+    return expression.replace(Pick, _branch_to_heaviside) if expression.has(Pick) else expression
 
 
 def without_slopes(expression: sp.Expr) -> sp.Expr:
-    """Return the expression with Slopes replaced by the derivatives as written."""
+    """Return the expression with each `Slope` replaced by its derivative, without the test for overflow."""
     return expression.replace(Slope, lambda derivative, *_: derivative) if expression.has(Slope) else expression
 
 
-def _stepped(side: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
-    """Return a branch that a sign chooses as a step function; a held branch as it is."""
-    if not side.has(sp.sign):
-        return Pick(side, a, b)
-    return b + sp.Heaviside(side.replace(sp.sign, lambda x: x)) * (a - b)
+def _branch_to_heaviside(branch: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
+    """Return a branch that a sign chooses as b + H(x) (a − b); a branch held over a step is returned as a `Pick`.
+
+    `branch` is the sign or held branch; `a` and `b` are the values above and below zero.
+    """
+    if not branch.has(sp.sign):
+        return Pick(branch, a, b)
+    return b + sp.Heaviside(branch.replace(sp.sign, lambda x: x)) * (a - b)
 
 
-_EXPONENTIAL = classes_where(lambda f: f.is_exponential)
-_SQUARING = classes_where(lambda f: f.squares_argument)  # whose derivatives square a product factor by factor
-_FAR = 100  # decades from 1 beyond which the square of a number may overflow together with other factors
+_EXPONENTIAL_CLASSES = classes_where(lambda f: f.is_exponential)
+_SQUARING_CLASSES = classes_where(lambda f: f.squares_argument)  # whose derivatives square a product factor by factor
+_MAX_SAFE_DECADES = 100  # decades from 1 beyond which the square of a number may overflow together with other factors
 
 
-def far_terms(expression: sp.Expr, by: sp.Symbol) -> list[sp.Expr]:
-    """Return the outermost terms whose derivative keeps quotients together, or that contain such derivatives."""
-    if by not in symbols_of(expression):
+def far_terms(expression: sp.Expr, symbol: sp.Symbol) -> list[sp.Expr]:
+    """Return the outermost terms whose derivative must keep quotients v′/v together.
+
+    These are squared values that may overflow, and terms that are a `Slope` or `Share` already. Empty if the expression
+    does not depend on `symbol`.
+    """
+    if symbol not in symbols_of(expression):
         return []
-    if isinstance(expression, (Share, Slope)) or _is_squared(expression):
+    if isinstance(expression, (Share, Slope)) or _squares_extreme_value(expression):
         return [expression]
-    return [term for argument in expression.args for term in far_terms(argument, by)]
+    return [term for argument in expression.args for term in far_terms(argument, symbol)]
 
 
-def written(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
-    """Return ∂/∂by of smooth pieces in the form that keeps quotients v′/v together."""
+def written(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
+    """Return ∂/∂symbol of a smooth expression in the form that keeps quotients v′/v together.
+
+    Terms without values that may overflow are differentiated by SymPy.
+    """
     if isinstance(expression, Slope):
-        return written(expression.args[0], by)
+        return written(expression.args[0], symbol)
     if isinstance(expression, Share):
-        return Share(written(expression.args[0], by))
-    terms = {term: sp.Dummy(real=True) for term in far_terms(expression, by)}
+        return Share(written(expression.args[0], symbol))
+    terms = {term: sp.Dummy(real=True) for term in far_terms(expression, symbol)}
     if not terms:
-        return _plain(expression, by)
+        return _differentiate_by_sympy(expression, symbol)
     if expression in terms and expression.is_Pow:
-        return expression.exp * expression * Share(written(expression.base, by) / expression.base)
+        return expression.exp * expression * Share(written(expression.base, symbol) / expression.base)
     if expression in terms:
-        (argument,), inner = expression.args, sp.Dummy(real=True)
-        if far := _far_derivative(expression):
-            outer = derivative_at(far, inner, expression)
+        (argument,), inner_terms = expression.args, sp.Dummy(real=True)
+        if derivative_text := _find_unsquared_derivative(expression):
+            outer_derivative = derivative_at(derivative_text, inner_terms, expression)
         else:
-            outer = derivative(expression.func(inner), inner)
-        outer = outer.xreplace({inner: Share(argument)})
-        return outer * written(argument, by)
-    named, back = expression.xreplace(terms), {dummy: term for term, dummy in terms.items()}
-    inner = (derivative(named, dummy) * written(term, by) for term, dummy in terms.items())
-    return sp.Add(_plain(named, by), *inner).xreplace(back)
+            outer_derivative = derivative(expression.func(inner_terms), inner_terms)
+        outer_derivative = outer_derivative.xreplace({inner_terms: Share(argument)})
+        return outer_derivative * written(argument, symbol)
+    renamed, terms_by_dummy = expression.xreplace(terms), {dummy: term for term, dummy in terms.items()}
+    inner_terms = (derivative(renamed, dummy) * written(term, symbol) for term, dummy in terms.items())
+    return sp.Add(_differentiate_by_sympy(renamed, symbol), *inner_terms).xreplace(terms_by_dummy)
 
 
 def for_readers(expression: sp.Expr) -> sp.Expr:
-    """Return the expression as a document shows it, without the forms that keep its values finite."""
-    shown = without_slopes(expression)
-    return shown.replace(Share, lambda x: x) if shown.has(Share) else shown
+    """Return the expression as a document prints it: without `Slope` and `Share`, which only keep its values finite."""
+    plain = without_slopes(expression)
+    return plain.replace(Share, lambda x: x) if plain.has(Share) else plain
 
 
-def _plain(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
-    """Return ∂/∂by in SymPy's form."""
-    rate = derivative(expression, by)
-    if any(power.exp.free_symbols and power.base.has(by) for power in expression.atoms(sp.Pow)):
+def _differentiate_by_sympy(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
+    """Return ∂/∂symbol as SymPy computes it; powers with variable exponents are combined."""
+    rate = derivative(expression, symbol)
+    if any(power.exp.free_symbols and power.base.has(symbol) for power in expression.atoms(sp.Pow)):
         rate = sp.powsimp(rate, combine="exp")
     return rate
 
 
-def _is_squared(power: sp.Expr) -> bool:
-    """Return whether differentiation would square a value whose square may overflow.
+def _squares_extreme_value(power: sp.Expr) -> bool:
+    """Return whether differentiation of a term would square a value whose square may overflow or vanish.
 
-    Such terms are v^-n with a number n, and atan(v).
+    Such terms are v^-n with a number n, and atan(v) and similar functions.
     """
-    if isinstance(power, _SQUARING):
-        squares = power.args[0].is_Mul or bool(_far_derivative(power))
-        return squares and any(map(_is_far, sp.preorder_traversal(power.args[0])))
+    if isinstance(power, _SQUARING_CLASSES):
+        squares = power.args[0].is_Mul or bool(_find_unsquared_derivative(power))
+        return squares and any(map(_is_extreme, sp.preorder_traversal(power.args[0])))
     if not (power.is_Pow and power.exp.is_number and power.exp.is_extended_negative):
         return False
-    return any(map(_is_far, sp.preorder_traversal(power.base)))
+    return any(map(_is_extreme, sp.preorder_traversal(power.base)))
 
 
-def _far_derivative(term: sp.Expr) -> str:
-    """Return the derivative that does not square the argument, as in the table of functions; "" if none."""
+def _find_unsquared_derivative(term: sp.Expr) -> str:
+    """Return the text of the derivative that does not square the argument, from the table of functions.
+
+    Return "" for terms without such a form.
+    """
     return CLASSES[type(term)].far_derivative if type(term) in CLASSES else ""
 
 
-def _is_far(part: sp.Basic) -> bool:
-    """Return whether a part is, or may become, so large or small that its square leaves the range of numbers."""
+def _is_extreme(part: sp.Basic) -> bool:
+    """Return whether a part of an expression may be so large or small that its square overflows or underflows."""
     if part.is_Number:
-        return bool(part.is_finite and abs(part) >= sp.Float(f"1e{_FAR}"))
+        return bool(part.is_finite and abs(part) >= sp.Float(f"1e{_MAX_SAFE_DECADES}"))
     if part.is_Mul and part.args[0].is_Number:  # a small term alone keeps a sum from 0
-        return bool(0 < abs(part.args[0]) <= sp.Float(f"1e-{_FAR}"))
-    return isinstance(part, _EXPONENTIAL) or bool(part.is_Pow and (not part.exp.is_number or abs(part.exp) > _HIGH))
+        return bool(0 < abs(part.args[0]) <= sp.Float(f"1e-{_MAX_SAFE_DECADES}"))
+    return isinstance(part, _EXPONENTIAL_CLASSES) or bool(
+        part.is_Pow and (not part.exp.is_number or abs(part.exp) > _MAX_SAFE_POWER)
+    )

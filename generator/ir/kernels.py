@@ -45,7 +45,10 @@ class Kernel:
 
     @property
     def operations(self) -> int:
-        """Return the number of additions, multiplications, divisions and function calls of the statements."""
+        """Return the number of additions, multiplications, divisions and function calls of the statements.
+
+        Lines that are neither an assignment of an expression nor a `Rescue` are not counted.
+        """
         return sum(
             count_operations(value)
             for section in self.sections
@@ -55,40 +58,48 @@ class Kernel:
         )
 
     def has(self, function: type[sp.Function]) -> bool:
-        """Return whether a statement calls a function."""
+        """Return whether the value of any statement contains a SymPy function of a class."""
         statements = (s for section in self.sections for s in section.statements if isinstance(s, Statement))
         return any(isinstance(s.value, sp.Expr) and s.value.has(function) for s in statements)
 
 
 def count_operations(expression: sp.Expr) -> int:
-    """Return SymPy's operation count, with a negation counted as nothing: it is folded into an addition.
+    """Return the number of operations of an expression as SymPy counts them, but without negations.
 
-    Sums and products without quotients are most of all and are counted here: SymPy takes ten times as long.
+    These are folded into additions. Sums and products without quotients are counted here, because SymPy takes ten times
+    as long; other parts by SymPy.
     """
-    total, left = 0, [sp.sympify(expression)]
-    while left:
-        part = left.pop()
-        if part.is_Symbol or part.is_Integer:
+    n_operations, pending = 0, [sp.sympify(expression)]
+    while pending:
+        expression_ = pending.pop()
+        if expression_.is_Symbol or expression_.is_Integer:
             continue
-        if part.is_Add or _is_plain_product(part):
-            parts = [x for x in part.args if x is not sp.S.NegativeOne] if part.is_Mul else part.args
-            total += len(parts) - 1
-            left += parts
+        if expression_.is_Add or _is_plain_product(expression_):
+            parts = (
+                [factor for factor in expression_.args if factor is not sp.S.NegativeOne]
+                if expression_.is_Mul
+                else expression_.args
+            )
+            n_operations += len(parts) - 1
+            pending += parts
         else:
-            total += _counted_by_sympy(part)
-    return total
+            n_operations += _count_by_sympy(expression_)
+    return n_operations
 
 
-def _is_plain_product(part: sp.Basic) -> bool:
+def _is_plain_product(expression: sp.Basic) -> bool:
     """Return whether an expression is a product of symbols, integers, sums and positive integer powers."""
-    return part.is_Mul and all(
-        x.is_Symbol or x.is_Integer or x.is_Add or (x.is_Pow and x.exp.is_Integer and x.exp.is_positive)
-        for x in part.args
+    return expression.is_Mul and all(
+        factor.is_Symbol
+        or factor.is_Integer
+        or factor.is_Add
+        or (factor.is_Pow and factor.exp.is_Integer and factor.exp.is_positive)
+        for factor in expression.args
     )
 
 
-def _counted_by_sympy(expression: sp.Basic) -> int:
-    """Return SymPy's operation count without negations."""
+def _count_by_sympy(expression: sp.Basic) -> int:
+    """Return SymPy's operation count of an expression without negations."""
     counts = sp.sympify(sp.count_ops(expression, visual=True)).as_coefficients_dict()
     return sum(int(count) for kind, count in counts.items() if kind.is_Symbol and kind.name != "NEG")
 
@@ -96,46 +107,51 @@ def _counted_by_sympy(expression: sp.Basic) -> int:
 def hold_branches(
     switches: Switches, owner: str, sections: Iterable[Section], only_known: bool = False
 ) -> list[Section]:
-    """Return the sections with every switching function (or only_known ones) replaced by its held branch.
+    """Return the sections with each switching function replaced by its branch, which is held over a step.
 
-    Each branch is assigned before it is first read.
+    Each branch is assigned once, in a statement before the first that reads it. `owner`: whose switches are counted; ""
+    is the scene. `only_known`: switching functions that are not registered yet stay.
     """
-    known: dict[sp.Symbol, sp.Expr] = {}
-    held = []
+    branches: dict[sp.Symbol, sp.Expr] = {}
+    result = []
     for section in sections:
         statements: list[Line] = []
         for statement in section.statements:
             if isinstance(statement, Statement) and isinstance(statement.value, sp.Expr):
                 if isinstance(statement.value, BranchOf):  # assigned by the author of the kernel: once is enough
-                    if (message := sp.Symbol(statement.defines, real=True)) not in known:
-                        known[message] = statement.value
+                    if (branch_symbol := sp.Symbol(statement.defines, real=True)) not in branches:
+                        branches[branch_symbol] = statement.value
                         statements.append(statement)
                     continue
-                before = len(known)
-                value = switches.hold(statement.value, owner, known, only_known)
-                statements += [Statement(s.name, side) for s, side in list(known.items())[before:]]
+                n_known = len(branches)
+                value = switches.hold(statement.value, owner, branches, only_known)
+                statements += [Statement(s.name, branch) for s, branch in list(branches.items())[n_known:]]
                 statement = replace(statement, value=value)
             statements.append(statement)
-        held.append(Section(section.title, tuple(statements)))
-    return held
+        result.append(Section(section.title, tuple(statements)))
+    return result
 
 
-def without_unread(lines: Sequence[Line], read: set[str]) -> list[Line]:
-    """Return the lines without locals that no later line reads.
+def without_unread(lines: Sequence[Line], read_names: set[str]) -> list[Line]:
+    """Return the lines, in order, without those that define a local which no later line reads.
 
-    `read`: the names that lines after these read; names that these lines read are added to it.
+    `read_names` is changed in place: on entry the names that lines after these read, on return also those that these
+    lines read.
     """
-    kept: list[Line] = []
+    result: list[Line] = []
     for line in reversed(lines):
-        if line.defines and line.defines not in read:
+        if line.defines and line.defines not in read_names:
             continue
-        read |= line.reads
-        kept.append(line)
-    return kept[::-1]
+        read_names |= line.reads
+        result.append(line)
+    return result[::-1]
 
 
 def changed(line: Line, change: Callable[[sp.Basic], Value]) -> Line:
-    """Return a statement with its expression changed; other lines as they are."""
+    """Return a statement with `change` applied to its expression.
+
+    Lines without an expression are returned unchanged.
+    """
     if isinstance(line, Statement) and isinstance(line.value, sp.Basic):
         return replace(line, value=change(line.value))
     return line
@@ -145,18 +161,19 @@ LINEARIZATION = "lin"  # the argument that holds the linearized equations of mot
 HELD = "branches of switching functions that are held, if any"  # title of the lines from which a kernel reads sides
 
 
-def declare_branches(kernel: Kernel, message: str = "nobody") -> Kernel:
-    """Return the kernel with the line that declares held branches before it, if it reads any.
+def declare_branches(kernel: Kernel, output_target: str = "nobody") -> Kernel:
+    """Return the kernel with a first section that declares the held branches.
 
-    told: where the kernel writes its switching functions, see `Branches`.
+    A kernel that reads no branch is returned unchanged. `output_target`: where the kernel writes its switching
+    functions: "", "nobody" or "rhs", see `Branches`.
     """
-    if not _reads_sides(kernel):
+    if not _reads_branches(kernel):
         return kernel
-    return replace(kernel, sections=(Section(HELD, (Branches(message),)), *kernel.sections))
+    return replace(kernel, sections=(Section(HELD, (Branches(output_target),)), *kernel.sections))
 
 
-def _reads_sides(kernel: Kernel) -> bool:
-    """Return whether a kernel reads the branch of a switching function."""
+def _reads_branches(kernel: Kernel) -> bool:
+    """Return whether a kernel reads the branch of a switching function, outside the section that declares branches."""
     lines = (s for section in kernel.sections if section.title != HELD for s in section.statements)
     return any("branch" in line.reads for line in lines)
 
@@ -179,17 +196,20 @@ class KernelBuilder:
         self._sections.append((title, []))
 
     def line(self, line: Line) -> None:
-        """Append a line; a local that it declares must have an unused name."""
+        """Append a line to the current section; a local that it declares must have an unused name."""
         self._sections[-1][1].append(line)
 
     def local(self, name: str, value: Value, comment: str = "") -> sp.Symbol:
-        """Assign the value to a new local and return its symbol."""
+        """Append the assignment of a value to a new local and return its symbol.
+
+        Its name is `name`, with a suffix if that is used already.
+        """
         unique = self._symbols.unique(name)
         self._sections[-1][1].append(Statement(unique, value, comment))
         return sp.Symbol(unique, real=True)
 
     def out(self, target: Place, value: Value, comment: str = "") -> None:
-        """Store the value at a place, with a comment."""
+        """Append a statement that stores a value at a place of an argument or array."""
         self._sections[-1][1].append(Statement(target, value, comment))
 
     def build(
@@ -201,11 +221,11 @@ class KernelBuilder:
         prune: bool = False,
         only_known: bool = False,
     ) -> Kernel:
-        """Return the kernel, with its inputs and definitions before the collected sections.
+        """Return the kernel: inputs and definitions that the collected lines read, then the collected sections.
 
-        With an `owner` ("": the scene) switching functions, or only_known ones, are replaced by branches: the function
-        then
-        reads `branch` and writes `g` (symbols/switches.py). `prune`: locals that nothing reads are left out.
+        Empty sections are left out. `status`: the function returns 0 or the number of a failure. With an `owner` ("":
+        the scene) switching functions, or `only_known` ones, are replaced by branches: the function then reads `branch`
+        and writes `g` (symbols/switches.py). `prune`: locals that nothing reads are removed.
         """
         if prune:
             self._sections = _prune_sections(self._sections)
@@ -213,12 +233,23 @@ class KernelBuilder:
         declared = {line.defines for line in lines if line.defines}
         expressions = [x for line in lines for x in line.expressions]
         definitions, inputs = self._resolve(expressions, declared)
-        info = self._symbols.info
-        places = [(s.name, place) for s in inputs if (place := info[s].home)]
+        symbol_info = self._symbols.info
+        inputs_with_places = [(s.name, place) for s in inputs if (place := symbol_info[s].home)]
         structs = (PARAMETERS, LINEARIZATION)
-        groups = {of: [Statement(*each) for each in places if each[1].base == of] for of in structs}
-        others = [Statement(*each) for each in places if each[1].base not in structs]
-        front = [
+        groups = {
+            struct: [
+                Statement(*symbol_and_place)
+                for symbol_and_place in inputs_with_places
+                if symbol_and_place[1].base == struct
+            ]
+            for struct in structs
+        }
+        others = [
+            Statement(*symbol_and_place)
+            for symbol_and_place in inputs_with_places
+            if symbol_and_place[1].base not in structs
+        ]
+        input_sections = [
             Section("coordinates, velocities, time", tuple(others)),
             Section("linearization", tuple(groups[LINEARIZATION])),
             Section("parameters", tuple(groups[PARAMETERS])),
@@ -226,87 +257,103 @@ class KernelBuilder:
                 "directions, arms, drives", tuple(Statement(s.name, self._symbols.definitions[s]) for s in definitions)
             ),
         ]
-        sections = front + [Section(title, tuple(group)) for title, group in self._sections]
+        sections = input_sections + [Section(title, tuple(group)) for title, group in self._sections]
         if owner is not None:
             sections = hold_branches(self._symbols.switches, owner, sections, only_known)
-        kept = tuple(section for section in sections if section.statements)
-        read = {name for section in kept for line in section.statements for name in line.reads}
-        names = self._symbols.shorter(read)
-        return Kernel(self._name, self._doc, tuple(arguments), kept, status, inline, names=names)
+        nonempty = tuple(section for section in sections if section.statements)
+        read_names = {name for section in nonempty for line in section.statements for name in line.reads}
+        names = self._symbols.shorter(read_names)
+        return Kernel(self._name, self._doc, tuple(arguments), nonempty, status, inline, names=names)
 
     def _resolve(self, expressions: Iterable[sp.Expr], declared: set[str]) -> tuple[list[sp.Symbol], list[sp.Symbol]]:
-        """Return the definitions to compute, in the order in which they were made, and the inputs to read."""
+        """Return the definitions to compute, in the order in which they were made, and the inputs to read.
+
+        Both are the symbols on which the expressions depend, directly or through definitions, without those in
+        `declared`, which the function's own lines define.
+        """
         info, definitions = self._symbols.info, self._symbols.definitions
-        seen: set[sp.Symbol] = set()
-        waiting = [s for e in expressions for s in symbols_of(e)]
-        while waiting:
-            symbol = waiting.pop()
-            if symbol in seen or symbol.name in declared or symbol not in info:
+        found: set[sp.Symbol] = set()
+        pending = [s for expression in expressions for s in symbols_of(expression)]
+        while pending:
+            symbol = pending.pop()
+            if symbol in found or symbol.name in declared or symbol not in info:
                 continue
-            seen.add(symbol)
+            found.add(symbol)
             if not info[symbol].home:
-                waiting.extend(symbols_of(definitions[symbol]))
-        ordered = [symbol for symbol in info if symbol in seen]
+                pending.extend(symbols_of(definitions[symbol]))
+        ordered = [symbol for symbol in info if symbol in found]
         return [s for s in ordered if not info[s].home], [s for s in ordered if info[s].home]
 
 
 def _prune_sections(sections: Iterable[tuple[str, Sequence[Line]]]) -> list[tuple[str, list[Line]]]:
-    """Return the sections without locals that no later line reads."""
-    read: set[str] = set()
-    return [(title, without_unread(group, read)) for title, group in reversed(list(sections))][::-1]
+    """Return the sections, as pairs of title and lines, without locals that no later line reads."""
+    read_names: set[str] = set()
+    return [(title, without_unread(lines, read_names)) for title, lines in reversed(list(sections))][::-1]
 
 
 def without_unused(kernel: Kernel) -> Kernel:
-    """Return the kernel without locals that nothing reads, such as pivots of coordinates that no equation contains."""
+    """Return the kernel without locals that nothing reads, such as pivots of coordinates that no equation contains.
+
+    Empty sections are removed, and the declaration of branches if no line reads a branch any more.
+    """
     pruned = _prune_sections((section.title, section.statements) for section in kernel.sections)
-    left = replace(kernel, sections=tuple(Section(title, tuple(group)) for title, group in pruned if group))
-    if _reads_sides(left):
-        return left
-    return replace(left, sections=tuple(section for section in left.sections if section.title != HELD))
+    result = replace(kernel, sections=tuple(Section(title, tuple(lines)) for title, lines in pruned if lines))
+    if _reads_branches(result):
+        return result
+    return replace(result, sections=tuple(section for section in result.sections if section.title != HELD))
 
 
 class Pool:
     """Values of one function that others read; `keep` stores a value and returns the symbol that reads it."""
 
     def __init__(self, symbols: Symbols, array: Place) -> None:
-        """Begin an empty pool in an array."""
+        """Begin an empty pool whose values are stored in consecutive elements of `array`."""
         self._symbols, self.array = symbols, array
-        self._kept: dict[sp.Expr, sp.Symbol] = {}
-        self._place: dict[sp.Expr, int] = {}
+        self._symbols_by_value: dict[sp.Expr, sp.Symbol] = {}
+        self._index_by_value: dict[sp.Expr, int] = {}
         self.size = 0
 
-    def keep(self, build: KernelBuilder, value: sp.Expr, expected: str) -> sp.Expr:
-        """Store a value and return ± the symbol of its place; a number or parameter is returned as it is."""
+    def keep(self, build: KernelBuilder, value: sp.Expr, name: str) -> sp.Expr:
+        """Store a value in the pool and return ± the symbol of its element; `name` is the base of its name.
+
+        A number, a parameter, or a value that is stored already up to its sign is not stored again.
+        """
         for sign in (1, -1):
             if value.is_Number or self._is_parameter(sign * value):
                 return value
-            if sign * value in self._kept:
-                return sign * self._kept[sign * value]
-        symbol = self._symbols.new(expected, self.array[self._store(build, value)])
-        self._kept[value], self._place[symbol] = symbol, self._place[value]
+            if sign * value in self._symbols_by_value:
+                return sign * self._symbols_by_value[sign * value]
+        symbol = self._symbols.new(name, self.array[self._store(build, value)])
+        self._symbols_by_value[value], self._index_by_value[symbol] = symbol, self._index_by_value[value]
         return symbol
 
     def adopt(self, build: KernelBuilder, value: sp.Expr) -> sp.Expr:
-        """Store the local of which a value is ±, so that other functions read it under the same name."""
+        """Store the local of which a value is ±, so that other functions read it under the same name; return the value.
+
+        Nothing is stored if the value has no symbol or its symbol is registered already.
+        """
         symbol = next(iter(value.free_symbols), None)
         if symbol is not None and symbol not in self._symbols.info:
             self._symbols.info[symbol] = SymbolInfo(self.array[self._store(build, symbol)], "", "")
         return value
 
     def place(self, build: KernelBuilder, value: sp.Expr) -> tuple[int, int]:
-        """Return (index, sign) of a value that `keep` returned; numbers and parameters are stored for it."""
+        """Return (index, sign) of a value in the pool.
+
+        A value that is not stored yet, such as a number or parameter, is stored first.
+        """
         for sign in (1, -1):
-            if sign * value in self._place:
-                return self._place[sign * value], sign
+            if sign * value in self._index_by_value:
+                return self._index_by_value[sign * value], sign
         return self._store(build, value), 1
 
     def _store(self, build: KernelBuilder, value: sp.Expr) -> int:
-        """Store a value at the next index and return that index."""
+        """Append a statement that stores a value at the next free index, and return that index."""
         build.out(self.array[self.size], value)
-        self._place[value] = self.size
+        self._index_by_value[value] = self.size
         self.size += 1
-        return self._place[value]
+        return self._index_by_value[value]
 
     def _is_parameter(self, value: sp.Expr) -> bool:
-        """Return whether a value is a parameter of the run."""
+        """Return whether a value is the symbol of a parameter."""
         return bool(value.is_Symbol and value in self._symbols.info and self._symbols.info[value].is_parameter)

@@ -19,7 +19,7 @@ from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.symbols.storage import Key, Place
 
 _DENOMINATORS = tuple(k for k in range(1, 361) if 360 % k == 0)  # whole and half degrees, turns in a minute
-_MOST = 1000  # times PI
+_MAX_NUMERATOR = 1000  # times PI
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class ShareOfPi:
 
     @property
     def value(self) -> float:
-        """Return the number as a target computes it."""
+        """Return the float `count` · π / `of`, rounded as a target rounds it."""
         return self.count * math.pi / self.of
 
     @property
@@ -49,74 +49,96 @@ class ShareOfPi:
         """Return whether the number is π itself."""
         return self.count == self.of == 1
 
-    def text(self, pi: str, whole: str = "") -> str:
-        """Return the text of the number; `pi` and the suffix `whole` of integers are those of the language."""
-        above = {1: pi, -1: f"-{pi}"}.get(self.count, f"{self.count}{whole}*{pi}")
-        return above if self.of == 1 else f"{above}/{self.of}{whole}"
+    def text(self, pi: str, integer_suffix: str = "") -> str:
+        """Return the source text of the number, such as "3*PI/2".
+
+        `pi` is the name of π in the language, `integer_suffix` the suffix of its integer literals.
+        """
+        numerator = {1: pi, -1: f"-{pi}"}.get(self.count, f"{self.count}{integer_suffix}*{pi}")
+        return numerator if self.of == 1 else f"{numerator}/{self.of}{integer_suffix}"
 
 
 def share_of_pi(number: sp.Expr) -> ShareOfPi | None:
-    """Return a number as a simple fraction of π, if that is exact to the last bit; None otherwise.
+    """Return a number as a simple fraction of π that has the same bits as a float; None if there is none.
 
-    number: a float, or a ratio times π.
+    `number`: a SymPy float, or a rational number times π.
     """
     if number.is_Float:
-        return _share_of_pi(float(sp.Float(number, 17)))
-    ratio, rest = number.as_coeff_Mul()
-    if rest is not sp.pi or not ratio.is_Rational or ratio.q == 1:
+        return _find_fraction_of_pi(float(sp.Float(number, 17)))
+    ratio, remainder = number.as_coeff_Mul()
+    if remainder is not sp.pi or not ratio.is_Rational or ratio.q == 1:
         return None
-    found = ShareOfPi(int(ratio.p), int(ratio.q))
-    return found if found.value == float(ratio) * math.pi else None
+    fraction = ShareOfPi(int(ratio.p), int(ratio.q))
+    return fraction if fraction.value == float(ratio) * math.pi else None
 
 
 @lru_cache(10_000)
-def _share_of_pi(value: float) -> ShareOfPi | None:
-    """Return a float as a simple fraction of π with the same bits; None if there is none."""
-    if not 0 < abs(value) <= _MOST * math.pi:
+def _find_fraction_of_pi(value: float) -> ShareOfPi | None:
+    """Return a float as a fraction count·π/of with the same bits, of a divisor of 360, or None.
+
+    Results are cached. |count| is at most 1000.
+    """
+    if not 0 < abs(value) <= _MAX_NUMERATOR * math.pi:
         return None
-    tried = (ShareOfPi(round(value * of / math.pi), of) for of in _DENOMINATORS)
-    return next((share for share in tried if 0 < abs(share.count) <= _MOST and share.value == value), None)
+    candidates = (ShareOfPi(round(value * divisor / math.pi), divisor) for divisor in _DENOMINATORS)
+    return next(
+        (fraction for fraction in candidates if 0 < abs(fraction.count) <= _MAX_NUMERATOR and fraction.value == value),
+        None,
+    )
 
 
 def readable(kernel: Kernel, branching: bool = True) -> Readable:
-    """Return the readable form of a kernel: without copies of arguments and parameters, with lines for branches."""
+    """Return the readable form of a kernel: without copies of arguments and parameters, with a line for each branch.
+
+    `branching`: False leaves the branches inside the expressions. Empty sections are removed; values and the order of
+    their terms stay.
+    """
     arguments = {argument.name for argument in kernel.arguments}
     names = dict(kernel.names)
-    used = {name for section in kernel.sections for line in section.statements for name in (*line.reads, line.defines)}
-    branches = Branches(used | arguments | {str(called) for called in names.values()})
+    used_names = {
+        name for section in kernel.sections for line in section.statements for name in (*line.reads, line.defines)
+    }
+    branches = Branches(used_names | arguments | {str(name_) for name_ in names.values()})
     sections = []
     for section in kernel.sections:
-        lines = _without_copies(section.statements, arguments, names)
+        lines = _remove_copies(section.statements, arguments, names)
         sections.append(Section(section.title, tuple(branches.lines(lines) if branching else lines)))
-    kept = tuple(section for section in sections if section.statements)
-    return Readable(kept, names, branches.names, kernel.first_corner)
+    nonempty = tuple(section for section in sections if section.statements)
+    return Readable(nonempty, names, branches.names, kernel.first_corner)
 
 
 def lines(statements: Sequence[Statement]) -> Readable:
-    """Return the readable form of statements that stand in a function of a template."""
+    """Return the readable form of statements that are printed in a function of a template.
+
+    They form one section without a title.
+    """
     return readable(Kernel("", (), (), (Section("", tuple(statements)),)))
 
 
-def _without_copies(lines: Sequence[Line], arguments: Collection[str], names: dict[Key, Key]) -> list[Line]:
-    """Return the lines without locals that are copies of arguments or parameters; these are read directly."""
-    kept: list[Line] = []
+def _remove_copies(lines: Sequence[Line], arguments: Collection[str], names: dict[Key, Key]) -> list[Line]:
+    """Return the lines without locals that are copies of arguments or parameters.
+
+    `names` is changed in place: it maps each removed local to the place that is read instead. A local that is stored to
+    a parameter in the next line is merged with that line.
+    """
+    result: list[Line] = []
     for line in lines:
         place = line.value if isinstance(line, Statement) and line.defines else None
         if isinstance(place, Place) and (place.is_parameter or (not place.path and place.base in arguments)):
             names[line.defines] = place
             continue
-        if kept and (stored := _stored(kept[-1], line)):
-            names[kept[-1].defines] = stored.target
-            kept[-1] = stored
+        if result and (merged := _merge_copy_to_parameter(result[-1], line)):
+            names[result[-1].defines] = merged.target
+            result[-1] = merged
             continue
-        kept.append(line)
-    return kept
+        result.append(line)
+    return result
 
 
-def _stored(before: Line, line: Line) -> Statement | None:
-    """Return `p.x = value` for `y = value` followed by `p.x = y`, where p.x is a parameter; None otherwise."""
-    if not (isinstance(before, Statement) and isinstance(line, Statement) and before.defines):
+def _merge_copy_to_parameter(first: Line, second: Line) -> Statement | None:
+    """Return `p.x = value` for the lines `y = value` and `p.x = y`, where p.x is a parameter; None for other lines."""
+    if not (isinstance(first, Statement) and isinstance(second, Statement) and first.defines):
         return None
-    same = line.value == sp.Symbol(before.defines, real=True)
-    stored = same and isinstance(line.target, Place) and line.target.is_parameter
-    return replace(before, target=line.target) if stored else None
+    is_copy = second.value == sp.Symbol(first.defines, real=True)
+    is_stored = is_copy and isinstance(second.target, Place) and second.target.is_parameter
+    return replace(first, target=second.target) if is_stored else None

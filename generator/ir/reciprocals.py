@@ -18,70 +18,84 @@ from gudgeon.generator.symbols.storage import PlaceSymbol
 
 
 def is_division(part: sp.Basic) -> bool:
-    """Return whether an expression is x^-n, n an integer, of an x that is not a number."""
+    """Return whether an expression is x^-n with a positive integer n and an x that contains a symbol."""
     return bool(part.is_Pow and part.exp.is_Integer and part.exp < 0 and part.free_symbols)
 
 
 def base_name(power: sp.Basic) -> str:
-    """Return the name for a local 1/x: that of x if it is a symbol."""
+    """Return the name for the base x of a power: of its symbol or struct member, or "sum" for other expressions."""
     if isinstance(power.base, PlaceSymbol):
         return power.base.place.member
     return power.base.name if power.base.is_Symbol else "sum"
 
 
-def hoisted(slots: ParameterTable, value: sp.Expr) -> sp.Expr:
-    """Return the value with reciprocals of constant denominators as derived parameters."""
+def hoisted(parameter_table: ParameterTable, value: sp.Expr) -> sp.Expr:
+    """Return the value with reciprocals of constant denominators as derived parameters, which are computed once a run.
 
-    def constant(part: sp.Basic) -> bool:
-        """Return whether a part divides by parameters alone."""
-        return is_division(part) and slots.is_constant(part.base)
+    `parameter_table`: the table of parameters, to which they are added. A value without powers is returned unchanged.
+    """
 
-    def derived(part: sp.Pow) -> sp.Expr:
-        """Return the division as a power of a derived parameter."""
+    def is_constant_division(part: sp.Basic) -> bool:
+        """Return whether a part is a division by parameters alone."""
+        return is_division(part) and parameter_table.is_constant(part.base)
+
+    def to_derived_parameter(part: sp.Pow) -> sp.Expr:
+        """Return the division as a power of a derived parameter 1/x, which is added to the table."""
         name = base_name(part)
-        return slots.derive(f"inverse_{name}", 1 / part.base, f"1/{name}") ** -part.exp
+        return parameter_table.derive(f"inverse_{name}", 1 / part.base, f"1/{name}") ** -part.exp
 
-    return value.replace(constant, derived) if value.has(sp.Pow) else value
+    return value.replace(is_constant_division, to_derived_parameter) if value.has(sp.Pow) else value
 
 
 def with_reciprocals(kernel: Kernel) -> Kernel:
-    """Return the kernel with each denominator that occurs more than once as a local `inverse_…`."""
-    return replace(kernel, sections=tuple(_divided(kernel.sections)))
+    """Return the kernel with each denominator that occurs more than once computed once, as a local `inverse_…`."""
+    return replace(kernel, sections=tuple(_share_denominators(kernel.sections)))
 
 
-def _divided(sections: tuple[Section, ...]) -> list[Section]:
-    """Return the sections with a local for each denominator that occurs more than once."""
+def _share_denominators(sections: tuple[Section, ...]) -> list[Section]:
+    """Return the sections with the reciprocal of each repeated denominator as a local.
+
+    The local is assigned before the first statement that reads it, and divisions become products with it.
+    """
     statements = [s for section in sections for s in section.statements if isinstance(s, Statement)]
     values = [s.value for s in statements if isinstance(s.value, sp.Expr)]
-    often = Counter(part.base for value in values for part in sp.preorder_traversal(value) if is_division(part))
-    used = {s.defines for s in statements}
-    names: dict[sp.Expr, sp.Symbol] = {}
+    count_by_denominator = Counter(
+        part.base for value in values for part in sp.preorder_traversal(value) if is_division(part)
+    )
+    used_names = {s.defines for s in statements}
+    reciprocals: dict[sp.Expr, sp.Symbol] = {}
 
-    def shared(part: sp.Basic) -> bool:
+    def is_repeated_division(part: sp.Basic) -> bool:
         """Return whether a part is a division by a denominator that occurs more than once."""
-        return is_division(part) and often[part.base] > 1
+        return is_division(part) and count_by_denominator[part.base] > 1
 
-    found = []
+    result = []
     for section in sections:
-        kept: list[Line] = []
-        for item in section.statements:
-            if isinstance(item, Statement) and isinstance(item.value, sp.Expr) and item.value.has(sp.Pow):
-                for part in sp.postorder_traversal(item.value):
-                    if shared(part) and part.base not in names:
-                        names[part.base] = _new(part, used)
-                        kept.append(Statement(names[part.base].name, 1 / part.base))
-                item = replace(item, value=item.value.replace(shared, lambda part: names[part.base] ** -part.exp))
-            kept.append(item)
-        found.append(Section(section.title, tuple(kept)))
-    return found
+        lines: list[Line] = []
+        for line in section.statements:
+            if isinstance(line, Statement) and isinstance(line.value, sp.Expr) and line.value.has(sp.Pow):
+                for part in sp.postorder_traversal(line.value):
+                    if is_repeated_division(part) and part.base not in reciprocals:
+                        reciprocals[part.base] = _make_reciprocal_symbol(part, used_names)
+                        lines.append(Statement(reciprocals[part.base].name, 1 / part.base))
+                line = replace(
+                    line,
+                    value=line.value.replace(is_repeated_division, lambda part: reciprocals[part.base] ** -part.exp),
+                )
+            lines.append(line)
+        result.append(Section(section.title, tuple(lines)))
+    return result
 
 
-def _new(power: sp.Basic, used: set[str]) -> sp.Symbol:
-    """Return a new symbol for a reciprocal and add its name to `used`."""
-    expected = name = f"inverse_{base_name(power)}"
-    for k in range(2, len(used) + 3):
-        if name not in used:
+def _make_reciprocal_symbol(power: sp.Basic, used_names: set[str]) -> sp.Symbol:
+    """Return a symbol `inverse_<base>` for the reciprocal of a denominator.
+
+    If that name is used, a suffix _2, _3, … is appended. The name is added to `used_names`.
+    """
+    base = name = f"inverse_{base_name(power)}"
+    for k in range(2, len(used_names) + 3):
+        if name not in used_names:
             break
-        name = f"{expected}_{k}"
-    used.add(name)
+        name = f"{base}_{k}"
+    used_names.add(name)
     return sp.Symbol(name, real=True)

@@ -34,7 +34,7 @@ from gudgeon.generator.ir.series_rules import (
     NoSeries,
     Product,
     Rules,
-    at,
+    make_order_zero_symbol,
 )
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO, Access, Argument, result, source
 from gudgeon.generator.ir.statements import Call, Guard, Jump, Line, Rescue, Return, Statement, Status
@@ -44,62 +44,64 @@ Titled = tuple[str, Line]  # a line and its section's title
 
 
 def split_late_sums(lines: Iterable[Titled], unique: Callable[[str], str]) -> list[Titled]:
-    """Return the lines with sums split so that the terms that are known last are added last.
+    """Return the lines, with titles, in which each sum is split so that terms known late are added last.
 
-    `unique` returns an unused name. No line then waits longer than it must.
+    No line then waits longer than it must for its operands. Partial sums become locals `<local>_known`; `unique`
+    returns an unused name.
     """
-    depth: dict[str, int] = {}
+    depth_by_local: dict[str, int] = {}
 
-    def late(value: sp.Expr) -> int:
-        """Return the length of the longest chain of such splits that an expression depends on."""
-        return max((depth.get(s.name, 0) for s in value.free_symbols), default=0)
+    def find_depth(expression: sp.Expr) -> int:
+        """Return the largest depth of the symbols of an expression: how many dependent statements precede its value."""
+        return max((depth_by_local.get(s.name, 0) for s in expression.free_symbols), default=0)
 
     ordered: list[Titled] = []
     for title, line in lines:
         if isinstance(line, Statement) and isinstance(line.value, sp.Expr):
             value: sp.Expr = line.value
-            parts = sorted(sp.Add.make_args(value), key=late)
-            known = parts[:1]
-            for before, part in itertools.pairwise(parts if line.defines else []):
-                if late(part) > late(before) and len(known) > 1:
+            parts = sorted(sp.Add.make_args(value), key=find_depth)
+            terms = parts[:1]
+            for previous, term in itertools.pairwise(parts if line.defines else []):
+                if find_depth(term) > find_depth(previous) and len(terms) > 1:
                     name = unique(f"{line.defines}_known")
-                    ordered.append((title, Statement(name, sp.Add(*known))))
-                    depth[name] = late(before)
-                    known = [sp.Symbol(name, real=True)]
-                known.append(part)
-            depth[line.defines] = 1 + late(value)
-            line = replace(line, value=sp.Add(*known)) if line.defines else line
+                    ordered.append((title, Statement(name, sp.Add(*terms))))
+                    depth_by_local[name] = find_depth(previous)
+                    terms = [sp.Symbol(name, real=True)]
+                terms.append(term)
+            depth_by_local[line.defines] = 1 + find_depth(value)
+            line = replace(line, value=sp.Add(*terms)) if line.defines else line
         ordered.append((title, line))
     return ordered
 
 
 def differences(statements: Iterable[Statement]) -> dict[str, tuple[sp.Expr, str, int]]:
-    """Return the cosines and sines of differences a − b that are formed from those of a and b, by local.
+    """Return the locals that are the cosine or sine of a difference a − b, formed from those of a and b.
 
-    For each: the angle a − b, the local of the other function, and the sign in its derivative.
+    The result maps each such local to (a − b, the local of the other function, sign in its derivative). A local whose
+    partner is missing is left out.
     """
     values = {line.defines: line.value for line in statements if line.defines and isinstance(line.value, sp.Expr)}
-    turned = {name: value for name, value in values.items() if isinstance(value, (sp.cos, sp.sin))}
-    found: dict[sp.Expr, dict[type, str]] = {}
+    trigonometric = {name: value for name, value in values.items() if isinstance(value, (sp.cos, sp.sin))}
+    functions_by_angle: dict[sp.Expr, dict[type, str]] = {}
     for target, value in values.items():
-        if value.is_Add and len(value.args) == 2 and all(s.name in turned for s in value.free_symbols):
-            whole = value.xreplace({s: turned[s.name] for s in value.free_symbols})
-            angles = sorted({x.args[0] for x in whole.atoms(sp.cos, sp.sin)}, key=str)
-            for one, other in itertools.permutations(angles) if len(angles) == 2 else ():
+        if value.is_Add and len(value.args) == 2 and all(s.name in trigonometric for s in value.free_symbols):
+            expanded = value.xreplace({s: trigonometric[s.name] for s in value.free_symbols})
+            angles = sorted({x.args[0] for x in expanded.atoms(sp.cos, sp.sin)}, key=str)
+            for a, b in itertools.permutations(angles) if len(angles) == 2 else ():
                 for function in (sp.cos, sp.sin):
-                    if whole == sp.expand_trig(function(one - other)):
-                        found.setdefault(one - other, {}).setdefault(function, target)
-    pairs: dict[str, tuple[sp.Expr, str, int]] = {}
-    for angle, both in found.items():
-        if sp.cos in both and sp.sin in both:
-            cosine, sine = both[sp.cos], both[sp.sin]
-            pairs |= {cosine: (angle, sine, -1), sine: (angle, cosine, 1)}
-    return pairs
+                    if expanded == sp.expand_trig(function(a - b)):
+                        functions_by_angle.setdefault(a - b, {}).setdefault(function, target)
+    result: dict[str, tuple[sp.Expr, str, int]] = {}
+    for angle, functions in functions_by_angle.items():
+        if sp.cos in functions and sp.sin in functions:
+            cosine_name, sine_name = functions[sp.cos], functions[sp.sin]
+            result |= {cosine_name: (angle, sine_name, -1), sine_name: (angle, cosine_name, 1)}
+    return result
 
 
 LEFT, RIGHT = "left", "right"  # arguments: the factors of each product
-Expected = Callable[[Place], Place | None]  # place of a result; None: it is not requested
-_DROPPED = (Status, JointsAlone, Jump, Rescue)
+FindPlace = Callable[[Place], Place | None]  # place of a result; None: it is not requested
+_SKIPPED_LINES = (Status, JointsAlone, Jump, Rescue)
 _DOC_VALUES = (
     "Accelerations a and powers at a state, order 0 of their series, and what higher orders read of it.",
     "Returns 0, or the number of the pivot that vanished.",
@@ -139,36 +141,45 @@ class Linear:
     unknowns: Mapping[int, sp.Symbol]
 
 
-def series_of(kernel: Kernel, expected: Expected, name: str, linear: Linear | None = None) -> Series:
-    """Return the Taylor series of a function's results; `expected` gives the place of each result. Raises NoSeries."""
-    lines = _lines(kernel, expected)
-    made = _Series(lines, linear)
+def series_of(kernel: Kernel, find_place: FindPlace, name: str, linear: Linear | None = None) -> Series:
+    """Return the functions for the Taylor series of a kernel's results.
+
+    `expected(place)`: the place of a result in the new functions, or None if it is not requested. `linear`: a linear
+    system that the kernel solves. Raise NoSeries for operations without a series.
+    """
+    lines = _find_needed_lines(kernel, find_place)
+    builder = _Series(lines, linear)
     for title, line in lines:
-        made.line(title, line)
-    return made.finished(name)
+        builder.line(title, line)
+    return builder.finished(name)
 
 
-def _lines(kernel: Kernel, expected: Expected) -> list[Titled]:
-    """Return the lines that lead to requested results; other stored values become locals."""
+def _find_needed_lines(kernel: Kernel, find_place: FindPlace) -> list[Titled]:
+    """Return the titled lines on which requested results depend; other stored values become locals.
+
+    `expected(place)` is the place of a requested result or None. Lines that handle singular equations are dropped.
+    """
     lines: list[Titled] = []
-    local: dict[sp.Basic, sp.Basic] = {}
+    symbol_of_place: dict[sp.Basic, sp.Basic] = {}
     for section in kernel.sections:
         for line in section.statements:
-            line = _with_locals(line, local)
-            if isinstance(line, Statement) and isinstance(stored := line.target, Place):
-                name = "".join(c if c.isalnum() else "_" for c in str(stored).replace(".", "__")).strip("_")
-                local[PlaceSymbol(stored)] = sp.Symbol(name, real=True)
+            line = _replace_places(line, symbol_of_place)
+            if isinstance(line, Statement) and isinstance(stored_place := line.target, Place):
+                name = "".join(
+                    character if character.isalnum() else "_" for character in str(stored_place).replace(".", "__")
+                ).strip("_")
+                symbol_of_place[PlaceSymbol(stored_place)] = sp.Symbol(name, real=True)
                 line = replace(line, target=name)
-                if place := expected(stored):
+                if place := find_place(stored_place):
                     lines.append((section.title, line))
                     line = replace(line, target=place, value=sp.Symbol(name, real=True))
-            if not isinstance(line, _DROPPED):
+            if not isinstance(line, _SKIPPED_LINES):
                 lines.append((section.title, line))
     return _prune_lines(lines)
 
 
-def _with_locals(line: Line, local: Mapping[sp.Basic, sp.Basic]) -> Line:
-    """Return a line with places replaced by locals."""
+def _replace_places(line: Line, local: Mapping[sp.Basic, sp.Basic]) -> Line:
+    """Return a line in whose expression the symbols of places are replaced by those of locals."""
     return changed(line, lambda value: value.xreplace(local))
 
 
@@ -176,23 +187,33 @@ class _Series(Rules):
     """Builder of both functions, line by line: lines of order 0 and of order k."""
 
     def __init__(self, lines: Sequence[Titled], linear: Linear | None) -> None:
-        """Begin without lines, with the names and cosines of all statements known."""
+        """Begin with no converted lines.
+
+        `lines`: all titled lines of the kernel, whose names are used and whose functions keep their names. `linear`:
+        the linear system of the kernel or None.
+        """
         statements = [line for _, line in lines if isinstance(line, Statement)]
         super().__init__({line.defines for line in statements})
         self._values: list[Titled] = []
         self._terms: list[Titled] = []
-        self._turned = differences(statements)
-        self._own = {line.value: line.defines for line in statements if isinstance(line.value, sp.Function)}
+        self._angle_differences = differences(statements)
+        self._name_of_function = {
+            line.value: line.defines for line in statements if isinstance(line.value, sp.Function)
+        }
         self._title, self._linear = "", linear
 
     def line(self, title: str, line: Line) -> None:
-        """Add the next line of the function to both."""
+        """Convert the next line of the kernel and append it to both functions.
+
+        A test of a pivot is added to order 0 alone, and a return is skipped. Raise NoSeries for other lines that are
+        not assignments.
+        """
         self._title = title
         match line:
             case Statement(value=Place() as place):
-                self._read(line, place)
+                self._add_read(line, place)
             case Statement(value=sp.Expr() as value):
-                self._assign(line, value)
+                self._add_assignment(line, value)
             case Guard(test=test) if not isinstance(test, Call):
                 self._values.append((title, replace(line, jumps=False)))
             case Return():
@@ -200,132 +221,166 @@ class _Series(Rules):
             case _:
                 raise NoSeries(f"a {type(line).__name__.lower()} of the right-hand side is no expression")
 
-    def _read(self, line: Statement, place: Place) -> None:
-        """Add a line that reads time, state or a parameter."""
+    def _add_read(self, line: Statement, place: Place) -> None:
+        """Append a line that reads time, state or a parameter to both functions.
+
+        The local is recorded as a parameter or as varying. Raise NoSeries for other places.
+        """
         if not line.defines or place.base not in ("t", "q", "v", "p"):
             raise NoSeries(f"{place} is no function of time and state")
         self._values.append((self._title, line))
         self._terms.append((self._title, line))
-        (self.numbers if place.base == "p" else self.moving).add(line.defines)
+        (self.parameters if place.base == "p" else self.varying).add(line.defines)
 
-    def _assign(self, line: Statement, value: sp.Expr) -> None:
-        """Add an assignment of an expression."""
+    def _add_assignment(self, line: Statement, value: sp.Expr) -> None:
+        """Append an assignment to both functions.
+
+        At order k a result is multiplied by 1/(k + 1). Lines that factorize the linear system are added to order 0
+        alone. A local that its partner function has defined is skipped.
+        """
         if not line.defines:
             self._values.append((self._title, line))
-            result = ZERO if self.is_fixed(value) else value * NEXT
-            self._terms.append((self._title, replace(line, value=result, comment="")))
+            order_k = ZERO if self.is_constant(value) else value * NEXT
+            self._terms.append((self._title, replace(line, value=order_k, comment="")))
         elif self._linear and self._title == self._linear.title:
             self._values.append((self._title, line))
-        elif line.defines not in self.moving:  # else the partner function has defined it already
+        elif line.defines not in self.varying:  # else the partner function has defined it already
             self.define(line.defines, value)
 
-    def define(self, target: str, value: sp.Expr, moving: bool = False) -> sp.Symbol:
-        """Add a local to both functions, or to order 0 alone if it is constant; return its symbol."""
+    def define(self, target: str, value: sp.Expr, as_series: bool = False) -> sp.Symbol:
+        """Append a local to both functions, or to order 0 alone if it is constant, and return its symbol.
+
+        `as_series`: also a constant gets a series. A right-hand side of the linear system gets the terms of lower
+        orders subtracted.
+        """
         symbol = sp.Symbol(target, real=True)
         loads = self._linear.loads if self._linear else {}
-        if self.is_fixed(value) and not (moving or target in loads):
+        if self.is_constant(value) and not (as_series or target in loads):
             self._values.append((self._title, Statement(target, value)))
             return symbol
         if target not in loads:  # which are equal at order 0 alone
-            value, whole = self.known.get(value, value), value
-            self.known.setdefault(whole, symbol)
-        named, term = self._of_difference(value, symbol) or self.lower(value, symbol)
+            value, definition = self.symbol_by_value.get(value, value), value
+            self.symbol_by_value.setdefault(definition, symbol)
+        order_zero, order_k = self._expand_difference(value, symbol) or self.expand_orders(value, symbol)
         if self._linear and target in loads:
-            term -= self._carried(self._linear, loads[target])
-        self.moving.add(target)
-        self._values.append((self._title, Statement(target, named)))
-        self._terms.append((self._title, Statement(target, term)))
-        later, self.later = self.later, []
-        for name, expression in later:
+            order_k -= self._sum_lower_orders(self._linear, loads[target])
+        self.varying.add(target)
+        self._values.append((self._title, Statement(target, order_zero)))
+        self._terms.append((self._title, Statement(target, order_k)))
+        pending, self.pending = self.pending, []
+        for name, expression in pending:
             self.define(name, expression)
         return symbol
 
-    def _carried(self, linear: Linear, row: int) -> sp.Expr:
-        """Return A_1 x_{k-1} + ... + A_k x_0 of one equation of the linear system."""
-        parts = []
+    def _sum_lower_orders(self, linear: Linear, row: int) -> sp.Expr:
+        """Return A_1 x_{k-1} + ...
+
+        + A_k x_0 of equation `row` of the linear system, without constant entries of A.
+        """
+        terms = []
         for column, x in linear.unknowns.items():
             entry = linear.entries.get((row, column), linear.entries.get((column, row), ZERO))
-            if not self.is_fixed(entry):
-                moving = sp.Mul(*(a for a in sp.Mul.make_args(entry) if not self.is_fixed(a)))
-                name = self.atom(moving)
-                product = at(x) * name + self.sum(Factor(name.name), Factor(x.name))
-                parts.append(self.fixed(entry / moving) * product)
-        return sp.Add(*parts)
+            if not self.is_constant(entry):
+                moving = sp.Mul(*(a for a in sp.Mul.make_args(entry) if not self.is_constant(a)))
+                factor = self.define_value(moving)
+                product = make_order_zero_symbol(x) * factor + self.add_convolution(Factor(factor.name), Factor(x.name))
+                terms.append(self.express_at_order_zero(entry / moving) * product)
+        return sp.Add(*terms)
 
-    def _of_difference(self, value: sp.Expr, symbol: sp.Symbol) -> Lowered | None:
-        """Return the cosine or sine of a difference of angles, by its rate instead of four products.
+    def _expand_difference(self, value: sp.Expr, symbol: sp.Symbol) -> Lowered | None:
+        """Return orders 0 and k of the cosine or sine of a difference of angles, by its rate instead of four products.
 
-        None if the local is not one.
+        Return None if the local is not such a function.
         """
-        if symbol.name not in self._turned:
+        if symbol.name not in self._angle_differences:
             return None
-        angle, partner, sign = self._turned[symbol.name]
-        return value, sign * self.by_rate(self.atom(angle), sp.Symbol(partner, real=True))
+        angle, partner_name, sign = self._angle_differences[symbol.name]
+        return value, sign * self.integrate_product(self.define_value(angle), sp.Symbol(partner_name, real=True))
 
-    def beside(self, value: sp.Expr) -> sp.Symbol:
-        """Return the symbol of another function of the same argument; the function's own name is used if it has one."""
-        if value in self.known:
-            return self.known[value]
-        return self.define(self._own.get(value) or self.unique(type(value).__name__), value)
+    def define_partner(self, value: sp.Expr) -> sp.Symbol:
+        """Return the symbol of another function of the same argument, such as the cosine for a sine.
+
+        It is defined, under its name in the kernel if it has one, unless it is known already.
+        """
+        if value in self.symbol_by_value:
+            return self.symbol_by_value[value]
+        return self.define(self._name_of_function.get(value) or self.make_unique_name(type(value).__name__), value)
 
     def finished(self, name: str) -> Series:
-        """Return both functions, without lines that nothing reads."""
-        products, known = list[Product](), -1
-        while known < len(products):  # a sum that is read asks for its factors, and they for other sums
-            known = len(products)
-            terms = _prune_lines([*self._terms, *_stores(products)])
-            read = {key_of(s) for _, line in terms for e in line.expressions for s in e.free_symbols}
-            products = [product for product in self.products.values() if Place(SUMS)[product.name] in read]
-        kept = tuple(sorted(x.member for x in read if isinstance(x, Place) and x.base == VALUES))
+        """Return both functions without locals that nothing reads, the values that order k reads, and the sums S_k.
+
+        Called once, after all lines have been converted.
+        """
+        products, n_products = list[Product](), -1
+        while n_products < len(products):  # a sum that is read asks for its factors, and they for other sums
+            n_products = len(products)
+            terms = _prune_lines([*self._terms, *_make_factor_stores(products)])
+            read_keys = {
+                key_of(s) for _, line in terms for expression in line.expressions for s in expression.free_symbols
+            }
+            products = [product for product in self.products.values() if Place(SUMS)[product.name] in read_keys]
+        kept_values = tuple(
+            sorted(name_.member for name_ in read_keys if isinstance(name_, Place) and name_.base == VALUES)
+        )
         inverses = {name: 1 / b for name, b in self.inverses.items()}
-        keeps = [
-            ("values that higher orders read", Statement(Place(VALUES)[x], inverses.get(x, sp.Symbol(x, real=True))))
-            for x in kept
+        storing_lines = [
+            (
+                "values that higher orders read",
+                Statement(Place(VALUES)[name_], inverses.get(name_, sp.Symbol(name_, real=True))),
+            )
+            for name_ in kept_values
         ]
-        values = _prune_lines([*self._values, *keeps])
-        of_values, of_terms = _arguments()
-        of_zero = Kernel(f"{name}_values", _DOC_VALUES, of_values, _sections([*values, ("", Return())]), status=True)
-        later = _sections(split_late_sums(terms, self.unique))
-        return Series(of_zero, Kernel(f"{name}_terms", _DOC_TERMS, of_terms, later), kept, tuple(products))
+        values = _prune_lines([*self._values, *storing_lines])
+        arguments_of_values, arguments_of_terms = _make_arguments()
+        values_kernel = Kernel(
+            f"{name}_values", _DOC_VALUES, arguments_of_values, _group_sections([*values, ("", Return())]), status=True
+        )
+        term_sections = _group_sections(split_late_sums(terms, self.make_unique_name))
+        return Series(
+            values_kernel,
+            Kernel(f"{name}_terms", _DOC_TERMS, arguments_of_terms, term_sections),
+            kept_values,
+            tuple(products),
+        )
 
 
-def _arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:
-    """Return the arguments of both functions."""
+def _make_arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:
+    """Return the arguments of the function for order 0 and of that for order k."""
     rates = (result("a"), result("power"))
     factors = (result(LEFT, "Wide"), result(RIGHT, "Wide"))
     order = tuple(Argument(symbol.name, access=Access.CONSTANT) for symbol in (ORDER, SHARE, NEXT))
-    given = (source(VALUES, "TaylorValues"), source(SUMS, "TaylorFactors"))
+    lower_orders = (source(VALUES, "TaylorValues"), source(SUMS, "TaylorFactors"))
     values = (*STATE, PARAMETERS, result(VALUES, "TaylorValues"), *rates)
-    return values, (*order, *STATE, PARAMETERS, *given, *rates, *factors)
+    return values, (*order, *STATE, PARAMETERS, *lower_orders, *rates, *factors)
 
 
-def _stores(products: Sequence[Product]) -> list[Titled]:
-    """Return the lines that store the factors for the sums of higher orders."""
+def _make_factor_stores(products: Sequence[Product]) -> list[Titled]:
+    """Return the titled lines that store the factors of all sums S_k, in rows of WIDE elements, for higher orders."""
 
-    def value(factor: Factor) -> sp.Expr:
-        """Return the coefficient of a factor; of a rate, times its order."""
+    def make_coefficient(factor: Factor) -> sp.Expr:
+        """Return the coefficient of order k of a factor; of a rate, k times the coefficient."""
         symbol = sp.Symbol(factor.name, real=True)
         return ORDER * symbol if factor.rate else symbol
 
     title, lines = "factors of the sums of higher orders", list[Titled]()
-    for row, first in enumerate(range(0, len(products), WIDE)):
-        some = products[first : first + WIDE]
-        lines.append((title, Gathered(LEFT, row, tuple(value(x.left) for x in some))))
-        lines.append((title, Gathered(RIGHT, row, tuple(value(x.right) for x in some))))
+    for row, start in enumerate(range(0, len(products), WIDE)):
+        group = products[start : start + WIDE]
+        lines.append((title, Gathered(LEFT, row, tuple(make_coefficient(product.left) for product in group))))
+        lines.append((title, Gathered(RIGHT, row, tuple(make_coefficient(product.right) for product in group))))
     return lines
 
 
 def _prune_lines(lines: list[Titled]) -> list[Titled]:
-    """Return the lines without locals that nothing reads."""
-    left = {id(line) for line in without_unread([line for _, line in lines], set())}
-    return [item for item in lines if id(item[1]) in left]
+    """Return the titled lines without locals that no later line reads."""
+    kept_ids = {id(line) for line in without_unread([line for _, line in lines], set())}
+    return [item for item in lines if id(item[1]) in kept_ids]
 
 
-def _sections(lines: Iterable[Titled]) -> tuple[Section, ...]:
-    """Return the titled lines grouped into sections."""
+def _group_sections(lines: Iterable[Titled]) -> tuple[Section, ...]:
+    """Return titled lines as sections; successive lines with the same title form one section."""
     sections: list[tuple[str, list[Line]]] = []
     for title, line in lines:
         if not sections or sections[-1][0] != title:
             sections.append((title, []))
         sections[-1][1].append(line)
-    return tuple(Section(title, tuple(group)) for title, group in sections)
+    return tuple(Section(title, tuple(lines_)) for title, lines_ in sections)

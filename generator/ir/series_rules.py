@@ -62,198 +62,280 @@ Lowered = tuple[sp.Expr, sp.Expr]  # a value at order 0 and at order k, both by 
 
 
 class Rules(ABC):
-    """Series of expressions of locals; locals in `moving` have orders above 0, `numbers` are parameters of the run."""
+    """Series of expressions of locals; locals in `varying` have orders above 0, `parameters` are those of the run."""
 
-    def __init__(self, used: set[str]) -> None:
-        """Begin with time as the only moving local; `used`: names in use."""
-        self.moving, self.numbers = {"t"}, set[str]()
+    def __init__(self, used_names: set[str]) -> None:
+        """Begin with time as the only local that varies.
+
+        `used_names`: the names in use, to which new names are added.
+        """
+        self.varying, self.parameters = {"t"}, set[str]()
         self.products: dict[tuple[Factor, Factor], Product] = {}
-        self.known: dict[sp.Expr, sp.Symbol] = {}  # expressions that have a name
-        self.later: list[tuple[str, sp.Expr]] = []  # to be defined after the current definition
+        self.symbol_by_value: dict[sp.Expr, sp.Symbol] = {}  # expressions that have a name
+        self.pending: list[tuple[str, sp.Expr]] = []  # to be defined after the current definition
         self.reciprocals: dict[sp.Symbol, sp.Symbol] = {}  # c by what it is 1 over: products with c are quotients
         self.inverses: dict[str, sp.Symbol] = {}  # 1/b_0 by name
-        self._taken = used
+        self._used_names = used_names
 
     @abstractmethod
-    def define(self, target: str, value: sp.Expr, moving: bool = False) -> sp.Symbol:
-        """Define a local and return its symbol; `moving`: as a series even if it is constant."""
+    def define(self, target: str, value: sp.Expr, as_series: bool = False) -> sp.Symbol:
+        """Define a local and return its symbol; `as_series`: as a series even if it is constant."""
 
     @abstractmethod
-    def beside(self, value: sp.Expr) -> sp.Symbol:
+    def define_partner(self, value: sp.Expr) -> sp.Symbol:
         """Return the symbol of another function of the same argument."""
 
-    def is_fixed(self, value: sp.Basic) -> bool:
+    def is_constant(self, value: sp.Basic) -> bool:
         """Return whether a value has only order 0."""
-        return not any(s.name in self.moving for s in value.free_symbols)
+        return not any(s.name in self.varying for s in value.free_symbols)
 
-    def unique(self, name: str) -> str:
-        """Return an unused name."""
+    def make_unique_name(self, name: str) -> str:
+        """Return an unused name `<name>_<k>`, k = 1, 2, …, and mark it as used."""
         k = 1
-        while f"{name}_{k}" in self._taken:
+        while f"{name}_{k}" in self._used_names:
             k += 1
-        self._taken.add(f"{name}_{k}")
+        self._used_names.add(f"{name}_{k}")
         return f"{name}_{k}"
 
-    def atom(self, value: sp.Expr) -> sp.Symbol:
-        """Return a symbol for a value, defined if necessary."""
+    def define_value(self, value: sp.Expr) -> sp.Symbol:
+        """Return a symbol for a value: the value itself if it is one, a local with that value, or a new local."""
         if value.is_Symbol:
             return value
-        return self.known[value] if value in self.known else self.define(self.unique("part"), value)
+        return (
+            self.symbol_by_value[value]
+            if value in self.symbol_by_value
+            else self.define(self.make_unique_name("part"), value)
+        )
 
-    def series(self, value: sp.Expr) -> sp.Symbol:
-        """Return a symbol for a value as a series; a constant gets zeros at higher orders."""
-        return self.define(self.unique("still"), value, True) if self.is_fixed(value) else self.atom(value)
+    def define_series(self, value: sp.Expr) -> sp.Symbol:
+        """Return the symbol of a local that holds a value as a series.
 
-    def lower(self, value: sp.Expr, whole: sp.Symbol | None = None) -> Lowered:
-        """Return a value at orders 0 and k in names of locals; `whole` is its own symbol, which a rule may read."""
-        if self.is_fixed(value):
+        A constant gets a new local, with zeros at higher orders.
+        """
+        return (
+            self.define(self.make_unique_name("still"), value, True)
+            if self.is_constant(value)
+            else self.define_value(value)
+        )
+
+    def expand_orders(self, value: sp.Expr, symbol_of_value: sp.Symbol | None = None) -> Lowered:
+        """Return a value at order 0 and at order k, both in names of locals.
+
+        A sum is split into its terms. `symbol_of_value`: the symbol of the local that is being defined as this value,
+        which a rule may read; None defines a new local.
+        """
+        if self.is_constant(value):
             return value, sp.Integer(0)
         if value.is_Symbol:
             return value, value
         if value.is_Add:
-            parts = [self.lower(x) for x in value.args]
-            return sp.Add(*(zero for zero, _ in parts)), sp.Add(*(term for _, term in parts))
+            lowered = [self.expand_orders(x) for x in value.args]
+            return sp.Add(*(order_zero for order_zero, _ in lowered)), sp.Add(*(order_k for _, order_k in lowered))
         if value.is_Mul or (value.is_Pow and value.exp.is_Integer and value.exp >= 2):
-            return self._product(value, whole)
-        if whole is None:
-            symbol = self.atom(value)
-            return symbol, symbol
-        return self._power(value, whole) if value.is_Pow else self._function(value, whole)
+            return self._expand_product(value, symbol_of_value)
+        if symbol_of_value is None:
+            local = self.define_value(value)
+            return local, local
+        return (
+            self._expand_power(value, symbol_of_value)
+            if value.is_Pow
+            else self._expand_function(value, symbol_of_value)
+        )
 
-    def _product(self, value: sp.Expr, whole: sp.Symbol | None) -> Lowered:
-        """Return a product of a constant and of two names or a quotient of names, at orders 0 and k."""
-        fixed = sp.Mul(*(x for x in sp.Mul.make_args(value) if self.is_fixed(x)))
-        moving = [x for x in sp.Mul.make_args(value) if not self.is_fixed(x)]
-        below = [x for x in moving if x.is_Pow and x.exp.is_number and x.exp.is_negative]
-        below += [self.reciprocals[x] ** -1 for x in moving if x in self.reciprocals]
-        above = self._parts([x for x in moving if x not in below and x not in self.reciprocals])
-        if below and above:
-            a, b = self._one(above), self._one(self._parts([1 / x for x in below]))
-            if fixed != 1 or whole is None:
-                above = [self.atom(a / b)]
+    def _expand_product(self, value: sp.Expr, symbol_of_value: sp.Symbol | None) -> Lowered:
+        """Return a product or quotient at orders 0 and k.
+
+        It is a constant times a product of two locals, or a quotient of two. Further factors are combined in new locals
+        first. `symbol_of_value`: the symbol of the value, or None.
+        """
+        constant = sp.Mul(*(factor for factor in sp.Mul.make_args(value) if self.is_constant(factor)))
+        varying = [factor for factor in sp.Mul.make_args(value) if not self.is_constant(factor)]
+        denominators = [
+            factor for factor in varying if factor.is_Pow and factor.exp.is_number and factor.exp.is_negative
+        ]
+        denominators += [self.reciprocals[factor] ** -1 for factor in varying if factor in self.reciprocals]
+        numerators = self._combine_factors(
+            [factor for factor in varying if factor not in denominators and factor not in self.reciprocals]
+        )
+        if denominators and numerators:
+            numerator, denominator = (
+                self._combine_all(numerators),
+                self._combine_all(self._combine_factors([1 / factor for factor in denominators])),
+            )
+            if constant != 1 or symbol_of_value is None:
+                numerators = [self.define_value(numerator / denominator)]
             else:
-                return a / b, self.quotient(a, b, whole)
-        elif below:
-            above = [self.atom(1 / self._one(self._parts([1 / x for x in below])))]
-        if len(above) == 1:
-            zero, term = self.lower(above[0])
-            return fixed * zero, self.fixed(fixed) * term
-        a, b = above
-        summed = self.sum(Factor(a.name), Factor(b.name))
-        return fixed * a * b, self.fixed(fixed) * (at(a) * b + at(b) * a + summed)
+                return numerator / denominator, self.divide_series(numerator, denominator, symbol_of_value)
+        elif denominators:
+            numerators = [
+                self.define_value(1 / self._combine_all(self._combine_factors([1 / factor for factor in denominators])))
+            ]
+        if len(numerators) == 1:
+            order_zero, order_k = self.expand_orders(numerators[0])
+            return constant * order_zero, self.express_at_order_zero(constant) * order_k
+        a, b = numerators
+        lower_orders = self.add_convolution(Factor(a.name), Factor(b.name))
+        return constant * a * b, self.express_at_order_zero(constant) * (
+            make_order_zero_symbol(a) * b + make_order_zero_symbol(b) * a + lower_orders
+        )
 
-    def _parts(self, values: list[sp.Expr]) -> list[sp.Symbol]:
-        """Return at most two names whose product is that of the values; or one sum as it is."""
+    def _combine_factors(self, values: list[sp.Expr]) -> list[sp.Symbol]:
+        """Return at most two symbols whose product is that of the values; a single sum is returned as it is.
+
+        Integer powers are repeated factors, high powers squares of lower ones; new locals hold partial products.
+        """
         if len(values) == 1 and values[0].is_Add:
             return values
-        parts: list[sp.Symbol] = []
-        for x in values:
-            times = int(x.exp) if x.is_Pow and x.exp.is_Integer and x.exp >= 2 else 1
-            if times > 4:
-                parts += [self.atom(x.base ** (times // 2))] * 2 + [self.atom(x.base)] * (times % 2)
+        symbols: list[sp.Symbol] = []
+        for factor in values:
+            exponent = int(factor.exp) if factor.is_Pow and factor.exp.is_Integer and factor.exp >= 2 else 1
+            if exponent > 4:
+                symbols += [self.define_value(factor.base ** (exponent // 2))] * 2 + [
+                    self.define_value(factor.base)
+                ] * (exponent % 2)
             else:
-                parts += [self.atom(x.base if times > 1 else x)] * times
-        while len(parts) > 2:
-            parts = [self.atom(parts[0] * parts[1]), *parts[2:]]
-        return parts
+                symbols += [self.define_value(factor.base if exponent > 1 else factor)] * exponent
+        while len(symbols) > 2:
+            symbols = [self.define_value(symbols[0] * symbols[1]), *symbols[2:]]
+        return symbols
 
-    def _one(self, parts: list[sp.Symbol]) -> sp.Symbol:
-        """Return one name for the product of some names."""
-        return self.atom(sp.Mul(*parts))
+    def _combine_all(self, parts: list[sp.Symbol]) -> sp.Symbol:
+        """Return one symbol for the product of some symbols, defined if there are several."""
+        return self.define_value(sp.Mul(*parts))
 
-    def _power(self, value: sp.Expr, whole: sp.Symbol) -> Lowered:
-        """Return c = a^n by a c' = n a' c; a root by a = c c; 1/a as a quotient."""
-        if not self.is_fixed(value.exp):
+    def _expand_power(self, value: sp.Expr, symbol_of_value: sp.Symbol) -> Lowered:
+        """Return a power at orders 0 and k.
+
+        c = a^n follows from a c' = n a' c, a square root from a = c c, and 1/a as a quotient. `symbol_of_value`: the
+        symbol of c. Raise NoSeries if the exponent varies.
+        """
+        if not self.is_constant(value.exp):
             raise NoSeries("a power has an exponent that moves")
-        a, n = self.atom(value.base), value.exp
+        a, n = self.define_value(value.base), value.exp
         if n.is_Integer and n < -1:
-            a, n = self.atom(value.base**-n), sp.Integer(-1)
+            a, n = self.define_value(value.base**-n), sp.Integer(-1)
         if n == -1:
-            self.reciprocals[whole] = a
-            return 1 / a, self.quotient(sp.Integer(0), a, whole)
+            self.reciprocals[symbol_of_value] = a
+            return 1 / a, self.divide_series(sp.Integer(0), a, symbol_of_value)
         if n == _HALF:
-            summed = self.sum(Factor(whole.name), Factor(whole.name))
-            return a**n, (a - summed) * _HALF * self.inverse(whole)
-        first = self.sum(Factor(a.name, True), Factor(whole.name))
-        second = self.sum(Factor(a.name), Factor(whole.name, True))
-        n = self.fixed(n)
-        return a**value.exp, (n * a * at(whole) + (n * first - second) * SHARE) * self.inverse(a)
+            lower_orders = self.add_convolution(Factor(symbol_of_value.name), Factor(symbol_of_value.name))
+            return a**n, (a - lower_orders) * _HALF * self.get_inverse(symbol_of_value)
+        varying_base = self.add_convolution(Factor(a.name, True), Factor(symbol_of_value.name))
+        varying_power = self.add_convolution(Factor(a.name), Factor(symbol_of_value.name, True))
+        n = self.express_at_order_zero(n)
+        return a**value.exp, (
+            n * a * make_order_zero_symbol(symbol_of_value) + (n * varying_base - varying_power) * SHARE
+        ) * self.get_inverse(a)
 
-    def _function(self, value: sp.Expr, whole: sp.Symbol) -> Lowered:
-        """Return a function of series by its derivative. Raises NoSeries if that is unknown."""
+    def _expand_function(self, value: sp.Expr, symbol_of_value: sp.Symbol) -> Lowered:
+        """Return a function of series at orders 0 and k, by its derivative; atan2 has a rule of its own.
+
+        `symbol_of_value`: the symbol of the value. Raise NoSeries if the derivative is not known.
+        """
         derivative = CLASSES[type(value)].derivative if type(value) in CLASSES else ""
         if not derivative and not isinstance(value, sp.atan2):
             raise NoSeries(f"{type(value).__name__.lower()}() has corners, or its series is not known")
-        u = [self.series(x) for x in value.args]
-        term = _by_derivative(self, derivative, u[0], whole) if derivative else _arc(self, u[0], u[1], whole)
-        return value.func(*u), term
+        u = [self.define_series(x) for x in value.args]
+        order_k = (
+            _expand_by_derivative(self, derivative, u[0], symbol_of_value)
+            if derivative
+            else _expand_angle(self, u[0], u[1], symbol_of_value)
+        )
+        return value.func(*u), order_k
 
-    def fixed(self, value: sp.Expr) -> sp.Expr:
-        """Return a constant as higher orders read it: parameters of the run, and locals of order 0."""
+    def express_at_order_zero(self, value: sp.Expr) -> sp.Expr:
+        """Return a constant as the lines of order k read it.
+
+        Parameters are read by name, other locals by their value at order 0. A longer expression becomes a local first.
+        """
         if value.free_symbols and not (value.is_Symbol or (-value).is_Symbol):
-            value = self.atom(value)
-        return value.xreplace({s: at(s) for s in value.free_symbols if s.name not in self.numbers})
+            value = self.define_value(value)
+        return value.xreplace(
+            {s: make_order_zero_symbol(s) for s in value.free_symbols if s.name not in self.parameters}
+        )
 
-    def quotient(self, a: sp.Expr, b: sp.Symbol, whole: sp.Symbol) -> sp.Expr:
-        """Return order k of c = a/b: a_k = c_0 b_k + c_k b_0 + S_k."""
-        return (a - at(whole) * b - self.sum(Factor(whole.name), Factor(b.name))) * self.inverse(b)
+    def divide_series(self, a: sp.Expr, b: sp.Symbol, symbol_of_quotient: sp.Symbol) -> sp.Expr:
+        """Return order k of c = a/b from a_k = c_0 b_k + c_k b_0 + S_k; `symbol_of_quotient` is the symbol of c."""
+        return (
+            a
+            - make_order_zero_symbol(symbol_of_quotient) * b
+            - self.add_convolution(Factor(symbol_of_quotient.name), Factor(b.name))
+        ) * self.get_inverse(b)
 
-    def inverse(self, b: sp.Symbol) -> sp.Expr:
-        """Return the stored number 1/b_0."""
+    def get_inverse(self, b: sp.Symbol) -> sp.Expr:
+        """Return the symbol of 1/b_0, which order 0 stores for all higher orders."""
         name = f"{b.name}_inverse"
         self.inverses[name] = b
         return PlaceSymbol(Place(VALUES)[name])
 
-    def by_rate(self, u: sp.Symbol, w: sp.Symbol) -> sp.Expr:
+    def integrate_product(self, u: sp.Symbol, w: sp.Symbol) -> sp.Expr:
         """Return order k of c with c' = u' w."""
-        return u * at(w) + self.sum(Factor(u.name, True), Factor(w.name)) * SHARE
+        return u * make_order_zero_symbol(w) + self.add_convolution(Factor(u.name, True), Factor(w.name)) * SHARE
 
-    def over(self, u: sp.Expr, w: sp.Symbol, whole: sp.Symbol) -> sp.Expr:
-        """Return order k of c with w c' = u'."""
-        return (u - self.sum(Factor(w.name), Factor(whole.name, True)) * SHARE) * self.inverse(w)
+    def integrate_quotient(self, u: sp.Expr, w: sp.Symbol, symbol_of_value: sp.Symbol) -> sp.Expr:
+        """Return order k of c with w c' = u'; `symbol_of_value` is the symbol of c."""
+        return (
+            u - self.add_convolution(Factor(w.name), Factor(symbol_of_value.name, True)) * SHARE
+        ) * self.get_inverse(w)
 
-    def sum(self, left: Factor, right: Factor) -> sp.Symbol:
-        """Return the symbol of the sum S_k of a product."""
-        pair = (left, right) if (left.name, left.rate) <= (right.name, right.rate) else (right, left)
-        words = "__".join(f"{x.name}{'_rate' * x.rate}" for x in pair)
-        product = self.products.setdefault(pair, Product(words, *pair))
+    def add_convolution(self, left: Factor, right: Factor) -> sp.Symbol:
+        """Return the symbol of the sum S_k = Σ left_j right_{k-j} of two factors, j from 1 to k − 1.
+
+        The sum is recorded; both orders of the factors give the same sum.
+        """
+        factors = (left, right) if (left.name, left.rate) <= (right.name, right.rate) else (right, left)
+        name = "__".join(f"{factor.name}{'_rate' * factor.rate}" for factor in factors)
+        product = self.products.setdefault(factors, Product(name, *factors))
         return PlaceSymbol(Place(SUMS)[product.name])
 
-    def square(self, whole: sp.Symbol) -> sp.Symbol:
-        """Return a symbol for the square of the value that is being defined; it is defined right after."""
-        name = self.unique("square")
-        self.later.append((name, whole**2))
+    def define_square_later(self, symbol_of_value: sp.Symbol) -> sp.Symbol:
+        """Return a symbol for the square of the value that is being defined.
+
+        Its definition is appended to `pending`, and follows that of the value.
+        """
+        name = self.make_unique_name("square")
+        self.pending.append((name, symbol_of_value**2))
         return sp.Symbol(name, real=True)
 
 
-def at(symbol: sp.Symbol) -> sp.Symbol:
-    """Return the symbol of order 0 of a local."""
+def make_order_zero_symbol(symbol: sp.Symbol) -> sp.Symbol:
+    """Return the symbol of the coefficient of order 0 of a local, as higher orders read it."""
     return PlaceSymbol(Place(VALUES)[symbol.name])
 
 
-def _arc(rules: Rules, y: sp.Symbol, x: sp.Symbol, whole: sp.Symbol) -> sp.Expr:
-    """Return order k of the angle c of (x, y): (x^2 + y^2) c' = x y' - y x'."""
-    r = rules.atom(x**2 + y**2)
-    one = rules.sum(Factor(x.name), Factor(y.name, True))
-    other = rules.sum(Factor(y.name), Factor(x.name, True))
-    return rules.over(at(x) * y - at(y) * x + (one - other) * SHARE, r, whole)
+def _expand_angle(rules: Rules, y: sp.Symbol, x: sp.Symbol, symbol_of_angle: sp.Symbol) -> sp.Expr:
+    """Return order k of the angle c of the vector (x, y), by (x^2 + y^2) c' = x y' - y x'.
+
+    `symbol_of_angle`: the symbol of c.
+    """
+    squared_radius = rules.define_value(x**2 + y**2)
+    x_dy = rules.add_convolution(Factor(x.name), Factor(y.name, True))
+    y_dx = rules.add_convolution(Factor(y.name), Factor(x.name, True))
+    return rules.integrate_quotient(
+        make_order_zero_symbol(x) * y - make_order_zero_symbol(y) * x + (x_dy - y_dx) * SHARE,
+        squared_radius,
+        symbol_of_angle,
+    )
 
 
-def _by_derivative(rules: Rules, derivative: str, u: sp.Symbol, whole: sp.Symbol) -> sp.Expr:
+def _expand_by_derivative(rules: Rules, derivative: str, u: sp.Symbol, symbol_of_value: sp.Symbol) -> sp.Expr:
     """Return order k of c = f(u) by its derivative n/w, n a number: w c' = n u'.
 
-    A derivative that is a sum of terms gives c' = u' w for each.
+    A derivative that is a sum of terms n w gives c' = u' w for each. `derivative`: its text in the table of functions;
+    `symbol_of_value`: the symbol of c.
     """
-    above, below = sp.fraction(derivative_at(derivative, u, whole))
-    if below != 1:
-        return rules.over(above * u, below if below.is_Symbol else rules.atom(below), whole)
+    numerator, denominator = sp.fraction(derivative_at(derivative, u, symbol_of_value))
+    if denominator != 1:
+        return rules.integrate_quotient(
+            numerator * u, denominator if denominator.is_Symbol else rules.define_value(denominator), symbol_of_value
+        )
     terms = []
-    for number, w in (term.as_coeff_Mul() for term in sp.Add.make_args(above)):
-        if w == whole**2:
-            w = rules.square(whole)
+    for coefficient, w in (term.as_coeff_Mul() for term in sp.Add.make_args(numerator)):
+        if w == symbol_of_value**2:
+            w = rules.define_square_later(symbol_of_value)
         elif w.is_Function:
-            w = rules.beside(w)
+            w = rules.define_partner(w)
         elif not w.is_Symbol and w != 1:
-            w = rules.atom(w)
-        terms.append(number * (u if w == 1 else rules.by_rate(u, w)))
+            w = rules.define_value(w)
+        terms.append(coefficient * (u if w == 1 else rules.integrate_product(u, w)))
     return sp.Add(*terms)

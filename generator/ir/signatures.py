@@ -41,17 +41,17 @@ class Argument:
     access: Access = Access.VALUE
 
     def __getitem__(self, step: str | int) -> Place:
-        """Return the place of an element or field of the argument."""
+        """Return the place of an array element or of a struct's field of the argument."""
         return Place(self.name)[step]
 
 
 def source(name: str, type: Type = Number.REAL) -> Argument:
-    """Return the argument of an array or struct that is read."""
+    """Return the argument for an array or struct that the function reads; `type` is that of its elements."""
     return Argument(name, type, Access.READ)
 
 
 def result(name: str, type: Type = Number.REAL) -> Argument:
-    """Return the argument of an array, struct or number that is written."""
+    """Return the argument for an array, struct or number that the function writes; `type` is that of its elements."""
     return Argument(name, type, Access.WRITTEN)
 
 
@@ -68,5 +68,8 @@ ZERO = sp.Integer(0)
 
 
 def acting_on(index: int) -> tuple[Place, ...]:
-    """Return what the function of a joint with play is given after its motion."""
+    """Return the last arguments of a call of the function of joint `index` with play.
+
+    They are its contact state, the parameters, and the arguments for branches.
+    """
     return (DISCRETE["contact"][index], *(Place(argument.name) for argument in (PARAMETERS, *BRANCHES)))

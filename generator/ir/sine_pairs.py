@@ -16,103 +16,126 @@ from gudgeon.generator.ir.kernels import Kernel, Section, changed
 from gudgeon.generator.ir.statements import Line, Sines, Statement
 from gudgeon.generator.symbols.storage import Place
 
-MANY = 4  # groups, beyond which they are computed in a loop
+_MAX_VECTORS = 4  # groups, beyond which they are computed in a loop
 # Angles, statements that turn them, how many a kernel has numbered before: lines, how many it has numbered then.
-Written = Callable[[Sequence[sp.Symbol], Sequence[Statement], int], tuple[list[Line], int]]
+_MakeLines = Callable[[Sequence[sp.Symbol], Sequence[Statement], int], tuple[list[Line], int]]
 
 
 def pair_sines(kernel: Kernel) -> Kernel:
-    """Return the kernel with cosines and sines computed in vectors, as soon as their angles are known."""
-    return _paired(kernel, _vectors)
+    """Return the kernel with cosines and sines computed four angles at a time, as soon as their angles are known."""
+    return _group_functions(kernel, _make_vectors)
 
 
 def call_sines_by_lane(kernel: Kernel) -> Kernel:
     """Return the kernel with cosines and sines of angles that are vectors of several runs (lanes.h).
 
-    The same functions are used, so that the bits are the same.
+    The same functions as for single runs are used, so that the results have the same bits.
     """
-    return _paired(kernel, _lanes)
+    return _group_functions(kernel, _make_lane_calls)
 
 
-def _paired(kernel: Kernel, written: Written) -> Kernel:
-    """Return the kernel with grouped cosines and sines, section by section; known ones are not computed again."""
-    known: dict[sp.Expr, sp.Symbol] = {}
+def _group_functions(kernel: Kernel, make_lines: _MakeLines) -> Kernel:
+    """Return the kernel with cosines and sines grouped section by section.
+
+    A value of an earlier section is not computed again. `make_lines` makes the lines for some angles.
+    """
+    symbol_of_function: dict[sp.Expr, sp.Symbol] = {}
     sections: list[Section] = []
-    first = 0  # groups, or angles, so far
+    n_groups = 0  # groups, or angles, so far
     for section in kernel.sections:
-        again = tuple(_known(statement, known) for statement in section.statements)
-        grouped, first = _grouped(Section(section.title, again), written, first)
-        sections.append(grouped)
+        simplified = tuple(_reuse_known(statement, symbol_of_function) for statement in section.statements)
+        new_section, n_groups = _group_section(Section(section.title, simplified), make_lines, n_groups)
+        sections.append(new_section)
         for statement in section.statements:
-            if _angle(statement) is not None and isinstance(statement, Statement) and statement.defines:
-                known.setdefault(sp.sympify(statement.value), sp.Symbol(statement.defines, real=True))
+            if _find_angle(statement) is not None and isinstance(statement, Statement) and statement.defines:
+                symbol_of_function.setdefault(sp.sympify(statement.value), sp.Symbol(statement.defines, real=True))
     return replace(kernel, sections=tuple(sections))
 
 
-def _known(line: Line, known: Mapping[sp.Expr, sp.Symbol]) -> Line:
-    """Return a line that reads a cosine or sine of an earlier section instead of computing it."""
-    return changed(line, lambda value: known.get(value, value))
+def _reuse_known(line: Line, known_symbols: Mapping[sp.Expr, sp.Symbol]) -> Line:
+    """Return a line that reads a cosine or sine of an earlier section instead of computing it.
+
+    Other lines are returned unchanged.
+    """
+    return changed(line, lambda value: known_symbols.get(value, value))
 
 
-def _angle(statement: Line) -> sp.Symbol | None:
-    """Return the symbol whose cosine or sine a statement computes; None for other statements."""
+def _find_angle(statement: Line) -> sp.Symbol | None:
+    """Return the symbol whose cosine or sine a statement computes; None for all other lines."""
     value = statement.value if isinstance(statement, Statement) else None
     return value.args[0] if isinstance(value, (sp.cos, sp.sin)) and value.args[0].is_Symbol else None
 
 
-def _grouped(section: Section, written: Written, before: int) -> tuple[Section, int]:
-    """Return a section with what the angles need first, then the grouped functions, then the rest.
+def _group_section(section: Section, make_lines: _MakeLines, n_groups: int) -> tuple[Section, int]:
+    """Return the section with the grouped cosines and sines as early as possible, and the number of groups so far.
 
-    The number of groups so far is `before`, and is returned increased.
+    The statements that the angles depend on come first, then the groups, then the rest. A section with lines that are
+    not assignments, or without angles, is returned unchanged.
     """
-    statements = [s for s in section.statements if isinstance(s, Statement) and isinstance(s.value, sp.Basic)]
+    statements = [
+        statement
+        for statement in section.statements
+        if isinstance(statement, Statement) and isinstance(statement.value, sp.Basic)
+    ]
     if len(statements) < len(section.statements):
-        return section, before
-    places = {s.target: k for k, s in enumerate(statements)}
-    needs: list[frozenset[int]] = []  # earlier statements that each one reads, directly or not
-    for k, s in enumerate(statements):
-        reads = s.value.free_symbols if isinstance(s.value, sp.Basic) else set()
-        direct = [places[x.name] for x in reads if places.get(x.name, k) < k]
-        needs.append(frozenset(direct).union(*(needs[j] for j in direct)))
-    turned = [k for k, s in enumerate(statements) if _angle(s) is not None]
-    turned = [k for k in turned if not needs[k] & set(turned)]
-    angles = list(dict.fromkeys(a for k in turned if (a := _angle(statements[k])) is not None))
+        return section, n_groups
+    index_by_target = {statement.target: k for k, statement in enumerate(statements)}
+    dependencies: list[frozenset[int]] = []  # earlier statements that each one reads, directly or not
+    for k, statement in enumerate(statements):
+        read_symbols = statement.value.free_symbols if isinstance(statement.value, sp.Basic) else set()
+        read_indices = [
+            index_by_target[symbol.name] for symbol in read_symbols if index_by_target.get(symbol.name, k) < k
+        ]
+        dependencies.append(frozenset(read_indices).union(*(dependencies[index] for index in read_indices)))
+    trigonometric = [k for k, statement in enumerate(statements) if _find_angle(statement) is not None]
+    trigonometric = [k for k in trigonometric if not dependencies[k] & set(trigonometric)]
+    angles = list(dict.fromkeys(a for k in trigonometric if (a := _find_angle(statements[k])) is not None))
     if not angles:
-        return section, before
-    early = frozenset[int]().union(*(needs[k] for k in turned))
-    first = [s for k, s in enumerate(statements) if k in early]
-    rest = [s for k, s in enumerate(statements) if k not in early and k not in turned]
-    used = [statements[k] for k in turned]
-    lines, after = written(angles, used, before)
-    return Section(section.title, (*first, *lines, *rest)), after
+        return section, n_groups
+    early_indices = frozenset[int]().union(*(dependencies[k] for k in trigonometric))
+    early_statements = [statement for k, statement in enumerate(statements) if k in early_indices]
+    late_statements = [
+        statement for k, statement in enumerate(statements) if k not in early_indices and k not in trigonometric
+    ]
+    replaced = [statements[k] for k in trigonometric]
+    lines, n_after = make_lines(angles, replaced, n_groups)
+    return Section(section.title, (*early_statements, *lines, *late_statements)), n_after
 
 
-def _vectors(angles: Sequence[sp.Symbol], used: Sequence[Statement], before: int) -> tuple[list[Line], int]:
-    """Return the lines for groups of four angles, and the statements that read the results.
+def _make_vectors(
+    angles: Sequence[sp.Symbol], statements: Sequence[Statement], n_vectors: int
+) -> tuple[list[Line], int]:
+    """Return the lines that compute sines and cosines in vectors of four angles, and the new number of vectors.
 
-    More than MANY groups are computed in a loop, which is shorter.
+    The lines end with `statements`, which computed them one by one and now read the vectors. `n_vectors`: their number
+    so far. More than _MAX_VECTORS vectors are computed in a loop.
     """
-    named = [*angles, *[angles[-1]] * (-len(angles) % 4)]
-    count = len(named) // 4
-    many, of = count > MANY, f"of_{before}" if before else "of"
-    if many:
-        lines: list[Line] = [Sines(tuple(named), of, count)]
+    padded = [*angles, *[angles[-1]] * (-len(angles) % 4)]
+    count = len(padded) // 4
+    in_loop, suffix = count > _MAX_VECTORS, f"of_{n_vectors}" if n_vectors else "of"
+    if in_loop:
+        lines: list[Line] = [Sines(tuple(padded), suffix, count)]
     else:
-        lines = [Sines(tuple(named[4 * n : 4 * n + 4]), str(before + n)) for n in range(count)]
-    places = {angle: k for k, angle in enumerate(angles)}
-    for s in used:
-        n, lane = divmod(places[_angle(s)], 4)
-        which = "cosines" if isinstance(s.value, sp.cos) else "sines"
-        vector = Place(f"{which}_{of}")[n] if many else Place(f"{which}_{before + n}")
-        lines.append(replace(s, value=vector[lane]))
-    return lines, before + count
+        lines = [Sines(tuple(padded[4 * n : 4 * n + 4]), str(n_vectors + n)) for n in range(count)]
+    index_by_angle = {angle: k for k, angle in enumerate(angles)}
+    for statement in statements:
+        n, lane = divmod(index_by_angle[_find_angle(statement)], 4)
+        array = "cosines" if isinstance(statement.value, sp.cos) else "sines"
+        vector = Place(f"{array}_{suffix}")[n] if in_loop else Place(f"{array}_{n_vectors + n}")
+        lines.append(replace(statement, value=vector[lane]))
+    return lines, n_vectors + count
 
 
-def _lanes(angles: Sequence[sp.Symbol], used: Sequence[Statement], before: int) -> tuple[list[Line], int]:
-    """Return one call for each angle, and the statements that read the results."""
-    place = {angle: k for k, angle in enumerate(angles, before)}
-    lines: list[Line] = [Sines((angle,), str(k), lanes=True) for angle, k in place.items()]
-    for s in used:
-        which = "cosines" if isinstance(s.value, sp.cos) else "sines"
-        lines.append(replace(s, value=Place(f"{which}_{place[_angle(s)]}")))
-    return lines, before + len(place)
+def _make_lane_calls(
+    angles: Sequence[sp.Symbol], statements: Sequence[Statement], n_angles: int
+) -> tuple[list[Line], int]:
+    """Return a call for each angle, the statements that read its results, and the new number of angles.
+
+    `statements`: those that computed the cosines and sines one by one; `n_angles`: the number of angles so far.
+    """
+    index_by_angle = {angle: k for k, angle in enumerate(angles, n_angles)}
+    lines: list[Line] = [Sines((angle,), str(k), lanes=True) for angle, k in index_by_angle.items()]
+    for statement in statements:
+        array = "cosines" if isinstance(statement.value, sp.cos) else "sines"
+        lines.append(replace(statement, value=Place(f"{array}_{index_by_angle[_find_angle(statement)]}")))
+    return lines, n_angles + len(index_by_angle)

@@ -1,8 +1,8 @@
 """Division of a long function into parts that a compiler can handle.
 
 Compilers allocate registers for a function as a whole, in more than linear time: the dynamics of 64 four-bars as one
-function of ten thousand statements would take gcc a minute. So a kernel longer than LONG becomes several of PART
-statements, called one after the other. A value that one part computes and another reads is passed through an array,
+function of ten thousand statements would take gcc a minute. So a kernel of more than 850 lines becomes several of
+250 statements, called one after the other. A value that one part computes and another reads is passed through an array,
 under the same name in both. Shorter kernels, that is all except long chains, stay as they are.
 Runs of plain statements and of tests of pivots are divided. Lines that declare, call or jump stay in the function
 itself, and so do lines that read names which only such lines know.
@@ -37,49 +37,54 @@ from gudgeon.generator.symbols.storage import Place
 
 
 def nearby(reads: Sequence[frozenset[str]], defines: Sequence[str]) -> list[int]:
-    """Return an order of statements in which each is near those that read it.
+    """Return an order of statements in which each is near those that read it, as a list of indices.
 
-    Statement k reads the names `reads[k]` and defines `defines[k]` ("": a result or a test).
+    Statement k reads the names `reads[k]` and defines `defines[k]` ("": a result or a test). Each follows the
+    statements that it reads.
     """
-    home = {name: k for k, name in enumerate(defines) if name}
-    needs = [{home[name] for name in names if name in home} - {k} for k, names in enumerate(reads)]
+    index_by_name = {name: k for k, name in enumerate(defines) if name}
+    dependencies = [
+        {index_by_name[name] for name in names if name in index_by_name} - {k} for k, names in enumerate(reads)
+    ]
     readers: list[list[int]] = [[] for _ in reads]
-    for k, own in enumerate(needs):
-        for j in own:
-            readers[j].append(k)
+    for k, needed in enumerate(dependencies):
+        for operand in needed:
+            readers[operand].append(k)
     order: list[int] = []
-    missing = [len(own) for own in needs]
-    placed = [False] * len(reads)
+    n_missing = [len(needed) for needed in dependencies]
+    is_placed = [False] * len(reads)
 
-    def place(first: int) -> None:
-        """Append a statement and those that can be computed after it."""
-        ready = [first]
-        while ready:
-            k = ready.pop()
-            if placed[k]:
+    def append_with_ready(start: int) -> None:
+        """Append statement `start` to the order, then all statements whose last missing operand it defines."""
+        ready_indices = [start]
+        while ready_indices:
+            k = ready_indices.pop()
+            if is_placed[k]:
                 continue
-            placed[k] = True
+            is_placed[k] = True
             order.append(k)
             for reader in readers[k]:
-                missing[reader] -= 1
-            ready += [reader for reader in reversed(readers[k]) if not missing[reader] and not placed[reader]]
+                n_missing[reader] -= 1
+            ready_indices += [
+                reader for reader in reversed(readers[k]) if not n_missing[reader] and not is_placed[reader]
+            ]
 
-    expected = [k for k, following in enumerate(readers) if not following]
-    for root in expected:
-        waiting = [root]
-        while waiting:
-            k = waiting[-1]
-            pulled = [j for j in sorted(needs[k], reverse=True) if not placed[j]]
-            if pulled and not placed[k]:
-                waiting += pulled
+    roots = [k for k, following in enumerate(readers) if not following]
+    for root in roots:
+        pending = [root]
+        while pending:
+            k = pending[-1]
+            operands = [operand for operand in sorted(dependencies[k], reverse=True) if not is_placed[operand]]
+            if operands and not is_placed[k]:
+                pending += operands
                 continue
-            waiting.pop()
-            if not placed[k]:
-                place(k)
+            pending.pop()
+            if not is_placed[k]:
+                append_with_ready(k)
     return order
 
 
-LONG, PART, SHORTEST = 850, 250, 60
+_MAX_LINES, _MAX_PART_LINES, _MIN_PART_LINES = 850, 250, 60
 
 
 @dataclass(frozen=True)
@@ -98,153 +103,180 @@ class Item:
 
 
 def cut(kernel: Kernel) -> tuple[Kernel, ...]:
-    """Return the parts of a long kernel and the function that calls them; a short kernel is its only part."""
-    if sum(len(section.statements) for section in kernel.sections) <= LONG:
+    """Return the parts of a long kernel and, last, the function that calls them.
+
+    A kernel of at most _MAX_LINES lines, or one without enough movable lines, is returned unchanged as the only
+    element.
+    """
+    if sum(len(section.statements) for section in kernel.sections) <= _MAX_LINES:
         return (kernel,)
-    items, sources = _items(kernel)
-    pieces = _pieces(items)
+    items, copies = _list_lines(kernel)
+    pieces = _divide_lines(items)
     if not any(map(_is_part, pieces)):
         return (kernel,)
-    shared = tuple(source(name, kind) for name, kind in _arrays(kernel).items())
-    passed = _unused_name("passed", items)
-    slots = _slots(pieces)
-    cut_up = _Cut(replace(kernel, arguments=(*kernel.arguments, *shared)), slots, passed, sources)
+    added_arguments = tuple(source(name, kind) for name, kind in _find_sine_arrays(kernel).items())
+    array_name = _unused_name("passed", items)
+    parameter_table = _number_passed_locals(pieces)
+    splitter = _Splitter(
+        replace(kernel, arguments=(*kernel.arguments, *added_arguments)), parameter_table, array_name, copies
+    )
     title = "values that pass between the parts"
-    main = [Item(title, Declare(Number.REAL, passed, (max(len(slots), 1),)), frozenset(), False)]
+    main_items = [Item(title, Declare(Number.REAL, array_name, (max(len(parameter_table), 1),)), frozenset(), False)]
     parts: list[Kernel] = []
     stored: set[str] = set()
     for k, piece in enumerate(pieces):
         if not _is_part(piece):
-            main += piece
+            main_items += piece
             continue
-        needs = {n for item in piece for n in item.reads if n in slots}
-        own = {item.defines for item in piece}
-        ready = {item.defines for item in main if item.defines}
-        main += [cut_up.store(name) for name in sorted((needs - own) & ready - stored, key=slots.__getitem__)]
-        stored |= needs & ready
+        passed_reads = {name_ for item in piece for name_ in item.reads if name_ in parameter_table}
+        defined = {item.defines for item in piece}
+        available = {item.defines for item in main_items if item.defines}
+        main_items += [
+            splitter.store(name)
+            for name in sorted((passed_reads - defined) & available - stored, key=parameter_table.__getitem__)
+        ]
+        stored |= passed_reads & available
         name = f"{kernel.name}_part_{len(parts) + 1}"
-        parts.append(cut_up.part(name, piece))
-        rest = {n for other in pieces[k + 1 :] if not _is_part(other) for item in other for n in item.reads}
-        main += cut_up.call(name, piece, rest)
-        stored |= own & set(slots)
-    return (*parts, replace(kernel, sections=_sections(_with_sources(main, sources))))
+        parts.append(splitter.part(name, piece))
+        later_reads = {
+            name_ for later in pieces[k + 1 :] if not _is_part(later) for item in later for name_ in item.reads
+        }
+        main_items += splitter.call(name, piece, later_reads)
+        stored |= defined & set(parameter_table)
+    return (*parts, replace(kernel, sections=_group_sections(_insert_sources(main_items, copies))))
 
 
-def _items(kernel: Kernel) -> tuple[list[Item], dict[str, Item]]:
-    """Return all lines in order except sources, and the sources by name.
+def _list_lines(kernel: Kernel) -> tuple[list[Item], dict[str, Item]]:
+    """Return all lines of a kernel in order, except sources, and the sources by name.
 
-    A source copies an argument to a local; each part reads the argument again where it needs it.
+    A source copies an argument to a local; each part reads the argument again where it needs it. A line after a jump,
+    or one that reads names known to unmovable lines only, is not movable.
     """
-    listed = [(section.title, what) for section in kernel.sections for what in section.statements]
+    titled_lines = [(section.title, line) for section in kernel.sections for line in section.statements]
     constant = {argument.name for argument in kernel.arguments if argument.access in (Access.CONSTANT, Access.READ)}
-    constant |= set(_arrays(kernel))
-    known = {what.defines for _, what in listed} | {argument.name for argument in kernel.arguments} | constant
-    fixed = {name for _, what in listed if not _is_plain(what) for name in what.reads | what.writes} - known
+    constant |= set(_find_sine_arrays(kernel))
+    known_names = (
+        {line.defines for _, line in titled_lines} | {argument.name for argument in kernel.arguments} | constant
+    )
+    unmovable_names = {
+        name for _, line in titled_lines if not _is_movable_line(line) for name in line.reads | line.writes
+    } - known_names
     items: list[Item] = []
-    sources: dict[str, Item] = {}
-    jumped = False
-    for title, what in listed:
-        reads = what.reads | what.writes
-        item = Item(title, what, reads, _is_plain(what) and not jumped and not reads & fixed)
-        jumped = jumped or isinstance(what, Jump)
-        if _source_of(what) in constant:
-            sources[item.defines] = item
+    copies: dict[str, Item] = {}
+    is_after_jump = False
+    for title, line in titled_lines:
+        reads = line.reads | line.writes
+        item = Item(title, line, reads, _is_movable_line(line) and not is_after_jump and not reads & unmovable_names)
+        is_after_jump = is_after_jump or isinstance(line, Jump)
+        if _find_copied_argument(line) in constant:
+            copies[item.defines] = item
         else:
             items.append(item)
-    return items, sources
+    return items, copies
 
 
-def _is_plain(what: Line) -> bool:
-    """Return whether a line is a statement or a test of a pivot, which may stand in a part."""
-    return isinstance(what, (Statement, Guard))
+def _is_movable_line(line: Line) -> bool:
+    """Return whether a line is a statement or a test of a pivot, which may be moved to a part."""
+    return isinstance(line, (Statement, Guard))
 
 
-def _source_of(what: Line) -> str:
-    """Return the argument or array that a local is a copy of; "" if it is not one."""
-    return what.value.base if isinstance(what, Statement) and what.defines and isinstance(what.value, Place) else ""
+def _find_copied_argument(line: Line) -> str:
+    """Return the name of the argument or array that a statement copies to a local; "" for other lines."""
+    return line.value.base if isinstance(line, Statement) and line.defines and isinstance(line.value, Place) else ""
 
 
-def _arrays(kernel: Kernel) -> dict[str, str]:
-    """Return the arrays of cosines and sines that the function fills before its parts read them, with their type."""
-    lines = [what for section in kernel.sections for what in section.statements]
-    return {name: "Four" for what in lines if isinstance(what, Sines) and what.count for name in what.arrays}
+def _find_sine_arrays(kernel: Kernel) -> dict[str, str]:
+    """Return the arrays of sines and cosines that a loop of the function fills, by name.
+
+    The value is the type of their elements.
+    """
+    lines = [line for section in kernel.sections for line in section.statements]
+    return {name: "Four" for line in lines if isinstance(line, Sines) and line.count for name in line.arrays}
 
 
-def _pieces(items: Sequence[Item]) -> list[list[Item]]:
-    """Return runs of movable lines, each divided into equal pieces of at most PART, and other lines as they stand."""
+def _divide_lines(items: Sequence[Item]) -> list[list[Item]]:
+    """Return the lines in pieces: runs of movable lines in equal pieces, other lines between them.
+
+    A piece has at most _MAX_PART_LINES lines; a run shorter than _MIN_PART_LINES becomes unmovable.
+    """
     pieces = []
     for movable, group in groupby(items, key=lambda item: item.movable):
-        run = _near(list(group))
-        if movable and len(run) >= SHORTEST:
-            count = -(-len(run) // PART)
-            size = -(-len(run) // count)
-            pieces += [run[k : k + size] for k in range(0, len(run), size)]
+        lines = _order_nearby(list(group))
+        if movable and len(lines) >= _MIN_PART_LINES:
+            n_pieces = -(-len(lines) // _MAX_PART_LINES)
+            size = -(-len(lines) // n_pieces)
+            pieces += [lines[k : k + size] for k in range(0, len(lines), size)]
         else:
-            pieces.append([replace(item, movable=False) for item in run])
+            pieces.append([replace(item, movable=False) for item in lines])
     return pieces
 
 
 def _is_part(piece: Sequence[Item]) -> bool:
-    """Return whether a piece becomes a function of its own."""
+    """Return whether a piece of lines becomes a function of its own: its lines are movable."""
     return piece[0].movable
 
 
-def _slots(pieces: Sequence[Sequence[Item]]) -> dict[str, int]:
-    """Return an index for every local that one piece computes and another reads, in the order of computation."""
-    home = {item.defines: k for k, piece in enumerate(pieces) for item in piece if item.defines}
-    crossing = {
+def _number_passed_locals(pieces: Sequence[Sequence[Item]]) -> dict[str, int]:
+    """Return an array index for every local that one piece computes and another reads, in the order of computation.
+
+    Pieces that stay in the calling function exchange nothing through the array.
+    """
+    piece_of_local = {item.defines: k for k, piece in enumerate(pieces) for item in piece if item.defines}
+    passed_names = {
         name
         for k, piece in enumerate(pieces)
         for item in piece
         for name in item.reads
-        if name in home and home[name] != k and (_is_part(piece) or _is_part(pieces[home[name]]))
+        if name in piece_of_local
+        and piece_of_local[name] != k
+        and (_is_part(piece) or _is_part(pieces[piece_of_local[name]]))
     }
-    return {name: slot for slot, name in enumerate(name for name in home if name in crossing)}
+    return {name: index for index, name in enumerate(name for name in piece_of_local if name in passed_names)}
 
 
 def _unused_name(name: str, items: Sequence[Item]) -> str:
-    """Return the name with underscores appended until no line uses it."""
-    used = {n for item in items for n in (*item.reads, item.defines)}
-    while name in used:
+    """Return the name with underscores appended until no line of `items` reads or defines it."""
+    used_names = {read_name for item in items for read_name in (*item.reads, item.defines)}
+    while name in used_names:
         name += "_"
     return name
 
 
-def _near(run: list[Item]) -> list[Item]:
-    """Return lines in the order of `nearby`, unless one reads an array that another writes."""
-    written = frozenset().union(*(item.what.writes for item in run))
-    if any(written & item.what.reads for item in run):
-        return run
-    return [run[k] for k in nearby([item.reads for item in run], [item.defines for item in run])]
+def _order_nearby(items: list[Item]) -> list[Item]:
+    """Return the lines in the order of `nearby`, or unchanged if one reads an array that another writes."""
+    written_arrays = frozenset().union(*(item.what.writes for item in items))
+    if any(written_arrays & item.what.reads for item in items):
+        return items
+    return [items[k] for k in nearby([item.reads for item in items], [item.defines for item in items])]
 
 
-def _load(name: str, place: Place) -> Item:
-    """Return the line that reads a local back from its place."""
+def _make_load(name: str, place: Place) -> Item:
+    """Return the line that reads a local from its element of the array of passed values."""
     return Item("values from the part", Statement(name, place), place.names, False)
 
 
-def _with_sources(main: Sequence[Item], sources: dict[str, Item]) -> list[Item]:
+def _insert_sources(items: Sequence[Item], copies: dict[str, Item]) -> list[Item]:
     """Return the lines of the calling function with the sources that it reads inserted.
 
-    Arguments are read first of all, arrays after the line that fills them. The reading line itself may be in a block or
-    after a label.
+    Arguments are read first of all, arrays after the line that fills them, because the reading line may be in a block
+    or after a label.
     """
-    needed = [item for name, item in sources.items() if any(name in other.reads for other in main)]
-    filled = {name for item in main for name in _filled(item.what)}
-    found = [item for item in needed if not item.reads & filled]
-    for item in main:
-        found.append(item)
-        found += [source for source in needed if source.reads & _filled(item.what)]
-    return found
+    needed_copies = [item for name, item in copies.items() if any(name in item_.reads for item_ in items)]
+    filled_arrays = {name for item in items for name in _find_filled_arrays(item.what)}
+    result = [item for item in needed_copies if not item.reads & filled_arrays]
+    for item in items:
+        result.append(item)
+        result += [copy_ for copy_ in needed_copies if copy_.reads & _find_filled_arrays(item.what)]
+    return result
 
 
-def _filled(what: Line) -> set[str]:
-    """Return the arrays of cosines and sines that a line fills in a loop."""
-    return set(what.arrays) if isinstance(what, Sines) and what.count else set()
+def _find_filled_arrays(line: Line) -> set[str]:
+    """Return the names of the arrays of sines and cosines that a line fills in a loop; empty for other lines."""
+    return set(line.arrays) if isinstance(line, Sines) and line.count else set()
 
 
 @dataclass(frozen=True)
-class _Cut:
+class _Splitter:
     """A kernel with the arguments of its parts, the places of passed values, and the sources."""
 
     kernel: Kernel
@@ -253,61 +285,73 @@ class _Cut:
     sources: dict[str, Item]
 
     def store(self, name: str) -> Item:
-        """Return the line of a part that stores a local for others."""
+        """Return the line that stores a local in the array of passed values."""
         statement = Statement(Place(self.passed)[self.slots[name]], Place(name))
         return Item("values for later parts", statement, frozenset({name}), False)
 
     def load(self, name: str) -> Item:
-        """Return the line that reads a local of an earlier part."""
-        return _load(name, Place(self.passed)[self.slots[name]])
+        """Return the line that reads a local of an earlier part from the array of passed values."""
+        return _make_load(name, Place(self.passed)[self.slots[name]])
 
     def part(self, name: str, piece: list[Item]) -> Kernel:
-        """Return one part as a function: values of other parts, its own lines, values for other parts."""
-        own = {item.defines for item in piece}
-        tested = any(isinstance(item.what, Guard) for item in piece)
-        within: list[Item] = []
-        known = set(own)
+        """Return one part as a function.
+
+        It reads values of other parts, executes its lines, and stores values for other parts. It returns a status if it
+        tests a pivot.
+        """
+        defined = {item.defines for item in piece}
+        has_test = any(isinstance(item.what, Guard) for item in piece)
+        lines: list[Item] = []
+        known_names = set(defined)
         for item in piece:
-            for needed in sorted(item.reads - known):
-                if needed in self.sources or needed in self.slots:
-                    read = self.sources[needed] if needed in self.sources else self.load(needed)
-                    within.append(replace(read, title=item.title))
-                    known.add(needed)
-            within.append(replace(item, what=replace(item.what, jumps=False)) if isinstance(item.what, Guard) else item)
+            for name_ in sorted(item.reads - known_names):
+                if name_ in self.sources or name_ in self.slots:
+                    reading_line = self.sources[name_] if name_ in self.sources else self.load(name_)
+                    lines.append(replace(reading_line, title=item.title))
+                    known_names.add(name_)
+            lines.append(replace(item, what=replace(item.what, jumps=False)) if isinstance(item.what, Guard) else item)
             if item.defines in self.slots:
-                within.append(replace(self.store(item.defines), title=item.title))
-        end = [Item("", Return(), frozenset(), False)] if tested else []
+                lines.append(replace(self.store(item.defines), title=item.title))
+        end_lines = [Item("", Return(), frozenset(), False)] if has_test else []
         return Kernel(
             name,
             (f"A part of `{self.kernel.name}`, which calls it.",),
             (*self.kernel.arguments, result(self.passed)),
-            _sections([*within, *end]),
-            tested,
+            _group_sections([*lines, *end_lines]),
+            has_test,
             attribute="noinline",
             names=self.kernel.names,
         )
 
-    def call(self, name: str, piece: list[Item], rest: set[str]) -> list[Item]:
-        """Return the lines that call a part, read its values and end the function if a test failed."""
+    def call(self, name: str, piece: list[Item], later_reads: set[str]) -> list[Item]:
+        """Return the lines of the calling function that call part `name` and read its values.
+
+        `later_reads`: the names that later lines of the calling function read. If the part tests pivots, its status
+        ends the function or jumps.
+        """
         arguments = tuple(Place(argument.name) for argument in self.kernel.arguments)
         call = Call(name, arguments, (Place(self.passed),))
         tests = [item.what for item in piece if isinstance(item.what, Guard)]
-        loads = [self.load(n) for n in self.slots if n in rest and n in {item.defines for item in piece}]
+        loads = [
+            self.load(local)
+            for local in self.slots
+            if local in later_reads and local in {item.defines for item in piece}
+        ]
         lines: list[Line] = [call]
-        after: list[Line] = []
+        status_lines: list[Line] = []
         if tests:
             jumps = tests[0].jumps
             status = "pivot" if jumps else f"status_{name.rpartition('_')[2]}"
-            lines, after = [AssignStatus(call, status)], [ReturnIfFailed(status, jumps)]
+            lines, status_lines = [AssignStatus(call, status)], [ReturnIfFailed(status, jumps)]
         title = piece[0].title
         return [
             *(Item(title, line, frozenset(), False) for line in lines),
             *loads,
-            *(Item("values from the part", line, frozenset(), False) for line in after),
+            *(Item("values from the part", line, frozenset(), False) for line in status_lines),
         ]
 
 
-def _sections(items: Sequence[Item]) -> tuple[Section, ...]:
-    """Return lines grouped into sections by their titles."""
+def _group_sections(items: Sequence[Item]) -> tuple[Section, ...]:
+    """Return the lines as sections; successive lines with the same title form one section."""
     grouped = ((title, tuple(item.what for item in group)) for title, group in groupby(items, key=lambda i: i.title))
     return tuple(Section(title, statements) for title, statements in grouped)

@@ -22,17 +22,17 @@ class Line:
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """Return all SymPy expressions that are read."""
+        """Return all SymPy expressions that the line reads, in a tuple; empty for lines without any."""
         return ()
 
     @property
     def names(self) -> Names:
-        """Return all other names that are read."""
+        """Return the names that the line reads apart from those in its expressions."""
         return NONE
 
     @cached_property
     def reads(self) -> Names:
-        """Return all names that are read."""
+        """Return all names that the line reads: in expressions and elsewhere."""
         return self.names.union(*map(names_in, self.expressions))
 
 
@@ -75,7 +75,7 @@ class Declare(Line):
 
     @property
     def writes(self) -> Names:  # type: ignore[override]
-        """Return the array, which no other function sees."""
+        """Return the name of the array, which is local to the function."""
         return frozenset([self.name])
 
 
@@ -119,12 +119,12 @@ class Guard(Line):
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """Return the expressions in the tests."""
+        """Return the expressions in the test or call, and those of the condition `only` if there is one."""
         return (*self.test.expressions, *(self.only.expressions if self.only else ()))
 
     @property
     def names(self) -> Names:
-        """Return the names in the test or call."""
+        """Return the names that the test or call reads, and those that a call writes."""
         return self.test.names | (self.test.writes if isinstance(self.test, Call) else NONE)
 
 
@@ -206,9 +206,12 @@ class Rescue(Line):
 
     @property
     def names(self) -> Names:
-        """Return the arguments that the solution reads."""
-        own = () if self.force else ("v",)
-        return frozenset(["t", "q", "discrete", PARAMETERS, "a", "rhs", *own])
+        """Return the names of the arguments that the solution of the dependent equations reads.
+
+        Without forces it also reads `v`.
+        """
+        velocities = () if self.force else ("v",)
+        return frozenset(["t", "q", "discrete", PARAMETERS, "a", "rhs", *velocities])
 
 
 @dataclass(frozen=True)
@@ -263,9 +266,12 @@ class Branches(Line):
 
     @property
     def names(self) -> Names:
-        """Return the names that the declaration reads."""
-        message = {"": [], "nobody": ["g"], "rhs": ["g", "rhs"]}[self.message]
-        return frozenset(["branch", *message, *(["discrete"] if self.held else [])])
+        """Return the names that the declaration reads.
+
+        These are `branch`, the outputs for switching functions, and `discrete` if branches are held.
+        """
+        outputs = {"": [], "nobody": ["g"], "rhs": ["g", "rhs"]}[self.message]
+        return frozenset(["branch", *outputs, *(["discrete"] if self.held else [])])
 
 
 @dataclass(frozen=True)
@@ -296,10 +302,10 @@ class Sines(Line):
 
     @property
     def arrays(self) -> tuple[str, str]:
-        """Return the names of the arrays of sines and cosines."""
+        """Return the names of the arrays of sines and of cosines, in this order."""
         return f"sines_{self.suffix}", f"cosines_{self.suffix}"
 
     @property
     def writes(self) -> Names:  # type: ignore[override]
-        """Return the names of the vectors."""
+        """Return the names of the arrays of angles, sines and cosines."""
         return frozenset([f"angles_{self.suffix}", *self.arrays])

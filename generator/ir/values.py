@@ -22,7 +22,10 @@ NONE: Names = frozenset()
 
 @lru_cache(20_000)
 def names_in(value: sp.Basic) -> Names:
-    """Return the names that an expression reads: locals and arguments; for a branch also `branch` and `g`."""
+    """Return the names that an expression reads: locals and arguments; with a `BranchOf` also `branch` and `g`.
+
+    A symbol of a place counts as the argument that contains it. Results are cached.
+    """
     names = frozenset(s.place.base if isinstance(s, PlaceSymbol) else s.name for s in symbols_of(value))
     return names | ({"branch", "g"} if value.has(BranchOf) else NONE)
 
@@ -34,10 +37,10 @@ class Threshold(float):
     place: Place | None
 
     def __new__(cls, name: str, value: float, place: Place | None = None) -> Threshold:
-        """Return the threshold of a value."""
-        own = super().__new__(cls, value)
-        own.name, own.place = name, place
-        return own
+        """Return the number with the name under which targets write it, and the place from which C may read it."""
+        threshold = super().__new__(cls, value)
+        threshold.name, threshold.place = name, place
+        return threshold
 
 
 @dataclass(frozen=True)
@@ -51,7 +54,10 @@ class Test:
 
     @property
     def names(self) -> Names:
-        """Return the arguments from which thresholds are read; none if the bound is a fraction of the value itself."""
+        """Return the names of the arguments from which thresholds in the bound are read.
+
+        There are none if the bound is a fraction of the value itself.
+        """
         if self.of_itself:
             return NONE
         return frozenset(x.place.base for x in self.bound if isinstance(x, Threshold) and x.place)
@@ -63,7 +69,10 @@ class Test:
 
     @property
     def of_itself(self) -> bool:
-        """Return whether the bound is a fraction of the value itself: the test is value > 0 and finite."""
+        """Return whether the bound is a fraction, between 0 and 1, of the value itself.
+
+        The test then means value > 0 and finite.
+        """
         if self.relation != ">" or len(self.bound) != 2 or not isinstance(self.bound[0], float):
             return False
         return 0 < self.bound[0] < 1 and self.bound[1] == (Size(self.value) if self.size else self.value)

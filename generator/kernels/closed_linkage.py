@@ -18,14 +18,15 @@ from gudgeon.generator.symbols.storage import Place
 def prepare_kernel(model: Model) -> Kernel:
     """Return the C function that fills the parameter table of a run.
 
-    Values that are given replace the defaults of the file; then the derived parameters are computed from them.
+    Values that are given replace the defaults of the file; then the derived parameters are computed from them. It must
+    be made after all parameters have been derived.
     """
-    slots: list[Statement] = []
+    parameters: list[Statement] = []
     info = model.symbols.info
-    for i, entry in enumerate(model.slots.entries.values()):
-        message = f"{entry.address}, from 0: {', '.join(entry.words)}" if entry.words else entry.address
-        slots.append(Statement(entry.symbol.name, Defaulted(i, entry.value), message))
-        slots.append(Statement(model.slots.place(entry.symbol), entry.symbol))
+    for index, entry in enumerate(model.slots.entries.values()):
+        comment = f"{entry.address}, from 0: {', '.join(entry.words)}" if entry.words else entry.address
+        parameters.append(Statement(entry.symbol.name, Defaulted(index, entry.value), comment))
+        parameters.append(Statement(model.slots.place(entry.symbol), entry.symbol))
     derived: list[Statement] = []
     for symbol, value in model.slots.derived.items():
         derived.append(Statement(symbol.name, value, info[symbol].meaning))
@@ -34,12 +35,12 @@ def prepare_kernel(model: Model) -> Kernel:
         "prepare",
         ("Fill all parameters of a run: given values or defaults, then derived parameters.",),
         (source("given"), source("is_given", Number.BYTE), result(PARAMETERS.name, PARAMETERS.type)),
-        (Section("slots", tuple(slots)), Section("derived", tuple(derived))),
+        (Section("slots", tuple(parameters)), Section("derived", tuple(derived))),
     )
 
 
 def mass_kernel(model: Model) -> Kernel:
-    """Return the C function that writes the diagonal of the mass matrix M in absolute coordinates."""
+    """Return the C function that writes the diagonal of the mass matrix M in absolute coordinates to `m` (n)."""
     build = KernelBuilder(
         model.symbols, "mass_matrix", ["The diagonal of the mass matrix M (n) in absolute coordinates."]
     )
@@ -52,23 +53,30 @@ def mass_kernel(model: Model) -> Kernel:
 def row_kernels(model: Model) -> list[Kernel]:
     """Return the C functions of the constraint equations of the closed linkage: Φ, Φ_q (dense, row by row), ν and γ."""
 
-    def kernel(name: str, doc: str, out: str, velocity: bool, value: Callable[[Row], sp.Expr], per: str = "") -> Kernel:
-        """Return the C function `name` that writes one value of each constraint equation to the array `out`.
+    def kernel(
+        name: str, doc: str, array: str, velocity: bool, value: Callable[[Row], sp.Expr], unit_suffix: str = ""
+    ) -> Kernel:
+        """Return the C function `name` that writes one value of each constraint equation to the array `array`.
 
-        `velocity`: the value depends on velocities; `per`: suffix of the unit, such as "/s".
+        `doc`: its comment; `velocity`: the value depends on velocities; `value` returns it; `unit_suffix`: suffix of
+        the unit, such as "/s".
         """
         build = KernelBuilder(model.symbols, name, [doc])
         build.section("rows")
-        for r, row in enumerate(model.all_rows):
-            build.out(Place(out)[r], value(row), f"{row.name}, {row.unit}{per}{_absence(model, row)}")
-        arguments = (*STATE, PARAMETERS, result(out))
+        for row_index, row in enumerate(model.all_rows):
+            build.out(
+                Place(array)[row_index],
+                value(row),
+                f"{row.name}, {row.unit}{unit_suffix}{_describe_absence(model, row)}",
+            )
+        arguments = (*STATE, PARAMETERS, result(array))
         return build.build(arguments if velocity else (*STATE[:2], *arguments[3:]))
 
-    which = " Rows marked 'open' or 'redundant' do not constrain the motion."
-    which *= any(_absence(model, row) for row in model.all_rows)
+    note = " Rows marked 'open' or 'redundant' do not constrain the motion."
+    note *= any(_describe_absence(model, row) for row in model.all_rows)
     return [
-        kernel("constraints", f"Phi(q, t) of the closed linkage; m and rad.{which}", "phi", False, lambda row: row.phi),
-        _jacobian_kernel(model),
+        kernel("constraints", f"Phi(q, t) of the closed linkage; m and rad.{note}", "phi", False, lambda row: row.phi),
+        _make_jacobian_kernel(model),
         kernel(
             "velocity_rhs",
             "Right-hand side nu = -Phi_t of the velocity constraints Phi_q v = nu (closed linkage).",
@@ -88,32 +96,38 @@ def row_kernels(model: Model) -> list[Kernel]:
     ]
 
 
-def _absence(model: Model, row: Row) -> str:
-    """Return why an equation does not constrain the motion, for its comment; "" if it does."""
+def _describe_absence(model: Model, row: Row) -> str:
+    """Return why an equation does not constrain the motion, for its comment: play or redundancy.
+
+    Return "" if it does.
+    """
     if row.owner in model.scene.play:
         return f"; open, {row.owner} has play"
     return "; redundant, left out" if row.name in model.redundancy.dropped else ""
 
 
-def _jacobian_kernel(model: Model) -> Kernel:
-    """Return the C function of the dense constraint Jacobian Φ_q of the closed linkage, without zero entries."""
+def _make_jacobian_kernel(model: Model) -> Kernel:
+    """Return the C function of the dense constraint Jacobian Φ_q of the closed linkage.
+
+    It writes the non-zero entries only.
+    """
     build = KernelBuilder(
         model.symbols,
         "jacobian",
         ["The Jacobian Phi_q of the closed linkage, dense, row by row; zero entries are not written."],
     )
     build.section("non-zeros")
-    place = {q: k for k, q in enumerate(model.q)}
-    for r, row in enumerate(model.all_rows):
+    column_of = {q: k for k, q in enumerate(model.q)}
+    for row_index, row in enumerate(model.all_rows):
         for q, value in row.phi_q.items():
-            build.out(Place("phi_q")[r * len(model.q) + place[q]], value, f"d {row.name} / d {q.name}")
+            build.out(Place("phi_q")[row_index * len(model.q) + column_of[q]], value, f"d {row.name} / d {q.name}")
     return build.build((*STATE[:2], PARAMETERS, result("phi_q")))
 
 
 def start_kernel(model: Model) -> Kernel:
     """Return the C function that writes the values of the file's `start`: guesses, set values and rates.
 
-    Those of journals follow the set values and rates of coordinates.
+    Eccentricities of journals and their rates follow those of coordinates.
     """
     build = KernelBuilder(
         model.symbols,

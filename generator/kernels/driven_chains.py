@@ -40,31 +40,46 @@ class ChainKernels:
     """
 
     def __init__(self, system: System, chain: Chain) -> None:
-        """Derive the functions of the loops in `chain`, whose coordinates follow those of `system` in q."""
+        """Derive the functions of the loops in `chain`, whose coordinates follow those of `system` in q.
+
+        The function of switching functions is made only if the drives have any; `size` scales steps of slides, 0
+        without slides.
+        """
         self.system, self.chain, self.symbols = system, chain, system.model.symbols
-        own = replace(
+        loop_system = replace(
             system, q=tuple(k.q for k in chain.known), v=tuple(k.rate for k in chain.known), rows=chain.rows, known=()
         )
-        self.square = SquareRows(own, ["." in name for name in chain.names])
+        self.square = SquareRows(loop_system, ["." in name for name in chain.names])
         self.first = len(system.q)  # of the chains' coordinates in q and v
-        raw = [pair_sines(without_unused(kernel)) for kernel in self._all()]
-        sides = [
-            s.value
-            for kernel in raw
+        kernels = [pair_sines(without_unused(kernel)) for kernel in self._make_kernels()]
+        branches = [
+            statement.value
+            for kernel in kernels
             for section in kernel.sections
-            for s in section.statements
-            if isinstance(s, Statement) and isinstance(s.value, BranchOf)
+            for statement in section.statements
+            if isinstance(statement, Statement) and isinstance(statement.value, BranchOf)
         ]
-        self.corners = self._corners(sides) if sides else None
-        self.kernels = [*map(declare_branches, raw), *([self.corners] if self.corners else [])]
-        self.size = self._extent() if any("." in name for name in chain.names) else ZERO
+        self.corners = self._make_switch_kernel(branches) if branches else None
+        self.kernels = [*map(declare_branches, kernels), *([self.corners] if self.corners else [])]
+        self.size = self._derive_extent() if any("." in name for name in chain.names) else ZERO
 
-    def _all(self) -> list[Kernel]:
-        """Return the functions of the loops in the order in which they are printed."""
-        return [self._directions(), self._step(), self._rates(), self._third()]
+    def _make_kernels(self) -> list[Kernel]:
+        """Return the functions of the loops in the order in which they are printed.
 
-    def _directions(self) -> Kernel:
-        """Return the C function of the cosines and sines of the loops' angles, which all other functions read."""
+        They compute directions, steps, rates and third rates.
+        """
+        return [
+            self._make_direction_kernel(),
+            self._make_step_kernel(),
+            self._make_rate_kernel(),
+            self._make_third_rate_kernel(),
+        ]
+
+    def _make_direction_kernel(self) -> Kernel:
+        """Return the C function of the cosines and sines of the loops' angles.
+
+        They are stored in q after the coordinates, and all other functions read them.
+        """
         build = KernelBuilder(
             self.symbols,
             DIRECTIONS,
@@ -73,21 +88,27 @@ class ChainKernels:
             ],
         )
         build.section("directions")
-        first = self.first + len(self.chain.names)
+        first_index = self.first + len(self.chain.names)
         symbols = [symbol for direction in self.chain.directions for symbol in (direction.cos, direction.sin)]
         for k, symbol in enumerate(symbols):
-            build.out(Place("out")[first + k], self.symbols.definitions[symbol], symbol.name)
+            build.out(Place("out")[first_index + k], self.symbols.definitions[symbol], symbol.name)
         return build.build((*STATE[:2], DISCRETE, PARAMETERS, result("out")), owner="")
 
-    def _extent(self) -> sp.Expr:
-        """Return the parameter that scales steps of a slide: the root of the sum of all points' squares, in m."""
-        geometry, slots = self.system.model.geometry, self.system.model.slots
+    def _derive_extent(self) -> sp.Expr:
+        """Return the length in m that scales steps of a slide, as a derived parameter.
+
+        It is the root of the sum of squares of all points' coordinates, also on the ground.
+        """
+        geometry, parameter_table = self.system.model.geometry, self.system.model.slots
         ground = map(geometry.ground_vector, self.system.model.scene.mechanism.ground.values())
         squares = [x**2 for point in (*geometry.local.values(), *ground) for x in point]
-        return slots.derive("extent", sp.sqrt(sp.Add(*squares)), "extent of all points")
+        return parameter_table.derive("extent", sp.sqrt(sp.Add(*squares)), "extent of all points")
 
-    def _step(self) -> Kernel:
-        """Return the C function of one step of Chebyshev's method towards the closures, at given coordinates."""
+    def _make_step_kernel(self) -> Kernel:
+        """Return the C function of one step of Chebyshev's method onto the closures, at given coordinates.
+
+        It also returns the part of order 3 alone and the number of the equation with the largest |Φ|.
+        """
         build = KernelBuilder(
             self.symbols,
             STEP,
@@ -99,30 +120,38 @@ class ChainKernels:
             ],
         )
         build.section("closures of the chains")
-        named = zip(self.square.names, self.chain.rows, strict=True)
-        phi = [build.local(f"phi_{name}", row.phi) for name, row in named]
+        named_rows = zip(self.square.names, self.chain.rows, strict=True)
+        phi = [build.local(f"phi_{name}", row.phi) for name, row in named_rows]
         build.section("the largest")
         build.line(LargestRow(tuple(phi)))
         solvers = self.square.factorize(build)
         build.section("Newton's step")
         newton = self.square.solve(build, solvers, phi, "newton")
         build.section("correction by the curvature of the constraints")
-        bend = self.square.solve(build, solvers, [self._curvature(row, newton) / 2 for row in self.chain.rows], "bend")
-        for k, (x, more) in enumerate(zip(newton, bend, strict=True)):
-            build.out(Place("step")[k], x + more)
-            build.out(Place("bend")[k], more)
+        correction_step = self.square.solve(
+            build, solvers, [self._compute_curvature(row, newton) / 2 for row in self.chain.rows], "bend"
+        )
+        for k, (newton_component, correction) in enumerate(zip(newton, correction_step, strict=True)):
+            build.out(Place("step")[k], newton_component + correction)
+            build.out(Place("bend")[k], correction)
         build.line(Return())
         outs = (result("step"), result("bend"), result("row", Number.INTEGER))
         return build.build((*STATE[:2], DISCRETE, PARAMETERS, *outs), status=True, owner="", prune=True)
 
-    def _curvature(self, row: Row, x: Sequence[sp.Expr]) -> sp.Expr:
-        """Return Φ_cc[x, x] of one constraint equation: its second derivative along the step x."""
-        along = dict(zip([k.q for k in self.chain.known], x, strict=True))
-        slope = sp.Add(*(entry * along[q] for q, entry in row.phi_q.items()))
-        return sp.expand(sp.Add(*(self.symbols.diff(slope, q) * step for q, step in along.items())))
+    def _compute_curvature(self, row: Row, x: Sequence[sp.Expr]) -> sp.Expr:
+        """Return Φ_cc[x, x] of one constraint equation, its second derivative along the step x.
 
-    def _rates(self) -> Kernel:
-        """Return the C function of the first and second rates ċ, c̈ at coordinates that close the loops."""
+        x has one component for each dependent coordinate.
+        """
+        step_of = dict(zip([k.q for k in self.chain.known], x, strict=True))
+        slope = sp.Add(*(entry * step_of[q] for q, entry in row.phi_q.items()))
+        return sp.expand(sp.Add(*(self.symbols.diff(slope, q) * component for q, component in step_of.items())))
+
+    def _make_rate_kernel(self) -> Kernel:
+        """Return the C function of the first and second rates ċ, c̈ at coordinates that close the loops.
+
+        They are stored in v after the other rates. It returns 0 or the number of a dependent equation.
+        """
         build = KernelBuilder(
             self.symbols,
             RATES,
@@ -133,25 +162,28 @@ class ChainKernels:
                 "Returns 0, or the number of a row that depends on others here.",
             ],
         )
-        known, rows = self.chain.known, self.chain.rows
+        dependent, rows = self.chain.known, self.chain.rows
         solvers = self.square.factorize(build)
         build.section("rates")
         rates = self.square.solve(build, solvers, [row.nu for row in rows], "rate")
-        for k, value in zip(known, rates, strict=True):  # by the name under which all expressions know it
+        for k, value in zip(dependent, rates, strict=True):  # by the name under which all expressions know it
             build.line(Statement(k.rate.name, value))
-        for symbol in self._moving():
+        for symbol in self._find_rate_symbols():
             build.line(Statement(symbol.name, self.symbols.definitions[symbol]))
         build.section("second rates")
-        second = self.square.solve(build, solvers, [row.gamma for row in rows], "second")
+        second_rates = self.square.solve(build, solvers, [row.gamma for row in rows], "second")
         build.section("results")
-        for at, (x, value) in enumerate(zip(known, second, strict=True), self.first):
-            build.out(Place("v")[at], x.rate)
-            build.out(Place("v")[at + len(known)], value)
+        for index, (coordinate, value) in enumerate(zip(dependent, second_rates, strict=True), self.first):
+            build.out(Place("v")[index], coordinate.rate)
+            build.out(Place("v")[index + len(dependent)], value)
         build.line(Return())
         return build.build((*STATE[:2], DISCRETE, PARAMETERS, result("v")), status=True, owner="", prune=True)
 
-    def _third(self) -> Kernel:
-        """Return the C function of the third rates, by forward differentiation: d/dt of γ − Φ_c c̈ at the same c̈."""
+    def _make_third_rate_kernel(self) -> Kernel:
+        """Return the C function of the third rates, by forward differentiation: d/dt of γ − Φ_c c̈ at the same c̈.
+
+        It returns 0 or the number of a dependent equation.
+        """
         build = KernelBuilder(
             self.symbols,
             THIRD,
@@ -160,48 +192,50 @@ class ChainKernels:
                 "Returns 0, or the number of a row that depends on others here.",
             ],
         )
-        known, t = self.chain.known, self.system.model.t
+        dependent, t = self.chain.known, self.system.model.t
         solvers = self.square.factorize(build)
         build.section("third rates")
         tangents = Tangents(self.symbols, build, (t,))
-        for k in known:
+        for k in dependent:
             tangents.know(k.q, {t: k.rate})
             tangents.know(k.rate, {t: k.second})
-        left = [sp.Add(row.gamma, *(-row.phi_q.get(k.q, ZERO) * k.second for k in known)) for row in self.chain.rows]
-        slopes = [tangents.gradient(value).get(t, ZERO) for value in left]
-        for at, value in enumerate(self.square.solve(build, solvers, slopes, "third")):
-            build.out(Place("out")[at], value)
+        residuals = [
+            sp.Add(row.gamma, *(-row.phi_q.get(k.q, ZERO) * k.second for k in dependent)) for row in self.chain.rows
+        ]
+        residual_rates = [tangents.gradient(value).get(t, ZERO) for value in residuals]
+        for index, value in enumerate(self.square.solve(build, solvers, residual_rates, "third")):
+            build.out(Place("out")[index], value)
         build.line(Return())
         return build.build((*STATE, DISCRETE, PARAMETERS, result("out")), status=True, owner="", prune=True)
 
-    def _moving(self) -> list[sp.Symbol]:
+    def _find_rate_symbols(self) -> list[sp.Symbol]:
         """Return the defined symbols that depend on the loops' rates but on no rate or coordinate of the system.
 
         Their definitions follow the computed rates instead of standing at the beginning of the function.
         """
         info, definitions = self.symbols.info, self.symbols.definitions
-        moving = {k.rate for k in self.chain.known}
-        others = {*self.system.v, *self.system.q}
-        found = []
+        varying = {k.rate for k in self.chain.known}
+        system_symbols = {*self.system.v, *self.system.q}
+        result = []
         for symbol in [s for s in info if s in definitions and not info[s].home]:
-            reads = definitions[symbol].free_symbols
-            if reads & others:
-                others.add(symbol)
-            elif reads & moving:
-                moving.add(symbol)
-                found.append(symbol)
-        return [symbol for symbol in found if symbol not in others]
+            read_symbols = definitions[symbol].free_symbols
+            if read_symbols & system_symbols:
+                system_symbols.add(symbol)
+            elif read_symbols & varying:
+                varying.add(symbol)
+                result.append(symbol)
+        return [symbol for symbol in result if symbol not in system_symbols]
 
-    def _corners(self, sides: Sequence[BranchOf]) -> Kernel:
-        """Return the C function of the switching functions of the loops' drives.
+    def _make_switch_kernel(self, branches: Sequence[BranchOf]) -> Kernel:
+        """Return the C function of the switching functions of the loops' drives, which no other function evaluates.
 
-        No other function evaluates these.
+        `branches`: their branches, also repeated ones.
         """
         build = KernelBuilder(self.symbols, "loop_switches", ["Switching functions of the drives of dependent loops."])
         build.section("corners")
-        for side in dict.fromkeys(sides):
-            name = f"side_{side.args[0]}"
-            build.line(Statement(name, side))
+        for branch in dict.fromkeys(branches):
+            name = f"side_{branch.args[0]}"
+            build.line(Statement(name, branch))
             build.line(Unread(name))
         kernel = build.build((*STATE[:2], DISCRETE, PARAMETERS, result("g")), owner="")
         return replace(kernel, sections=(TOLD_SIDES, *kernel.sections))

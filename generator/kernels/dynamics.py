@@ -41,8 +41,9 @@ def dynamics_kernel(
 ) -> Kernel:
     """Return the C function of q̈ and λ at a state, with the forces of joints with play.
 
-    `kkt`: the factorization to print; `rescue`: prints what is solved where a pivot vanishes.
-    Without `stabilised` the right-hand sides are γ alone and Φ, Φ̇ are not computed: for methods that project.
+    `kkt`: the factorization to print; `doc`: the function's comment. `rescue` appends the code for a vanishing pivot;
+    None: the default, which finds the dependent equations. Without `stabilised` the right-hand sides are γ alone and Φ,
+    Φ̇ are not computed: for methods that project.
     """
     model = system.model
     build = KernelBuilder(model.symbols, name, (*doc, *elimination_lines(kkt)))
@@ -56,11 +57,11 @@ def dynamics_kernel(
     if model.clearances and not stabilised:
         build.section("if a is NULL, only the joints with play are evaluated")
         build.line(JointsAlone())
-    acting, on_given = system.generalized(loads)
-    forces = [own + load for own, load in zip(system.applied, acting, strict=True)]
+    generalized_loads, prescribed_forces = system.generalized(loads)
+    forces = [applied_force + load for applied_force, load in zip(system.applied, generalized_loads, strict=True)]
     slips = _append_slips(model, build, kkt, forces)
     b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != 0}
-    b.update(_constraint_rhs(model, build, kkt, stabilised))
+    b.update(_append_constraint_rhs(model, build, kkt, stabilised))
     b.update(slips)
     # with changing constraints a vanishing pivot is reported, not handled
     factor = kkt.factorize(build) if model.has_changing_constraints else kkt.factorize(build, True, LEAST, LEAST_SIZE)
@@ -74,7 +75,7 @@ def dynamics_kernel(
     _append_half_squares(build, kkt.system, x)
     if kkt.rows and not model.has_changing_constraints:
         (rescue or _append_dependent_rows)(build, kkt, b)
-    _append_powers(build, kkt, on_given)
+    _append_powers(build, kkt, prescribed_forces)
     build.line(Return(pivot=bool(kkt.rows and not model.has_changing_constraints)))
     arguments = (*STATE, DISCRETE, PARAMETERS, result("a"), RHS)
     kernel = build.build(arguments, status=True, owner="")
@@ -84,26 +85,30 @@ def dynamics_kernel(
 def elimination_lines(kkt: KKT) -> list[str]:
     """Return comment lines that name the unknowns in the order in which the pivots eliminate them.
 
-    An unknown is an acceleration, by its coordinate, or a multiplier, by its constraint equation.
+    An unknown is an acceleration, by its coordinate, or a multiplier, by its constraint equation. At most 60 pivots are
+    listed; without pivots the list is empty.
     """
     names = [coordinate_name(kkt.system.model.symbols.info[q].meaning) for q in kkt.system.q]
     names += [f"lambda of {row.name}" for row in kkt.rows] + [
         f"lambda of {friction.name}" for friction in kkt.frictions
     ]
     blocks = [" with ".join(names[k] for k in block) for block in kkt.blocks]
-    more = [f"and {len(blocks) - _MAX_PIVOTS} more"] if len(blocks) > _MAX_PIVOTS else []
-    listed = "; ".join(one.replace(" ", "\0") for one in (*blocks[:_MAX_PIVOTS], *more))
-    head = "Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:"
-    return [head, *("    " + line.replace("\0", " ") for line in textwrap.wrap(f"{listed}.", 104))] if blocks else []
+    remainder = [f"and {len(blocks) - _MAX_PIVOTS} more"] if len(blocks) > _MAX_PIVOTS else []
+    text = "; ".join(name_list.replace(" ", "\0") for name_list in (*blocks[:_MAX_PIVOTS], *remainder))
+    heading = "Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:"
+    return [heading, *("    " + line.replace("\0", " ") for line in textwrap.wrap(f"{text}.", 104))] if blocks else []
 
 
 def coordinate_name(meaning: str) -> str:
-    """Return the name of a coordinate for comments: an angle of a tree has that of its body alone."""
+    """Return the name of a coordinate for comments.
+
+    The angle of a tree, whose meaning is the name of its body, gets ".theta".
+    """
     return meaning if "." in meaning else f"{meaning}.theta"
 
 
 def _append_events(model: Model, build: KernelBuilder) -> None:
-    """Append the user's event functions, which are known at every state, also where a pivot vanishes."""
+    """Append the user's event functions, which are written at every state, also where a pivot vanishes."""
     if model.events:
         build.section("events")
     for index, event in enumerate(model.events):
@@ -111,25 +116,28 @@ def _append_events(model: Model, build: KernelBuilder) -> None:
 
 
 def _append_clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> list[PointLoad]:
-    """Append the call of a joint's force function; return its force and moments as loads on both bodies."""
+    """Append the call of a joint's force function and its power; return the loads on both bodies.
+
+    They are the force and the moments that the call returns; a moment on the ground is 0.
+    """
     name, out = clearance.label, RHS["clearance"][index]
     build.section(f"clearance {clearance.kind} {clearance.name}")
     e = [build.local(f"e_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity, strict=True)]
     edot = [
         build.local(f"edot_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity_rate, strict=True)
     ]
-    given = (clearance.first.omega, clearance.second.omega, *clearance.also)
-    build.line(Call(f"clearance_{name}_", (*e, *edot, *given, *acting_on(index)), (out,)))
+    arguments = (clearance.first.omega, clearance.second.omega, *clearance.also)
+    build.line(Call(f"clearance_{name}_", (*e, *edot, *arguments, *acting_on(index)), (out,)))
     F = [build.local(f"F_{name}_{axis}", out[f"F{axis}"]) for axis in "xy"]
     moments = [
-        ZERO if point.body is None else build.local(f"M_{name}_{which}", out[f"moment_{which}"])
-        for point, which in ((clearance.first, "first"), (clearance.second, "second"))
+        ZERO if point.body is None else build.local(f"M_{name}_{body_role}", out[f"moment_{body_role}"])
+        for point, body_role in ((clearance.first, "first"), (clearance.second, "second"))
     ]
     build.out(out["power"], clearance.power(F, edot, moments))
     return clearance.on_points(F, moments)
 
 
-def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabilised: bool) -> dict[int, sp.Expr]:
+def _append_constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabilised: bool) -> dict[int, sp.Expr]:
     """Return the right-hand side γ − 2αΦ̇ − β²Φ of each constraint equation, by node of the KKT matrix.
 
     Φ and Φ̇ are also written to `rhs`, for diagnostics. Without `stabilised` the right-hand side is γ.
@@ -137,88 +145,112 @@ def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabilised: bo
     if not stabilised:
         if kkt.rows:
             build.section("constraints: gamma")
-        named = (build.local(f"rhs_{row.name.replace('.', '_')}", row.gamma) for row in kkt.rows)
-        return {kkt.n + r: rhs for r, rhs in enumerate(named)}
+        named_rhs = (build.local(f"rhs_{row.name.replace('.', '_')}", row.gamma) for row in kkt.rows)
+        return {kkt.n + index: rhs for index, rhs in enumerate(named_rhs)}
     alpha, beta = model.baumgarte
     two_alpha = model.slots.derive("two_alpha", 2 * alpha, "2 alpha")
     beta_squared = model.slots.derive("beta_squared", beta**2, "beta^2")
     rhs: dict[int, sp.Expr] = {}
     if kkt.rows:
         build.section("constraints: Phi, Phi_dot = Phi_q v - nu, gamma")
-    for r, row in enumerate(kkt.rows):
+    for index, row in enumerate(kkt.rows):
         name = row.name.replace(".", "_")
         phi = build.local(f"phi_{name}", row.phi)
         phi_dot = build.local(f"phi_dot_{name}", row.phi_q_v - row.nu)
-        rhs[kkt.n + r] = build.local(f"rhs_{name}", row.gamma - two_alpha * phi_dot - beta_squared * phi)
-        build.out(RHS["phi"][r], phi)
-        build.out(RHS["phi_dot"][r], phi_dot)
+        rhs[kkt.n + index] = build.local(f"rhs_{name}", row.gamma - two_alpha * phi_dot - beta_squared * phi)
+        build.out(RHS["phi"][index], phi)
+        build.out(RHS["phi_dot"][index], phi_dot)
     return rhs
 
 
 def _append_slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) -> dict[int, sp.Expr]:
-    """Append the slip velocity and kinetic force of each dry friction element; return the right-hand sides for stick.
+    """Append the slip velocity and kinetic force of each friction element.
 
-    The kinetic force is added to `forces`, the generalized forces by coordinate, in place.
+    The kinetic force is added to `forces`, the generalized forces by coordinate, in place. Return the right-hand sides
+    for stick, by node.
     """
-    rhs: dict[int, sp.Expr] = {}
+    stick_rhs: dict[int, sp.Expr] = {}
     if kkt.frictions:
         build.section("friction: slip, or stick as a constraint equation")
-    place = {q: k for k, q in enumerate(kkt.system.q)}
+    coordinate_index = {q: k for k, q in enumerate(kkt.system.q)}
     two_alpha = stick_gain(model) if kkt.frictions else ZERO
-    for r, friction in enumerate(kkt.frictions):
-        name, node = friction.name, kkt.first_friction + r
+    for index, friction in enumerate(kkt.frictions):
+        name, node = friction.name, kkt.first_friction + index
         v = build.local(f"slip_{name}", friction.slip.v)
-        kkt.sticks[node], sign = friction_mode(build, name, r)
+        kkt.sticks[node], sign = friction_mode(build, name, index)
         force = build.local(f"kinetic_{name}", -sign * friction.slip.kinetic_at(v))
         for q, entry in friction.jacobian.items():
-            forces[place[q]] += entry * force
-        rhs[node] = build.local(f"rhs_{name}", friction.gamma - two_alpha * v)
+            forces[coordinate_index[q]] += entry * force
+        stick_rhs[node] = build.local(f"rhs_{name}", friction.gamma - two_alpha * v)
         for key, value in (("v", v), ("static_limit", friction.slip.static), ("speed", friction.slip.speed)):
-            build.out(RHS["friction"][r][key], value)
-        build.out(RHS["friction"][r]["force"], force)
-    return rhs
+            build.out(RHS["friction"][index][key], value)
+        build.out(RHS["friction"][index]["force"], force)
+    return stick_rhs
 
 
 def _append_friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> None:
-    """Append the force of each friction element at stick, −λ of its equation, and the rate of slip J q̈ − γ."""
-    place = {q: k for k, q in enumerate(kkt.system.q)}
-    for r, friction in enumerate(kkt.frictions):
-        rate = sum((entry * x[place[q]] for q, entry in friction.jacobian.items()), -friction.gamma)
-        build.out(RHS["friction"][r]["rate"], rate)
-        stick = kkt.sticks[kkt.first_friction + r]
-        target = RHS["friction"][r]["force"]
-        force = Statement(target, -x[kkt.first_friction + r], f"stick of {friction.name}")
+    """Append the force of each friction element at stick, −λ of its equation, and the rate of slip J q̈ − γ.
+
+    `x`: the solution by node.
+    """
+    coordinate_index = {q: k for k, q in enumerate(kkt.system.q)}
+    for index, friction in enumerate(kkt.frictions):
+        rate = sum((entry * x[coordinate_index[q]] for q, entry in friction.jacobian.items()), -friction.gamma)
+        build.out(RHS["friction"][index]["rate"], rate)
+        stick = kkt.sticks[kkt.first_friction + index]
+        target = RHS["friction"][index]["force"]
+        force = Statement(target, -x[kkt.first_friction + index], f"stick of {friction.name}")
         build.line(When(Test(stick, "!=", (0.0,)), force))
 
 
 def _append_half_squares(build: KernelBuilder, system: System, x: Mapping[int, sp.Expr]) -> None:
-    """Append half the second derivative of e · e in joints with rigid surfaces.
+    """Append half the second derivative of e · e in joints with rigid surfaces; at a wall δ̈ itself.
 
-    A run determines the contact forces of these joints from it.
+    A run determines the contact forces of these joints from it. `x`: the solution by node.
     """
     for index, clearance in enumerate(system.model.clearances):
         if clearance.rigid and clearance.wall:
-            outward = _outward_rate(system, clearance, clearance.wall, x)
+            outward = _compute_outward_acceleration(system, clearance, clearance.wall, x)
             build.out(RHS["clearance"][index]["half_square_rate"], outward, "at a wall delta'' itself")
         elif clearance.rigid:
-            second, first = (system.acceleration(point, x) for point in (clearance.second, clearance.first))
+            journal_acceleration, bearing_acceleration = (
+                system.acceleration(point, x) for point in (clearance.second, clearance.first)
+            )
             e, edot = clearance.eccentricity, clearance.eccentricity_rate
-            half = sp.Add(*(e[i] * (second[i] - first[i]) + edot[i] ** 2 for i in range(2)))
-            build.out(RHS["clearance"][index]["half_square_rate"], half, "e . e'' + e' . e'")
+            value = sp.Add(
+                *(e[i] * (journal_acceleration[i] - bearing_acceleration[i]) + edot[i] ** 2 for i in range(2))
+            )
+            build.out(RHS["clearance"][index]["half_square_rate"], value, "e . e'' + e' . e'")
 
 
-def _outward_rate(system: System, clearance: Clearance, wall: Wall, x: Mapping[int, sp.Expr]) -> sp.Expr:
-    """Return δ̈ at a wall of a guide: ë · n + ω̇_i along + 2 ω_i ė · t − ω_i² e · n, from δ̇ = ė · n + ω_i e · t."""
-    second, first = (system.acceleration(point, x) for point in (clearance.second, clearance.first))
+def _compute_outward_acceleration(
+    system: System, clearance: Clearance, wall: Wall, x: Mapping[int, sp.Expr]
+) -> sp.Expr:
+    """Return δ̈ at a wall of a guide from the accelerations `x`.
+
+    δ̈ = ë · n + ω̇_i along + 2 ω_i ė · t − ω_i² e · n, from δ̇ = ė · n + ω_i e · t.
+    """
+    journal_acceleration, bearing_acceleration = (
+        system.acceleration(point, x) for point in (clearance.second, clearance.first)
+    )
     (n_x, n_y), e, edot = wall.normal, clearance.eccentricity, clearance.eccentricity_rate
-    omega, turning = clearance.first.omega, system.turning(clearance.first, x)
-    along, sliding = e[1] * n_x - e[0] * n_y, edot[1] * n_x - edot[0] * n_y
-    straight = (second[0] - first[0]) * n_x + (second[1] - first[1]) * n_y
-    return straight + turning * along + omega * (2 * sliding - omega * (e[0] * n_x + e[1] * n_y))
+    omega, angular_acceleration = clearance.first.omega, system.turning(clearance.first, x)
+    lever_arm, tangential_rate = e[1] * n_x - e[0] * n_y, edot[1] * n_x - edot[0] * n_y
+    linear_acceleration = (journal_acceleration[0] - bearing_acceleration[0]) * n_x + (
+        journal_acceleration[1] - bearing_acceleration[1]
+    ) * n_y
+    return (
+        linear_acceleration
+        + angular_acceleration * lever_arm
+        + omega * (2 * tangential_rate - omega * (e[0] * n_x + e[1] * n_y))
+    )
 
 
 def _append_dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
-    """Append the branch for a vanishing pivot, which calls engine/scene/singular.c; none if all pivots are constant."""
+    """Append the code for a vanishing pivot, which calls engine/scene/singular.c; nothing if all pivots are constant.
+
+    `b`: generalized forces and right-hand sides by node.
+    """
     if not build.has_jumps:
         return
     build.line(Jump())
@@ -227,25 +259,26 @@ def _append_dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Ex
     build.line(Rescue(force, rhs))
 
 
-def _append_powers(build: KernelBuilder, kkt: KKT, on_given: Mapping[str, sp.Expr]) -> None:
+def _append_powers(build: KernelBuilder, kkt: KKT, prescribed_forces: Mapping[str, sp.Expr]) -> None:
     """Append the powers in W of the drives, of the dissipative force elements and of the joints with play.
 
     A drive does −λᵀν, and in addition the power that inertia and loads need at a coordinate that it prescribes.
+    `prescribed_forces`: the generalized loads on those coordinates by name.
     """
     model = kkt.system.model
     multipliers = {r: PlaceSymbol(RHS["lambda"][r]) for r, row in enumerate(kkt.rows) if row.nu != 0}
-    drives = sp.Add(*(-multiplier * kkt.rows[r].nu for r, multiplier in multipliers.items()))
-    for given in kkt.system.given:
-        needed = sp.Add(*(m * PlaceSymbol(Place("a")[k]) for k, m in given.mass.items())) - given.applied
+    drive_power = sp.Add(*(-multiplier * kkt.rows[r].nu for r, multiplier in multipliers.items()))
+    for prescribed in kkt.system.given:
+        effort = sp.Add(*(m * PlaceSymbol(Place("a")[k]) for k, m in prescribed.mass.items())) - prescribed.applied
         for r, friction in enumerate(kkt.frictions):
             force = PlaceSymbol(RHS["friction"][r]["force"])
-            needed -= model.symbols.written_out(friction.slip.v, given.rate) * force
-        drives += given.rate * (needed - on_given.get(given.name, ZERO))
+            effort -= model.symbols.written_out(friction.slip.v, prescribed.rate) * force
+        drive_power += prescribed.rate * (effort - prescribed_forces.get(prescribed.name, ZERO))
     clearances = tuple(RHS["clearance"][i]["power"] for i in range(len(model.clearances)))
-    build.out(RHS["power"][0], drives)
-    rubs = [
-        [PlaceSymbol(RHS["friction"][r][what]) for what in ("force", "v", "speed")] for r in range(len(kkt.frictions))
+    build.out(RHS["power"][0], drive_power)
+    friction_symbols = [
+        [PlaceSymbol(RHS["friction"][r][field]) for field in ("force", "v", "speed")] for r in range(len(kkt.frictions))
     ]
-    friction = sp.Add(*(force * (v + speed) for force, v, speed in rubs))
+    friction = sp.Add(*(force * (v + speed) for force, v, speed in friction_symbols))
     build.out(RHS["power"][1], sp.Add(*(element.loads.power for element in model.elements.values())) + friction)
     build.out(RHS["power"][2], Sum(clearances) if clearances else ZERO)

@@ -30,96 +30,128 @@ from gudgeon.generator.symbols.unevaluated import Whole
 WATCHED, _RANGES = "watched_functions", "watched_ranges"
 _WATCHED_DOC = ("Event functions: the scene's own switching functions in rhs->g, the user's events in rhs->event.",)
 _RANGES_DOC = ("Ranges of the scene's own switching functions and of the user's events over ranges of t, q and v.",)
-_KNOWN_LATE = RHS.name  # what reads this is known only once forces or accelerations are
+_FORCE_OUTPUTS = RHS.name  # what reads this is known only once forces or accelerations are
 
 
 def event_function_kernel(dynamics: Kernel, model: Model, loop_switches: Kernel | None = None) -> Kernel | None:
-    """Return the C function that evaluates the event functions alone; None if they depend on forces.
+    """Return the C function that evaluates the event functions alone; None if there are none or they depend on forces.
 
-    It is the part of the right-hand side `dynamics` that the switching functions and user events read.
-    `loop_switches`: the function of the switching functions of kinematically determined loops, which `dynamics` lacks.
+    It is the part of the right-hand side `dynamics` that the switching functions and user events read. `loop_switches`:
+    the function of the switching functions of kinematically determined loops, which `dynamics` lacks.
     """
-    corners = {switch.index for switch in model.symbols.switches.of("")}
-    if not corners and not model.events:
+    switch_indices = {switch.index for switch in model.symbols.switches.of("")}
+    if not switch_indices and not model.events:
         return None
-    every = _merge_sections(loop_switches, dynamics)
-    outs = {
-        s: out
-        for section in every
-        for s in section.statements
-        if isinstance(s, Statement) and (out := _output_statement(s, corners))
+    sections_in = _merge_sections(loop_switches, dynamics)
+    output_by_statement = {
+        statement: output
+        for section in sections_in
+        for statement in section.statements
+        if isinstance(statement, Statement) and (output := _make_output_statement(statement, switch_indices))
     }
-    by_target = {
-        s.defines: s for section in every for s in section.statements if isinstance(s, Statement) and s.defines
+    statement_by_local = {
+        statement.defines: statement
+        for section in sections_in
+        for statement in section.statements
+        if isinstance(statement, Statement) and statement.defines
     }
-    read: set[Statement] = set()
-    waiting = list(outs.values())
-    while waiting:
-        found = {by_target[name] for name in waiting.pop().reads if name in by_target} - read
-        read |= found
-        waiting += found
-    if any(_KNOWN_LATE in s.reads for s in read):
+    needed_statements: set[Statement] = set()
+    pending = list(output_by_statement.values())
+    while pending:
+        new = {
+            statement_by_local[name] for name in pending.pop().reads if name in statement_by_local
+        } - needed_statements
+        needed_statements |= new
+        pending += new
+    if any(_FORCE_OUTPUTS in statement.reads for statement in needed_statements):
         return None
     sections = []
-    for section in every:
+    for section in sections_in:
         lines: list[Line] = []
-        for s in section.statements:
-            if isinstance(s, Statement):
-                lines += [line for line in (s if s in read else None, outs.get(s)) if line]
+        for statement in section.statements:
+            if isinstance(statement, Statement):
+                lines += [
+                    line
+                    for line in (
+                        statement if statement in needed_statements else None,
+                        output_by_statement.get(statement),
+                    )
+                    if line
+                ]
         if lines:
             sections.append(Section(section.title, tuple(lines)))
-    arguments = tuple(a for a in dynamics.arguments if a.name != "a")
-    named = replace(dynamics, name=WATCHED, doc=_WATCHED_DOC)
-    watched = replace(named, arguments=arguments, sections=tuple(sections), status=False)
+    arguments = tuple(argument for argument in dynamics.arguments if argument.name != "a")
+    renamed = replace(dynamics, name=WATCHED, doc=_WATCHED_DOC)
+    watched = replace(renamed, arguments=arguments, sections=tuple(sections), status=False)
     return declare_branches(watched, "rhs")
 
 
 def _merge_sections(*kernels: Kernel | None) -> list[Section]:
-    """Return the sections of several functions of one scene one after the other, each local defined once."""
-    known: set[str] = set()
+    """Return the sections of several functions of one scene, one after the other, with each local defined once.
+
+    None stands for a missing function.
+    """
+    defined_names: set[str] = set()
     merged = []
     for kernel in kernels:
         for section in kernel.sections if kernel else ():
-            new = tuple(line for line in section.statements if line.defines not in known)
-            merged.append(Section(section.title, new))
-        known |= {line.defines for section in merged for line in section.statements if line.defines}
+            lines = tuple(line for line in section.statements if line.defines not in defined_names)
+            merged.append(Section(section.title, lines))
+        defined_names |= {line.defines for section in merged for line in section.statements if line.defines}
     return merged
 
 
-def ranges_kernel(watched: Kernel, corners: Sequence[int], events: int) -> Kernel:
+def ranges_kernel(watched: Kernel, switch_indices: Sequence[int], events: int) -> Kernel:
     """Return the C function of the ranges of all event functions over ranges of t, q and v.
 
-    `watched`: the function of their values. Switching functions are written to `out` first, then `events` user events.
+    `watched`: the function of their values; `switch_indices`: the numbers of the switching functions. These are written
+    to `out` first, then `events` user events.
     """
-    place: dict[Place, int] = {RHS["g"][k]: i for i, k in enumerate(corners)}
-    place |= {RHS["event"][k]: i for k, i in enumerate(range(len(corners), len(corners) + events))}
+    output_index: dict[Place, int] = {RHS["g"][k]: index for index, k in enumerate(switch_indices)}
+    output_index |= {
+        RHS["event"][k]: index for k, index in enumerate(range(len(switch_indices), len(switch_indices) + events))
+    }
     sections = []
     for section in watched.sections:
-        kept: list[Line] = []
-        for s in section.statements:
-            if isinstance(s, Statement) and isinstance(s.target, Place):
-                s = replace(s, target=Place("out")[place[s.target]])
-            kept.append(Branches("") if isinstance(s, Branches) else s)
-        sections.append(Section(section.title, tuple(kept)))
-    return replace(watched, name=_RANGES, doc=_RANGES_DOC, sections=tuple(s for s in sections if s.statements))
+        lines: list[Line] = []
+        for statement in section.statements:
+            if isinstance(statement, Statement) and isinstance(statement.target, Place):
+                statement = replace(statement, target=Place("out")[output_index[statement.target]])
+            lines.append(Branches("") if isinstance(statement, Branches) else statement)
+        sections.append(Section(section.title, tuple(lines)))
+    return replace(
+        watched,
+        name=_RANGES,
+        doc=_RANGES_DOC,
+        sections=tuple(statement for statement in sections if statement.statements),
+    )
 
 
 def depends_on_state(kernel: Kernel) -> bool:
-    """Return whether a function depends on the state, not on time and parameters only."""
+    """Return whether a function reads a coordinate or a rate, not only time and parameters."""
     return reads_coordinate_beyond(kernel, 0)
 
 
 def reads_coordinate_beyond(kernel: Kernel, count: int) -> bool:
     """Return whether a function reads a coordinate with an index of `count` or more, or the rate of one."""
-    values = [s.value for section in kernel.sections for s in section.statements if isinstance(s, Statement)]
+    values = [
+        statement.value
+        for section in kernel.sections
+        for statement in section.statements
+        if isinstance(statement, Statement)
+    ]
     places = [value for value in values if isinstance(value, Place) and value.base in ("q", "v")]
     return any(place.path >= (count,) for place in places)
 
 
-def _output_statement(statement: Statement, corners: Collection[int]) -> Statement | None:
-    """Return the statement that writes an event function if `statement` computes one, else None."""
+def _make_output_statement(statement: Statement, switch_indices: Collection[int]) -> Statement | None:
+    """Return the statement that writes an event function if `statement` computes one, else None.
+
+    A branch gives its switching function; a user event stays as it is. `switch_indices`: the numbers of the scene's
+    switches.
+    """
     value = statement.value
-    if isinstance(value, BranchOf) and int(value.args[0]) in corners:
+    if isinstance(value, BranchOf) and int(value.args[0]) in switch_indices:
         return Statement(RHS["g"][int(value.args[0])], value.args[1])
     target = statement.target
     return statement if isinstance(target, Place) and target.path[:1] == ("event",) else None
@@ -144,7 +176,7 @@ class TimeTerms:
 
     @property
     def count(self) -> int:
-        """Return the number of terms."""
+        """Return the number of terms, 0 without a kernel."""
         statements = [s for section in self.kernel.sections for s in section.statements] if self.kernel else []
         return sum(isinstance(s, Statement) and not s.defines for s in statements)
 
@@ -152,51 +184,60 @@ class TimeTerms:
 def time_terms(dynamics: Kernel, rests: bool) -> TimeTerms:
     """Return the terms of time alone, read by a right-hand side, that the stages of a step may miss.
 
-    rests: stick or a rigid contact may hold the motion while forces vary, so that sines count too.
+    `rests`: stick or a rigid contact may hold the motion while forces vary, so that sines count too. At most
+    MAX_TIME_TERMS are returned, with their function.
     """
-    found = _collect_terms(dynamics, False)
-    terms = list(found.terms)[:MAX_TIME_TERMS]
+    collector = _collect_terms(dynamics, False)
+    terms = list(collector.terms)[:MAX_TIME_TERMS]
     pulses = len(terms)
     if rests:
-        found = _collect_terms(dynamics, True)
-        terms = [*terms, *(term for term in found.terms if term not in terms)][:MAX_TIME_TERMS]
-    return TimeTerms(_terms_kernel(dynamics, found, terms) if terms else None, pulses)
+        collector = _collect_terms(dynamics, True)
+        terms = [*terms, *(term for term in collector.terms if term not in terms)][:MAX_TIME_TERMS]
+    return TimeTerms(_make_terms_kernel(dynamics, collector, terms) if terms else None, pulses)
 
 
-def _collect_terms(dynamics: Kernel, rests: bool) -> _TermCollector:
-    """Return the reader of terms after it has read all statements of a right-hand side."""
-    found = _TermCollector(rests)
+def _collect_terms(dynamics: Kernel, may_rest: bool) -> _TermCollector:
+    """Return the collector of terms after it has read all statements of a right-hand side."""
+    collector = _TermCollector(may_rest)
     for section in dynamics.sections:
         for statement in section.statements:
             if isinstance(statement, Statement):
-                found.read(statement)
-    return found
+                collector.read(statement)
+    return collector
 
 
-def _terms_kernel(dynamics: Kernel, found: _TermCollector, terms: list[sp.Expr]) -> Kernel:
-    """Return the C function that evaluates the collected terms at a time."""
-    outs = [Statement(Place("out")[k], term) for k, term in enumerate(terms)]
-    sections = (Section("parameters and time", tuple(found.needed(terms))), Section("terms", tuple(outs)))
+def _make_terms_kernel(dynamics: Kernel, collector: _TermCollector, terms: list[sp.Expr]) -> Kernel:
+    """Return the C function that evaluates the collected terms at a time and writes them to `out`."""
+    stores = [Statement(Place("out")[k], term) for k, term in enumerate(terms)]
+    sections = (Section("parameters and time", tuple(collector.needed(terms))), Section("terms", tuple(stores)))
     arguments = (TIME, PARAMETERS, RHS)
-    named = replace(dynamics, name=_TIME_TERMS, doc=_TIME_TERMS_DOC)
-    return replace(named, arguments=arguments, sections=sections, status=False)
+    renamed = replace(dynamics, name=_TIME_TERMS, doc=_TIME_TERMS_DOC)
+    return replace(renamed, arguments=arguments, sections=sections, status=False)
 
 
 class _TermCollector:
     """Collector of terms of time alone from statements; `terms` keeps the order in which they are found."""
 
     def __init__(self, rests: bool) -> None:
-        """Begin without terms; with `rests`, sines and cosines count as terms too, exponentials do not."""
-        self.shows = (PeriodsOf, sp.exp) if rests else (PeriodsOf, *_LINEAR)
+        """Begin without terms and known locals.
+
+        With `rests`, sines and cosines count as terms too, exponentials do not.
+        """
+        self.shown_functions = (PeriodsOf, sp.exp) if rests else (PeriodsOf, *_LINEAR)
         self.known: dict[str, Statement] = {}  # locals that time and parameters determine
-        self.timed: dict[str, sp.Expr] = {}  # those of them that depend on time, with definitions inserted
+        self.definition_of_timed: dict[
+            str, sp.Expr
+        ] = {}  # those of them that depend on time, with definitions inserted
         self.terms: dict[sp.Expr, None] = {}
         self.time = TIME.name
-        self._tame: dict[sp.Expr, bool] = {}  # parts recur in the derivatives of what is nested
+        self._is_shown: dict[sp.Expr, bool] = {}  # parts recur in the derivatives of what is nested
         self._names: dict[sp.Expr, frozenset[str]] = {}
 
     def read(self, statement: Statement) -> None:
-        """Collect the terms of time in one statement; note whether its local depends on time and parameters alone."""
+        """Collect the terms of time in one statement, and record if its local depends on time and parameters alone.
+
+        A value that also depends on the state contributes those of its parts that do not.
+        """
         if isinstance(statement.value, sp.Expr):
             statement = replace(statement, value=as_written(statement.value))
         value, local = statement.value, statement.defines
@@ -214,18 +255,22 @@ class _TermCollector:
         else:
             for part in sp.preorder_traversal(value):
                 if isinstance(part, (sp.Add, sp.Mul)):
-                    part = part.func(*(factor for factor in part.args if self.is_timed(factor)))
+                    part = part.func(*(factor for factor in part.args if self.depends_on_time_only(factor)))
                 if isinstance(part, sp.Expr):
                     self.collect(part)
-        if local in self.known and self.is_timed(value):
-            self.timed[local] = self.written_out(value)
+        if local in self.known and self.depends_on_time_only(value):
+            self.definition_of_timed[local] = self.written_out(value)
 
     def written_out(self, value: sp.Expr) -> sp.Expr:
         """Return the expression with the locals that depend on time replaced by their definitions."""
-        if self.names_in(value).isdisjoint(self.timed):
+        if self.names_in(value).isdisjoint(self.definition_of_timed):
             return value
-        inner = {s: self.timed[s.name] for s in value.free_symbols if s.name in self.timed}
-        return value.xreplace(inner) if inner else value
+        replacements = {
+            symbol: self.definition_of_timed[symbol.name]
+            for symbol in value.free_symbols
+            if symbol.name in self.definition_of_timed
+        }
+        return value.xreplace(replacements) if replacements else value
 
     def names_in(self, value: sp.Expr) -> frozenset[str]:
         """Return the names of the symbols in an expression; the result is cached for each subexpression."""
@@ -234,18 +279,22 @@ class _TermCollector:
             self._names[value] = frozenset({value.name}) if value.is_Symbol else frozenset().union(*parts)
         return self._names[value]
 
-    def is_timed(self, value: sp.Expr) -> bool:
+    def depends_on_time_only(self, value: sp.Expr) -> bool:
         """Return whether an expression depends on time, and on nothing but time and parameters."""
         names = self.names_in(value)
-        return names <= self.known.keys() and (self.time in names or not names.isdisjoint(self.timed))
+        return names <= self.known.keys() and (self.time in names or not names.isdisjoint(self.definition_of_timed))
 
     def collect(self, value: sp.Expr) -> None:
-        """Add the terms of an expression that stages may miss, and such terms within them."""
-        if not self.is_timed(value) or self.is_tame(value):
+        """Add the terms of an expression that stages may miss to `terms`, and such terms within them.
+
+        Nothing is added for an expression that does not depend on time alone, or that the stages show. In a sum or
+        product only the parts that may be missed count.
+        """
+        if not self.depends_on_time_only(value) or self.is_shown_by_stages(value):
             return
         if isinstance(value, BranchOf):
             return self.collect(value.args[1])
-        parts = [part for part in value.args if self.is_timed(part) and not self.is_tame(part)]
+        parts = [part for part in value.args if self.depends_on_time_only(part) and not self.is_shown_by_stages(part)]
         if isinstance(value, (sp.Add, sp.Mul, Pick, Whole)):
             if len(parts) > 1 and not isinstance(value, (Pick, Whole)):
                 self.terms.setdefault(value.func(*parts))
@@ -255,54 +304,64 @@ class _TermCollector:
             self.collect(part)
         return None
 
-    def is_tame(self, value: sp.Expr) -> bool:
-        """Return whether the stages of a step show what an expression does between them.
+    def is_shown_by_stages(self, value: sp.Expr) -> bool:
+        """Return whether the stages of a step show the behaviour of an expression between them; cached.
 
         Steps end at switching points, so that each branch counts by itself.
         """
-        if value not in self._tame:
-            self._tame[value] = self._is_tame(self.written_out(value))
-        return self._tame[value]
+        if value not in self._is_shown:
+            self._is_shown[value] = self._compute_is_shown(self.written_out(value))
+        return self._is_shown[value]
 
-    def _is_tame(self, value: sp.Expr) -> bool:
-        """Return is_tame of an expression without looking it up in the cache."""
+    def _compute_is_shown(self, value: sp.Expr) -> bool:
+        """Return `is_shown_by_stages` of an expression without reading the cache.
+
+        Sums, products and low powers of such expressions are shown, and sines or exponentials of an argument linear in
+        time.
+        """
         if self.time not in self.names_in(value):
             return True
         match value:
             case sp.Symbol():
                 return True
             case BranchOf():
-                return self.is_tame(value.args[1])
+                return self.is_shown_by_stages(value.args[1])
             case sp.Add() | sp.Mul() | Pick() | Whole() | ModOn():
-                return all(map(self.is_tame, value.args))
+                return all(map(self.is_shown_by_stages, value.args))
             case sp.Pow() if value.exp.is_Integer and int(value.exp) in _POWERS:
-                return self.is_tame(value.base)
-        return isinstance(value, self.shows) and self.is_linear(value.args[0])
+                return self.is_shown_by_stages(value.base)
+        return isinstance(value, self.shown_functions) and self.is_linear(value.args[0])
 
     def is_linear(self, value: sp.Expr) -> bool:
-        """Return whether the form of an expression shows that it is linear in time."""
-        timed = [part for part in value.args if self.time in self.names_in(part)]
+        """Return whether the form of an expression shows that it is linear in time.
+
+        Sums of such terms, and products with one factor that depends on time, count.
+        """
+        time_parts = [part for part in value.args if self.time in self.names_in(part)]
         if isinstance(value, (sp.Add, sp.Mul)):
-            return (len(timed) < 2 or isinstance(value, sp.Add)) and all(map(self.is_linear, timed))
-        return value.is_Symbol or not timed
+            return (len(time_parts) < 2 or isinstance(value, sp.Add)) and all(map(self.is_linear, time_parts))
+        return value.is_Symbol or not time_parts
 
     def needed(self, terms: list[sp.Expr]) -> list[Statement]:
-        """Return the definitions of the locals that the terms read, in their order."""
-        waiting = [s.name for term in terms for s in term.free_symbols]
-        read: set[str] = set()
-        while waiting:
-            name = waiting.pop()
-            if name in self.known and name not in read:
-                read.add(name)
+        """Return the definitions of the locals that the terms read, directly or not, in their order.
+
+        Held branches are replaced by signs.
+        """
+        pending = [symbol.name for term in terms for symbol in term.free_symbols]
+        needed_names: set[str] = set()
+        while pending:
+            name = pending.pop()
+            if name in self.known and name not in needed_names:
+                needed_names.add(name)
                 value = self.known[name].value
-                waiting += [s.name for s in value.free_symbols] if isinstance(value, sp.Expr) else []
-        return [_without_held_branch(s) for name, s in self.known.items() if name in read]
+                pending += [symbol.name for symbol in value.free_symbols] if isinstance(value, sp.Expr) else []
+        return [_replace_held_branch(symbol) for name, symbol in self.known.items() if name in needed_names]
 
 
-def _without_held_branch(statement: Statement) -> Statement:
+def _replace_held_branch(statement: Statement) -> Statement:
     """Return a statement whose branch follows the sign of its switching function instead of the held branch.
 
-    Over a range of time no branch is held.
+    Other statements are returned unchanged. Over a range of time no branch is held.
     """
     if isinstance(statement.value, BranchOf):
         return replace(statement, value=sp.sign(statement.value.args[1]))

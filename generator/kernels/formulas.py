@@ -47,21 +47,24 @@ class _Plain(StrPrinter):
 def formula_lines(law: LawEquations, names: Mapping[sp.Symbol, str]) -> list[str]:
     """Return the equations of a law as lines of text, then the meanings of its variables.
 
-    names: what parameters are called in the law's function; others keep the names of the file.
+    `names`: names of parameters in the law's function; others keep the names of the file. Lines are wrapped at 110
+    characters.
     """
-    known = {**{s: plain_name(s) for e in law.steps.values() for s in sp.sympify(e).free_symbols}, **names}
+    name_of_symbol = {**{s: plain_name(s) for e in law.steps.values() for s in sp.sympify(e).free_symbols}, **names}
     variables = {symbol.name for symbol in law.variables}
-    renamed = {s: sp.Symbol(name, real=True) for s, name in known.items() if s.name not in {*variables, *law.steps}}
+    symbol_map = {
+        s: sp.Symbol(name, real=True) for s, name in name_of_symbol.items() if s.name not in {*variables, *law.steps}
+    }
     printer = _Plain({"full_prec": False, "sympy_integers": False})
     lines: list[str] = []
     for name, step in law.steps.items():
-        text = printer.doprint(sp.sympify(step).xreplace(renamed)).replace("**", "^")
+        text = printer.doprint(sp.sympify(step).xreplace(symbol_map)).replace("**", "^")
         lines += textwrap.wrap(f"{name} = {text}", _WIDTH, subsequent_indent="    ", break_long_words=False)
-    return [*lines, *_legend(law)]
+    return [*lines, *_describe_variables(law)]
 
 
-def _legend(law: LawEquations) -> Iterator[str]:
-    """Yield one line with the meanings of the law's variables, if it has known ones."""
-    meant = [f"{s.name}: {_MEANINGS[s.name]}" for s in law.variables if s.name in _MEANINGS]
-    if meant:
-        yield f"{'; '.join(meant)}."
+def _describe_variables(law: LawEquations) -> Iterator[str]:
+    """Yield one line with the meanings of the law's variables; nothing if none of them is known."""
+    meanings = [f"{symbol.name}: {_MEANINGS[symbol.name]}" for symbol in law.variables if symbol.name in _MEANINGS]
+    if meanings:
+        yield f"{'; '.join(meanings)}."

@@ -14,12 +14,21 @@ from gudgeon.generator.symbols.storage import Place
 
 
 def kinematic_kernels(system: System, rows: SquareRows) -> list[Kernel]:
-    """Return the C functions `close_step` (at a position) and `arrive` (at a position with its rates)."""
-    return [pair_sines(without_unused(kernel)) for kernel in (_close_step(system, rows), _arrive(system, rows))]
+    """Return the C functions `close_step` (at a position) and `arrive` (at a position with its rates).
+
+    `rows`: the closures of the tree as a square system.
+    """
+    return [
+        pair_sines(without_unused(kernel))
+        for kernel in (_make_close_step_kernel(system, rows), _make_arrive_kernel(system, rows))
+    ]
 
 
-def _close_step(system: System, rows: SquareRows) -> Kernel:
-    """Return the C function of Newton's step Φ_q step = Φ and of the rates Φ_q rates = ν at a position."""
+def _make_close_step_kernel(system: System, rows: SquareRows) -> Kernel:
+    """Return the C function of Newton's step Φ_q step = Φ and of the rates Φ_q rates = ν at a position.
+
+    It also writes the largest |Φ|, and returns 0 or the number of a dependent equation.
+    """
     build = KernelBuilder(
         system.model.symbols,
         "close_step",
@@ -36,17 +45,20 @@ def _close_step(system: System, rows: SquareRows) -> Kernel:
     build.section("rates")
     rates = rows.solve(build, solvers, [row.nu for row in system.rows], "rate")
     build.section("results")
-    for k, (x, u) in enumerate(zip(step, rates, strict=True)):
-        build.out(Place("step")[k], x)
-        build.out(Place("rates")[k], u)
+    for k, (component, rate) in enumerate(zip(step, rates, strict=True)):
+        build.out(Place("step")[k], component)
+        build.out(Place("rates")[k], rate)
     build.line(Largest("worst", tuple(phi)))
     build.line(Return())
     outs = (result(name) for name in ("step", "rates", "worst"))
     return build.build((*STATE[:2], PARAMETERS, *outs), status=True)
 
 
-def _arrive(system: System, rows: SquareRows) -> Kernel:
-    """Return the C function of the accelerations Φ_q a = γ and of the motion of all bodies at a state."""
+def _make_arrive_kernel(system: System, rows: SquareRows) -> Kernel:
+    """Return the C function of the accelerations Φ_q a = γ and of the motion of all bodies at a state.
+
+    It also writes the largest |Φ̇|, and returns 0 or the number of a dependent equation.
+    """
     build = KernelBuilder(
         system.model.symbols,
         "arrive",
@@ -63,8 +75,8 @@ def _arrive(system: System, rows: SquareRows) -> Kernel:
             build.out(Place("all_q")[k], q)
             build.out(Place("all_v")[k], v)
     build.section("rates of the closures")
-    named = zip(rows.names, system.rows, strict=True)
-    phi_dot = [build.local(f"phi_dot_{name}", row.phi_q_v - row.nu) for name, row in named]
+    named_rows = zip(rows.names, system.rows, strict=True)
+    phi_dot = [build.local(f"phi_dot_{name}", row.phi_q_v - row.nu) for name, row in named_rows]
     build.line(Largest("worst", tuple(phi_dot)))
     solvers = rows.factorize(build)
     build.section("accelerations")
@@ -73,8 +85,8 @@ def _arrive(system: System, rows: SquareRows) -> Kernel:
         build.out(Place("a")[k], value)
     for body in bodies:
         motion = system.motions[body.name]
-        for k, (line, bias) in enumerate(zip(motion.jacobian, motion.bias, strict=True), body.index):
-            build.out(Place("all_a")[k], sp.Add(bias, *(entry * a[j] for j, entry in line.items())))
+        for k, (row_entries, bias) in enumerate(zip(motion.jacobian, motion.bias, strict=True), body.index):
+            build.out(Place("all_a")[k], sp.Add(bias, *(entry * a[j] for j, entry in row_entries.items())))
     build.line(Return())
     outs = (result(name) for name in ("a", "all_q", "all_v", "all_a", "worst"))
     return build.build((*STATE, PARAMETERS, *outs), status=True)

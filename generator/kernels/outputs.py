@@ -15,7 +15,10 @@ from gudgeon.generator.symbols.storage import Place
 
 
 def outputs_kernel(model: Model) -> Kernel:
-    """Return the C function of reactions, drive torques, element results and energies from q, q̇ and λ."""
+    """Return the C function of reactions, drive torques, element results and energies from q, q̇ and λ.
+
+    Reactions are written for each joint without play; a drive whose equation was left out has torque 0.
+    """
     build = KernelBuilder(
         model.symbols,
         "outputs",
@@ -26,14 +29,14 @@ def outputs_kernel(model: Model) -> Kernel:
     )
     multiplier: dict[str, sp.Expr] = {}
     build.section("multipliers")
-    for r, row in enumerate(model.rows):
-        multiplier[row.name] = build.local(f"multiplier_{row.name.replace('.', '_')}", Place("lambda")[r])
+    for row_index, row in enumerate(model.rows):
+        multiplier[row.name] = build.local(f"multiplier_{row.name.replace('.', '_')}", Place("lambda")[row_index])
     build.section("reactions")
-    rows_of: dict[str, list[Row]] = {}
+    rows_by_owner: dict[str, list[Row]] = {}
     for row in model.rows:
-        rows_of.setdefault(row.owner, []).append(row)
+        rows_by_owner.setdefault(row.owner, []).append(row)
     for j, joint in enumerate(constraining_joints(model)):
-        for k, value in enumerate(_reaction(model, joint, rows_of.get(joint.name, []), multiplier)):
+        for k, value in enumerate(_compute_reaction(model, joint, rows_by_owner.get(joint.name, []), multiplier)):
             target = Place("reactions")[N_REACTION_COLUMNS * j + k]
             build.out(target, value, f"{joint.name}.{REACTION_COLUMN_NAMES[k]}")
     for d, name in enumerate(model.scene.mechanism.drives):
@@ -44,42 +47,49 @@ def outputs_kernel(model: Model) -> Kernel:
     kinetic = sp.Add(*(m * v**2 / 2 for m, v in zip(model.masses, model.v, strict=True)))
     build.out(Place("energy")[ENERGY_kinetic], kinetic)
     gx, gy = model.gravity
-    weights = (-body.mass * (gx * body.x + gy * body.y) for body in model.bodies)
+    gravity_energies = (-body.mass * (gx * body.x + gy * body.y) for body in model.bodies)
     stored = (element.loads.potential for element in model.elements.values())
-    build.out(Place("energy")[ENERGY_potential], sp.Add(*weights, *stored))
-    out = (result(name) for name in ("reactions", "torques", "series", "energy"))
-    return build.build((*STATE, PARAMETERS, source("lambda"), *out))
+    build.out(Place("energy")[ENERGY_potential], sp.Add(*gravity_energies, *stored))
+    results = (result(name) for name in ("reactions", "torques", "series", "energy"))
+    return build.build((*STATE, PARAMETERS, source("lambda"), *results))
 
 
 def element_series(model: Model) -> dict[str, tuple[sp.Expr, str]]:
-    """Return the results of the force elements by name, such as "coil.F" -> (value, unit)."""
-    return {f"{name}.{what}": value for name, e in model.elements.items() for what, value in e.loads.series.items()}
+    """Return the results of the force elements by name: "coil.F" -> (value, unit)."""
+    return {
+        f"{name}.{series_name}": value
+        for name, element in model.elements.items()
+        for series_name, value in element.loads.series.items()
+    }
 
 
 def constraining_joints(model: Model) -> list[Joint]:
-    """Return the joints that constrain the motion: those without play."""
+    """Return the joints that constrain the motion, those without play, in the order of the file."""
     return [joint for joint in model.scene.mechanism.joints.values() if joint.name not in model.scene.play]
 
 
-def _reaction(
+def _compute_reaction(
     model: Model, joint: Joint, rows: list[Row], multiplier: dict[str, sp.Expr]
 ) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     """Return the force (F_x, F_y) on the second body and the moment about the joint's point, from −Φ_qᵀ λ.
 
-    If the second body is the ground, they follow from the wrench on all other bodies of the joint.
+    `rows`: the equations of the joint; `multiplier`: λ by equation. If the second body is the ground, they follow from
+    the wrench on all other bodies of the joint.
     """
     first, second = model.geometry.point(joint.first), model.geometry.point(joint.second)
     kind = joint_types()[joint.kind]
-    at = first if kind.reaction_at == "first" else second
+    point = first if kind.reaction_at == "first" else second
     sign, bodies = 1, [second.body]
     if second.body is None:
-        others = [joint.options[name] for name in kind.further_bodies]  # a gear's carrier
-        sign, bodies = -1, [first.body, *(model.geometry.bodies.get(name) for name in others)]
+        other_bodies = [joint.options[name] for name in kind.further_bodies]  # a gear's carrier
+        sign, bodies = -1, [first.body, *(model.geometry.bodies.get(name) for name in other_bodies)]
     wrench = [ZERO, ZERO, ZERO]
     for body in bodies:
         if body is not None:
-            share = [-sum((row.phi_q.get(q, ZERO) * multiplier[row.name] for row in rows), ZERO) for q in body.q]
-            arm = at.arm if at.body is body else (at.x - body.x, at.y - body.y)
-            share[2] = sp.expand(share[2] - (arm[0] * share[1] - arm[1] * share[0]))
-            wrench = [total + sign * part for total, part in zip(wrench, share, strict=True)]
+            body_wrench = [-sum((row.phi_q.get(q, ZERO) * multiplier[row.name] for row in rows), ZERO) for q in body.q]
+            arm = point.arm if point.body is body else (point.x - body.x, point.y - body.y)
+            body_wrench[2] = sp.expand(body_wrench[2] - (arm[0] * body_wrench[1] - arm[1] * body_wrench[0]))
+            wrench = [
+                component + sign * body_component for component, body_component in zip(wrench, body_wrench, strict=True)
+            ]
     return wrench[0], wrench[1], wrench[2]

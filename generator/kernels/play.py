@@ -31,38 +31,53 @@ from gudgeon.generator.symbols.storage import Place, Result
 
 
 def law_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> dict[str, SharedFunctionCall]:
-    """Return how a joint calls its laws, by role (normal, friction, film), for those that it has."""
-    found = {}
+    """Return the calls of a joint's laws by role (normal, friction, film), for those that it has.
+
+    The functions are added to `shared`.
+    """
+    calls = {}
     for law in (clearance.normal, clearance.friction, clearance.film):
         if law is not None:
-            kernel = _law_kernel(model, clearance, law)
-            numbers = joint_numbers(model, clearance)
-            found[law.law.role] = shared.call(kernel, numbers, clearance.label, _parameter_meanings(model, law))
-    return found
+            kernel = _make_law_kernel(model, clearance, law)
+            names_of_parameters = joint_numbers(model, clearance)
+            calls[law.law.role] = shared.call(
+                kernel, names_of_parameters, clearance.label, _find_parameter_meanings(model, law)
+            )
+    return calls
 
 
-def _parameter_meanings(model: Model, equations: LawEquations) -> dict[str, str]:
-    """Return the meanings of a law's parameters, by the names that they have in the law."""
+def _find_parameter_meanings(model: Model, equations: LawEquations) -> dict[str, str]:
+    """Return the meanings of a law's parameters, by the names that they have in the law's function."""
     info = model.symbols.info
     law = equations.law
-    derived = {letter_of(law, name): info[one].meaning for name, one in equations.derived.items() if one in info}
+    derived = {
+        letter_of(law, name): info[symbol].meaning for name, symbol in equations.derived.items() if symbol in info
+    }
     return derived | {letter_of(law, parameter.name): parameter.meaning for parameter in law.parameters}
 
 
 def law_name(equations: LawEquations) -> str:
-    """Return the C name of a law: "own_" before it if a user defined it, and its options that are not the defaults."""
-    usual = {option.name: option.default for option in equations.law.options}
-    selected = {name: value for name, value in equations.options.items() if value != usual[name]}
+    """Return the C name of a law, with the options that are not the defaults.
+
+    A user-defined law gets "own_" before its name and "__" after it, so that no other function has the name.
+    """
+    default_options = {option_name.name: option_name.default for option_name in equations.law.options}
+    chosen_options = {name: value for name, value in equations.options.items() if value != default_options[name]}
     name = equations.law.name
-    name = "_".join([name, *(option if value is True else str(value) for option, value in selected.items())])
+    name = "_".join(
+        [name, *(option_name if value is True else str(value) for option_name, value in chosen_options.items())]
+    )
     return f"own_{name}__" if equations.law.name in USER_LAWS else name  # whatever the user calls it, no other function
 
 
-def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> Kernel:
-    """Return the C function of a law: its steps become locals, its results are written to `F_…_out`."""
+def _make_law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> Kernel:
+    """Return the C function of a law for one joint: its steps become locals, its results are written to `F_…_out`.
+
+    Reciprocals are shared, and branches are those of the joint's switches.
+    """
     results = equations.results
     fields = joint_numbers(model, clearance)
-    names = {s: fields[own.home] for s, own in model.symbols.info.items() if own.home in fields}
+    names = {symbol: fields[info.home] for symbol, info in model.symbols.info.items() if info.home in fields}
     build = KernelBuilder(model.symbols, law_name(equations), law_doc(equations, names))
     build.section("")
     for name, equation in equations.steps.items():
@@ -72,51 +87,51 @@ def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> 
         else:
             build.line(Statement(name, value))
     variables = (Argument(symbol.name) for symbol in equations.variables)
-    outs = (result(f"{name}_out") for name in results)
-    kernel = build.build((*variables, PARAMETERS, *BRANCHES, *outs), inline=True, owner=clearance.name)
+    result_arguments = (result(f"{name}_out") for name in results)
+    kernel = build.build((*variables, PARAMETERS, *BRANCHES, *result_arguments), inline=True, owner=clearance.name)
     return with_reciprocals(kernel)
 
 
 def law_doc(equations: LawEquations, names: Mapping[sp.Symbol, str] | None = None) -> list[str]:
-    """Return the lines of a law's C comment: title, formula, source, validity, options.
+    """Return the lines of a law's C comment: title, formula, source, validity, options and their sources.
 
-    names: what parameters are called in the formula; None: as in the law's file.
+    `names`: names of parameters in the formula; None: as in the law's file.
     """
     law = equations.law
     if names is None:
-        own = {**equations.numbers, **equations.derived}
-        names = {symbol: name for name, symbol in own.items() if symbol.is_Symbol}
-    selected = [f"{name}: {value}" for name, value in equations.options.items()]
-    usual = {option.name: option.default for option in law.options}
-    whose = [
+        parameters = {**equations.numbers, **equations.derived}
+        names = {symbol: name for name, symbol in parameters.items() if symbol.is_Symbol}
+    options_text = [f"{name}: {value}" for name, value in equations.options.items()]
+    default_options = {option.name: option.default for option in law.options}
+    option_sources = [
         f"Of {value}: {source}."
         for option in law.options
         for value, source in (option.sources or {}).items()
-        if value == equations.options.get(option.name) != usual[option.name]
+        if value == equations.options.get(option.name) != default_options[option.name]
     ]
     return [
         f"{law.title}.",
         *formula_lines(equations, names),
         f"Source: {law.source}.",
         f"Valid: {law.validity}.",
-        *([f"Options: {', '.join(selected)}."] if selected else []),
-        *whose,
+        *([f"Options: {', '.join(options_text)}."] if options_text else []),
+        *option_sources,
     ]
 
 
 Statements = tuple[Statement, ...]
 # At e = 0 any direction will do for the normal: the force is isotropic there.
-_AT_CENTRE = {contact.n_x: sp.Integer(1), contact.n_y: sp.Integer(0)}
-_OFF_CENTRE, _INVERSE = Test(contact.e, ">", (0.0,)), sp.Symbol("inverse_e", real=True)
-_GUARDED = {
-    contact.n_x: Conditional(_OFF_CENTRE, contact.e_x * _INVERSE, sp.Integer(1)),
-    contact.n_y: Conditional(_OFF_CENTRE, contact.e_y * _INVERSE, sp.Integer(0)),
+_NORMAL_AT_CENTRE = {contact.n_x: sp.Integer(1), contact.n_y: sp.Integer(0)}
+_IS_OFF_CENTRE, _INVERSE_E = Test(contact.e, ">", (0.0,)), sp.Symbol("inverse_e", real=True)
+_GUARDED_NORMAL = {
+    contact.n_x: Conditional(_IS_OFF_CENTRE, contact.e_x * _INVERSE_E, sp.Integer(1)),
+    contact.n_y: Conditional(_IS_OFF_CENTRE, contact.e_y * _INVERSE_E, sp.Integer(0)),
 }
-_SLANTED = Test(contact.slant, ">", (0.0,))
-_GUARDED_OF_CONTOUR = {
-    contact.u_x: _GUARDED[contact.n_x],
-    contact.u_y: _GUARDED[contact.n_y],
-    contact.steep: Conditional(_OFF_CENTRE, contact.slant * _INVERSE, sp.Integer(1)),
+_HAS_SLANT = Test(contact.slant, ">", (0.0,))
+_GUARDED_CONTOUR = {
+    contact.u_x: _GUARDED_NORMAL[contact.n_x],
+    contact.u_y: _GUARDED_NORMAL[contact.n_y],
+    contact.steep: Conditional(_IS_OFF_CENTRE, contact.slant * _INVERSE_E, sp.Integer(1)),
 }
 
 
@@ -142,7 +157,10 @@ class Pin:
 
     @property
     def given(self) -> tuple[Place, ...]:
-        """Return where these further variables are stored at a joint: for rigid surfaces, in its contact state."""
+        """Return the places of these further variables at a joint.
+
+        For rigid surfaces it is the force in the contact state.
+        """
         return (CONTACT["force"],) if self.clearance.rigid else tuple(map(Place, self.further))
 
     @property
@@ -152,12 +170,15 @@ class Pin:
 
 
 def make_pin(model: Model, clearance: Clearance, shared: SharedFunctions) -> Pin:
-    """Derive the laws, the steps and the switching functions of a joint with play."""
+    """Return a joint with play with its laws, the statements around them, and its switches.
+
+    Functions of laws are added to `shared`.
+    """
     name, film = clearance.name, clearance.film
 
     def held(steps: Sequence[Step]) -> Statements:
         """Return the statements of some steps, with guards at the centre and with held branches."""
-        return _make_statements(model, steps, name, _guarded_values(clearance, steps))
+        return _make_statements(model, steps, name, _guard_values(clearance, steps))
 
     laws, parts = law_calls(model, clearance, shared), {}
     if clearance.normal is not None:
@@ -170,28 +191,40 @@ def make_pin(model: Model, clearance: Clearance, shared: SharedFunctions) -> Pin
     gap = held(contact.gap(clearance))
     if film is not None and clearance.normal is not None:
         parts["share"] = (*((DEEP,) if clearance.mixed else ()), *held(contact.blend(clearance, closed=True)))
-    numbers = [switch.index for switch in model.symbols.switches.of(name)]
-    corners = range(min(numbers, default=0), max(numbers, default=-1) + 1)
+    indices = [switch.index for switch in model.symbols.switches.of(name)]
+    corners = range(min(indices, default=0), max(indices, default=-1) + 1)
     return Pin(clearance, laws, gap, corners=corners, **parts)
 
 
-def _guarded_values(clearance: Clearance, steps: Sequence[Step]) -> Mapping[sp.Symbol, Conditional]:
-    """Return the replacements, by symbol, for steps that divide by zero at e = 0."""
+def _guard_values(clearance: Clearance, steps: Sequence[Step]) -> Mapping[sp.Symbol, Conditional]:
+    """Return the values that replace those of steps which divide by zero at e = 0, by symbol.
+
+    There are none for a wall, and further ones for a contour.
+    """
     if not clearance.contour:
-        return {} if clearance.wall else _GUARDED
+        return {} if clearance.wall else _GUARDED_NORMAL
     value = {step.symbol: step.value for step in steps}
-    n = {s: Conditional(_SLANTED, value[s], other) for s, other in _AT_CENTRE.items() if s in value}
-    turning = value.get(contact.beta_rate)
-    if turning is not None:
-        away = (turning + contact.omega_i) * contact.e
-        n[contact.beta_rate] = Conditional(_OFF_CENTRE, away * _INVERSE - contact.omega_i, -contact.omega_i)
-    return _GUARDED_OF_CONTOUR | n
+    guarded = {
+        symbol: Conditional(_HAS_SLANT, value[symbol], centre_value)
+        for symbol, centre_value in _NORMAL_AT_CENTRE.items()
+        if symbol in value
+    }
+    contour_rate = value.get(contact.beta_rate)
+    if contour_rate is not None:
+        relative_motion = (contour_rate + contact.omega_i) * contact.e
+        guarded[contact.beta_rate] = Conditional(
+            _IS_OFF_CENTRE, relative_motion * _INVERSE_E - contact.omega_i, -contact.omega_i
+        )
+    return _GUARDED_CONTOUR | guarded
 
 
 def _make_statements(
     model: Model, steps: Sequence[Step], owner: str, guards: Mapping[sp.Symbol, Conditional]
 ) -> Statements:
-    """Return steps as statements that read parameters in place and take branches from the joint's switches."""
+    """Return steps as statements that read parameters in place and take branches from the joint's switches.
+
+    `guards`: conditional values that replace the steps' own. `owner`: the name of the joint.
+    """
     statements = []
     for step in steps:
         statements.append(Statement(step.symbol.name, guards.get(step.symbol) or in_place(model, step.value)))
@@ -204,22 +237,28 @@ def _make_statements(
 def joint_derivative_calls(
     model: Model, clearance: Clearance, shared: SharedFunctions
 ) -> dict[str, SharedFunctionCall]:
-    """Return the calls of the derivatives of the film, the dry contact and their blend ("share"), if present."""
-    own = {}
+    """Return the calls of the derivatives of the film, the dry contact and their blend ("share"), if present.
+
+    The functions are added to `shared`.
+    """
+    kernels = {}
     if clearance.film is not None:
-        own["film"] = film_derivative_kernel(model, clearance, clearance.film)
+        kernels["film"] = film_derivative_kernel(model, clearance, clearance.film)
     if clearance.normal is not None:
-        own["dry"] = dry_derivative_kernel(model, clearance, clearance.normal)
-    if len(own) == 2:
-        own["share"] = fraction_derivative_kernel(model, clearance)
-    numbers = joint_numbers(model, clearance)
+        kernels["dry"] = dry_derivative_kernel(model, clearance, clearance.normal)
+    if len(kernels) == 2:
+        kernels["share"] = fraction_derivative_kernel(model, clearance)
+    names_of_parameters = joint_numbers(model, clearance)
     return {
-        part: shared.call(replace(kernel, name=_slope_name(clearance, part)), numbers, clearance.label)
-        for part, kernel in own.items()
+        part: shared.call(replace(kernel, name=_make_slope_name(clearance, part)), names_of_parameters, clearance.label)
+        for part, kernel in kernels.items()
     }
 
 
-def _slope_name(clearance: Clearance, part: str) -> str:
-    """Return the C name of the derivatives of one part of a joint, from the names of its laws."""
+def _make_slope_name(clearance: Clearance, part: str) -> str:
+    """Return the C name of the derivatives of one part of a joint, from the names of its laws.
+
+    part: "film", "dry" or "share".
+    """
     laws = {"film": [clearance.film], "dry": [clearance.normal, clearance.friction], "share": [clearance.mixed]}[part]
     return "_".join([f"{part}_slopes", *(law_name(law) for law in laws if law)])

@@ -99,8 +99,8 @@ class Methods:
     def kernels(self) -> tuple[Kernel, ...]:
         """Return the functions of Newton's method, then those of the derivatives of contact forces."""
         newton = self.newton
-        own = (newton.linearize, newton.factor, newton.substitute, newton.solve)
-        return (*own, *self.sloping, *self.at_complex)
+        newton_kernels = (newton.linearize, newton.factor, newton.substitute, newton.solve)
+        return (*newton_kernels, *self.sloping, *self.at_complex)
 
 
 @dataclass(frozen=True)
@@ -147,7 +147,7 @@ class Program:
 
     @cached_property
     def prepare(self) -> Kernel:
-        """Return the C function that fills the parameter table, which is complete now."""
+        """Return the C function that fills the parameter table; call it when all parameters have been derived."""
         return closed_linkage.prepare_kernel(self.model)
 
     @property
@@ -162,7 +162,10 @@ class Program:
 
     @property
     def right_hand_side(self) -> list[Kernel]:
-        """Return the right-hand side in absolute coordinates, with its event functions if it is integrated."""
+        """Return the right-hand side in absolute coordinates, followed by its event functions if it is integrated.
+
+        These are left out in the reduced formulation or if they depend on forces.
+        """
         watches = self.watched is not None and self.formulation == "full" and self.integrates
         return [self.dynamics, self.watched] if watches and self.watched else [self.dynamics]
 
@@ -170,21 +173,20 @@ class Program:
     def has_lanes(self) -> bool:
         """Return whether several runs can share vectors (lanes).
 
-        They cannot if the constraint equations differ between runs, if a contour is given or if loops are dependent.
+        They cannot if the constraint equations differ between runs, if a contour is given or if loops are dependent; a
+        scene without integration or tree has none.
         """
-        contours = any(clearance.contour for clearance in self.model.clearances)
-        alone = self.model.has_changing_constraints or contours
-        return self.methods is not None and self.tree is not None and not (self.tree.chains or alone)
+        has_contours = any(clearance.contour for clearance in self.model.clearances)
+        is_excluded = self.model.has_changing_constraints or has_contours
+        return self.methods is not None and self.tree is not None and not (self.tree.chains or is_excluded)
 
 
 def make_program(model: Model, formulation: str = "reduced") -> Program:
     """Derive every function of a scene for a formulation: "reduced", "full", STAGES or TAYLOR.
 
     Starts and outputs are in absolute coordinates in all of them. STAGES is the reduced one with the functions of
-    methods
-    that solve their stages together; scenes with a film and the full formulation have them anyway. TAYLOR is the
-    reduced
-    one with the Taylor series of the motion; it raises BadValueError where the motion is not smooth.
+    methods that solve their stages together; scenes with a film and the full formulation have them anyway. TAYLOR is
+    the reduced one with the Taylor series of the motion; it raises BadValueError where the motion is not smooth.
     """
     model, full, staged = model.thawed(), formulation == "full", formulation == STAGES
     integrates = bool(model.degrees_of_freedom or model.clearances or model.frictions)
@@ -199,11 +201,11 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
     )
     laws = SharedFunctions()
     pins = tuple(make_pin(model, clearance, laws) for clearance in model.clearances)
-    tree, in_tree = _tree(model, kkt.pivots) if not full else (None, None)
+    tree, in_tree = _derive_tree_functions(model, kkt.pivots) if not full else (None, None)
     watched = event_function_kernel(dynamics, model)
     angles = tuple(int(model.symbols.info[q].meaning.endswith(".theta")) for q in model.q)
-    plain = Integrated(system, kkt, angles, False, watched, kkt.pivots)
-    integrated = in_tree or plain
+    absolute_system = Integrated(system, kkt, angles, False, watched, kkt.pivots)
+    integrated = in_tree or absolute_system
     program = Program(
         model,
         "full" if full else "reduced",
@@ -216,36 +218,40 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
         tree,
         integrated,
         time_terms(dynamics, rests=bool(model.frictions or model.rigid)),
-        methods=_methods(model, integrated, staged or not integrated.reduced) if integrates else None,
-        course=None if integrates else _course(model, kkt, integrated),
+        methods=_derive_methods(model, integrated, staged or not integrated.reduced) if integrates else None,
+        course=None if integrates else _derive_kinematic_functions(model, kkt, integrated),
     )
     if formulation == TAYLOR:
         program = replace(program, series=taylor_series(program))
-    for owner in (model, integrated.system.model):
-        owner.freeze()
+    for model_ in (model, integrated.system.model):
+        model_.freeze()
     return program
 
 
-def _tree(model: Model, pivots: tuple[str, ...]) -> tuple[TreeFunctions, Integrated]:
-    """Derive the functions of the reduced formulation.
+def _derive_tree_functions(model: Model, pivots: tuple[str, ...]) -> tuple[TreeFunctions, Integrated]:
+    """Derive the functions of the reduced formulation, and the system that is integrated.
 
     `pivots`: names of the equations to which a status number of the absolute formulation refers.
     """
     system = reduce(model)
-    around = tuple(pair_sines(without_unused(kernel)) for kernel in motion_kernels(model, system))
-    plain, kkt, chains = reduced_kernels(system)
-    kernels, rescued = tuple(pair_sines(kernel) for kernel in plain), has_singular_fallback(system)
-    tree = TreeFunctions(system, around, tuple(plain), kernels, rescued, chains)
+    conversions = tuple(pair_sines(without_unused(kernel)) for kernel in motion_kernels(model, system))
+    unpaired, kkt, chains = reduced_kernels(system)
+    kernels, rescued = tuple(pair_sines(kernel) for kernel in unpaired), has_singular_fallback(system)
+    tree = TreeFunctions(system, conversions, tuple(unpaired), kernels, rescued, chains)
     pivots = pivots if rescued else kkt.pivots
     if system.chain:
         pivots = (*pivots, *(row.name for row in system.chain.rows))
     angles = tuple(int("." not in name) for name in system.unknowns)
-    watched = next((kernel for kernel in plain if kernel.name == WATCHED), None)
+    watched = next((kernel for kernel in unpaired if kernel.name == WATCHED), None)
     return tree, Integrated(system, kkt, angles, True, watched, pivots, system.chain)
 
 
-def _methods(model: Model, integrated: Integrated, staged: bool) -> Methods:
-    """Derive the functions that integrators need; `staged`: with the complex ones for stages solved together."""
+def _derive_methods(model: Model, integrated: Integrated, staged: bool) -> Methods:
+    """Derive the functions that integrators need in addition to the right-hand side.
+
+    `staged`: with the complex ones for stages solved together; a scene with a film has them anyway, one with rigid
+    surfaces never.
+    """
     sloping = SharedFunctions()
     slopes = {clearance.name: joint_derivative_calls(model, clearance, sloping) for clearance in model.clearances}
     newton = Newton(integrated.system)
@@ -255,16 +261,17 @@ def _methods(model: Model, integrated: Integrated, staged: bool) -> Methods:
         gains["two_alpha"] = model.slots.derive("two_alpha", 2 * alpha)
         gains["beta_squared"] = model.slots.derive("beta_squared", beta**2)
     closing = closing_kernel(integrated.system)
-    finished = pair_sines(without_unused(closing)) if integrated.reduced else without_unused(closing)
-    film = any(clearance.film is not None for clearance in model.clearances)
-    at_complex = at_complex_step(newton) if (staged or film) and not model.rigid else ()
-    return Methods(newton, slopes, tuple(sloping.kernels), finished, without_unused(closing), gains, at_complex)
+    paired_closing = pair_sines(without_unused(closing)) if integrated.reduced else without_unused(closing)
+    has_film = any(clearance.film is not None for clearance in model.clearances)
+    at_complex = at_complex_step(newton) if (staged or has_film) and not model.rigid else ()
+    return Methods(newton, slopes, tuple(sloping.kernels), paired_closing, without_unused(closing), gains, at_complex)
 
 
-def _course(model: Model, kkt: KKT, integrated: Integrated) -> KinematicFunctions:
+def _derive_kinematic_functions(model: Model, kkt: KKT, integrated: Integrated) -> KinematicFunctions:
     """Derive the functions of a kinematically driven scene.
 
-    They are in tree coordinates unless the pattern of the closures leaves a coordinate undetermined.
+    They are in tree coordinates unless the pattern of the closures leaves a coordinate undetermined; then a projection
+    in absolute coordinates replaces them.
     """
     rows = SquareRows(integrated.system, [not angle for angle in integrated.angles])
     if integrated.reduced and rows.fits:

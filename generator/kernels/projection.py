@@ -20,9 +20,10 @@ FILM_MASS = 1e6  # times the mass of all bodies: what projections give to motion
 
 
 def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple[Kernel, KKT]:
-    """Return the C function of x = M⁻¹Φ_qᵀ(Φ_q M⁻¹Φ_qᵀ)⁻¹ r, the smallest x in the metric of M with Φ_q x = r.
+    """Return the C function of x = M⁻¹Φ_qᵀ(Φ_q M⁻¹Φ_qᵀ)⁻¹ r, and the KKT elimination that it prints.
 
-    The KKT elimination that it prints is returned as well.
+    x is the smallest in the metric of M with Φ_q x = r. `rows`: the equations; `name`: the function's name. Light
+    bodies count with a least mass.
     """
     system = with_least_masses(system)
     model, kkt = system.model, KKT(system, rows)
@@ -36,9 +37,9 @@ def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple
         ],
     )
     build.section("right-hand side")
-    place = {row.name: k for k, row in enumerate(model.all_rows)}
+    row_index = {row.name: k for k, row in enumerate(model.all_rows)}
     r = {
-        kkt.n + k: build.local(f"r_{row.name.replace('.', '_')}", Place("r")[place[row.name]])
+        kkt.n + k: build.local(f"r_{row.name.replace('.', '_')}", Place("r")[row_index[row.name]])
         for k, row in enumerate(kkt.rows)
     }
     x = kkt.solve(build, kkt.factorize(build), r, "step_")
@@ -51,7 +52,10 @@ def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple
 
 
 def with_film_masses(system: System) -> System:
-    """Return the system with M + κ Bᵀ B, B = ∂e/∂q of the joints with films; itself without films or equations."""
+    """Return the system with M + κ Bᵀ B, B = ∂e/∂q of the joints with films, for projections.
+
+    κ is 1e6 times the mass of all bodies. Without films or equations the system itself is returned.
+    """
     model = system.model
     films = [clearance for clearance in model.clearances if clearance.film is not None]
     if not films or not system.rows:
@@ -59,12 +63,12 @@ def with_film_masses(system: System) -> System:
     kappa = model.slots.derive("film_mass", FILM_MASS * sp.Add(*(body.mass for body in model.bodies)), "of projections")
     mass = dict(system.mass)
     for film in films:
-        for along in ((sp.S.One, sp.S.Zero), (sp.S.Zero, sp.S.One)):
-            row, _ = system.generalized(film.on_points(along, (sp.S.Zero, sp.S.Zero)))
-            for i, entry in enumerate(row):
-                for j, other in enumerate(row[: i + 1]):
-                    if entry != 0 and other != 0:
-                        mass[i, j] = mass.get((i, j), sp.S.Zero) + kappa * entry * other
+        for unit_force in ((sp.S.One, sp.S.Zero), (sp.S.Zero, sp.S.One)):
+            row, _ = system.generalized(film.on_points(unit_force, (sp.S.Zero, sp.S.Zero)))
+            for i, factor_i in enumerate(row):
+                for j, factor_j in enumerate(row[: i + 1]):
+                    if factor_i != 0 and factor_j != 0:
+                        mass[i, j] = mass.get((i, j), sp.S.Zero) + kappa * factor_i * factor_j
     return replace(system, mass=mass)
 
 
@@ -72,21 +76,19 @@ def with_least_masses(system: System) -> System:
     """Return the system with no body lighter than 1e-4 of the mass of all, for projections.
 
     In the metric of M the equations of both joints of a light body nearly depend on each other. Errors of the
-    constraints
-    may be measured by any masses. Ordinary machines keep their masses, to the bit. A system with a drive whose rate
-    jumps
-    is returned as it is: its projection is an impulse, which needs M.
+    constraints may be measured by any masses. Ordinary machines keep their masses, to the bit. A system with a drive
+    whose rate jumps is returned unchanged: its projection is an impulse, which needs M.
     """
     model, derive = system.model, system.model.slots.derive
     if any(rate_jumps(drive) for drive in model.scene.mechanism.drives.values()):
         return system
-    least = LEAST_MASS * sp.Add(*(body.mass for body in model.bodies))
+    least_body_mass = LEAST_MASS * sp.Add(*(body.mass for body in model.bodies))
     mass = dict(system.mass)
     for k, q in enumerate(system.q):
-        own, counts = mass[k, k], least * system.inertia_of_unit_mass(k)
-        if counts != 0 and model.slots.is_constant(own):
+        own_mass, least_mass = mass[k, k], least_body_mass * system.inertia_of_unit_mass(k)
+        if least_mass != 0 and model.slots.is_constant(own_mass):
             name = f"{'tree_' if system.in_tree else ''}metric_{q.name}"
-            mass[k, k] = derive(name, sp.Max(own, counts), "of projections")
+            mass[k, k] = derive(name, sp.Max(own_mass, least_mass), "of projections")
             model.slots.unwritten.add(mass[k, k])
     return replace(system, mass=mass)
 
@@ -95,31 +97,36 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
     """Return the C function of one Newton step onto Φ = 0 and one onto Φ̇ = 0, with one factorization.
 
     A film turns a change of ė by a tolerance into a force that nothing carries, so that e and ė are kept as they are.
+    `name`: the function's name.
     """
-    weighed = with_least_masses(system)
-    kkt = KKT(with_film_masses(weighed), system.rows)
-    held = [] if kkt.system is weighed else ["Motions that squeeze a film have 1e6 times the mass of all bodies in M."]
+    metric_system = with_least_masses(system)
+    kkt = KKT(with_film_masses(metric_system), system.rows)
+    film_comment = (
+        []
+        if kkt.system is metric_system
+        else ["Motions that squeeze a film have 1e6 times the mass of all bodies in M."]
+    )
     build = KernelBuilder(
         system.model.symbols,
         name,
         [
             "The smallest dq and dv (n) in the metric of M with Phi_q dq = Phi and Phi_q dv = Phi_dot; to subtract.",
-            *held,
+            *film_comment,
             "`worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.",
         ],
     )
     build.section("Phi and Phi_dot")
     phi, phi_dot = {}, {}
     for r, row in enumerate(kkt.rows):
-        named = row.name.replace(".", "_")
-        phi[kkt.n + r] = build.local(f"phi_{named}", row.phi)
-        phi_dot[kkt.n + r] = build.local(f"phi_dot_{named}", row.phi_q_v - row.nu)
-    factor = kkt.factorize(build, share=LEAST_SIZE, size=LEAST_SIZE)  # nearer, rounding would be blown up
-    x, u = kkt.solve(build, factor, phi, "dq_"), kkt.solve(build, factor, phi_dot, "dv_")
+        row_name = row.name.replace(".", "_")
+        phi[kkt.n + r] = build.local(f"phi_{row_name}", row.phi)
+        phi_dot[kkt.n + r] = build.local(f"phi_dot_{row_name}", row.phi_q_v - row.nu)
+    factor = kkt.factorize(build, threshold=LEAST_SIZE, pair_threshold=LEAST_SIZE)  # nearer, rounding would be blown up
+    x, velocity_step = kkt.solve(build, factor, phi, "dq_"), kkt.solve(build, factor, phi_dot, "dv_")
     build.section("results")
     for k, _ in enumerate(system.q):
         build.out(Place("dq")[k], x[k])
-        build.out(Place("dv")[k], u[k])
+        build.out(Place("dv")[k], velocity_step[k])
     build.line(Largest("worst", tuple(phi.values())))
     build.line(Return())
     outs = (result(name) for name in ("dq", "dv", "worst"))

@@ -32,38 +32,42 @@ _DOC = (
 def has_singular_fallback(system: TreeSystem) -> bool:
     """Return whether the absolute formulation solves where a pivot vanishes.
 
-    In scenes with dry friction, whose equations change, a vanishing pivot is reported instead.
+    It does not in scenes without closures, or with dry friction or rigid contacts, where a vanishing pivot is reported.
     """
     return bool(system.rows and not system.model.has_changing_constraints)
 
 
 def motion_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
     """Return the C functions that convert tree coordinates to absolute ones and back."""
-    return [_expand(system), *_reduce(model, system)]
+    return [_make_expand_kernel(system), *_make_reduce_kernels(model, system)]
 
 
 def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, ChainKernels | None]:
     """Return closures, right-hand side, event functions and projection in tree coordinates, with the KKT elimination.
 
-    The functions of kinematically determined loops are returned last; their switches are among the event functions.
+    The functions of kinematically determined loops are returned last, or None; their switches are among the event
+    functions. Event functions are left out for a driven motion, or if they read dependent coordinates.
     """
     kkt = KKT(system, allow_early_pairs=has_singular_fallback(system))
-    dynamics = dynamics_kernel(system, kkt, DYNAMICS, _DOC, stabilised=False, rescue=_rescue)
+    dynamics = dynamics_kernel(system, kkt, DYNAMICS, _DOC, stabilised=False, rescue=_append_absolute_solution)
     projection, _ = projection_kernel(system, system.rows, "reduced_project")
     chains = ChainKernels(system, system.chain) if system.chain else None
-    follows = len(system.q) == len(system.rows) and not (system.model.clearances or system.frictions)
-    corners = chains.corners if chains else None
+    is_driven = len(system.q) == len(system.rows) and not (system.model.clearances or system.frictions)
+    loop_switches = chains.corners if chains else None
     watched = (
-        None if follows else event_function_kernel(dynamics, system.model, corners)
+        None if is_driven else event_function_kernel(dynamics, system.model, loop_switches)
     )  # a driven motion has no events here
     if watched and system.chain and reads_coordinate_beyond(watched, len(system.q)):
         watched = None  # chains are closed by rates()
-    kernels = (*_closures(system), dynamics, *([watched] if watched else []), projection)
+    kernels = (*_make_closure_kernels(system), dynamics, *([watched] if watched else []), projection)
     return [without_unused(kernel) for kernel in kernels], kkt, chains
 
 
-def _rescue(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
-    """Append the branch for a vanishing pivot: the absolute formulation solves and finds the dependent equations."""
+def _append_absolute_solution(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
+    """Append the code for a vanishing pivot: the absolute formulation solves and finds the dependent equations.
+
+    Nothing is appended if no pivot is tested; `b` is not used.
+    """
     if not build.has_jumps:
         return
     build.line(Jump())
@@ -71,8 +75,11 @@ def _rescue(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
     build.line(Rescue())
 
 
-def _expand(system: TreeSystem) -> Kernel:
-    """Return the C function of the absolute coordinates and velocities of all bodies at a state of the tree."""
+def _make_expand_kernel(system: TreeSystem) -> Kernel:
+    """Return the C function of the absolute coordinates and velocities of all bodies at a state of the tree.
+
+    They are written to `all_q` and `all_v`.
+    """
     build = KernelBuilder(
         system.model.symbols,
         "expand",
@@ -82,19 +89,22 @@ def _expand(system: TreeSystem) -> Kernel:
     )
     build.section("bodies")
     for body in system.model.bodies:
-        for k, (q, v) in enumerate(zip(body.q, body.v, strict=True)):
-            build.out(Place("all_q")[body.index + k], q)
-            build.out(Place("all_v")[body.index + k], v)
+        for index, (q, v) in enumerate(zip(body.q, body.v, strict=True)):
+            build.out(Place("all_q")[body.index + index], q)
+            build.out(Place("all_v")[body.index + index], v)
     return build.build((*STATE, PARAMETERS, result("all_q"), result("all_v")))
 
 
-def _reduce(model: Model, system: TreeSystem) -> list[Kernel]:
-    """Return the C functions of tree coordinates, rates and (if rescued) accelerations from absolute ones."""
-    pairs = list(zip(model.q, model.v, strict=True))
-    diff = model.symbols.diff
+def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
+    """Return the C functions of tree coordinates and rates, and of accelerations, from absolute ones.
+
+    The second one is left out if the absolute formulation never solves.
+    """
+    coordinate_pairs = list(zip(model.q, model.v, strict=True))
+    differentiate = model.symbols.diff
     names = (*system.unknowns, *(system.chain.names if system.chain else ()))
-    positions = _tree_coordinates(model, system, names)
-    rates = [sp.Add(*(diff(s, q) * v for q, v in pairs)) for s in positions]
+    positions = _express_tree_coordinates(model, system, names)
+    rates = [sp.Add(*(differentiate(coordinate, q) * v for q, v in coordinate_pairs)) for coordinate in positions]
     state = KernelBuilder(
         model.symbols,
         "reduce_state",
@@ -115,26 +125,38 @@ def _reduce(model: Model, system: TreeSystem) -> list[Kernel]:
     for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
         if k == len(system.unknowns):
             break
-        along = (diff(position, q) * PlaceSymbol(Place("all_a")[i]) for i, q in enumerate(model.q))
-        accelerations.out(Place("a")[k], sp.Add(*along, *(diff(rate, q) * v for q, v in pairs)), system.unknowns[k])
+        velocity_terms = (
+            differentiate(position, q) * PlaceSymbol(Place("all_a")[index]) for index, q in enumerate(model.q)
+        )
+        accelerations.out(
+            Place("a")[k],
+            sp.Add(*velocity_terms, *(differentiate(rate, q) * v for q, v in coordinate_pairs)),
+            system.unknowns[k],
+        )
     kernels = [state.build((*STATE, PARAMETERS, result("s"), result("s_rate")))]
     if has_singular_fallback(system):
         kernels.append(accelerations.build((*STATE, source("all_a"), PARAMETERS, result("a"))))
     return kernels
 
 
-def _tree_coordinates(model: Model, system: TreeSystem, names: Sequence[str]) -> list[sp.Expr]:
-    """Return the tree coordinates `names` as expressions in absolute ones: angles, and slides along their axes."""
+def _express_tree_coordinates(model: Model, system: TreeSystem, names: Sequence[str]) -> list[sp.Expr]:
+    """Return the tree coordinates `names` as expressions in absolute ones.
+
+    They are angles of bodies, x and y of free bodies, and slides along their axes.
+    """
     slides: dict[str, sp.Expr] = {}
     for link in system.tree.links:
         body = model.geometry.bodies[link.body]
         for name, value in zip(link.coordinates, (body.x, body.y), strict=False):
-            slides[name] = value if link.joint is None else _slide(model, link)
+            slides[name] = value if link.joint is None else _compute_slide(model, link)
     return [slides[name] if name in slides else model.geometry.bodies[name].theta for name in names]
 
 
-def _slide(model: Model, link: Link) -> sp.Expr:
-    """Return the displacement of the joint's point on the second body along the axis on the first, in m."""
+def _compute_slide(model: Model, link: Link) -> sp.Expr:
+    """Return the displacement in m of the joint's point on the second body along the axis on the first.
+
+    `link` must have a joint.
+    """
     assert link.joint is not None
     geometry = model.geometry
     first, second = geometry.point(link.joint.first), geometry.point(link.joint.second)
@@ -142,11 +164,14 @@ def _slide(model: Model, link: Link) -> sp.Expr:
     return u_x * (second.x - first.x) + u_y * (second.y - first.y)
 
 
-def _closures(system: TreeSystem) -> list[Kernel]:
-    """Return the C functions of Φ of the loop closures and of its rate Φ̇."""
+def _make_closure_kernels(system: TreeSystem) -> list[Kernel]:
+    """Return the two C functions of Φ of the loop closures and of its rate Φ̇, each one value per closure."""
 
     def kernel(name: str, doc: str, velocity: bool, value: Callable[[Row], sp.Expr]) -> Kernel:
-        """Return the C function `name` that writes one value of each closure to `out`."""
+        """Return the C function `name` that writes one value of each closure to `out`.
+
+        `velocity`: the value depends on rates.
+        """
         build = KernelBuilder(system.model.symbols, name, [doc])
         build.section("rows")
         for r, row in enumerate(system.rows):

@@ -20,14 +20,15 @@ from gudgeon.generator.solvers.sparsity import Block
 def build_reduction_log(
     model: Model, absolute: KKT, solved: KKT | None, system: System, blocks: Sequence[Block]
 ) -> ReductionLog:
-    """Return the record of which coordinates and constraint equations the generator has eliminated, and how.
+    """Return the record of the coordinates and constraint equations that the generator has eliminated, and how.
 
-    `system`: what is integrated; `solved`: the KKT matrix of its right-hand side (None: there is none).
-    `blocks`: the groups of equations that are solved one after the other where no degree of freedom is left.
+    `absolute`: the KKT matrix in absolute coordinates; `solved`: that of the right-hand side, or None; `system`: the
+    system that is integrated. `blocks`: the groups of equations that are solved one after the other where no degree of
+    freedom is left.
     """
     tree = system.tree if isinstance(system, TreeSystem) else None
     steps = [*_opening_steps(model), *(_reduction_steps(model, system) if isinstance(system, TreeSystem) else ())]
-    names = _unknown_names(model, system)
+    unknown_names = _unknown_names(model, system)
     return ReductionLog(
         coordinates=tuple(model.symbols.info[q].meaning for q in model.q),
         rows=tuple(row.name for row in model.all_rows),
@@ -38,7 +39,7 @@ def build_reduction_log(
         before=_describe_solve(absolute),
         after=_describe_solve(solved) if solved else None,
         groups=tuple(
-            Group(tuple(system.rows[r].name for r in block.rows), tuple(names[k] for k in block.columns))
+            Group(tuple(system.rows[r].name for r in block.rows), tuple(unknown_names[k] for k in block.columns))
             for block in blocks
         ),
     )
@@ -64,7 +65,10 @@ def _describe_solve(kkt: KKT) -> Solve:
 
 
 def _opening_steps(model: Model) -> Iterator[Step]:
-    """Yield the steps from the closed linkage to the equations of the scene: joints with play, redundant equations."""
+    """Yield the steps from the closed linkage to the equations of the scene.
+
+    The first opens the joints with play, the second removes redundant equations; either may be empty.
+    """
     dropped = model.redundancy.dropped
     open_rows = tuple(r.name for r in model.all_rows if r.owner in model.scene.play)
     yield Step(message.PLAY, tuple(model.scene.play), rows_gone=open_rows)
@@ -73,30 +77,33 @@ def _opening_steps(model: Model) -> Iterator[Step]:
 
 
 def _reduction_steps(model: Model, system: TreeSystem) -> Iterator[Step]:
-    """Yield the steps from the absolute constraint equations to the loop closures of the tree."""
+    """Yield the steps from the absolute constraint equations to the loop closures of the tree.
+
+    They concern angles, hubs, joints, slides and loops that drives determine.
+    """
     yield from _angle_steps(model, system.tree)
     yield from _hub_steps(system.tree)
     links = [link for link in system.tree.links if link.joint]
-    for kind in (message.HINGES, message.SLIDES):
-        some = [link for link in links if link.slides == (kind == message.SLIDES)]
+    for step_kind in (message.HINGES, message.SLIDES):
+        matching_links = [link for link in links if link.slides == (step_kind == message.SLIDES)]
         yield Step(
-            kind,
-            _owner_names(some),
-            tuple(f"{link.body}.{axis}" for link in some for axis in "xy"),
-            tuple(name for link in some for name in link.coordinates),
-            tuple(row for link in some for row in link.rows),
+            step_kind,
+            _owner_names(matching_links),
+            tuple(f"{link.body}.{axis}" for link in matching_links for axis in "xy"),
+            tuple(name for link in matching_links for name in link.coordinates),
+            tuple(row for link in matching_links for row in link.rows),
         )
     if system.slides:
-        by = dict.fromkeys(k for affine in system.slides.values() for k in affine if k != CONSTANT)
-        yield Step(message.KNOWN, tuple(by) or tuple(system.slides), tuple(system.slides), rows_gone=system.sliding)
+        names = dict.fromkeys(k for expression in system.slides.values() for k in expression if k != CONSTANT)
+        yield Step(message.KNOWN, tuple(names) or tuple(system.slides), tuple(system.slides), rows_gone=system.sliding)
     if system.chain:
         rows = tuple(row.name for row in system.chain.rows)
-        gone = tuple(name if "." in name else f"{name}.theta" for name in system.chain.names)
-        yield Step(message.CHAIN, tuple(dict.fromkeys(row.owner for row in system.chain.rows)), gone, rows_gone=rows)
+        removed = tuple(name if "." in name else f"{name}.theta" for name in system.chain.names)
+        yield Step(message.CHAIN, tuple(dict.fromkeys(row.owner for row in system.chain.rows)), removed, rows_gone=rows)
 
 
 def _owner_names(links: Iterable[Link]) -> tuple[str, ...]:
-    """Return the names of the joints of some links of the tree."""
+    """Return the names of the joints of some links of the tree, without links that have no joint."""
     return tuple(link.joint.name for link in links if link.joint)
 
 
@@ -107,7 +114,7 @@ def _angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
     """
     drives = model.scene.mechanism.drives
 
-    def kind(affine: Affine) -> str:
+    def find_kind(affine: Affine) -> str:
         """Return the kind of an angle: prescribed by drives, constant, or dependent on other angles."""
         keys = [k for k in affine if k != CONSTANT]
         if any(k not in drives for k in keys):
@@ -115,23 +122,30 @@ def _angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
         return message.PRESCRIBED if keys else message.CONSTANT
 
     owner = {row.name: row.owner for row in model.all_rows}
-    for which in (message.PRESCRIBED, message.CONSTANT, message.FOLLOWING):
-        rows = {row: body for row, body in tree.solved.items() if kind(tree.angles[body]) == which}
-        by = dict.fromkeys(k for body in rows.values() for k in tree.angles[body] if k != CONSTANT)
+    for angle_kind in (message.PRESCRIBED, message.CONSTANT, message.FOLLOWING):
+        rows = {row: body for row, body in tree.solved.items() if find_kind(tree.angles[body]) == angle_kind}
+        names = dict.fromkeys(k for body in rows.values() for k in tree.angles[body] if k != CONSTANT)
         yield Step(
-            which,
-            tuple(by) or tuple(dict.fromkeys(owner[row] for row in rows)),
+            angle_kind,
+            tuple(names) or tuple(dict.fromkeys(owner[row] for row in rows)),
             tuple(f"{body}.theta" for body in rows.values()),
             rows_gone=tuple(rows),
         )
 
 
 def _hub_steps(tree: Tree) -> Iterator[Step]:
-    """Yield the exchange of the file's pairs of points at shared points for the pairs that tree and closures use."""
+    """Yield the exchange of the file's pairs of points at shared points for the pairs that tree and closures use.
+
+    Hubs whose pairs stay are left out.
+    """
     for hub in tree.hubs:
-        used = [link.joint for link in tree.links if link.joint in hub.pairs]
-        used += [joint for joint in tree.closing if joint in hub.pairs]
-        came = tuple(row for joint in used if joint and joint not in hub.joints for row in hub.rows_of(joint))
-        went = tuple(row for joint in hub.joints if joint not in used for row in hub.rows_of(joint))
-        if went:
-            yield Step(message.HUB, tuple(joint.name for joint in hub.joints), rows_gone=went, rows_come=came)
+        joints_in_use = [link.joint for link in tree.links if link.joint in hub.pairs]
+        joints_in_use += [joint for joint in tree.closing if joint in hub.pairs]
+        added_rows = tuple(
+            row for joint in joints_in_use if joint and joint not in hub.joints for row in hub.rows_of(joint)
+        )
+        removed_rows = tuple(row for joint in hub.joints if joint not in joints_in_use for row in hub.rows_of(joint))
+        if removed_rows:
+            yield Step(
+                message.HUB, tuple(joint.name for joint in hub.joints), rows_gone=removed_rows, rows_come=added_rows
+            )

@@ -23,7 +23,7 @@ from gudgeon.generator.symbols.switches import BranchOf
 
 CORNER = Argument("corner", Number.INTEGER)
 NOTHING: Mapping[str, str] = {}
-_SIDE = "side_"
+_BRANCH_PREFIX = "side_"
 
 
 @dataclass(frozen=True)
@@ -41,131 +41,170 @@ class SharedFunctions:
     def __init__(self) -> None:
         """Begin without functions."""
         self.kernels: list[Kernel] = []
-        self._known: dict[object, Kernel] = {}
+        self._kernel_by_key: dict[object, Kernel] = {}
 
     def call(
-        self, kernel: Kernel, numbers: Mapping[Place, str], joint: str, meanings: Mapping[str, str] = NOTHING
+        self, kernel: Kernel, parameter_names: Mapping[Place, str], joint: str, meanings: Mapping[str, str] = NOTHING
     ) -> SharedFunctionCall:
-        """Return the call that replaces a joint's own function, and keep the function if it is new.
+        """Return the call that replaces a joint's own function, and store the shared function if it is new.
 
-        `numbers`: names in the function of the parameters that a joint has (`p.pin_radius` -> `R_i`).
-        `meanings` by these names are added to the function's comment.
+        `parameter_names`: names in the function of the parameters that a joint has (`p.pin_radius` -> `R_i`). `joint`:
+        its label, appended to the name if an unequal function has that name. `meanings` by parameter name are added to
+        the function's comment.
         """
-        called, given = _name_parameters(kernel, numbers)
-        names = [called[place] for place in given]
-        first = min(_corners(kernel), default=None)
-        if first is not None:
-            called |= {f"{_SIDE}{k}": f"{_SIDE}{k - first + 1}" for k in _corners(kernel)}
-        meant = [f"{name}: {meanings[name]}" for name in names if name in meanings]
-        doc = (*kernel.doc, *textwrap.wrap("; ".join(meant) + ".", 110)) if meant else kernel.doc
-        shared = replace(
+        text_names, parameters = _name_parameters(kernel, parameter_names)
+        names = [text_names[place] for place in parameters]
+        first_switch = min(_find_switch_indices(kernel), default=None)
+        if first_switch is not None:
+            text_names |= {
+                f"{_BRANCH_PREFIX}{k}": f"{_BRANCH_PREFIX}{k - first_switch + 1}" for k in _find_switch_indices(kernel)
+            }
+        meaning_texts = [f"{name}: {meanings[name]}" for name in names if name in meanings]
+        doc = (*kernel.doc, *textwrap.wrap("; ".join(meaning_texts) + ".", 110)) if meaning_texts else kernel.doc
+        shared_kernel = replace(
             kernel,
             doc=doc,
-            arguments=_arguments(kernel, names, first is not None),
-            sections=_without_parameter_copies(kernel),
-            names={**kernel.names, **called},
-            first_corner=first,
+            arguments=_make_arguments(kernel, names, first_switch is not None),
+            sections=_remove_parameter_copies(kernel),
+            names={**kernel.names, **text_names},
+            first_corner=first_switch,
         )
-        key = (kernel.name, shared.arguments, *_distinguishing_parts(shared))
-        if key not in self._known:
-            used = any(other.name == kernel.name for other in self.kernels)
-            self._known[key] = replace(shared, name=f"{kernel.name}_of_{joint}_") if used else shared
-            self.kernels.append(self._known[key])
-        return SharedFunctionCall(self._known[key], tuple(given), first)
+        key = (kernel.name, shared_kernel.arguments, *_distinguishing_parts(shared_kernel))
+        if key not in self._kernel_by_key:
+            is_name_used = any(kernel_.name == kernel.name for kernel_ in self.kernels)
+            self._kernel_by_key[key] = (
+                replace(shared_kernel, name=f"{kernel.name}_of_{joint}_") if is_name_used else shared_kernel
+            )
+            self.kernels.append(self._kernel_by_key[key])
+        return SharedFunctionCall(self._kernel_by_key[key], tuple(parameters), first_switch)
 
 
 def joint_numbers(model: Model, clearance: Clearance) -> dict[Place, str]:
-    """Return the names of parameters in the equations of a joint with play, those of its laws first."""
+    """Return the names of parameters in the equations of a joint with play by place, those of its laws first.
+
+    Then follow dimensions, derived parameters, the transition, parameters of user expressions and reciprocals. A
+    parameter or name that occurs twice counts once.
+    """
     laws = clearance.laws
-    named = [(letter_of(law.law, name), value) for law in laws for name, value in law.numbers.items()]
-    pair = clearance.pair
-    named += [(name, getattr(pair, name)) for name in ("R_i", "R_j", "c", "L", "E_i", "nu_i", "E_j", "nu_j")]
-    named += [(letter_of(law.law, name), value) for law in laws for name, value in law.derived.items()]
-    named += [("transition", clearance.transition)]
+    named_symbols = [(letter_of(law.law, name), value) for law in laws for name, value in law.numbers.items()]
+    dimensions = clearance.pair
+    named_symbols += [
+        (name, getattr(dimensions, name)) for name in ("R_i", "R_j", "c", "L", "E_i", "nu_i", "E_j", "nu_j")
+    ]
+    named_symbols += [(letter_of(law.law, name), value) for law in laws for name, value in law.derived.items()]
+    named_symbols += [("transition", clearance.transition)]
     info = model.symbols.info
-    used = {*(name for name, _ in named), *(name for law in laws for name in (*law.law.variables, *law.steps))}
+    used_names = {
+        *(name for name, _ in named_symbols),
+        *(name for law in laws for name in (*law.law.variables, *law.steps)),
+    }
     for name, symbol in _file_parameters(model, laws):
-        named.append((f"{name}_file_parameters" if name in used else name, symbol))
-    homes = {symbol: own.home for symbol, own in info.items() if own.home}
-    fields: dict[Place, str] = {}
-    for name, symbol in named:
-        if symbol in homes and name not in fields.values():
-            fields.setdefault(homes[symbol], name)
+        named_symbols.append((f"{name}_file_parameters" if name in used_names else name, symbol))
+    place_of_symbol = {symbol: symbol_info.home for symbol, symbol_info in info.items() if symbol_info.home}
+    name_of_place: dict[Place, str] = {}
+    for name, symbol in named_symbols:
+        if symbol in place_of_symbol and name not in name_of_place.values():
+            name_of_place.setdefault(place_of_symbol[symbol], name)
     for symbol, value in model.slots.derived.items():  # reciprocals
-        if value.is_Pow and value.exp == -1 and homes.get(value.base) in fields:
-            fields.setdefault(homes[symbol], f"inverse_{fields[homes[value.base]]}")
-    return fields
+        if value.is_Pow and value.exp == -1 and place_of_symbol.get(value.base) in name_of_place:
+            name_of_place.setdefault(place_of_symbol[symbol], f"inverse_{name_of_place[place_of_symbol[value.base]]}")
+    return name_of_place
 
 
 def _file_parameters(model: Model, laws: Iterable[LawEquations]) -> Iterator[tuple[str, sp.Symbol]]:
-    """Yield the parameters in a law's user expression with their names, in the file's order."""
-    varying = [law.numbers[own.name] for law in laws for own in law.law.expressions]
-    used = set().union(*(value.free_symbols for value in varying))
+    """Yield the parameters that laws' user expressions read, with their names, in the file's order."""
+    user_expressions = [law.numbers[expression.name] for law in laws for expression in law.law.expressions]
+    used_symbols = set().union(*(value.free_symbols for value in user_expressions))
     for entry in model.slots.entries.values():
-        if entry.symbol in used:
+        if entry.symbol in used_symbols:
             yield model.slots.field(entry.symbol), entry.symbol
 
 
-def _name_parameters(kernel: Kernel, numbers: Mapping[Place, str]) -> tuple[dict[Key, str], list[Place]]:
-    """Return the names of symbols and parameters in the shared function, and its parameters in argument order."""
-    fields: dict[Key, Place] = {line.defines: place for line in _lines(kernel) if (place := _parameter_of(line))}
-    for line in _lines(kernel):
+def _name_parameters(kernel: Kernel, parameter_names: Mapping[Place, str]) -> tuple[dict[Key, str], list[Place]]:
+    """Return the names of symbols and parameters in the shared function, and its parameters in argument order.
+
+    `parameter_names`: names by place; other parameters keep their field's name and follow.
+    """
+    place_of_key: dict[Key, Place] = {
+        line.defines: place for line in _iterate_lines(kernel) if (place := _find_copied_parameter(line))
+    }
+    for line in _iterate_lines(kernel):
         for expression in line.expressions:
-            read = (s.place for s in expression.free_symbols if isinstance(s, PlaceSymbol))
-            fields |= {place: place for place in read if place.is_parameter}
-    known = {field: numbers.get(field, field.member) for field in fields.values()}
-    order = [*(field for field in numbers if field in known), *(field for field in known if field not in numbers)]
-    return {symbol: known[field] for symbol, field in fields.items()} | known, order
+            read_places = (s.place for s in expression.free_symbols if isinstance(s, PlaceSymbol))
+            place_of_key |= {place: place for place in read_places if place.is_parameter}
+    name_of_place = {field: parameter_names.get(field, field.member) for field in place_of_key.values()}
+    order = [
+        *(field for field in parameter_names if field in name_of_place),
+        *(field for field in name_of_place if field not in parameter_names),
+    ]
+    return {symbol: name_of_place[field] for symbol, field in place_of_key.items()} | name_of_place, order
 
 
-def _lines(kernel: Kernel) -> Iterator[Line]:
-    """Yield the statements of a function."""
+def _iterate_lines(kernel: Kernel) -> Iterator[Line]:
+    """Yield the lines of all sections of a function."""
     return (line for section in kernel.sections for line in section.statements)
 
 
-def _parameter_of(line: Line) -> Place | None:
-    """Return the parameter that a local is a copy of; None if it is not one."""
+def _find_copied_parameter(line: Line) -> Place | None:
+    """Return the parameter that a local is a copy of; None if the line is not such a copy."""
     place = line.value if isinstance(line, Statement) and isinstance(line.value, Place) else None
     return place if place and place.is_parameter else None
 
 
-def _without_parameter_copies(kernel: Kernel) -> tuple[Section, ...]:
-    """Return the sections of a function without the statements that copy parameters to locals."""
-    left = (Section(s.title, tuple(x for x in s.statements if not _parameter_of(x))) for s in kernel.sections)
-    return tuple(section for section in left if section.statements)
+def _remove_parameter_copies(kernel: Kernel) -> tuple[Section, ...]:
+    """Return the sections of a function without the statements that copy parameters to locals.
+
+    Empty sections are left out.
+    """
+    sections = (
+        Section(section.title, tuple(line for line in section.statements if not _find_copied_parameter(line)))
+        for section in kernel.sections
+    )
+    return tuple(section for section in sections if section.statements)
 
 
-def _arguments(kernel: Kernel, numbers: list[str], corners: bool) -> tuple[Argument, ...]:
-    """Return the arguments with named parameters instead of the struct; branches only if the function has switches."""
-    found: list[Argument] = []
+def _make_arguments(kernel: Kernel, parameter_names: list[str], has_switches: bool) -> tuple[Argument, ...]:
+    """Return the arguments with named parameters instead of the struct.
+
+    The arguments for branches stay, followed by the number of the first switch, only if the function has switches.
+    """
+    result: list[Argument] = []
     for argument in kernel.arguments:
         if argument == PARAMETERS:
-            found += [Argument(name) for name in numbers]
-        elif argument not in BRANCHES or corners:
-            found.append(argument)
-        if argument == BRANCHES[-1] and corners:
-            found.append(CORNER)
-    return tuple(found)
+            result += [Argument(name) for name in parameter_names]
+        elif argument not in BRANCHES or has_switches:
+            result.append(argument)
+        if argument == BRANCHES[-1] and has_switches:
+            result.append(CORNER)
+    return tuple(result)
 
 
-def _corners(kernel: Kernel) -> set[int]:
-    """Return the numbers of the switches whose branch a function reads."""
-    return {int(part.args[0]) for line in _lines(kernel) for x in line.expressions for part in x.atoms(BranchOf)}
+def _find_switch_indices(kernel: Kernel) -> set[int]:
+    """Return the indices of the switches whose branch a function reads; empty if it reads none."""
+    return {
+        int(branch.args[0])
+        for line in _iterate_lines(kernel)
+        for expression in line.expressions
+        for branch in expression.atoms(BranchOf)
+    }
 
 
 def _distinguishing_parts(kernel: Kernel) -> Iterator[object]:
-    """Yield what distinguishes two functions: their statements, in the names of the printed text."""
-    first = kernel.first_corner or 0
+    """Yield the parts that distinguish two functions, in the names of the printed text.
 
-    def named(value: sp.Basic) -> sp.Basic:
+    For each line these are its target, its kind and its expressions.
+    """
+    first_switch = kernel.first_corner or 0
+
+    def rename_symbols(value: sp.Basic) -> sp.Basic:
         """Return an expression with its symbols named, and its switches counted, as in the printed text."""
-        known = {s: kernel.names[key] for s in value.free_symbols if (key := key_of(s)) in kernel.names}
-        symbols = {s: sp.Symbol(str(name), real=True) for s, name in known.items()}
-        sides = {part: BranchOf(part.args[0] - first, part.args[1]) for part in value.atoms(BranchOf)}
-        return value.xreplace(sides).xreplace(symbols)
+        known_names = {s: kernel.names[key] for s in value.free_symbols if (key := key_of(s)) in kernel.names}
+        symbols = {s: sp.Symbol(str(name), real=True) for s, name in known_names.items()}
+        branches = {part: BranchOf(part.args[0] - first_switch, part.args[1]) for part in value.atoms(BranchOf)}
+        return value.xreplace(branches).xreplace(symbols)
 
-    for line in _lines(kernel):
+    for line in _iterate_lines(kernel):
         value = line.value if isinstance(line, Statement) else None
-        what: Key = line.target if isinstance(line, Statement) else type(line).__name__
-        how = value.test.relation if isinstance(value, Conditional) else value if isinstance(value, Place) else ""
-        yield kernel.names.get(what, what), how, tuple(map(named, line.expressions))
+        target: Key = line.target if isinstance(line, Statement) else type(line).__name__
+        kind = value.test.relation if isinstance(value, Conditional) else value if isinstance(value, Place) else ""
+        yield kernel.names.get(target, target), kind, tuple(map(rename_symbols, line.expressions))

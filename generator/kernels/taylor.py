@@ -28,15 +28,22 @@ NAME = "taylor"
 
 
 def taylor_series(program: Program) -> Series:
-    """Return the Taylor series of accelerations and powers; BadValueError if the motion is not smooth."""
+    """Return the Taylor series of accelerations and powers of a program.
+
+    Raise BadValueError if the motion is not smooth.
+    """
     try:
-        return _series(program)
+        return _check_and_derive(program)
     except NoSeries as why:
         raise BadValueError(f"method 'taylor' is for smooth motion: {why}", hint="use auto") from None
 
 
-def _series(program: Program) -> Series:
-    """Return the series, or raise NoSeries with the first reason why the scene has none."""
+def _check_and_derive(program: Program) -> Series:
+    """Return the series, or raise NoSeries with the first reason why the scene has none.
+
+    Reasons are play, friction that may stick, driven loops, switching points, jumps of a drive, and that nothing is
+    integrated.
+    """
     model, tree = program.model, program.tree
     if tree is None or not program.integrates:
         raise NoSeries("nothing is integrated in coordinates of a tree")
@@ -54,12 +61,15 @@ def _series(program: Program) -> Series:
 
 
 def _derive_series(system: TreeSystem) -> Series:
-    """Return the series of the right-hand side, derived with a record of its linear system."""
+    """Return the series of the right-hand side.
+
+    The right-hand side is derived again, with a record of its linear system.
+    """
     kkt = _RecordedKKT(system, allow_early_pairs=has_singular_fallback(system))
-    dynamics = without_unused(dynamics_kernel(system, kkt, DYNAMICS, stabilised=False, rescue=_no_rescue))
+    dynamics = without_unused(dynamics_kernel(system, kkt, DYNAMICS, stabilised=False, rescue=_ignore_vanishing_pivot))
     diagonal = {(k, k): system.mass[k, k] for k in range(kkt.n) if (k, k) in system.mass}
     linear = Linear(FACTORS, {**kkt.entry, **diagonal}, kkt.loads, kkt.unknowns)
-    return series_of(dynamics, _result_place, NAME, linear)
+    return series_of(dynamics, _find_result_place, NAME, linear)
 
 
 class _RecordedKKT(KKT):
@@ -69,30 +79,43 @@ class _RecordedKKT(KKT):
     unknowns: dict[int, sp.Symbol]
 
     def factorize(
-        self, build: KernelBuilder, jumps: bool = False, share: Threshold = SINGULAR, size: Threshold = VANISHING
+        self,
+        build: KernelBuilder,
+        jumps: bool = False,
+        threshold: Threshold = SINGULAR,
+        pair_threshold: Threshold = VANISHING,
     ) -> Factor:
-        """Factorize with the default thresholds as constants, since no discrete state is passed to the series."""
-        share, size = (Threshold(one.name, one) for one in (share, size))
-        return super().factorize(build, jumps, share, size)
+        """Append the factorization with the default thresholds as constants.
+
+        No discrete state is passed to the series, from which C reads them otherwise.
+        """
+        threshold, pair_threshold = (Threshold(limit.name, limit) for limit in (threshold, pair_threshold))
+        return super().factorize(build, jumps, threshold, pair_threshold)
 
     def solve(
         self, build: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""
     ) -> dict[int, sp.Expr]:
-        """Solve, and record the names of the right-hand sides and the symbols of the unknowns."""
+        """Append the solution; record the names of the right-hand sides and the symbols of the unknowns, by node."""
         build.section("right-hand side")
-        named = {k: build.local(f"load_{self.names[k]}", b.get(k, ZERO)) for k in self.elimination.order}
-        self.loads = {symbol.name: k for k, symbol in named.items()}
-        x = super().solve(build, factor, named, prefix)
+        load_symbols = {k: build.local(f"load_{self.names[k]}", b.get(k, ZERO)) for k in self.elimination.order}
+        self.loads = {symbol.name: k for k, symbol in load_symbols.items()}
+        x = super().solve(build, factor, load_symbols, prefix)
         self.unknowns = {k: symbol for k, symbol in x.items() if symbol.is_Symbol}
         return x
 
 
-def _no_rescue(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
-    """Append nothing for a vanishing pivot: another method takes the step then."""
+def _ignore_vanishing_pivot(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
+    """Append nothing for a vanishing pivot: another method takes the step then.
+
+    It is passed to `dynamics_kernel` as `rescue`.
+    """
 
 
-def _result_place(target: Place) -> Place | None:
-    """Return where a result is written: accelerations and powers; None for results that a series does not need."""
+def _find_result_place(target: Place) -> Place | None:
+    """Return the place of a result in the series, for accelerations and powers.
+
+    None stands for results that a series does not need.
+    """
     match target:
         case Place("a"):
             return target

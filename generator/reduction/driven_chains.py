@@ -53,83 +53,100 @@ class Chain:
 def with_directions(chain: Chain, system: System, frames: Iterable[Frame], prescribed: set[str]) -> Chain:
     """Return the chain with the directions in its closures: C stores their cosines and sines after q.
 
-    `prescribed`: names of the coordinates that drives prescribe.
+    Directions that turn only with dependent and prescribed coordinates count, if the closures read them. The places of
+    their symbols are changed. `prescribed`: names of the coordinates that drives prescribe.
     """
     symbols = system.model.symbols
-    read = _symbols_read(symbols, [x for row in chain.rows for x in (row.phi, row.phi_q_v, row.nu, row.gamma)])
-    place = {name: k for k, name in enumerate(chain.names)}
+    read_symbols = _find_read_symbols(
+        symbols, [x for row in chain.rows for x in (row.phi, row.phi_q_v, row.nu, row.gamma)]
+    )
+    index_of = {name: k for k, name in enumerate(chain.names)}
     directions: list[Direction] = []
     for frame in frames:
-        if frame.turns and set(frame.turns) <= {*place, *prescribed} and {frame.cos, frame.sin} & read:
-            first = len(system.q) + len(chain.names) + 2 * len(directions)
+        if frame.turns and set(frame.turns) <= {*index_of, *prescribed} and {frame.cos, frame.sin} & read_symbols:
+            first_index = len(system.q) + len(chain.names) + 2 * len(directions)
             for k, symbol in enumerate((frame.cos, frame.sin)):
-                symbols.info[symbol] = replace(symbols.info[symbol], home=Place("q")[first + k])
-            turns = {place[name]: c for name, c in frame.turns.items() if name in place}
+                symbols.info[symbol] = replace(symbols.info[symbol], home=Place("q")[first_index + k])
+            turns = {index_of[name]: c for name, c in frame.turns.items() if name in index_of}
             directions.append(Direction(frame.cos, frame.sin, turns))
     return replace(chain, directions=tuple(directions))
 
 
-def _symbols_read(symbols: Symbols, expressions: Iterable[sp.Expr]) -> set[sp.Symbol]:
-    """Return all symbols that expressions read, directly or through definitions."""
-    found: set[sp.Symbol] = set()
-    waiting = [s for e in expressions for s in e.free_symbols]
-    while waiting:
-        symbol = waiting.pop()
-        if symbol not in found:
-            found.add(symbol)
-            waiting.extend(symbols.definitions[symbol].free_symbols if symbol in symbols.definitions else ())
-    return found
+def _find_read_symbols(symbols: Symbols, expressions: Iterable[sp.Expr]) -> set[sp.Symbol]:
+    """Return all symbols that expressions read, directly or through the definitions of derived symbols."""
+    result: set[sp.Symbol] = set()
+    pending = [s for expression in expressions for s in expression.free_symbols]
+    while pending:
+        symbol = pending.pop()
+        if symbol not in result:
+            result.add(symbol)
+            pending.extend(symbols.definitions[symbol].free_symbols if symbol in symbols.definitions else ())
+    return result
 
 
 def find_blocks(pattern: Sequence[set[int]], n: int, banned: set[int]) -> list[Block]:
-    """Return the square blocks in solving order; none contains a banned coordinate.
+    """Return the square blocks in solving order, without banned coordinates and with at most MAX_BLOCK_ROWS equations.
 
-    `pattern`: coordinates by equation, for usable equations. A coordinate is free if it has no equation of its own, or
-    if
-    a free one reaches it. Coordinates of an equation without a coordinate of its own stay as they are.
+    `pattern`: coordinates by equation, for usable equations; `n`: number of coordinates. A coordinate is free if it has
+    no equation of its own, or if a free one reaches it. Coordinates of an equation without a coordinate of its own are
+    not determined.
     """
-    owner = match_rows(pattern)
-    free = {column for column in range(n) if column not in owner}
-    grown = True
-    while grown:  # from a free coordinate to its equations, and to the coordinates matched with these
-        reached = {column for column, row in owner.items() if pattern[row] & free}
-        grown = not reached <= free
+    row_of_column = match_rows(pattern)
+    free = {column for column in range(n) if column not in row_of_column}
+    has_grown = True
+    while has_grown:  # from a free coordinate to its equations, and to the coordinates matched with these
+        reached = {column for column, row in row_of_column.items() if pattern[row] & free}
+        has_grown = not reached <= free
         free |= reached
-    matched = set(owner.values())
-    rows = [r for r, columns in enumerate(pattern) if r in matched and not columns & free]
-    columns = sorted(column for column, row in owner.items() if column not in free)
-    place = {column: k for k, column in enumerate(columns)}
-    blocks = triangular_blocks([{place[c] for c in pattern[r]} for r in rows], len(columns)) or ()
-    doubtful = {c for r, entries in enumerate(pattern) if r not in matched for c in entries}
-    found: list[Block] = []
-    known: set[int] = set()
+    matched = set(row_of_column.values())
+    rows = [row_index for row_index, columns in enumerate(pattern) if row_index in matched and not columns & free]
+    columns = sorted(column for column, row in row_of_column.items() if column not in free)
+    position = {column: k for k, column in enumerate(columns)}
+    blocks = (
+        triangular_blocks([{position[column] for column in pattern[row_index]} for row_index in rows], len(columns))
+        or ()
+    )
+    ambiguous = {column for row_index, entries in enumerate(pattern) if row_index not in matched for column in entries}
+    result: list[Block] = []
+    determined_columns: set[int] = set()
     for block in blocks:
-        own = {columns[k] for k in block.columns}
-        used = {c for r in block.rows for c in pattern[rows[r]]}
-        if len(own) <= MAX_BLOCK_ROWS and used <= known | own and not own & (banned | doubtful):
-            known |= own
-            found.append(Block(tuple(rows[r] for r in block.rows), tuple(columns[k] for k in block.columns)))
-    return found
+        block_columns = {columns[k] for k in block.columns}
+        read_columns = {column for row_index in block.rows for column in pattern[rows[row_index]]}
+        if (
+            len(block_columns) <= MAX_BLOCK_ROWS
+            and read_columns <= determined_columns | block_columns
+            and not block_columns & (banned | ambiguous)
+        ):
+            determined_columns |= block_columns
+            result.append(
+                Block(tuple(rows[row_index] for row_index in block.rows), tuple(columns[k] for k in block.columns))
+            )
+    return result
 
 
-def determined(system: System, held: set[str]) -> tuple[list[int], list[int]]:
-    """Return the dependent coordinates and their equations by number; equations in `held` determine nothing.
+def determined(system: System, excluded: set[str]) -> tuple[list[int], list[int]]:
+    """Return the dependent coordinates and their equations by number.
 
-    Friction that may stick needs a free coordinate: if the drives alone determine its slip, its force is part of the
-    closures' multipliers, and the loop is not reduced.
+    Equations named in `excluded` determine nothing. Friction that may stick needs a free coordinate. If the drives
+    alone determined its slip, its force would be part of the closures' multipliers, so such a loop is not reduced.
     """
-    place = {q: k for k, q in enumerate(system.q)}
-    usable = [r for r, row in enumerate(system.rows) if row.name not in held]
-    pattern = [{place[q] for q in system.rows[r].phi_q} for r in usable]
-    slips = [{place[q] for q in friction.jacobian} for friction in system.frictions]
+    index_of = {q: k for k, q in enumerate(system.q)}
+    usable = [r for r, row in enumerate(system.rows) if row.name not in excluded]
+    pattern = [{index_of[q] for q in system.rows[r].phi_q} for r in usable]
+    slips = [{index_of[q] for q in friction.jacobian} for friction in system.frictions]
     banned: set[int] = set()
     while True:
-        blocks = find_blocks(pattern, len(place), banned)
-        known = {c for block in blocks for c in block.columns}
-        stuck = {c for slip in slips if slip and slip <= known for c in slip}
-        if not stuck:
+        blocks = find_blocks(pattern, len(index_of), banned)
+        dependent = {c for block in blocks for c in block.columns}
+        fixed_slip = {
+            c
+            for slip_coordinates in slips
+            if slip_coordinates and slip_coordinates <= dependent
+            for c in slip_coordinates
+        }
+        if not fixed_slip:
             return [c for block in blocks for c in block.columns], [usable[r] for block in blocks for r in block.rows]
-        banned |= stuck
+        banned |= fixed_slip
 
 
 S = TypeVar("S", bound=System)
@@ -138,52 +155,63 @@ S = TypeVar("S", bound=System)
 def prescribe(system: S, names: Sequence[str], columns: Sequence[int], rows: Sequence[int]) -> tuple[S, Chain]:
     """Return the system with these coordinates as functions of t and without these equations, and the chain.
 
-    `names` are those of all coordinates. In C the free coordinates come first in q, then the dependent ones; in v their
-    rates, then second and third rates of the dependent ones.
+    `names` are those of all coordinates; `columns` and `rows`: numbers of the dependent coordinates and of their
+    equations. In C the free coordinates come first in q, then the dependent ones; in v their rates, then second and
+    third rates of the dependent ones.
     """
-    kept = [k for k in range(len(system.q)) if k not in columns]
-    known = _move_to_places(system, names, kept, columns)
-    second = {k.q: k.second for k in known}
-    rates = {k.q: k.rate for k in known}
-    place = {k: i for i, k in enumerate(kept)}
+    free = [k for k in range(len(system.q)) if k not in columns]
+    dependent = _set_places(system, names, free, columns)
+    second = {k.q: k.second for k in dependent}
+    rates = {k.q: k.rate for k in dependent}
+    free_index = {k: i for i, k in enumerate(free)}
 
     def mass(k: int, j: int) -> sp.Expr:
-        """Return an entry of M, whose lower triangle is stored."""
+        """Return an entry of the symmetric M, whose lower triangle is stored."""
         return system.mass.get((max(k, j), min(k, j)), ZERO)
 
     def applied(k: int) -> sp.Expr:
         """Return the applied force on a coordinate minus M c̈ of the dependent coordinates."""
-        return sp.Add(system.applied[k], *(-mass(k, c) * x.second for c, x in zip(columns, known, strict=True)))
+        return sp.Add(system.applied[k], *(-mass(k, c) * x.second for c, x in zip(columns, dependent, strict=True)))
 
-    given = tuple(_reduce_given(g, place, columns, known) for g in system.given)
-    given += tuple(
-        PrescribedCoordinate(names[c], x.rate, {place[k]: m for k in kept if (m := mass(k, c)) != 0}, applied(c))
-        for c, x in zip(columns, known, strict=True)
+    prescribed = tuple(_reduce_given(coordinate, free_index, columns, dependent) for coordinate in system.given)
+    prescribed += tuple(
+        PrescribedCoordinate(names[c], x.rate, {free_index[k]: m for k in free if (m := mass(k, c)) != 0}, applied(c))
+        for c, x in zip(columns, dependent, strict=True)
     )
-    others = tuple(_reduce_row(row, rates, second, system) for r, row in enumerate(system.rows) if r not in rows)
+    remaining_rows = tuple(
+        _reduce_row(row, rates, second, system) for r, row in enumerate(system.rows) if r not in rows
+    )
     frictions = tuple(_reduce_friction(friction, second) for friction in system.frictions)
-    model = replace(system.model, rows=others, all_rows=others, frictions=frictions)
-    motions = {body: _reduce_motion(motion, place, columns, known) for body, motion in system.motions.items()}
+    model = replace(system.model, rows=remaining_rows, all_rows=remaining_rows, frictions=frictions)
+    motions = {body: _reduce_motion(motion, free_index, columns, dependent) for body, motion in system.motions.items()}
     reduced = replace(
         system,
         model=model,
-        q=tuple(system.q[k] for k in kept),
-        v=tuple(system.v[k] for k in kept),
+        q=tuple(system.q[k] for k in free),
+        v=tuple(system.v[k] for k in free),
         motions=motions,
-        mass={(place[k], place[j]): m for (k, j), m in system.mass.items() if k in place and j in place},
-        applied=tuple(applied(k) for k in kept),
-        given=given,
-        rows=others,
+        mass={
+            (free_index[k], free_index[j]): m
+            for (k, j), m in system.mass.items()
+            if k in free_index and j in free_index
+        },
+        applied=tuple(applied(k) for k in free),
+        given=prescribed,
+        rows=remaining_rows,
         frictions=frictions,
-        known=known,
+        known=dependent,
     )
-    return reduced, Chain(tuple(names[c] for c in columns), known, tuple(system.rows[r] for r in rows))
+    return reduced, Chain(tuple(names[c] for c in columns), dependent, tuple(system.rows[r] for r in rows))
 
 
-def _move_to_places(
-    system: System, names: Sequence[str], kept: Sequence[int], columns: Sequence[int]
+def _set_places(
+    system: System, names: Sequence[str], free: Sequence[int], columns: Sequence[int]
 ) -> tuple[DependentCoordinate, ...]:
-    """Move the coordinates and rates to their new places in C; return the dependent coordinates with their rates."""
+    """Set the places of coordinates and rates in C; return the dependent coordinates with their rates.
+
+    Symbols of second and third rates are new. `free`: numbers of the free coordinates; `columns`: those of the
+    dependent ones.
+    """
     symbols = system.model.symbols
     info = symbols.info
 
@@ -191,57 +219,74 @@ def _move_to_places(
         """Set the place at which C reads a symbol."""
         info[symbol] = replace(info[symbol], home=home)
 
-    for i, k in enumerate((*kept, *columns)):
+    for i, k in enumerate((*free, *columns)):
         move(system.q[k], Place("q")[i])
         move(system.v[k], Place("v")[i])
-    known = []
+    dependent = []
     for i, c in enumerate(columns, len(system.q)):
         name = system.q[c].name
         second = symbols.new(f"{name}_second", Place("v")[i], names[c])
         third = symbols.new(f"{name}_third", Place("v")[i + len(columns)], names[c])
-        known.append(DependentCoordinate(system.q[c], system.v[c], second, third))
-    return tuple(known)
+        dependent.append(DependentCoordinate(system.q[c], system.v[c], second, third))
+    return tuple(dependent)
 
 
 def _reduce_given(
-    given: PrescribedCoordinate, place: Mapping[int, int], columns: Sequence[int], known: Sequence[DependentCoordinate]
+    prescribed: PrescribedCoordinate,
+    new_index: Mapping[int, int],
+    columns: Sequence[int],
+    dependent: Sequence[DependentCoordinate],
 ) -> PrescribedCoordinate:
-    """Return a prescribed coordinate with the dependent accelerations in its applied force."""
-    pushed = (-given.mass[c] * x.second for c, x in zip(columns, known, strict=True) if c in given.mass)
-    own = {place[k]: m for k, m in given.mass.items() if k in place}
-    return replace(given, mass=own, applied=sp.Add(given.applied, *pushed))
+    """Return a prescribed coordinate with the dependent accelerations in its applied force.
+
+    `new_index`: new number of each free coordinate; `columns`: old numbers of the dependent ones.
+    """
+    dependent_forces = (
+        -prescribed.mass[c] * x.second for c, x in zip(columns, dependent, strict=True) if c in prescribed.mass
+    )
+    free_mass = {new_index[k]: m for k, m in prescribed.mass.items() if k in new_index}
+    return replace(prescribed, mass=free_mass, applied=sp.Add(prescribed.applied, *dependent_forces))
 
 
 def _reduce_row(
     row: Row, rates: Mapping[sp.Symbol, sp.Symbol], second: Mapping[sp.Symbol, sp.Symbol], system: System
 ) -> Row:
-    """Return a constraint equation with Φ_s ṡ = ν − Φ_c ċ and Φ_s s̈ = γ − Φ_c c̈."""
+    """Return a constraint equation with Φ_s ṡ = ν − Φ_c ċ and Φ_s s̈ = γ − Φ_c c̈.
+
+    `rates`, `second`: rates of the dependent coordinates.
+    """
     rate_of = dict(zip(system.q, system.v, strict=True))
-    own = {q: entry for q, entry in row.phi_q.items() if q not in rates}
-    moved = {q: entry for q, entry in row.phi_q.items() if q in rates}
+    free_entries = {q: entry for q, entry in row.phi_q.items() if q not in rates}
+    dependent_entries = {q: entry for q, entry in row.phi_q.items() if q in rates}
     return replace(
         row,
-        phi_q=own,
-        phi_q_v=sp.Add(*(entry * rate_of[q] for q, entry in own.items())),
-        nu=sp.Add(row.nu, *(-entry * rates[q] for q, entry in moved.items())),
-        gamma=sp.Add(row.gamma, *(-entry * second[q] for q, entry in moved.items())),
+        phi_q=free_entries,
+        phi_q_v=sp.Add(*(entry * rate_of[q] for q, entry in free_entries.items())),
+        nu=sp.Add(row.nu, *(-entry * rates[q] for q, entry in dependent_entries.items())),
+        gamma=sp.Add(row.gamma, *(-entry * second[q] for q, entry in dependent_entries.items())),
     )
 
 
 def _reduce_friction(friction: Friction, second: Mapping[sp.Symbol, sp.Symbol]) -> Friction:
-    """Return a friction with J s̈ = γ − J_c c̈; the slip itself contains the dependent rates."""
-    moved = (-entry * second[q] for q, entry in friction.jacobian.items() if q in second)
-    own = {q: entry for q, entry in friction.jacobian.items() if q not in second}
-    return replace(friction, jacobian=own, gamma=sp.Add(friction.gamma, *moved))
+    """Return a friction element with J s̈ = γ − J_c c̈; the slip itself contains the dependent rates."""
+    dependent_terms = (-entry * second[q] for q, entry in friction.jacobian.items() if q in second)
+    free_entries = {q: entry for q, entry in friction.jacobian.items() if q not in second}
+    return replace(friction, jacobian=free_entries, gamma=sp.Add(friction.gamma, *dependent_terms))
 
 
 def _reduce_motion(
-    motion: Motion, place: Mapping[int, int], columns: Sequence[int], known: Sequence[DependentCoordinate]
+    motion: Motion, new_index: Mapping[int, int], columns: Sequence[int], dependent: Sequence[DependentCoordinate]
 ) -> Motion:
-    """Return the motion of a body with J of the free coordinates; dependent accelerations are in the bias."""
-    second = {c: x.second for c, x in zip(columns, known, strict=True)}
+    """Return the motion of a body with J of the free coordinates; dependent accelerations are in the bias.
+
+    `new_index`: new number of each free coordinate.
+    """
+    second = {c: x.second for c, x in zip(columns, dependent, strict=True)}
     bias = tuple(
-        sp.Add(own, *(entry * second[k] for k, entry in line.items() if k in second))
-        for line, own in zip(motion.jacobian, motion.bias, strict=True)
+        sp.Add(own_bias, *(entry * second[k] for k, entry in row_entries.items() if k in second))
+        for row_entries, own_bias in zip(motion.jacobian, motion.bias, strict=True)
     )
-    return Motion(tuple({place[k]: e for k, e in line.items() if k in place} for line in motion.jacobian), bias)
+    return Motion(
+        tuple({new_index[k]: e for k, e in row_entries.items() if k in new_index} for row_entries in motion.jacobian),
+        bias,
+    )

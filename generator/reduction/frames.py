@@ -19,13 +19,16 @@ CONSTANT = ""
 
 
 def substitute(affine: Affine, name: str, value: Affine) -> Affine:
-    """Return `affine` with the coordinate `name` replaced by the affine expression `value`."""
+    """Return `affine` with the coordinate `name` replaced by the affine expression `value`, without zero coefficients.
+
+    It is returned unchanged if it does not contain the coordinate.
+    """
     if name not in affine:
         return affine
-    out = {k: c for k, c in affine.items() if k != name}
-    for k, c in value.items():
-        out[k] = sp.expand(out.get(k, sp.Integer(0)) + affine[name] * c)
-    return {k: c for k, c in out.items() if c != 0}
+    result = {k: coefficient for k, coefficient in affine.items() if k != name}
+    for k, coefficient in value.items():
+        result[k] = sp.expand(result.get(k, sp.Integer(0)) + affine[name] * coefficient)
+    return {k: coefficient for k, coefficient in result.items() if coefficient != 0}
 
 
 ZERO, ONE = sp.Integer(0), sp.Integer(1)
@@ -57,14 +60,17 @@ class Frame:
 class Motions:
     """Values and rates of affine quantities, with the rules by which their symbols are differentiated."""
 
-    def __init__(self, symbols: Symbols, slots: ParameterTable, t: sp.Symbol) -> None:
-        """Begin without coordinates and arms."""
-        self.symbols, self.slots, self.t = symbols, slots, t
+    def __init__(self, symbols: Symbols, parameter_table: ParameterTable, t: sp.Symbol) -> None:
+        """Begin without coordinates and arms; the caller adds to `coordinates`.
+
+        `t`: the symbol of time.
+        """
+        self.symbols, self.slots, self.t = symbols, parameter_table, t
         self.coordinates: dict[str, Coordinate] = {}
         self._arms: dict[tuple[str, sp.Expr, sp.Expr], Pair] = {}
 
     def hoisted(self, name: str, affine: Affine) -> Affine:
-        """Return an affine expression with its coefficients as derived parameters."""
+        """Return an affine expression with its coefficients as derived parameters; `name`: base of their names."""
         return {k: self.slots.derive(f"{name}_by_{k or 'constant'}", c) for k, c in affine.items()}
 
     def value(self, affine: Affine) -> sp.Expr:
@@ -77,44 +83,53 @@ class Motions:
         return sp.Add(*(c * self.coordinates[k].v for k, c in affine.items() if k != CONSTANT))
 
     def rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
-        """Return the derivatives of a quantity with the given columns ∂/∂z: by unknown coordinates, and by t.
+        """Return the derivatives of a quantity by unknown coordinates and by t, from its columns ∂/∂z by coordinate.
 
-        The derivative by t is through the prescribed coordinates.
+        The derivative by t is through the prescribed coordinates; it is absent if it is 0.
         """
         rules: dict[sp.Symbol, sp.Expr] = {}
-        through_t = ZERO
-        for k, entry in columns.items():
+        time_derivative = ZERO
+        for k, column in columns.items():
             coordinate = self.coordinates[k]
             if coordinate.acceleration is None:
-                rules[coordinate.q] = entry
+                rules[coordinate.q] = column
             else:
-                through_t += entry * coordinate.v
-        return rules | ({self.t: through_t} if through_t != 0 else {})
+                time_derivative += column * coordinate.v
+        return rules | ({self.t: time_derivative} if time_derivative != 0 else {})
 
     def rate_rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
-        """Return the derivatives of a rate Σ column · ż, whose columns move as well."""
-        by = [self.coordinates[k].q for k in columns if self.coordinates[k].acceleration is None] + [self.t]
+        """Return the derivatives of a rate Σ column · ż by unknown coordinates, their rates and t.
+
+        `columns`: ∂/∂z of the quantity, which depend on the motion themselves.
+        """
+        variables = [self.coordinates[k].q for k in columns if self.coordinates[k].acceleration is None] + [self.t]
         rate = sp.Add(*(entry * self.coordinates[k].v for k, entry in columns.items()))
-        rules = {q: value for q in by if (value := self.symbols.diff(rate, q)) != 0}
+        rules = {q: value for q in variables if (value := self.symbols.diff(rate, q)) != 0}
         for k, entry in columns.items():
             if self.coordinates[k].acceleration is None:
                 rules[self.coordinates[k].v] = entry
         return rules
 
-    def named(self, expected: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
-        """Return a new symbol for `value`, with derivatives by its columns."""
-        symbol = self.symbols.define(expected, value)
+    def named(self, base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
+        """Return a new symbol for `value`, with derivatives by its columns; `base_name`: base of its name."""
+        symbol = self.symbols.define(base_name, value)
         self.symbols.rules[symbol] = self.rules(columns)
         return symbol
 
-    def named_rate(self, expected: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
-        """Return a new symbol for a rate, with derivatives by the columns of the quantity."""
-        symbol = self.symbols.define(expected, value)
+    def named_rate(self, base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
+        """Return a new symbol for a rate, with derivatives by the columns of the quantity.
+
+        `base_name`: base of its name.
+        """
+        symbol = self.symbols.define(base_name, value)
         self.symbols.rules[symbol] = self.rate_rules(columns)
         return symbol
 
     def frame(self, name: str, affine: Affine) -> Frame:
-        """Return the frame that turns with θ = `affine`; its cosine and sine are one pair of symbols."""
+        """Return the frame that turns with θ = `affine`; its cosine and sine are one pair of symbols.
+
+        A longer angle or rate becomes a symbol of its own.
+        """
         turns = {k: c for k, c in affine.items() if k != CONSTANT}
         theta, omega = self.value(affine), self.rate(affine)
         if not theta.is_Symbol:
@@ -128,8 +143,12 @@ class Motions:
         self.symbols.rules[sin] = self.rules({k: c * cos for k, c in turns.items()})
         return frame
 
-    def arm(self, frame: Frame, w: Pair, expected: str) -> Pair:
-        """Return A(θ) w as a pair of symbols; the opposite of a known arm is its negative."""
+    def arm(self, frame: Frame, w: Pair, base_name: str) -> Pair:
+        """Return A(θ) w as a pair of symbols; the opposite of a known arm is its negative.
+
+        Arms of the ground, zero arms and arms along the frame's axes need no new symbols. `base_name`: base of their
+        names.
+        """
         x, y = w
         if not frame.turns or w == (ZERO, ZERO):
             return w
@@ -139,19 +158,25 @@ class Motions:
             a_x, a_y = self._arms[frame.name, -x, -y]
             return -a_x, -a_y
         if (frame.name, x, y) not in self._arms:
-            a_x = self.symbols.define(f"{expected}_x", frame.cos * x - frame.sin * y, None, "A(theta) s, x")
-            a_y = self.symbols.define(f"{expected}_y", frame.sin * x + frame.cos * y, None, "A(theta) s, y")
+            a_x = self.symbols.define(f"{base_name}_x", frame.cos * x - frame.sin * y, None, "A(theta) s, x")
+            a_y = self.symbols.define(f"{base_name}_y", frame.sin * x + frame.cos * y, None, "A(theta) s, y")
             self.symbols.rules[a_x] = self.rules({k: -c * a_y for k, c in frame.turns.items()})
             self.symbols.rules[a_y] = self.rules({k: c * a_x for k, c in frame.turns.items()})
             self._arms[frame.name, x, y] = a_x, a_y
         return self._arms[frame.name, x, y]
 
-    def constant_vector(self, expected: str, w: Pair, shown: str = "") -> Pair:
-        """Return both components of a constant vector as derived parameters."""
+    def constant_vector(self, base_name: str, vector: Pair, field_base_name: str = "") -> Pair:
+        """Return both components of a constant vector as derived parameters.
+
+        `base_name`: base of their names; `field_base_name`: base of their fields' names.
+        """
         x, y = (
             self.slots.derive_signed(
-                f"{expected}_{axis}", sp.expand(part), "vector in its frame", f"{shown}_{axis}" if shown else ""
+                f"{base_name}_{axis}",
+                sp.expand(part),
+                "vector in its frame",
+                f"{field_base_name}_{axis}" if field_base_name else "",
             )
-            for axis, part in zip("xy", w, strict=True)
+            for axis, part in zip("xy", vector, strict=True)
         )
         return x, y

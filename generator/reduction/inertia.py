@@ -21,151 +21,164 @@ class Inertia:
     """Derives M, the velocity terms and the weights of one tree geometry; coordinates are identified by name."""
 
     def __init__(self, geometry: TreeGeometry, gravity: Pair) -> None:
-        """Collect the constants of all bodies and derive the mass matrix."""
+        """Collect the constants of all bodies and derive the mass matrix `mass`.
+
+        `gravity`: its components in ground axes.
+        """
         self.geometry, self.motions, self.gravity = geometry, geometry.motions, gravity
         self.symbols, self.slots = geometry.symbols, geometry.slots
-        self._alpha: dict[tuple[Term, Term], tuple[sp.Expr, sp.Expr]] = {}
-        self._moment: dict[Term, Pair] = {}  # Σ m w
-        self._between: dict[tuple[str, str], Pair] = {}  # cos and sin of θ_U − θ_T
+        self._alpha_and_beta: dict[tuple[Term, Term], tuple[sp.Expr, sp.Expr]] = {}
+        self._mass_moments: dict[Term, Pair] = {}  # Σ m w
+        self._angle_differences: dict[tuple[str, str], Pair] = {}  # cos and sin of θ_U − θ_T
         self._products: dict[tuple[Term, Term], Pair] = {}
-        self._collect()
-        self.mass = self._mass()
+        self._sum_body_constants()
+        self.mass = self._derive_mass()
 
-    def _collect(self) -> None:
-        """Sum α, β and Σ m w over the bodies, without terms that do not move."""
-        for body in self.geometry.bodies.values():
-            moving = [(T, w) for T, w in self.geometry.com(body.name).terms.items() if T != (GROUND, "")]
-            for i, (T, w) in enumerate(moving):
-                m_x, m_y = self._moment.get(T, (ZERO, ZERO))
-                self._moment[T] = m_x + body.mass * w[0], m_y + body.mass * w[1]
-                for U, u in moving[i:]:
-                    sign = 1 if (T, U) in self._alpha or (U, T) not in self._alpha else -1
-                    key = (T, U) if sign == 1 else (U, T)
-                    alpha, beta = self._alpha.get(key, (ZERO, ZERO))
-                    dot, cross = w[0] * u[0] + w[1] * u[1], w[0] * u[1] - w[1] * u[0]
-                    self._alpha[key] = alpha + body.mass * dot, beta + sign * body.mass * cross
+    def _sum_body_constants(self) -> None:
+        """Sum α, β and Σ m w over the bodies by terms, without terms that do not move.
 
-    def _angles_between(self, one: Frame, two: Frame) -> Pair:
-        """Return cos and sin of θ_two − θ_one."""
-        if one.name == two.name:
-            return ONE, ZERO
-        if not one.turns:
-            return two.cos, two.sin
-        if not two.turns:
-            return one.cos, -one.sin
-        if (one.name, two.name) not in self._between:
-            define, name = self.symbols.define, f"{two.name}_less_{one.name}"
-            cos = define(f"cos_{name}", one.cos * two.cos + one.sin * two.sin)
-            sin = define(f"sin_{name}", one.cos * two.sin - one.sin * two.cos)
-            self._rules(cos, sin, one, two)
-            self._between[one.name, two.name] = cos, sin
-        return self._between[one.name, two.name]
-
-    def _rules(self, cos: sp.Symbol, sin: sp.Symbol, one: Frame, two: Frame) -> None:
-        """Set the derivatives of a cosine and sine of ψ = θ_two − θ_one: d cos = −sin dψ, d sin = cos dψ.
-
-        P and Q have the same rules.
+        Each pair of terms is stored in one order.
         """
-        turns = {k: two.turns.get(k, ZERO) - one.turns.get(k, ZERO) for k in {**one.turns, **two.turns}}
+        for body in self.geometry.bodies.values():
+            moving_terms = [(T, w) for T, w in self.geometry.com(body.name).terms.items() if T != (GROUND, "")]
+            for i, (T, w) in enumerate(moving_terms):
+                m_x, m_y = self._mass_moments.get(T, (ZERO, ZERO))
+                self._mass_moments[T] = m_x + body.mass * w[0], m_y + body.mass * w[1]
+                for U, u in moving_terms[i:]:
+                    sign = 1 if (T, U) in self._alpha_and_beta or (U, T) not in self._alpha_and_beta else -1
+                    key = (T, U) if sign == 1 else (U, T)
+                    alpha, beta = self._alpha_and_beta.get(key, (ZERO, ZERO))
+                    dot, cross = w[0] * u[0] + w[1] * u[1], w[0] * u[1] - w[1] * u[0]
+                    self._alpha_and_beta[key] = alpha + body.mass * dot, beta + sign * body.mass * cross
+
+    def _find_angle_difference(self, first: Frame, second: Frame) -> Pair:
+        """Return cos and sin of θ_2 − θ_1 for two frames; new symbols with rules if both frames turn."""
+        if first.name == second.name:
+            return ONE, ZERO
+        if not first.turns:
+            return second.cos, second.sin
+        if not second.turns:
+            return first.cos, -first.sin
+        if (first.name, second.name) not in self._angle_differences:
+            define, name = self.symbols.define, f"{second.name}_less_{first.name}"
+            cos = define(f"cos_{name}", first.cos * second.cos + first.sin * second.sin)
+            sin = define(f"sin_{name}", first.cos * second.sin - first.sin * second.cos)
+            self._set_rules(cos, sin, first, second)
+            self._angle_differences[first.name, second.name] = cos, sin
+        return self._angle_differences[first.name, second.name]
+
+    def _set_rules(self, cos: sp.Symbol, sin: sp.Symbol, first: Frame, second: Frame) -> None:
+        """Set the derivatives of a cosine and sine of ψ, the angle from the `first` to the `second` frame.
+
+        d cos = −sin dψ and d sin = cos dψ. P and Q have the same rules.
+        """
+        turns = {k: second.turns.get(k, ZERO) - first.turns.get(k, ZERO) for k in {**first.turns, **second.turns}}
         self.symbols.rules[cos] = self.motions.rules({k: -c * sin for k, c in turns.items()})
         self.symbols.rules[sin] = self.motions.rules({k: c * cos for k, c in turns.items()})
 
     def products(self, T: Term, U: Term) -> Pair:
-        """Return P_TU and Q_TU of two terms."""
-        if (T, U) not in self._alpha:
-            if (U, T) not in self._alpha:
+        """Return P_TU and Q_TU of two terms, computed once; (0, 0) for terms that no body has together."""
+        if (T, U) not in self._alpha_and_beta:
+            if (U, T) not in self._alpha_and_beta:
                 return ZERO, ZERO
             P, Q = self.products(U, T)
             return P, -Q
         if (T, U) not in self._products:
-            one, two = self.geometry.frames[T[0]], self.geometry.frames[U[0]]
+            first, second = self.geometry.frames[T[0]], self.geometry.frames[U[0]]
             name = "_".join(part.replace(".", "_") for part in (*T, *U) if part)
             derive = self.slots.derive
-            alpha, beta = (sp.expand(x) for x in self._alpha[T, U])
+            alpha, beta = (sp.expand(constant) for constant in self._alpha_and_beta[T, U])
             alpha, beta = (
                 derive(f"inertia_{name}", alpha, "sum of m w.w"),
                 derive(f"twist_{name}", beta, "sum of m wxw"),
             )
-            cos, sin = self._angles_between(one, two)
+            cos, sin = self._find_angle_difference(first, second)
             P, Q = alpha * cos - beta * sin, alpha * sin + beta * cos
             if cos != 1:
-                P, Q = (self._named(f"{letter}_{name}", value) for letter, value in (("dot", P), ("cross", Q)))
+                P, Q = (
+                    self._define_if_variable(f"{letter}_{name}", value) for letter, value in (("dot", P), ("cross", Q))
+                )
                 if P.is_Symbol and Q.is_Symbol:
-                    self._rules(P, Q, one, two)
+                    self._set_rules(P, Q, first, second)
             self._products[T, U] = P, Q
         return self._products[T, U]
 
-    def _named(self, expected: str, value: sp.Expr) -> sp.Expr:
-        """Return a number as it is, else a new symbol for the value."""
-        return value if value.is_Number else self.symbols.define(expected, value)
+    def _define_if_variable(self, base_name: str, value: sp.Expr) -> sp.Expr:
+        """Return a number unchanged, else a new symbol for the value; `base_name`: base of its name."""
+        return value if value.is_Number else self.symbols.define(base_name, value)
 
-    def _columns(self, T: Term) -> dict[str, Pair]:
-        """Return ∂r_T/∂z = (rot ẑ + along) A w as pairs (rot, along) by coordinate."""
+    def _find_columns(self, T: Term) -> dict[str, Pair]:
+        """Return ∂r_T/∂z = (turn ẑ + slide) A w as pairs (turn, slide) by coordinate."""
         frame, along, value = self.geometry.frames[T[0]], self.geometry.along(T[1]), self.geometry.value(T[1])
         names = dict.fromkeys((*frame.turns, *along))
         return {k: (frame.turns.get(k, ZERO) * value, along.get(k, ZERO)) for k in names}
 
-    def _pairs(self) -> Iterable[tuple[Term, Term]]:
-        """Yield ordered pairs of terms that some body has together."""
-        for T, U in self._alpha:
+    def _iterate_term_pairs(self) -> Iterable[tuple[Term, Term]]:
+        """Yield ordered pairs of terms that some body has together, in both orders."""
+        for T, U in self._alpha_and_beta:
             yield T, U
             if T != U:
                 yield U, T
 
-    def _mass(self) -> dict[tuple[str, str], sp.Expr]:
-        """Return both triangles of M by names of coordinates, prescribed ones included."""
-        total: dict[tuple[str, str], sp.Expr] = {}
-        for T, U in self._pairs():
+    def _derive_mass(self) -> dict[tuple[str, str], sp.Expr]:
+        """Return both triangles of M by names of coordinates, prescribed ones included, without zeros."""
+        sums: dict[tuple[str, str], sp.Expr] = {}
+        for T, U in self._iterate_term_pairs():
             P, Q = self.products(T, U)
-            for k, (rot, along) in self._columns(T).items():
-                for j, (turn, c) in self._columns(U).items():
-                    entry = rot * turn * P + rot * c * Q - along * turn * Q + along * c * P
-                    total[k, j] = total.get((k, j), ZERO) + entry
+            for k, (turn_T, slide_T) in self._find_columns(T).items():
+                for j, (turn_U, slide_U) in self._find_columns(U).items():
+                    entry = turn_T * turn_U * P + turn_T * slide_U * Q - slide_T * turn_U * Q + slide_T * slide_U * P
+                    sums[k, j] = sums.get((k, j), ZERO) + entry
         for body in self.geometry.bodies.values():
             turns = self.geometry.frame_of[body.name].turns
-            for k, c in turns.items():
+            for k, slide_U in turns.items():
                 for j, d in turns.items():
-                    total[k, j] = total.get((k, j), ZERO) + body.inertia * c * d
-        out = {}
-        for (k, j), value in total.items():
+                    sums[k, j] = sums.get((k, j), ZERO) + body.inertia * slide_U * d
+        result = {}
+        for (k, j), value in sums.items():
             if (hoisted := self.hoist(f"mass_{k}_{j}", value)) != 0:
-                out[k, j] = hoisted
-        return out
+                result[k, j] = hoisted
+        return result
 
     def hoist(self, name: str, value: sp.Expr) -> sp.Expr:
-        """Return a sum with the constant factor of each product as a derived parameter."""
+        """Return a sum with the constant factor of each product as a derived parameter; `name`: base of their names.
+
+        Products with the same variable part are added.
+        """
         groups: dict[sp.Expr, sp.Expr] = {}
         for term in sp.Add.make_args(sp.expand(value)):
-            variable = [s for s in term.free_symbols if not self.slots.is_constant(s)]
-            constant, rest = term.as_independent(*variable, as_Add=False) if variable else (term, ONE)
-            groups[rest] = groups.get(rest, ZERO) + constant
-        return sp.Add(*(rest * self._constant(name, c) for rest, c in groups.items()))
+            variable = [symbol for symbol in term.free_symbols if not self.slots.is_constant(symbol)]
+            constant_factor, variable_part = term.as_independent(*variable, as_Add=False) if variable else (term, ONE)
+            groups[variable_part] = groups.get(variable_part, ZERO) + constant_factor
+        return sp.Add(
+            *(variable_part * self._derive_constant(name, constant) for variable_part, constant in groups.items())
+        )
 
-    def _constant(self, name: str, value: sp.Expr) -> sp.Expr:
-        """Return a constant as a derived parameter; a symbol or its negative is one already."""
+    def _derive_constant(self, name: str, value: sp.Expr) -> sp.Expr:
+        """Return a constant as a derived parameter; the negative of a symbol is one already."""
         return value if (-value).is_Symbol else self.slots.derive_signed(name, value, "constant of M")
 
     def velocity_terms(self) -> dict[str, sp.Expr]:
-        """Return h_k = Σ_b m_b ∂r_b/∂z_k · r̈_b at z̈ = 0, by coordinate."""
+        """Return h_k = Σ_b m_b ∂r_b/∂z_k · r̈_b at z̈ = 0, by coordinate, prescribed ones included."""
         h: dict[str, sp.Expr] = {}
-        for T, U in self._pairs():
+        for T, U in self._iterate_term_pairs():
             P, Q = self.products(T, U)
             frame, value, rate = self.geometry.frames[U[0]], self.geometry.value(U[1]), self.geometry.rate(U[1])
-            toward, across = -(frame.omega**2) * value, 2 * frame.omega * rate
-            for k, (rot, along) in self._columns(T).items():
-                term = rot * toward * Q + rot * across * P + along * toward * P - along * across * Q
+            radial, tangential = -(frame.omega**2) * value, 2 * frame.omega * rate
+            for k, (turn, slide) in self._find_columns(T).items():
+                term = turn * radial * Q + turn * tangential * P + slide * radial * P - slide * tangential * Q
                 h[k] = h.get(k, ZERO) + term
         return {k: self.hoist(f"spin_{k}", value) for k, value in h.items()}
 
     def weights(self) -> dict[str, sp.Expr]:
-        """Return the generalized weights Σ_b m_b g · ∂r_b/∂z_k by coordinate."""
+        """Return the generalized weights Σ_b m_b g · ∂r_b/∂z_k by coordinate, without zeros."""
         g_x, g_y = self.gravity
-        total: dict[str, sp.Expr] = {}
-        for T, (m_x, m_y) in self._moment.items():
+        sums: dict[str, sp.Expr] = {}
+        for T, (m_x, m_y) in self._mass_moments.items():
             frame, name = self.geometry.frames[T[0]], "_".join(T).replace(".", "_")
             alpha = self.slots.derive(f"weight_{name}_along", sp.expand(m_x * g_x + m_y * g_y), "weight")
             beta = self.slots.derive(f"weight_{name}_across", sp.expand(m_x * g_y - m_y * g_x), "weight")
             P, Q = alpha * frame.cos + beta * frame.sin, beta * frame.cos - alpha * frame.sin
-            for k, (rot, along) in self._columns(T).items():
-                total[k] = total.get(k, ZERO) + rot * Q + along * P
-        return {k: self.hoist(f"weight_{k}", value) for k, value in total.items() if value != 0}
+            for k, (turn, slide) in self._find_columns(T).items():
+                sums[k] = sums.get(k, ZERO) + turn * Q + slide * P
+        return {k: self.hoist(f"weight_{k}", value) for k, value in sums.items() if value != 0}

@@ -37,45 +37,53 @@ class TreeSystem(System):
     chain: Chain | None = None  # what the drives determine through loops (driven_chains.py)
     in_tree = True
 
-    def _turned_by(self, k: int) -> dict[str, sp.Expr]:
-        """Return the bodies that turn with an angle k, and their rates by it; none for a slide."""
+    def _find_turning_bodies(self, k: int) -> dict[str, sp.Expr]:
+        """Return the bodies that turn with coordinate k, and their rates by it; none for a slide."""
         geometry, name = self.model.geometry, self.unknowns[k]
         assert isinstance(geometry, TreeGeometry)
         turns = {body: geometry.frame_of[body].turns.get(name, ZERO) for body in geometry.bodies}
-        return {body: c for body, c in turns.items() if c != 0}
+        return {body: rate for body, rate in turns.items() if rate != 0}
 
     def inertia_of_unit_mass(self, k: int) -> sp.Expr:
-        """Return the inertia about an angle k of all bodies that turn with it, each of 1 kg; 1 of a slide."""
-        turned = self._turned_by(k).items()
+        """Return the inertia about an angle k of all bodies that turn with it, each of 1 kg; 1 for a slide."""
+        turned = self._find_turning_bodies(k).items()
         return sp.Add(*(c**2 * s for body, c in turned for s in self.model.squared_arms(body))) if turned else ONE
 
     def turning_inertia(self, k: int) -> sp.Expr:
-        """Return the inertia about an angle k of all bodies that turn with it; 0 of a slide."""
+        """Return the inertia about an angle k of all bodies that turn with it, as a derived parameter.
+
+        It is 0 for a slide.
+        """
         name = self.unknowns[k]
-        total = sp.Add(*(c**2 * self.model.turning_inertia(body) for body, c in self._turned_by(k).items()))
-        return self.model.slots.derive(f"{name.replace('.', '_')}_turning", total, "J and m s^2 of what turns with it")
+        inertia = sp.Add(*(c**2 * self.model.turning_inertia(body) for body, c in self._find_turning_bodies(k).items()))
+        return self.model.slots.derive(
+            f"{name.replace('.', '_')}_turning", inertia, "J and m s^2 of what turns with it"
+        )
 
     def generalized(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
-        """Return the generalized forces of loads; forces with the same lever arm are added first."""
+        """Return the generalized forces of loads, and those on prescribed coordinates by name.
+
+        Forces with the same, or the opposite, lever arm are added first.
+        """
         levers: dict[str, dict[tuple[sp.Expr, sp.Expr], list[sp.Expr]]] = {}
         moments: dict[str, sp.Expr] = {}
         for point, x, y, moment in loads:
             assert isinstance(point, TreePoint)
             for k, lever in point.columns.items():
-                of = levers.setdefault(k, {})
+                forces_by_lever = levers.setdefault(k, {})
                 opposite = (-lever[0], -lever[1])
-                key, sign = (opposite, -1) if opposite in of else (lever, 1)
-                force = of.setdefault(key, [ZERO, ZERO])
-                force[0] += sign * x
-                force[1] += sign * y
-            for k, turn in point.turns.items():
-                moments[k] = moments.get(k, ZERO) + turn * moment
-        total = dict(moments)
-        for k, of in levers.items():
-            for (lever_x, lever_y), (x, y) in of.items():
-                total[k] = total.get(k, ZERO) + lever_x * x + lever_y * y
-        unknown = [total.get(name, ZERO) for name in self.unknowns]
-        return unknown, {g.name: total.get(g.name, ZERO) for g in self.given}
+                key, sign = (opposite, -1) if opposite in forces_by_lever else (lever, 1)
+                lever_force = forces_by_lever.setdefault(key, [ZERO, ZERO])
+                lever_force[0] += sign * x
+                lever_force[1] += sign * y
+            for k, rate in point.turns.items():
+                moments[k] = moments.get(k, ZERO) + rate * moment
+        forces = dict(moments)
+        for k, forces_by_lever in levers.items():
+            for (lever_x, lever_y), (x, y) in forces_by_lever.items():
+                forces[k] = forces.get(k, ZERO) + lever_x * x + lever_y * y
+        unknown = [forces.get(name, ZERO) for name in self.unknowns]
+        return unknown, {coordinate.name: forces.get(coordinate.name, ZERO) for coordinate in self.given}
 
 
 class TreeConstraints(Constraints):
@@ -87,8 +95,8 @@ class TreeConstraints(Constraints):
         """Return the frame of a named point as one sum of arms."""
         return self.geometry.point(ref).flat()
 
-    def _pairs(self, bodies: list[BodySymbols]) -> list[tuple[sp.Symbol, sp.Symbol]]:
-        """Return the pairs (coordinate, rate) of the unknowns that move the bodies."""
+    def _find_coordinate_pairs(self, bodies: list[BodySymbols]) -> list[tuple[sp.Symbol, sp.Symbol]]:
+        """Return the pairs (coordinate, rate) of the unknowns that move the bodies, without prescribed coordinates."""
         geometry = self.geometry
         names = {k for body in bodies for k in (*geometry.com(body.name).columns, *geometry.frame_of[body.name].turns)}
         return [
@@ -97,102 +105,117 @@ class TreeConstraints(Constraints):
 
 
 def reduce(model: Model) -> TreeSystem:
-    """Return the system of a model in tree coordinates; redundant equations have been left out already."""
+    """Return the system of a model in tree coordinates; redundant equations must have been left out already.
+
+    Slides that linear equations give in other slides or drives are eliminated one by one; then loops that drives
+    determine.
+    """
     tree = choose_tree(model)
     slides: dict[str, Affine] = {}
     sliding: tuple[str, ...] = ()
     while True:
-        geometry, constraints = _place(model, tree, slides)
-        rows = _closures(model, tree, constraints)
-        found = _known_slide(model, geometry, constraints, rows)
-        if found is None:
-            return _without_chains(model, _system(model, tree, (slides, sliding), geometry, constraints, rows))
-        row, name, value = found
-        slides = {k: substitute(v, name, value) for k, v in slides.items()} | {name: value}
+        geometry, constraints = _place_bodies(model, tree, slides)
+        rows = _derive_closures(model, tree, constraints)
+        elimination = _find_determined_slide(model, geometry, constraints, rows)
+        if elimination is None:
+            return _eliminate_driven_loops(
+                model, _make_system(model, tree, (slides, sliding), geometry, constraints, rows)
+            )
+        row, name, value = elimination
+        slides = {slide: substitute(affine, name, value) for slide, affine in slides.items()} | {name: value}
         sliding += (row,)
         tree = replace(tree, rows=tree.rows | {row})
 
 
-def _without_chains(model: Model, system: TreeSystem) -> TreeSystem:
+def _eliminate_driven_loops(model: Model, system: TreeSystem) -> TreeSystem:
     """Return the system with coordinates that drives determine as functions of t.
 
-    A scene without degrees of freedom is returned as it is, since nothing is integrated.
+    A scene without degrees of freedom, closures or such coordinates is returned unchanged, since nothing is integrated
+    or determined.
     """
     if model.degrees_of_freedom <= 0 or not system.rows:
         return system
-    held = {row.name for row in system.rows if stays_constraint(model, row)}
-    columns, rows = determined(system, held)
+    excluded = {row.name for row in system.rows if stays_constraint(model, row)}
+    columns, rows = determined(system, excluded)
     if not columns:
         return system
     free = tuple(name for k, name in enumerate(system.unknowns) if k not in columns)
     reduced, chain = prescribe(system, system.unknowns, columns, rows)
     geometry: TreeGeometry = reduced.model.geometry  # type: ignore[assignment]
-    driven = {name for name, c in geometry.motions.coordinates.items() if c.acceleration is not None}
-    chain = with_directions(chain, reduced, geometry.frames.values(), driven)
+    prescribed_names = {
+        name for name, coordinate in geometry.motions.coordinates.items() if coordinate.acceleration is not None
+    }
+    chain = with_directions(chain, reduced, geometry.frames.values(), prescribed_names)
     return replace(reduced, unknowns=free, chain=chain)
 
 
-def _place(model: Model, tree: Tree, slides: Mapping[str, Affine]) -> tuple[TreeGeometry, TreeConstraints]:
-    """Return the geometry of a tree, with symbols, coordinates and bodies, and its constraints."""
+def _place_bodies(model: Model, tree: Tree, slides: Mapping[str, Affine]) -> tuple[TreeGeometry, TreeConstraints]:
+    """Return the geometry of a tree, with new symbols, coordinates and bodies, and its constraints.
+
+    `slides`: slides that are functions of other coordinates.
+    """
     symbols = model.symbols.beside()
-    slots = model.slots.beside(symbols)
-    geometry = TreeGeometry(model, tree, symbols, slots)
+    parameter_table = model.slots.beside(symbols)
+    geometry = TreeGeometry(model, tree, symbols, parameter_table)
     constraints = TreeConstraints(geometry)
-    motions = Motions(symbols, slots, constraints.t)
-    used = {k for affine in (*tree.angles.values(), *slides.values()) for k in affine}
+    motions = Motions(symbols, parameter_table, constraints.t)
+    used_names = {name for affine in (*tree.angles.values(), *slides.values()) for name in affine}
     for drive in model.scene.mechanism.drives.values():
-        if drive.name in used:
+        if drive.name in used_names:
             constraints.drive_value(drive)
             motions.coordinates[drive.name] = Coordinate(drive.name, *constraints.drive_angles[drive.name])
     geometry.place(motions, slides)
     return geometry, constraints
 
 
-def _closures(model: Model, tree: Tree, constraints: TreeConstraints) -> tuple[Row, ...]:
-    """Return the constraint equations that the tree does not satisfy by itself, in the order of the model."""
+def _derive_closures(model: Model, tree: Tree, constraints: TreeConstraints) -> tuple[Row, ...]:
+    """Return the constraint equations that the tree does not satisfy by itself, in the order of the model.
+
+    Pairs that hubs need in addition follow.
+    """
     mechanism = model.scene.mechanism
-    expected = [row.name for row in model.rows if row.name not in tree.rows]
-    owners = {row.owner for row in model.rows if row.name in expected}
-    derived: dict[str, Row] = {}
+    closure_names = [row.name for row in model.rows if row.name not in tree.rows]
+    owners = {row.owner for row in model.rows if row.name in closure_names}
+    row_by_name: dict[str, Row] = {}
     for joint in mechanism.joints.values():
         if joint.name in owners:
-            derived |= {row.name: row for row in constraints.joint_rows(joint)}
+            row_by_name |= {row.name: row for row in constraints.joint_rows(joint)}
     for drive in mechanism.drives.values():
         if drive.name in owners:
-            derived |= {row.name: row for row in constraints.drive_rows(drive)}
-    pairs = [row for joint in tree.closing for row in constraints.joint_rows(joint)]
-    return (*(derived[name] for name in expected), *pairs)
+            row_by_name |= {row.name: row for row in constraints.drive_rows(drive)}
+    hub_rows = [row for joint in tree.closing for row in constraints.joint_rows(joint)]
+    return (*(row_by_name[name] for name in closure_names), *hub_rows)
 
 
-def _known_slide(
+def _find_determined_slide(
     model: Model, geometry: TreeGeometry, constraints: TreeConstraints, rows: Sequence[Row]
 ) -> tuple[str, str, Affine] | None:
-    """Return an equation that is linear in slides with constant coefficients, one of its slides, and its value.
+    """Return an equation that is linear in slides with constant coefficients, one of its slides, and the slide's value.
 
-    None if there is no such equation.
+    The value is affine in other slides and drives. Return None if there is no such equation.
     """
     names = {c.q: name for name, c in geometry.motions.coordinates.items()}
     drives = {c.q: name for name, c in geometry.motions.coordinates.items() if c.acceleration is not None}
     drives |= {value: name for name, (value, *_) in constraints.drive_angles.items()}
-    constant = geometry.slots.is_constant
+    is_constant = geometry.slots.is_constant
     for row in rows:
         if stays_constraint(model, row):
             continue
-        if not row.phi_q or not all(names[q] in geometry.slides and constant(c) for q, c in row.phi_q.items()):
+        if not row.phi_q or not all(names[q] in geometry.slides and is_constant(c) for q, c in row.phi_q.items()):
             continue
-        total: dict[str, sp.Expr] = {names[q]: c for q, c in row.phi_q.items()}
-        rest = sp.expand(row.phi - sum(c * q for q, c in row.phi_q.items()))
-        for value in sorted(rest.free_symbols & set(drives), key=lambda s: s.name):
-            total[drives[value]] = rest.coeff(value)
-            rest = rest - rest.coeff(value) * value
-        if constant(sp.expand(rest)):
-            total[CONSTANT] = sp.expand(rest)
-            name = max((names[q] for q in row.phi_q), key=lambda k: abs(total[k]) == 1)
-            return row.name, name, {k: -c / total[name] for k, c in total.items() if k != name and c != 0}
+        coefficients: dict[str, sp.Expr] = {names[q]: c for q, c in row.phi_q.items()}
+        remainder = sp.expand(row.phi - sum(c * q for q, c in row.phi_q.items()))
+        for value in sorted(remainder.free_symbols & set(drives), key=lambda s: s.name):
+            coefficients[drives[value]] = remainder.coeff(value)
+            remainder = remainder - remainder.coeff(value) * value
+        if is_constant(sp.expand(remainder)):
+            coefficients[CONSTANT] = sp.expand(remainder)
+            name = max((names[q] for q in row.phi_q), key=lambda k: abs(coefficients[k]) == 1)
+            return row.name, name, {k: -c / coefficients[name] for k, c in coefficients.items() if k != name and c != 0}
     return None
 
 
-def _system(
+def _make_system(
     model: Model,
     tree: Tree,
     slides: tuple[Mapping[str, Affine], tuple[str, ...]],
@@ -200,36 +223,44 @@ def _system(
     constraints: TreeConstraints,
     rows: tuple[Row, ...],
 ) -> TreeSystem:
-    """Return the system on the tree: joints with play, force elements, M and the applied forces."""
-    reduced = _model(model, geometry, constraints, rows)
+    """Return the system on the tree: joints with play, force elements, M and the applied forces.
+
+    `slides`: slides that are functions of others, and the equations that determine them; `rows`: the closures.
+    """
+    reduced = _make_tree_model(model, geometry, constraints, rows)
     coordinates = geometry.motions.coordinates
-    unknowns = {name: c for name, c in coordinates.items() if c.acceleration is None}
-    given = {name: c for name, c in coordinates.items() if c.acceleration is not None}
-    place = {name: k for k, name in enumerate(unknowns)}
+    unknowns = {name: coordinate for name, coordinate in coordinates.items() if coordinate.acceleration is None}
+    prescribed = {name: coordinate for name, coordinate in coordinates.items() if coordinate.acceleration is not None}
+    index_of = {name: k for k, name in enumerate(unknowns)}
     inertia = Inertia(geometry, model.gravity)
-    h, weights = inertia.velocity_terms(), inertia.weights()
+    velocity_terms, weights = inertia.velocity_terms(), inertia.weights()
 
     def applied(name: str) -> sp.Expr:
-        """Return weight minus velocity terms and minus M times prescribed accelerations."""
-        pushed = sum((inertia.mass.get((name, k), ZERO) * c.acceleration for k, c in given.items()), ZERO)
-        return weights.get(name, ZERO) - h.get(name, ZERO) - pushed
+        """Return the weight minus velocity terms and minus M times prescribed accelerations, of a coordinate."""
+        prescribed_forces = sum(
+            (inertia.mass.get((name, k), ZERO) * coordinate.acceleration for k, coordinate in prescribed.items()), ZERO
+        )
+        return weights.get(name, ZERO) - velocity_terms.get(name, ZERO) - prescribed_forces
 
     mass = {
-        (place[k], place[j]): value
+        (index_of[k], index_of[j]): value
         for (k, j), value in inertia.mass.items()
-        if k in place and j in place and place[k] >= place[j]
+        if k in index_of and j in index_of and index_of[k] >= index_of[j]
     }
     drives = tuple(
         PrescribedCoordinate(
-            name, c.v, {place[k]: inertia.mass[name, k] for k in unknowns if (name, k) in inertia.mass}, applied(name)
+            name,
+            coordinate.v,
+            {index_of[k]: inertia.mass[name, k] for k in unknowns if (name, k) in inertia.mass},
+            applied(name),
         )
-        for name, c in given.items()
+        for name, coordinate in prescribed.items()
     )
     return TreeSystem(
         reduced,
-        tuple(c.q for c in unknowns.values()),
-        tuple(c.v for c in unknowns.values()),
-        {body: _motion(geometry, body, place) for body in model.geometry.bodies},
+        tuple(coordinate.q for coordinate in unknowns.values()),
+        tuple(coordinate.v for coordinate in unknowns.values()),
+        {body: _derive_motion(geometry, body, index_of) for body in model.geometry.bodies},
         mass,
         tuple(applied(name) for name in unknowns),
         drives,
@@ -241,8 +272,13 @@ def _system(
     )
 
 
-def _model(model: Model, geometry: TreeGeometry, constraints: TreeConstraints, rows: tuple[Row, ...]) -> Model:
-    """Return the model for the tree's kernels: the same scene on the geometry of the tree."""
+def _make_tree_model(
+    model: Model, geometry: TreeGeometry, constraints: TreeConstraints, rows: tuple[Row, ...]
+) -> Model:
+    """Return the model for the tree's kernels: the same scene on the geometry of the tree.
+
+    Joints with play, force elements, friction and events are derived again; `rows` replace the constraint equations.
+    """
     mechanism, symbols, t = model.scene.mechanism, geometry.symbols, constraints.t
     clearances = tuple(
         clearance
@@ -250,9 +286,9 @@ def _model(model: Model, geometry: TreeGeometry, constraints: TreeConstraints, r
         for clearance in make_clearances(mechanism.joints[name], play, geometry, geometry.slots)
     )
     elements = {e.name: apply_element(e, geometry, t) for e in mechanism.forces.values()}
-    pairs = [(c.q, c.v) for c in geometry.motions.coordinates.values() if c.acceleration is None]
+    coordinate_pairs = [(c.q, c.v) for c in geometry.motions.coordinates.values() if c.acceleration is None]
     frictions = tuple(
-        make_friction(name, e.loads.slip, pairs, t, symbols) for name, e in elements.items() if e.loads.slip
+        make_friction(name, e.loads.slip, coordinate_pairs, t, symbols) for name, e in elements.items() if e.loads.slip
     )
     events = tuple(make_event(event, geometry, t) for event in model.scene.events.values())
     bodies = {name: geometry.bodies[name] for name in model.geometry.bodies}
@@ -273,15 +309,18 @@ def _model(model: Model, geometry: TreeGeometry, constraints: TreeConstraints, r
     )
 
 
-def _motion(geometry: TreeGeometry, body: str, place: Mapping[str, int]) -> Motion:
-    """Return J and bias of a body's centre of mass and angle."""
-    at, turns = geometry.com(body), geometry.frame_of[body].turns
+def _derive_motion(geometry: TreeGeometry, body: str, index_of: Mapping[str, int]) -> Motion:
+    """Return J and bias of a body's centre of mass and angle.
+
+    `index_of`: index of each unknown; prescribed coordinates contribute to the bias.
+    """
+    com, turns = geometry.com(body), geometry.frame_of[body].turns
     coordinates = geometry.motions.coordinates
-    columns = [{k: c[i] for k, c in at.columns.items()} for i in range(2)] + [dict(turns)]
-    bias = [*geometry.bias(at.terms), ZERO]
+    columns = [{k: column_pair[i] for k, column_pair in com.columns.items()} for i in range(2)] + [dict(turns)]
+    bias = [*geometry.bias(com.terms), ZERO]
     for i, column in enumerate(columns):
         for k, entry in column.items():
             if (acceleration := coordinates[k].acceleration) is not None:
                 bias[i] += entry * acceleration
-    rows = tuple({place[k]: entry for k, entry in column.items() if k in place} for column in columns)
+    rows = tuple({index_of[k]: entry for k, entry in column.items() if k in index_of} for column in columns)
     return Motion(rows, tuple(bias))

@@ -17,7 +17,7 @@ Point = tuple[str, str]  # body, point
 
 
 def ends(joint: Joint) -> tuple[Point, Point]:
-    """Return both points (body, point) of a joint."""
+    """Return both points of a joint, each as (body, point)."""
     return (joint.first.body, joint.first.point), (joint.second.body, joint.second.point)
 
 
@@ -40,68 +40,80 @@ class Hub:
         return [f"{joint.name}.{row}" for row in joint_types()[joint.kind].carries]
 
     def closing(self, tree: Iterable[Joint], cost: Callable[[Joint], int]) -> list[Joint]:
-        """Return the cheapest pairs that connect the points which the tree leaves apart (Kruskal's algorithm)."""
+        """Return the cheapest pairs that connect the points which the tree leaves unconnected (Kruskal's algorithm).
+
+        `tree`: joints of the tree; `cost` returns the cost of a pair.
+        """
         groups = {point: {point} for point in self.points}
-        found = []
+        result = []
         names = {joint.name for joint in tree}
-        held = [joint for joint in self.pairs if joint.name in names]
-        for joint in [*held, *sorted(self.pairs, key=cost)]:
-            one, two = (groups[point] for point in ends(joint))
-            if one is two:
+        tree_pairs = [joint for joint in self.pairs if joint.name in names]
+        for joint in [*tree_pairs, *sorted(self.pairs, key=cost)]:
+            first_group, second_group = (groups[point] for point in ends(joint))
+            if first_group is second_group:
                 continue
             if joint.name not in names:
-                found.append(joint)
-            for point in two:
-                groups[point] = one
-            one |= two
-        return found
+                result.append(joint)
+            for point in second_group:
+                groups[point] = first_group
+            first_group |= second_group
+        return result
 
     def share(self, spanning: Sequence[Joint], joint: Joint) -> dict[str, int]:
-        """Return the multiplier of a pair as a sum of those of the file's joints, with signs.
+        """Return the multiplier of a pair as a sum of those of the file's joints: sign by joint.
 
-        They are the joints that cross the cut which removing the pair from `spanning` makes.
+        They are the joints that cross the cut which removing the pair from `spanning` makes. `joint`: the pair;
+        `spanning`: the pairs that connect all points.
         """
-        side = {ends(joint)[0]}
-        grown = True
-        while grown:
-            grown = False
-            for one, two in (ends(other) for other in spanning if other is not joint):
-                if (one in side) != (two in side):
-                    side |= {one, two}
-                    grown = True
-        crossing = {}
+        connected = {ends(joint)[0]}
+        has_grown = True
+        while has_grown:
+            has_grown = False
+            for first, second in (ends(other) for other in spanning if other is not joint):
+                if (first in connected) != (second in connected):
+                    connected |= {first, second}
+                    has_grown = True
+        signs = {}
         for other in self.joints:
-            one, two = ends(other)
-            if (one in side) != (two in side):
-                crossing[other.name] = 1 if one in side else -1
-        return crossing
+            first, second = ends(other)
+            if (first in connected) != (second in connected):
+                signs[other.name] = 1 if first in connected else -1
+        return signs
 
 
 def find_hubs(joints: Iterable[Joint]) -> list[Hub]:
-    """Return the hubs: points of three or more bodies with as many joints as a tree needs."""
+    """Return the hubs: points of three or more bodies with as many joints as a tree needs.
+
+    Only joints that hold points together count, and at least one must be a pivot.
+    """
     groups: dict[Point, list[Joint]] = {}
     for joint in joints:
         if joint_types()[joint.kind].holds_points:
-            one, two = (groups.get(point, []) for point in ends(joint))
-            merged = [*one, *(j for j in two if j not in one), joint]
+            first_group, second_group = (groups.get(point, []) for point in ends(joint))
+            merged = [*first_group, *(j for j in second_group if j not in first_group), joint]
             for point in {p for j in merged for p in ends(j)}:
                 groups[point] = merged
-    found = []
+    hubs = []
     for group in {tuple(j.name for j in group): group for group in groups.values()}.values():
         points = frozenset(p for joint in group for p in ends(joint))
-        plain = [j for j in group if joint_types()[j.kind].is_pivot]
-        if plain and len(points) == len(group) + 1 >= 3:
-            found.append(Hub(points, tuple(group), tuple(_pairs(group, plain[0]))))
-    return found
+        pivots = [j for j in group if joint_types()[j.kind].is_pivot]
+        if pivots and len(points) == len(group) + 1 >= 3:
+            hubs.append(Hub(points, tuple(group), tuple(_make_pairs(group, pivots[0]))))
+    return hubs
 
 
-def _pairs(group: Sequence[Joint], plain: Joint) -> list[Joint]:
-    """Return the file's joints, and a joint for every other pair of points on different bodies."""
-    known = {frozenset(ends(joint)) for joint in group}
-    refs = {end: ref for joint in group for end, ref in zip(ends(joint), (joint.first, joint.second), strict=True)}
+def _make_pairs(group: Sequence[Joint], template: Joint) -> list[Joint]:
+    """Return the file's joints, and a joint for every other pair of points on different bodies.
+
+    `template`: a pivot of the group, of which the new joints are copies with other points.
+    """
+    known_pairs = {frozenset(ends(joint)) for joint in group}
+    ref_of_point = {
+        end: ref for joint in group for end, ref in zip(ends(joint), (joint.first, joint.second), strict=True)
+    }
     others = [
-        replace(plain, name=f"{a.body}.{a.point}={b.body}.{b.point}", first=a, second=b)
-        for (one, a), (two, b) in combinations(refs.items(), 2)
-        if a.body != b.body and frozenset((one, two)) not in known
+        replace(template, name=f"{a.body}.{a.point}={b.body}.{b.point}", first=a, second=b)
+        for (first, a), (second, b) in combinations(ref_of_point.items(), 2)
+        if a.body != b.body and frozenset((first, second)) not in known_pairs
     ]
     return [*group, *others]

@@ -29,104 +29,136 @@ class DependentCoordinates:
     """
 
     def __init__(self, system: System, rows: Sequence[Row], avoided: frozenset[tuple[str, str]] = frozenset()) -> None:
-        """Place all bodies; `avoided` pairs (body, joint) are used only if nothing else places the body."""
+        """Place all bodies in an order in which each follows from equations of placed ones.
+
+        `rows`: the equations; `avoided` pairs (body, joint) are used only if nothing else places the body.
+        """
         self.model: Model = system.model
         self.rows, self._avoided = rows, avoided
         place = {q: k for k, q in enumerate(system.q)}
         self._entries = [{place[q]: entry for q, entry in row.phi_q.items()} for row in rows]
-        self._constant = [self._with_constant_entry(entries) for entries in self._entries]
+        self._constant_coordinates = [self._find_constant_coordinates(entries) for entries in self._entries]
         self.groups: list[tuple[tuple[int, ...], int]] = []
-        self._known: set[int] = set()
-        self._used: set[int] = set()
+        self._placed: set[int] = set()
+        self._used_rows: set[int] = set()
         while self._place_pairs() or self._place_by_line() or self._place_freely():
             pass
 
-    def _with_constant_entry(self, entries: dict[int, sp.Expr]) -> set[int]:
-        """Return the coordinates whose entry in an equation is ±1.
+    def _find_constant_coordinates(self, entries: dict[int, sp.Expr]) -> set[int]:
+        """Return the coordinates whose entry in an equation is ±1, angles excluded.
 
-        Of an equation in angles alone these are all, if their entries are constant.
+        Of an equation in angles alone these are all coordinates, if the entries are constant. `entries`: entries of Φ_q
+        by coordinate.
         """
         if all(k % 3 == 2 and self.model.slots.is_constant(entry) for k, entry in entries.items()):
             return set(entries)
         return {k for k, entry in entries.items() if k % 3 < 2 and is_unit(entry)}
 
-    def _open_coordinates(self, r: int) -> set[int]:
+    def _find_open_coordinates(self, r: int) -> set[int]:
         """Return the coordinates with a constant entry in equation r that are not placed yet."""
-        return self._constant[r] - self._known
+        return self._constant_coordinates[r] - self._placed
 
     def _place_pairs(self) -> bool:
-        """Place a coordinate by each equation that leaves only that one open; return whether any was.
+        """Place a coordinate by each equation that leaves only that one open; return whether there was any.
 
-        If there are several candidates, only the best of them are used.
+        Only the best of the candidates are used.
         """
-        ready = [
-            (min(self._open_coordinates(r)), r) for r in range(len(self.rows)) if len(self._open_coordinates(r)) == 1
+        candidates = [
+            (min(self._find_open_coordinates(r)), r)
+            for r in range(len(self.rows))
+            if len(self._find_open_coordinates(r)) == 1
         ]
-        for k, r in self._best_candidates(ready):
-            if k not in self._known:
-                self._place((k,), r)
-        return bool(ready)
+        for k, r in self._select_candidates(candidates):
+            if k not in self._placed:
+                self._record_placing((k,), r)
+        return bool(candidates)
 
     def _place_by_line(self) -> bool:
-        """Place x and y of a body by the first equation that has both; return whether any was placed."""
+        """Place x and y of a body by the first unused equation that contains both; return whether any was placed."""
         for r, entries in enumerate(self._entries):
-            places = sorted(k for k in entries if k % 3 < 2 and k not in self._known)
-            if r not in self._used and len(places) == 2 and places[0] // 3 == places[1] // 3:
-                self._place(tuple(places), r)
+            places = sorted(k for k in entries if k % 3 < 2 and k not in self._placed)
+            if r not in self._used_rows and len(places) == 2 and places[0] // 3 == places[1] // 3:
+                self._record_placing(tuple(places), r)
                 return True
         return False
 
     def _place_freely(self) -> bool:
-        """Mark a body as placed that no equation ties to placed ones; return whether there was any."""
-        tied = [*self._constant, *({k for k in entries if k % 3 < 2} for entries in self._entries)]
-        first = next((k for coordinates in tied for k in sorted(coordinates - self._known)), None)
-        if first is not None:
-            self._known |= _with_sibling(first)
-        return first is not None
+        """Mark a body as placed that no equation ties to placed ones; return whether there was any.
 
-    def _place(self, coordinates: tuple[int, ...], r: int) -> None:
-        """Record the coordinates as placed by equation r."""
+        It is the first body of an equation that is not placed yet; x and y are marked together.
+        """
+        tied_coordinates = [
+            *self._constant_coordinates,
+            *({k for k in entries if k % 3 < 2} for entries in self._entries),
+        ]
+        first_open = next((k for coordinates in tied_coordinates for k in sorted(coordinates - self._placed)), None)
+        if first_open is not None:
+            self._placed |= _add_sibling_coordinate(first_open)
+        return first_open is not None
+
+    def _record_placing(self, coordinates: tuple[int, ...], r: int) -> None:
+        """Record coordinates as placed by equation r.
+
+        The group is appended, and the coordinates and the equation are marked as used.
+        """
         self.groups.append((coordinates, r))
-        self._known |= set(coordinates)
-        self._used.add(r)
+        self._placed |= set(coordinates)
+        self._used_rows.add(r)
 
-    def _best_candidates(self, ready: Pairs) -> Pairs:
-        """Return the candidates (coordinate, equation) whose joint places both x and y of a body, if any."""
-        owners = {(k, self.rows[r].owner) for k, r in ready}
-        whole = {(k, r): all((j, self.rows[r].owner) in owners for j in _with_sibling(k)) for k, r in ready}
+    def _select_candidates(self, candidates: Pairs) -> Pairs:
+        """Return the best of the candidates (coordinate, equation): pairs that are not avoided before others.
+
+        Among these, joints that place both x and y of a body come first. If only avoided pairs are left, those of one
+        body are returned.
+        """
+        joint_candidates = {(k, self.rows[r].owner) for k, r in candidates}
+        is_complete = {
+            (k, r): all((j, self.rows[r].owner) in joint_candidates for j in _add_sibling_coordinate(k))
+            for k, r in candidates
+        }
         names = [body.name for body in self.model.bodies]
-        order = {(k, r): ((names[k // 3], self.rows[r].owner) in self._avoided, not whole[k, r]) for k, r in ready}
-        best = [pair for pair in ready if order[pair] == min(order.values())]
-        alone = bool(best) and order[best[0]][0]  # with one body that is placed others may be placed by it
-        return [(k, r) for k, r in best if not alone or k // 3 == best[0][0] // 3]
+        rank = {
+            (k, r): ((names[k // 3], self.rows[r].owner) in self._avoided, not is_complete[k, r]) for k, r in candidates
+        }
+        best = [pair for pair in candidates if rank[pair] == min(rank.values())]
+        only_avoided = bool(best) and rank[best[0]][0]  # with one body that is placed others may be placed by it
+        return [(k, r) for k, r in best if not only_avoided or k // 3 == best[0][0] // 3]
 
     def light_ends(self) -> set[tuple[str, str]]:
-        """Return pairs (body, joint) of bodies that turn freely and have no inertia about the joint.
+        """Return pairs (body, joint) of bodies that turn freely and have no inertia about the joint that places them.
 
-        Such a body carries no other, and is placed by that joint.
+        Such a body carries no other body.
         """
         joints, bodies = self.model.scene.mechanism.joints, self.model.bodies
-        placed = {
-            (bodies[k // 3].name, owner)
-            for (k, *_), r in self.groups
-            if k % 3 < 2 and (owner := self.rows[r].owner) in joints
+        placing_joints = {
+            (bodies[first_coordinate // 3].name, owner)
+            for (first_coordinate, *_), r in self.groups
+            if first_coordinate % 3 < 2 and (owner := self.rows[r].owner) in joints
         }
-        ends = [(body, joints[owner]) for body, owner in placed]
-        carry = {joint.first.body if joint.second.body == body else joint.second.body for body, joint in ends}
-        turned = {bodies[k // 3].name for own, _ in self.groups for k in own if k % 3 == 2}
-        free = [(body, joint) for body, joint in ends if body not in carry | turned]
-        return {(body, joint.name) for body, joint in free if self.model.is_light(body, joint)}
+        ends = [(body, joints[owner]) for body, owner in placing_joints]
+        carriers = {joint.first.body if joint.second.body == body else joint.second.body for body, joint in ends}
+        turned_bodies = {
+            bodies[first_coordinate // 3].name
+            for coordinates, _ in self.groups
+            for first_coordinate in coordinates
+            if first_coordinate % 3 == 2
+        }
+        free_ends = [(body, joint) for body, joint in ends if body not in carriers | turned_bodies]
+        return {(body, joint.name) for body, joint in free_ends if self.model.is_light(body, joint)}
 
 
 def place_bodies(system: System, rows: Sequence[Row]) -> DependentCoordinates:
-    """Return the order of placing in which bodies are placed by joints about which they have inertia, if possible."""
+    """Return the order of placing in which bodies are placed by joints about which they have inertia, if possible.
+
+    The order is determined again with light ends avoided, until no new ones are found.
+    """
     avoided: set[tuple[str, str]] = set()
     while True:
-        found = DependentCoordinates(system, rows, frozenset(avoided))
-        light = found.light_ends()
-        if light <= avoided:
-            return found
-        avoided |= light
+        placing = DependentCoordinates(system, rows, frozenset(avoided))
+        light_ends = placing.light_ends()
+        if light_ends <= avoided:
+            return placing
+        avoided |= light_ends
 
 
 class FirstPivots:
@@ -138,16 +170,23 @@ class FirstPivots:
     """
 
     def __init__(self, system: System, rows: Sequence[Row]) -> None:
-        """Determine the order in absolute coordinates; in tree coordinates there are no such nodes."""
+        """Determine the order in absolute coordinates; in tree coordinates there are no such nodes.
+
+        `rows`: the constraint equations, which are nodes after the coordinates.
+        """
         groups = [] if system.in_tree else place_bodies(system, rows).groups
         n = len(system.q)
-        self.partner = {own[0]: n + r for own, r in reversed(groups) if len(own) == 1}
-        self.order = [k for own, r in reversed(groups) for k in (own if len(own) == 1 else (*own, n + r))]
+        self.partner = {coordinates[0]: n + r for coordinates, r in reversed(groups) if len(coordinates) == 1}
+        self.order = [
+            k
+            for coordinates, r in reversed(groups)
+            for k in (coordinates if len(coordinates) == 1 else (*coordinates, n + r))
+        ]
         self.rows = frozenset(n + r for _, r in groups)
 
 
-def _with_sibling(k: int) -> set[int]:
-    """Return x and y of the body if coordinate k is one of them, else {k} for an angle."""
+def _add_sibling_coordinate(k: int) -> set[int]:
+    """Return the indices of x and y of a body if coordinate k is one of them, else {k} for an angle."""
     return {k} if k % 3 == 2 else {k - k % 3, k - k % 3 + 1}
 
 

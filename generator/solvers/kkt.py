@@ -41,179 +41,230 @@ class KKT:
     def __init__(self, system: System, rows: Sequence[Row] | None = None, allow_early_pairs: bool = False) -> None:
         """Choose the elimination order of a system with its equations, or with other `rows`.
 
-        `allow_early_pairs`: both equations of a joint may be eliminated early. Such a pivot vanishes where links are
-        in line although
-        the system is regular; the code at which `factorize` jumps must then solve it.
+        With other rows friction elements are left out. `allow_early_pairs`: both equations of a joint may be eliminated
+        early. Such a pivot vanishes where links are in line although the system is regular; the code at which
+        `factorize` jumps must then solve it.
         """
         self.system, self.n = system, len(system.q)
         self.rows = system.rows if rows is None else tuple(rows)
         self.frictions, self.first_friction = system.frictions if rows is None else (), self.n + len(self.rows)
-        place = {q: k for k, q in enumerate(system.q)}
+        coordinate_index = {q: k for k, q in enumerate(system.q)}
         self.entry = {(i, j): value for (i, j), value in system.mass.items() if i != j}
-        for r, linear in enumerate((*(row.phi_q for row in self.rows), *(f.jacobian for f in self.frictions))):
-            self.entry |= {(self.n + r, place[q]): value for q, value in linear.items()}
-        near: list[set[int]] = [set() for _ in range(self.first_friction + len(self.frictions))]
-        for r, c in self.entry:
-            near[r].add(c)
-            near[c].add(r)
-        pattern = tuple(map(frozenset, near))
-        pairs = row_pairs(self.rows, self.n, pattern) if allow_early_pairs else {}
+        for row_index, jacobian in enumerate(
+            (*(row.phi_q for row in self.rows), *(friction.jacobian for friction in self.frictions))
+        ):
+            self.entry |= {(self.n + row_index, coordinate_index[q]): value for q, value in jacobian.items()}
+        neighbours: list[set[int]] = [set() for _ in range(self.first_friction + len(self.frictions))]
+        for row_index, column in self.entry:
+            neighbours[row_index].add(column)
+            neighbours[column].add(row_index)
+        pattern = tuple(map(frozenset, neighbours))
+        early_pairs = row_pairs(self.rows, self.n, pattern) if allow_early_pairs else {}
         self.first = FirstPivots(system, self.rows)
         self.elimination: Elimination = choose_elimination(
-            pattern, self.n, self.first_friction, pairs, self.first.order, self.first.partner
+            pattern, self.n, self.first_friction, early_pairs, self.first.order, self.first.partner
         )
         names = [row.name for row in self.rows] + [friction.name for friction in self.frictions]
         self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in names]
-        self.blocks = self._blocks()
+        self.blocks = self._group_pivots()
         self.sticks: dict[int, sp.Symbol] = {}  # node -> 1 in stick, 0 in slip
         self.pivots = tuple(names[k - self.n] for k in self.elimination.order if k >= self.n)
-        self.turning = self._turning() if self.rows and not system.model.has_changing_constraints else {}
+        self.turning = self._find_turning_inertias() if self.rows and not system.model.has_changing_constraints else {}
         if not system.in_tree:
             self.pivots += tuple(system.model.symbols.info[system.q[k]].meaning for k in self.turning)
 
-    def _blocks(self) -> list[list[int]]:
-        """Return the pivots as blocks of one or two nodes: coordinates with their equations, and coupled neighbours."""
+    def _group_pivots(self) -> list[list[int]]:
+        """Return the pivots as blocks of one or two nodes, in elimination order.
+
+        Two are a coordinate with its equation, or neighbours of the same kind that elimination couples.
+        """
         order, structure = self.elimination.order, self.elimination.structure
-        changed = {i for column in structure.values() for i in column}
+        changed_nodes = {i for column in structure.values() for i in column}
         blocks: list[list[int]] = []
         for k in order:
-            last = blocks[-1] if blocks else []
+            last_block = blocks[-1] if blocks else []
             if k in self.first.partner.values():
-                last.append(k)
+                last_block.append(k)
                 continue
-            alike = len(last) == 1 and (last[0] < self.n) == (k < self.n) and {last[0], k} <= changed
-            if alike and k < self.first_friction and structure[last[0]] == (k, *structure[k]):
-                last.append(k)
+            is_same_kind = (
+                len(last_block) == 1
+                and (last_block[0] < self.n) == (k < self.n)
+                and {last_block[0], k} <= changed_nodes
+            )
+            if is_same_kind and k < self.first_friction and structure[last_block[0]] == (k, *structure[k]):
+                last_block.append(k)
             else:
                 blocks.append([k])
         return blocks
 
-    def _turning(self) -> dict[int, sp.Expr]:
+    def _find_turning_inertias(self) -> dict[int, sp.Expr]:
         """Return the angles that are pivots by themselves, with the inertia that turns with them.
 
-        An angle is left out if that inertia is its entry of M anyway.
+        An angle is left out if that inertia is its entry of M anyway, or 0.
         """
-        single = [k for block in self.blocks for k in block if block[-1] < self.n]
-        found = {k: self.system.turning_inertia(k) for k in single}
-        return {k: size for k, size in found.items() if size != 0 and size != self.system.mass[k, k]}
+        single_nodes = [k for block in self.blocks for k in block if block[-1] < self.n]
+        inertia_of_angle = {k: self.system.turning_inertia(k) for k in single_nodes}
+        return {
+            k: inertia for k, inertia in inertia_of_angle.items() if inertia != 0 and inertia != self.system.mass[k, k]
+        }
 
     def factorize(
-        self, build: KernelBuilder, jumps: bool = False, share: Threshold = SINGULAR, size: Threshold = VANISHING
+        self,
+        build: KernelBuilder,
+        jumps: bool = False,
+        threshold: Threshold = SINGULAR,
+        pair_threshold: Threshold = VANISHING,
     ) -> Factor:
-        """Append the statements of L and D⁻¹; a pivot below `share` of its size ends or leaves the function.
+        """Append the statements of L and D⁻¹, with tests of the pivots, and return both.
 
-        With `jumps` it jumps to the code for vanishing pivots, else the function returns the pivot's number, from 1.
-        `size`: the same threshold for both equations of a joint together.
+        A pivot below `threshold` of its size fails. With `jumps` the function then jumps to the code for vanishing
+        pivots, else it returns the pivot's number, from 1. `pair_threshold`: the same threshold for both equations of a
+        joint together.
         """
         build.section(FACTORS)
         L: Entries = {}
         W: Entries = {}  # entries before the division by their pivot
         inverse: dict[int, dict[int, sp.Expr]] = {}
-        earlier: dict[int, list[int]] = {k: [] for k in self.elimination.order}  # columns with an entry in row k
-        count = 0
+        earlier_columns: dict[int, list[int]] = {
+            k: [] for k in self.elimination.order
+        }  # columns with an entry in row k
+        n_rows = 0
         for block in self.blocks:
-            inverse |= self._pivots(build, block, earlier, (L, W), (jumps, count), (share, size))
-            count += sum(k >= self.n for k in block)
-            later = [i for i in self.elimination.structure[block[-1]]]
-            for i in later:
+            inverse |= self._invert_block(
+                build, block, earlier_columns, (L, W), (jumps, n_rows), (threshold, pair_threshold)
+            )
+            n_rows += sum(k >= self.n for k in block)
+            later_nodes = [i for i in self.elimination.structure[block[-1]]]
+            for i in later_nodes:
                 for k in block:
-                    shared = [j for j in earlier[k] if (i, j) in L]
+                    common_columns = [j for j in earlier_columns[k] if (i, j) in L]
                     value = self.entry.get((i, k), self.entry.get((k, i), ZERO))
-                    value -= sum((L[i, j] * W[k, j] for j in shared), ZERO)
+                    value -= sum((L[i, j] * W[k, j] for j in common_columns), ZERO)
                     W[i, k] = named(build, f"w_{self.names[i]}__{self.names[k]}", value)
                 for k in block:
                     value = sum((W[i, j] * entry for j, entry in inverse[k].items()), ZERO)
                     L[i, k] = named(build, f"l_{self.names[i]}__{self.names[k]}", value)
-            for i in later:
-                earlier[i] += block
+            for i in later_nodes:
+                earlier_columns[i] += block
         return Factor(L, inverse)
 
-    def _pivots(
+    def _invert_block(
         self,
         build: KernelBuilder,
         block: Sequence[int],
-        earlier: Mapping[int, Sequence[int]],
-        made: tuple[Entries, Entries],
+        earlier_columns: Mapping[int, Sequence[int]],
+        factors: tuple[Entries, Entries],
         failing: tuple[bool, int],
-        shares: tuple[Threshold, Threshold],
+        thresholds: tuple[Threshold, Threshold],
     ) -> dict[int, dict[int, sp.Expr]]:
-        """Return D⁻¹ of a block by node; `made` are L and W so far.
+        """Return D⁻¹ of a block by node, and append its statements.
 
-        `failing`: whether a vanishing pivot jumps, and the number of equations before the block.
+        `earlier_columns`: columns with an entry in each row; `factors`: L and W so far, W before the division by the
+        pivots. `failing`: whether a vanishing pivot jumps, and the number of equations before the block. `thresholds`:
+        those of one and of two equations.
         """
-        (L, W), (jumps, count) = made, failing
+        (L, W), (jumps, count) = factors, failing
         if block[0] in self.first.partner:
-            return self._dependent(build, block, earlier, L, W)
+            return self._invert_coordinate_with_row(build, block, earlier_columns, L, W)
         if len(block) == 2:
-            return self._pair(build, block, earlier, made, failing, shares)
+            return self._invert_pair(build, block, earlier_columns, factors, failing, thresholds)
         (k,) = block
         if k < self.n:
-            return {k: {k: self._coordinate_pivot(build, k, earlier[k], L, W, jumps)}}
-        return {k: {k: self._row_pivot(build, k, earlier[k], L, W, (jumps, count + 1), shares[0])}}
+            return {k: {k: self._invert_coordinate_pivot(build, k, earlier_columns[k], L, W, jumps)}}
+        return {k: {k: self._invert_row_pivot(build, k, earlier_columns[k], L, W, (jumps, count + 1), thresholds[0])}}
 
-    def _dependent(
+    def _invert_coordinate_with_row(
         self,
         build: KernelBuilder,
         block: Sequence[int],
-        earlier: Mapping[int, Sequence[int]],
+        earlier_columns: Mapping[int, Sequence[int]],
         L: Mapping[tuple[int, int], sp.Expr],
         W: Mapping[tuple[int, int], sp.Expr],
     ) -> dict[int, dict[int, sp.Expr]]:
-        """Return D⁻¹ of a coordinate with its equation: [m c; c 0]⁻¹ = [0 1/c; 1/c −m/c²] with the constant entry c."""
+        """Return D⁻¹ of a coordinate with its equation: [m c; c 0]⁻¹ = [0 1/c; 1/c −m/c²] with the constant entry c.
+
+        m is what elimination leaves of the mass; no pivot is tested.
+        """
         k, row = block
         entry = self.entry[row, k]
-        over = entry if is_unit(entry) else self.system.model.slots.derive(f"inverse_{self.names[row]}", 1 / entry)
-        mass = self.system.mass[k, k] - sum((L[k, j] * W[k, j] for j in earlier[k]), ZERO)
+        inverse_entry = (
+            entry if is_unit(entry) else self.system.model.slots.derive(f"inverse_{self.names[row]}", 1 / entry)
+        )
+        mass = self.system.mass[k, k] - sum((L[k, j] * W[k, j] for j in earlier_columns[k]), ZERO)
         mass = named(build, f"inertia_{self.names[k]}", mass)
-        return {k: {row: over}, row: {k: over, row: -mass if is_unit(entry) else -mass * over**2}}
+        return {
+            k: {row: inverse_entry},
+            row: {k: inverse_entry, row: -mass if is_unit(entry) else -mass * inverse_entry**2},
+        }
 
-    def _pair(
+    def _invert_pair(
         self,
         build: KernelBuilder,
         block: Sequence[int],
-        earlier: Mapping[int, Sequence[int]],
-        made: tuple[Entries, Entries],
+        earlier_columns: Mapping[int, Sequence[int]],
+        factors: tuple[Entries, Entries],
         failing: tuple[bool, int],
-        shares: tuple[Threshold, Threshold],
+        thresholds: tuple[Threshold, Threshold],
     ) -> dict[int, dict[int, sp.Expr]]:
-        """Return the inverse of a 2 × 2 block by its determinant; for equations, D is negative."""
-        L, W = made
+        """Return the inverse of a 2 × 2 block by its determinant, with tests; for equations, D is negative.
+
+        The arguments are those of `_invert_block`.
+        """
+        L, W = factors
         first, second = block
-        rows = first >= self.n
+        is_row_pair = first >= self.n
         mass = {
-            (i, k): ZERO if rows else self.system.mass.get((max(i, k), min(i, k)), ZERO) for i in block for k in block
+            (i, k): ZERO if is_row_pair else self.system.mass.get((max(i, k), min(i, k)), ZERO)
+            for i in block
+            for k in block
         }
 
-        def left(i: int, k: int, of: Callable[[int], bool]) -> sp.Expr:
-            """Return what elimination leaves of entry (i, k), with the earlier columns j for which `of` holds."""
-            done = sum((L[i, j] * W[k, j] for j in earlier[i] if (k, j) in L and of(j)), ZERO)
-            return done if rows else mass[i, k] - done
+        def compute_rest(i: int, k: int, is_included: Callable[[int], bool]) -> sp.Expr:
+            """Return the rest of entry (i, k) after elimination of some earlier columns.
+
+            `is_included(j)` selects them.
+            """
+            eliminated = sum((L[i, j] * W[k, j] for j in earlier_columns[i] if (k, j) in L and is_included(j)), ZERO)
+            return eliminated if is_row_pair else mass[i, k] - eliminated
 
         name = [self.names[k] for k in block]
-        scales = [left(k, k, lambda j: j < self.n) for k in block] if rows else []
-        scale = [build.local(f"scale_{name[i]}", value) for i, value in enumerate(scales)]
-        size = [self._size(build, k, own) for k, own in zip(block, scale, strict=rows)]
-        pivots = [left(k, k, lambda j: j >= self.n or not rows) for k in block]
-        values = [own + of for own, of in zip(scale, pivots, strict=True)] if rows else pivots
-        own = [named(build, f"pivot_{name[i]}", value) for i, value in enumerate(values)]
-        cross = named(build, f"pivot_{name[0]}__{name[1]}", left(second, first, lambda j: True))
-        determinant = build.local(f"determinant_{name[0]}__{name[1]}", own[0] * own[1] - cross**2)
-        if rows:
-            early = any(i < self.n for i in self.elimination.structure[second])
-            share = max(shares[0], EARLY) if early else shares[0]
-            build.line(pivot_guard(failing, 1, own[0], share, size[0]))
-            build.line(pivot_guard(failing, 2, determinant, share, size[1], own[0]))
-            self._test_joint_pivots(build, block, scale, (own[0], determinant), (*failing, shares[1]))
+        scale_values = [compute_rest(k, k, lambda j: j < self.n) for k in block] if is_row_pair else []
+        scale = [build.local(f"scale_{name[i]}", value) for i, value in enumerate(scale_values)]
+        size = [
+            self._compute_row_size(build, k, pivot_values) for k, pivot_values in zip(block, scale, strict=is_row_pair)
+        ]
+        pivots = [compute_rest(k, k, lambda j: j >= self.n or not is_row_pair) for k in block]
+        values = (
+            [pivot_values + is_included for pivot_values, is_included in zip(scale, pivots, strict=True)]
+            if is_row_pair
+            else pivots
+        )
+        pivot_values = [named(build, f"pivot_{name[i]}", value) for i, value in enumerate(values)]
+        cross_entry = named(build, f"pivot_{name[0]}__{name[1]}", compute_rest(second, first, lambda j: True))
+        determinant = build.local(
+            f"determinant_{name[0]}__{name[1]}", pivot_values[0] * pivot_values[1] - cross_entry**2
+        )
+        if is_row_pair:
+            is_early = any(i < self.n for i in self.elimination.structure[second])
+            threshold = max(thresholds[0], EARLY) if is_early else thresholds[0]
+            build.line(pivot_guard(failing, 1, pivot_values[0], threshold, size[0]))
+            build.line(pivot_guard(failing, 2, determinant, threshold, size[1], pivot_values[0]))
+            self._test_joint_pivots(build, block, scale, (pivot_values[0], determinant), (*failing, thresholds[1]))
         elif failing[0]:
-            self._test_light_pivot(build, first, own[0])
-            self._test_light_pivot(build, second, determinant, own[0])
-        inverse = build.local(f"inverse_{name[0]}__{name[1]}", (-1 if rows else 1) / determinant)
-        one, two = (build.local(f"inverse_pivot_{name[i]}", own[1 - i] * inverse) for i in range(2))
-        both = build.local(f"inverse_cross_{name[0]}__{name[1]}", -cross * inverse)
-        return {first: {first: one, second: both}, second: {first: both, second: two}}
+            self._test_light_pivot(build, first, pivot_values[0])
+            self._test_light_pivot(build, second, determinant, pivot_values[0])
+        inverse = build.local(f"inverse_{name[0]}__{name[1]}", (-1 if is_row_pair else 1) / determinant)
+        inverse_first, inverse_second = (
+            build.local(f"inverse_pivot_{name[i]}", pivot_values[1 - i] * inverse) for i in range(2)
+        )
+        inverse_cross = build.local(f"inverse_cross_{name[0]}__{name[1]}", -cross_entry * inverse)
+        return {
+            first: {first: inverse_first, second: inverse_cross},
+            second: {first: inverse_cross, second: inverse_second},
+        }
 
-    def _size(self, build: KernelBuilder, k: int, scale: sp.Symbol) -> sp.Symbol:
-        """Return the size with which the pivot of an equation is compared.
+    def _compute_row_size(self, build: KernelBuilder, k: int, scale: sp.Symbol) -> sp.Symbol:
+        """Return the size with which the pivot of equation k is compared.
 
         In absolute coordinates it is at least what the masses in the equation make of it. Where links are in line, an
         equation that closes a loop may vanish as a whole once dependent coordinates are eliminated from it.
@@ -221,105 +272,119 @@ class KKT:
         if self.system.in_tree or k in self.first.rows or k >= self.first_friction:
             return scale
         entries = self.rows[k - self.n].phi_q.items()
-        place = {q: j for j, q in enumerate(self.system.q)}
-        own = sp.Add(*(entry**2 / self.system.mass[place[q], place[q]] for q, entry in entries if place[q] % 3 < 2))
-        if self.system.model.slots.is_constant(own):
-            own = self.system.model.slots.derive(f"mobility_{self.names[k]}", own, "1/m of the bodies of a row")
-        return build.local(f"size_{self.names[k]}", scale + own) if own != 0 else scale
+        coordinate_index = {q: j for j, q in enumerate(self.system.q)}
+        mobility = sp.Add(
+            *(
+                entry**2 / self.system.mass[coordinate_index[q], coordinate_index[q]]
+                for q, entry in entries
+                if coordinate_index[q] % 3 < 2
+            )
+        )
+        if self.system.model.slots.is_constant(mobility):
+            mobility = self.system.model.slots.derive(
+                f"mobility_{self.names[k]}", mobility, "1/m of the bodies of a row"
+            )
+        return build.local(f"size_{self.names[k]}", scale + mobility) if mobility != 0 else scale
 
     def _test_joint_pivots(
         self,
         build: KernelBuilder,
         block: Sequence[int],
         scale: Sequence[sp.Symbol],
-        found: tuple[sp.Expr, sp.Expr],
+        pivots: tuple[sp.Expr, sp.Expr],
         failing: tuple[bool, int, Threshold],
     ) -> None:
-        """Append tests of the pivots of a joint's x and y against the sum of their sizes.
+        """Append tests of the pivots of a joint's x and y against the sum of their sizes; only in tree coordinates.
 
-        `found`: the first pivot and the determinant. In tree coordinates one of these equations vanishes as a whole
-        where
-        links are in line, and is not small compared with itself there.
+        `pivots`: the first pivot and the determinant. One of these equations vanishes as a whole where links are in
+        line, and is not small compared with itself there.
         """
-        one, two = (self.rows[k - self.n] for k in block)
-        if not self.system.in_tree or one.owner != two.owner or one.unit != two.unit:
+        first_row, second_row = (self.rows[k - self.n] for k in block)
+        if not self.system.in_tree or first_row.owner != second_row.owner or first_row.unit != second_row.unit:
             return
         size = build.local(f"size_{self.names[block[0]]}", scale[0] + scale[1])
-        *failed, least = failing
-        build.line(pivot_guard(failed, 1, found[0], least, size))
-        build.line(pivot_guard(failed, 2, found[1], least, size, found[0]))
+        *failed, threshold = failing
+        build.line(pivot_guard(failed, 1, pivots[0], threshold, size))
+        build.line(pivot_guard(failed, 2, pivots[1], threshold, size, pivots[0]))
 
-    def _coordinate_pivot(
+    def _invert_coordinate_pivot(
         self,
         build: KernelBuilder,
         k: int,
-        earlier: Sequence[int],
+        earlier_columns: Sequence[int],
         L: Mapping[tuple[int, int], sp.Expr],
         W: Mapping[tuple[int, int], sp.Expr],
         jumps: bool,
     ) -> sp.Expr:
-        """Return 1/D of a coordinate; if it is a mass alone, it is a derived parameter."""
+        """Return 1/D of coordinate k; if D is a mass alone, it is a derived parameter.
+
+        With `jumps` the pivot of an angle is tested first.
+        """
         mass = self.system.mass[k, k]
         if jumps and k in self.turning:
-            value = mass - sum((L[k, j] * W[k, j] for j in earlier), ZERO)
+            value = mass - sum((L[k, j] * W[k, j] for j in earlier_columns), ZERO)
             pivot = named(build, f"pivot_{self.names[k]}", value)
             self._test_light_pivot(build, k, pivot)
             constant = self.system.model.slots.is_constant(mass)
-            if earlier or not constant or self.system.model.slots.default(mass) <= 0.0:
+            if earlier_columns or not constant or self.system.model.slots.default(mass) <= 0.0:
                 return build.local(f"inverse_pivot_{self.names[k]}", 1 / pivot)
-        if not earlier and self.system.model.slots.is_constant(mass):
-            inverse: sp.Expr = self.system.model.slots.derive(f"inverse_{self._mass_name(mass, k)}", 1 / mass, "1/M")
+        if not earlier_columns and self.system.model.slots.is_constant(mass):
+            inverse: sp.Expr = self.system.model.slots.derive(f"inverse_{self._name_mass(mass, k)}", 1 / mass, "1/M")
             return inverse
-        value = mass - sum((L[k, j] * W[k, j] for j in earlier), sp.Integer(0))
+        value = mass - sum((L[k, j] * W[k, j] for j in earlier_columns), sp.Integer(0))
         return build.local(f"inverse_pivot_{self.names[k]}", 1 / value)
 
-    def _test_light_pivot(self, build: KernelBuilder, k: int, pivot: sp.Expr, *before: sp.Expr) -> None:
-        """Append a jump for an angle of which elimination leaves nearly no inertia.
+    def _test_light_pivot(self, build: KernelBuilder, k: int, pivot: sp.Expr, *earlier_pivots: sp.Expr) -> None:
+        """Append a jump for an angle of which elimination leaves nearly no inertia; nothing for other coordinates.
 
-        `pivot` is its own pivot times those in `before`.
+        `pivot` is its own pivot times those in `earlier_pivots`.
         """
         if k in self.turning:
-            number = len(self.rows) + len(self.frictions) + 1 + list(self.turning).index(k)
-            build.line(Guard(Test(pivot, ">", (LIGHT_PIVOT, self.turning[k], *before)), number, True))
+            status = len(self.rows) + len(self.frictions) + 1 + list(self.turning).index(k)
+            build.line(Guard(Test(pivot, ">", (LIGHT_PIVOT, self.turning[k], *earlier_pivots)), status, True))
 
-    def _mass_name(self, mass: sp.Expr, k: int) -> str:
-        """Return the name of the mass of node k in derived parameters."""
+    def _name_mass(self, mass: sp.Expr, k: int) -> str:
+        """Return the name of the mass of node k for derived parameters."""
         return mass.name if isinstance(mass, sp.Symbol) else f"mass_{self.names[k]}"
 
-    def _row_pivot(
+    def _invert_row_pivot(
         self,
         build: KernelBuilder,
         k: int,
-        earlier: Sequence[int],
+        earlier_columns: Sequence[int],
         L: Mapping[tuple[int, int], sp.Expr],
         W: Mapping[tuple[int, int], sp.Expr],
-        failed: tuple[bool, int],
-        least: Threshold,
+        failing: tuple[bool, int],
+        threshold: Threshold,
     ) -> sp.Expr:
-        """Return 1/D of an equation: D = −scale + what earlier equations explain; NaN fails the test too."""
+        """Return 1/D of an equation, with a test: D = −scale + the part that earlier equations explain; NaN fails too.
+
+        `failing`: whether failure jumps, and the pivot's number. A friction element that slips gets 0, so that its
+        multiplier is zero.
+        """
         name = self.names[k]
-        own = sum((L[k, j] * W[k, j] for j in earlier if j < self.n), sp.Integer(0))
-        scale = build.local(f"scale_{name}", own)
+        eliminated = sum((L[k, j] * W[k, j] for j in earlier_columns if j < self.n), sp.Integer(0))
+        scale = build.local(f"scale_{name}", eliminated)
         pivot: sp.Expr = scale
-        others = [j for j in earlier if j >= self.n]
-        if others:
-            value = scale + sum((L[k, j] * W[k, j] for j in others), sp.Integer(0))
+        earlier_rows = [j for j in earlier_columns if j >= self.n]
+        if earlier_rows:
+            value = scale + sum((L[k, j] * W[k, j] for j in earlier_rows), sp.Integer(0))
             pivot = build.local(f"pivot_{name}", value)
-        test, (jumps, number) = Test(pivot, ">", (least, self._size(build, k, scale))), failed
+        test, (jumps, status) = Test(pivot, ">", (threshold, self._compute_row_size(build, k, scale))), failing
         if k < self.first_friction:
-            build.line(Guard(test, number, jumps))
+            build.line(Guard(test, status, jumps))
             return -build.local(f"inverse_pivot_{name}", 1 / pivot)
         stick = self.sticks[k]  # a row that slips is switched off: its multiplier is zero
-        sticks = Test(stick, "!=", (0.0,))
-        build.line(Guard(test, number, jumps, sticks))
-        return -build.local(f"inverse_pivot_{name}", Conditional(sticks, 1 / pivot, ZERO))
+        is_sticking = Test(stick, "!=", (0.0,))
+        build.line(Guard(test, status, jumps, is_sticking))
+        return -build.local(f"inverse_pivot_{name}", Conditional(is_sticking, 1 / pivot, ZERO))
 
     def solve(
         self, build: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""
     ) -> dict[int, sp.Expr]:
-        """Return the solution by node for a right-hand side `b` by node (absent: zero).
+        """Append the forward and backward substitution; return the solution by node.
 
-        It appends the forward and backward substitution; `prefix` begins the names of its locals.
+        `b`: the right-hand side by node, absent ones zero; `prefix` begins the names of the locals.
         """
         build.section("forward substitution")
         columns: dict[int, list[int]] = {k: [] for k in self.elimination.order}

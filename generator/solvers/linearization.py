@@ -55,7 +55,10 @@ class Linearization:
     """Prints common statements (contacts, tangents) into a function and returns the parts in its symbols."""
 
     def __init__(self, system: System, build: KernelBuilder) -> None:
-        """Make symbols for the accelerations, multipliers and inner states, which are held constant."""
+        """Begin with new symbols for the accelerations, multipliers and inner states, which are held constant.
+
+        `build`: the function to which statements are appended.
+        """
         self.system, self.model, self.build = system, system.model, build
         self.symbols: Symbols = system.model.symbols
         self.n, self.m = len(system.q), len(system.rows)
@@ -63,187 +66,238 @@ class Linearization:
         self.q, self.v = ({s: k for k, s in enumerate(group)} for group in (system.q, system.v))
         self.states = self.model.law_states  # of each joint with play, as in C
         self.z = {
-            self._held(f"{c.label}_{state.name}", DISCRETE["contact"][i]["state"][k]): i * self.states + k
+            self._make_held_symbol(f"{c.label}_{state.name}", DISCRETE["contact"][i]["state"][k]): i * self.states + k
             for i, c in enumerate(self.model.clearances)
             for k, state in enumerate(c.states)
         }
         self.tangents = Tangents(self.symbols, build, (*system.q, *system.v, *self.z, self.t))
-        for known in system.known:  # functions of t
-            for symbol, rate in ((known.q, known.rate), (known.rate, known.second), (known.second, known.third)):
+        for dependent in system.known:  # functions of t
+            for symbol, rate in (
+                (dependent.q, dependent.rate),
+                (dependent.rate, dependent.second),
+                (dependent.second, dependent.third),
+            ):
                 self.tangents.know(symbol, {self.t: rate})
         self.parts = Parts()
-        self.a = [self._held(f"a_{q.name}", Place("a")[k]) for k, q in enumerate(system.q)]
-        self.multiplier = [self._held(f"held_lambda_{row.name}", RHS["lambda"][r]) for r, row in enumerate(system.rows)]
+        self.a = [self._make_held_symbol(f"a_{q.name}", Place("a")[k]) for k, q in enumerate(system.q)]
+        self.multiplier = [
+            self._make_held_symbol(f"held_lambda_{row.name}", RHS["lambda"][r]) for r, row in enumerate(system.rows)
+        ]
         self.sticks: list[sp.Symbol] = []  # 1 in stick, 0 in slip
         self.rates: list[sp.Expr] = []  # of the inner states
         self.powers: list[sp.Expr] = [ZERO] * N_WORK
 
     def derive(self) -> Parts:
-        """Return all parts of the linearization."""
+        """Append all statements and return the non-zero parts of the linearization.
+
+        Called once.
+        """
         loads = [load for element in self.model.elements.values() for load in element.on_points()]
         self.powers[0] = sp.Add(*(-x * row.nu for x, row in zip(self.multiplier, self.system.rows, strict=True)))
         self.powers[1] = sp.Add(*(element.loads.power for element in self.model.elements.values()))
         for index, clearance in enumerate(self.model.clearances):
-            loads += self._clearance(index, clearance)
-        acting, on_given = self.system.generalized(loads)
-        residual = [-own - load for own, load in zip(self.system.applied, acting, strict=True)]
-        for given in self.system.given:
-            needed = sp.Add(*(m * self.a[k] for k, m in given.mass.items())) - given.applied
-            self.powers[0] += given.rate * (needed - on_given.get(given.name, ZERO))
-        self._rows()
-        self._frictions(residual)
-        self._coordinates(residual)
-        for place, rate in zip(self.z.values(), self.rates, strict=True):
-            self._split(self.n + self.m + len(self.system.frictions) + place, -rate, 1)
-        self._power_parts()
+            loads += self._append_clearance(index, clearance)
+        generalized_loads, prescribed_forces = self.system.generalized(loads)
+        residual = [
+            -applied_force - load for applied_force, load in zip(self.system.applied, generalized_loads, strict=True)
+        ]
+        for prescribed in self.system.given:
+            drive_force = sp.Add(*(m * self.a[k] for k, m in prescribed.mass.items())) - prescribed.applied
+            self.powers[0] += prescribed.rate * (drive_force - prescribed_forces.get(prescribed.name, ZERO))
+        self._add_rows()
+        self._add_frictions(residual)
+        self._add_coordinates(residual)
+        for state_index, rate in zip(self.z.values(), self.rates, strict=True):
+            self._add_derivatives(self.n + self.m + len(self.system.frictions) + state_index, -rate, 1)
+        self._add_powers()
         return self.parts
 
-    def _held(self, expected: str, home: Place) -> sp.Symbol:
-        """Return a new symbol that is read at a place and held constant."""
-        return self.symbols.new(expected.replace(".", "_"), home)
+    def _make_held_symbol(self, base_name: str, home: Place) -> sp.Symbol:
+        """Return a new symbol that is read at a place and held constant in derivatives."""
+        return self.symbols.new(base_name.replace(".", "_"), home)
 
-    def _clearance(self, index: int, clearance: Clearance) -> list[PointLoad]:
-        """Return the loads of a joint with play as symbols, whose tangents its own function computes."""
+    def _append_clearance(self, index: int, clearance: Clearance) -> list[PointLoad]:
+        """Append the call of a joint's derivatives; return its loads as symbols whose tangents are known.
+
+        The rates of its inner states and its power are recorded. `index`: number of the joint with play.
+        """
         name, build, out = clearance.label, self.build, RHS["clearance"][index]
         build.section(f"clearance {clearance.kind} {clearance.name}")
-        e = [build.local(f"e_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity, strict=True)]
-        edot = [build.local(f"edot_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity_rate, strict=True)]
-        given = (*clearance.eccentricity, *clearance.eccentricity_rate, clearance.first.omega, clearance.second.omega)
-        given += clearance.also
+        eccentricity = [
+            build.local(f"e_{name}_{axis}", component)
+            for axis, component in zip("xy", clearance.eccentricity, strict=True)
+        ]
+        eccentricity_rate = [
+            build.local(f"edot_{name}_{axis}", component)
+            for axis, component in zip("xy", clearance.eccentricity_rate, strict=True)
+        ]
+        inputs = (*clearance.eccentricity, *clearance.eccentricity_rate, clearance.first.omega, clearance.second.omega)
+        inputs += clearance.also
         slopes = self.symbols.unique(f"change_{name}")
-        build.line(Declare(Number.REAL, slopes, (4 + self.states, len(given) + self.states)))
-        build.line(Call(f"tangent_{name}_", (*e, *edot, *given[4:], *acting_on(index)), (Place(slopes),)))
-        own = [state for state, place in self.z.items() if place // self.states == index] if self.states else []
-        inner = [self.tangents.gradient(x) for x in (*given, *own)]
-        also = ("n_x", "n_y") if clearance.wall else ("theta_i",)
-        by_what = (*_BY, *also[: len(clearance.also)], *(state.name for state in own))
+        build.line(Declare(Number.REAL, slopes, (4 + self.states, len(inputs) + self.states)))
+        build.line(
+            Call(
+                f"tangent_{name}_",
+                (*eccentricity, *eccentricity_rate, *inputs[4:], *acting_on(index)),
+                (Place(slopes),),
+            )
+        )
+        states = (
+            [state for state, derivative_place in self.z.items() if derivative_place // self.states == index]
+            if self.states
+            else []
+        )
+        input_tangents = [self.tangents.gradient(component) for component in (*inputs, *states)]
+        further_names = ("n_x", "n_y") if clearance.wall else ("theta_i",)
+        derivative_names = (*_INPUT_NAMES, *further_names[: len(clearance.also)], *(state.name for state in states))
         values = []
-        results: dict[str, Place] = {what: out[what] for what in ("Fx", "Fy", "moment_first", "moment_second")}
-        results |= {f"state_rate_{k}": out["state_rate"][k] for k in range(len(own))}
-        for i, (what, home) in enumerate(results.items()):
-            symbol = self._held(f"{name}_{what}", home)
-            places = {k: Place(slopes)[i][j] for j, k in enumerate(by_what) if inner[j]}
-            by = [build.local(f"{symbol.name}_by_{k}", place) for k, place in places.items()]
-            known = iter(by)
-            pairs = {next(known): tangent for tangent in inner if tangent}
-            self.tangents.know(symbol, self.tangents.sum(pairs.items()))
+        results: dict[str, Place] = {
+            result_name: out[result_name] for result_name in ("Fx", "Fy", "moment_first", "moment_second")
+        }
+        results |= {f"state_rate_{k}": out["state_rate"][k] for k in range(len(states))}
+        for i, (result_name, home) in enumerate(results.items()):
+            symbol = self._make_held_symbol(f"{name}_{result_name}", home)
+            places = {k: Place(slopes)[i][j] for j, k in enumerate(derivative_names) if input_tangents[j]}
+            derivatives = [
+                build.local(f"{symbol.name}_by_{k}", derivative_place) for k, derivative_place in places.items()
+            ]
+            derivative_iterator = iter(derivatives)
+            tangent_by_derivative = {next(derivative_iterator): tangent for tangent in input_tangents if tangent}
+            self.tangents.know(symbol, self.tangents.sum(tangent_by_derivative.items()))
             values.append(symbol)
         self.rates += values[4:]
         moments = [
-            x if end.body is not None else ZERO
-            for x, end in zip(values[2:4], (clearance.first, clearance.second), strict=True)
+            component if end.body is not None else ZERO
+            for component, end in zip(values[2:4], (clearance.first, clearance.second), strict=True)
         ]
         self.powers[2] += clearance.power(values[:2], clearance.eccentricity_rate, moments)
         return clearance.on_points(values[:2], moments)
 
-    def _rows(self) -> None:
-        """Add Φ_q, V = R2_v − 2α Φ_q, Q = R2_q − β² Φ_q and R2_t of the constraint equations."""
+    def _add_rows(self) -> None:
+        """Add Φ_q, V = R2_v − 2α Φ_q, Q = R2_q − β² Φ_q and R2_t of the constraint equations to the parts."""
         if self.system.rows:
             self.build.section("constraints")
-        two_alpha, beta_squared = self._gains()
-        for r, row in enumerate(self.system.rows):
-            node = self.n + r
-            self._phi_q(node, row.phi_q)
-            self._split(node, row.gamma, -1, v_only=True)
-            bent = sum((entry * self.a[self.q[q]] for q, entry in row.phi_q.items()), -row.gamma)
+        two_alpha, beta_squared = self._derive_gains()
+        for index, row in enumerate(self.system.rows):
+            node = self.n + index
+            self._add_jacobian(node, row.phi_q)
+            self._add_derivatives(node, row.gamma, -1, v_only=True)
+            residual = sum((entry * self.a[self.q[q]] for q, entry in row.phi_q.items()), -row.gamma)
             phi_dot = row.phi_q_v - row.nu
-            at_q = self._of(self.tangents.gradient(bent), self.q)
-            for k, value in self._of(self.tangents.gradient(phi_dot), self.q).items():
-                at_q[k] = at_q.get(k, ZERO) + two_alpha * value
-            self.parts.by_q |= {(node, k): value for k, value in at_q.items() if value != 0}
-            at_t = [self.tangents.gradient(x).get(self.t, ZERO) for x in (bent, phi_dot, row.phi)]
-            if (value := at_t[0] + two_alpha * at_t[1] + beta_squared * at_t[2]) != 0:
+            derivative_by_q = self._select_entries(self.tangents.gradient(residual), self.q)
+            for k, value in self._select_entries(self.tangents.gradient(phi_dot), self.q).items():
+                derivative_by_q[k] = derivative_by_q.get(k, ZERO) + two_alpha * value
+            self.parts.by_q |= {(node, k): value for k, value in derivative_by_q.items() if value != 0}
+            derivatives_by_t = [self.tangents.gradient(x).get(self.t, ZERO) for x in (residual, phi_dot, row.phi)]
+            if (
+                value := derivatives_by_t[0] + two_alpha * derivatives_by_t[1] + beta_squared * derivatives_by_t[2]
+            ) != 0:
                 self.parts.by_t[node] = value
 
-    def _gains(self) -> tuple[sp.Expr, sp.Expr]:
-        """Return 2α and β² as derived parameters."""
+    def _derive_gains(self) -> tuple[sp.Expr, sp.Expr]:
+        """Return 2α and β² of Baumgarte's terms as derived parameters."""
         alpha, beta = self.model.baumgarte
         derive = self.model.slots.derive
         return derive("two_alpha", 2 * alpha, "2 alpha"), derive("beta_squared", beta**2, "beta^2")
 
-    def _phi_q(self, node: int, jacobian: Mapping[sp.Symbol, sp.Expr]) -> None:
-        """Add the entries of an equation's Jacobian."""
+    def _add_jacobian(self, node: int, jacobian: Mapping[sp.Symbol, sp.Expr]) -> None:
+        """Add the entries of an equation's Jacobian to the parts; `node`: number of the equation."""
         self.parts.phi_q |= {(node, self.q[q]): entry for q, entry in jacobian.items()}
 
-    def _split(self, node: int, value: sp.Expr, sign: int, v_only: bool = False) -> None:
-        """Add `sign` times the derivatives of one residual to the parts; with `v_only` only those by v."""
+    def _add_derivatives(self, node: int, value: sp.Expr, sign: int, v_only: bool = False) -> None:
+        """Add `sign` times the derivatives of one residual to the parts by v, q, z and t.
+
+        With `v_only` only those by v are added. `node`: number of the equation.
+        """
         tangent = self.tangents.gradient(value)
-        for part, place in ((self.parts.by_v, self.v), (self.parts.by_q, self.q), (self.parts.by_z, self.z)):
-            if place is self.v or not v_only:
-                part |= {(node, k): sign * x for k, x in self._of(tangent, place).items()}
+        for part, index_of in ((self.parts.by_v, self.v), (self.parts.by_q, self.q), (self.parts.by_z, self.z)):
+            if index_of is self.v or not v_only:
+                part |= {(node, k): sign * entry for k, entry in self._select_entries(tangent, index_of).items()}
         if not v_only and self.t in tangent:
             self.parts.by_t[node] = sign * tangent[self.t]
 
     @staticmethod
-    def _of(tangent: Tangent, place: Mapping[sp.Symbol, int]) -> dict[int, sp.Expr]:
-        """Return the entries of a tangent by the numbers of the symbols in `place`."""
-        return {place[s]: value for s, value in tangent.items() if s in place}
+    def _select_entries(tangent: Tangent, index_of: Mapping[sp.Symbol, int]) -> dict[int, sp.Expr]:
+        """Return the entries of a tangent by the numbers of the symbols in `index_of`; others are left out."""
+        return {index_of[symbol]: value for symbol, value in tangent.items() if symbol in index_of}
 
-    def _frictions(self, residual: list[sp.Expr]) -> None:
-        """Add the equations of stick, the forces of slip and their power; the mode is held constant."""
+    def _add_frictions(self, residual: list[sp.Expr]) -> None:
+        """Add the equations of stick, the forces of slip and their power to the parts; the mode is held constant.
+
+        `residual`, by coordinate, gets the difference between the present and the kinetic force, in place.
+        """
         if self.system.frictions:
             self.build.section("friction: slip, or stick as a constraint equation")
         two_alpha = stick_gain(self.model) if self.system.frictions else ZERO
-        for r, friction in enumerate(self.system.frictions):
-            node, name, build = self.n + self.m + r, friction.name, self.build
-            stick, sign = friction_mode(build, name, r)
-            held = Conditional(Test(stick, "!=", (0.0,)), PlaceSymbol(RHS["friction"][r]["force"]), ZERO)
-            force = build.local(f"held_force_{name}", held)
+        for index, friction in enumerate(self.system.frictions):
+            node, name, build = self.n + self.m + index, friction.name, self.build
+            stick, sign = friction_mode(build, name, index)
+            held_force_value = Conditional(
+                Test(stick, "!=", (0.0,)), PlaceSymbol(RHS["friction"][index]["force"]), ZERO
+            )
+            force = build.local(f"held_force_{name}", held_force_value)
             self.sticks.append(stick)
-            self._phi_q(node, friction.jacobian)
+            self._add_jacobian(node, friction.jacobian)
             kinetic = friction.slip.kinetic_at(friction.slip.v)
-            row = sum((entry * self.a[self.q[q]] for q, entry in friction.jacobian.items()), -friction.gamma)
-            self._split(node, row + two_alpha * friction.slip.v, 1)
+            stick_residual = sum((entry * self.a[self.q[q]] for q, entry in friction.jacobian.items()), -friction.gamma)
+            self._add_derivatives(node, stick_residual + two_alpha * friction.slip.v, 1)
             for q, entry in friction.jacobian.items():
                 k = self.q[q]
-                left = self.parts.by_v.pop((node, k), ZERO) - two_alpha * entry  # V has no 2α Φ_q
-                if left := sp.expand(left):
-                    self.parts.by_v[node, k] = left
+                remainder = self.parts.by_v.pop((node, k), ZERO) - two_alpha * entry  # V has no 2α Φ_q
+                if remainder := sp.expand(remainder):
+                    self.parts.by_v[node, k] = remainder
                 residual[k] += entry * (sign * kinetic - force)
-            self._friction_power(node, friction, force - sign * kinetic, stick)
+            self._add_friction_power(node, friction, force - sign * kinetic, stick)
 
-    def _friction_power(self, node: int, friction: Friction, force: sp.Expr, stick: sp.Symbol) -> None:
-        """Add the power of a friction force at the velocity on which it acts; at stick it is −λ."""
-        moving = friction.slip.v + friction.slip.speed
-        self.powers[1] += force * moving
-        self.parts.power_row[1, node] = -stick * moving
-        for given in self.system.given:  # what friction asks of a drive
-            along = given.rate * self.symbols.written_out(friction.slip.v, given.rate)
-            if along != 0:
-                self.powers[0] -= along * force
-                self.parts.power_row[0, node] = self.parts.power_row.get((0, node), ZERO) + stick * along
+    def _add_friction_power(self, node: int, friction: Friction, force: sp.Expr, stick: sp.Symbol) -> None:
+        """Add the power of a friction force at the velocity on which it acts, and its derivative by the multiplier.
 
-    def _coordinates(self, residual: list[sp.Expr]) -> None:
-        """Add M, R1_q, R1_v and R1_t of the equations of motion."""
+        The multiplier at stick is −λ. `force`: the friction force as held; `stick`: 1 at stick, else 0. At prescribed
+        coordinates the drive does the power.
+        """
+        velocity = friction.slip.v + friction.slip.speed
+        self.powers[1] += force * velocity
+        self.parts.power_row[1, node] = -stick * velocity
+        for prescribed in self.system.given:  # what friction asks of a drive
+            prescribed_velocity = prescribed.rate * self.symbols.written_out(friction.slip.v, prescribed.rate)
+            if prescribed_velocity != 0:
+                self.powers[0] -= prescribed_velocity * force
+                self.parts.power_row[0, node] = self.parts.power_row.get((0, node), ZERO) + stick * prescribed_velocity
+
+    def _add_coordinates(self, residual: list[sp.Expr]) -> None:
+        """Add M, R1_q, R1_v and R1_t of the equations of motion to the parts.
+
+        `residual`, by coordinate, is completed in place.
+        """
         self.build.section("coordinates")
         for (i, j), value in self.system.mass.items():
-            for k, other in sorted({(i, j), (j, i)}):
-                self.parts.mass[k, other] = value
-                residual[k] += value * self.a[other]
+            for k, column in sorted({(i, j), (j, i)}):
+                self.parts.mass[k, column] = value
+                residual[k] += value * self.a[column]
         for multiplier, row in zip(self.multiplier, self.system.rows, strict=True):
             for q, entry in row.phi_q.items():
                 residual[self.q[q]] += entry * multiplier
         for k, value in enumerate(residual):
-            self._split(k, value, 1)
+            self._add_derivatives(k, value, 1)
 
-    def _power_parts(self) -> None:
-        """Add the derivatives of the powers."""
+    def _add_powers(self) -> None:
+        """Add the derivatives of the powers to the parts; nothing if all powers are 0."""
         if not any(self.powers):
             return
         self.build.section("powers")
-        for w, power in enumerate(self.powers):
+        for index, power in enumerate(self.powers):
             tangent = self.tangents.gradient(power)
-            self.parts.power_q |= {(w, k): value for k, value in self._of(tangent, self.q).items()}
-            self.parts.power_v |= {(w, k): value for k, value in self._of(tangent, self.v).items()}
-            self.parts.power_z |= {(w, k): value for k, value in self._of(tangent, self.z).items()}
+            self.parts.power_q |= {(index, k): value for k, value in self._select_entries(tangent, self.q).items()}
+            self.parts.power_v |= {(index, k): value for k, value in self._select_entries(tangent, self.v).items()}
+            self.parts.power_z |= {(index, k): value for k, value in self._select_entries(tangent, self.z).items()}
             if self.t in tangent:
-                self.parts.power_t[w] = tangent[self.t]
-        for r, row in enumerate(self.system.rows):
+                self.parts.power_t[index] = tangent[self.t]
+        for row_index, row in enumerate(self.system.rows):
             if row.nu != 0:
-                self.parts.power_row[0, self.n + r] = -row.nu
-        for given in self.system.given:  # a drive also moves what inertia the accelerations meet it with
-            for k, mass in given.mass.items():
-                self.parts.power_row[0, k] = self.parts.power_row.get((0, k), ZERO) + given.rate * mass
+                self.parts.power_row[0, self.n + row_index] = -row.nu
+        for prescribed in self.system.given:  # a drive also moves what inertia the accelerations meet it with
+            for k, mass in prescribed.mass.items():
+                self.parts.power_row[0, k] = self.parts.power_row.get((0, k), ZERO) + prescribed.rate * mass
 
 
-_BY = ("e_x", "e_y", "de_x", "de_y", "omega_i", "omega_j")
+_INPUT_NAMES = ("e_x", "e_y", "de_x", "de_y", "omega_i", "omega_j")

@@ -45,35 +45,35 @@ class Newton:
     """The C functions of Newton's method for one system: linearize, factor, substitute and solve."""
 
     def __init__(self, system: System) -> None:
-        """Derive the functions in this order, since each reads what the one before stores."""
+        """Derive the functions in this order, since each reads the values that the one before stores."""
         self.system, self.model = system, system.model
         self.n, self.m = len(system.q), len(system.rows)
         self.first_state = self.n + self.m + len(system.frictions)
         states = [f"{c.name}.{k}" for c in self.model.clearances for k in range(self.model.law_states)]
         self.nodes = self.first_state + len(states)
-        named = [row.name for row in system.rows] + [friction.name for friction in system.frictions]
+        names = [row.name for row in system.rows] + [friction.name for friction in system.frictions]
         self.first = FirstPivots(system, system.rows)
         partner = self.first.partner
         self.equation = {**partner, **{r: k for k, r in partner.items()}}  # by its unknown, if not its own
-        self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in named + states]
+        self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in names + states]
         self.lin = source(LINEARIZATION, "Linear")
         self.values = Pool(system.model.symbols, self.lin["value"])
         self.factors = Pool(system.model.symbols, self.lin["lu"])
-        self.linearize = self._linearize()
-        self.factor = self._factor()
-        self.substitute = self._substitute()
-        self.solve = self._solve()
+        self.linearize = self._make_linearize_kernel()
+        self.factor = self._make_factor_kernel()
+        self.substitute = self._make_substitute_kernel()
+        self.solve = self._make_solve_kernel()
 
-    def _builder(self, name: str, doc: Sequence[str]) -> KernelBuilder:
-        """Begin a function with a name and the lines of its comment."""
+    def _begin_function(self, name: str, doc: Sequence[str]) -> KernelBuilder:
+        """Return the builder of a function with a name and the lines of its comment."""
         return KernelBuilder(self.model.symbols, name, doc)
 
-    def _linearize(self) -> Kernel:
+    def _make_linearize_kernel(self) -> Kernel:
         """Return the function that writes all parts of the linearization to `lin->value`.
 
-        Afterwards `self.parts` is in symbols that read them there.
+        Afterwards `self.parts` is in symbols that read them there, and `self.sticks` and `self.tables` are set.
         """
-        build = self._builder(
+        build = self._begin_function(
             "linearize",
             [
                 "The equations of motion linearized at a state, with the accelerations and multipliers that belong "
@@ -84,9 +84,9 @@ class Newton:
         work = Linearization(self.system, build)
         parts = work.derive()
         build.section("results")
-        self.parts = self._pooled(build, parts, work.tangents)
+        self.parts = self._store_parts(build, parts, work.tangents)
         self.sticks = [self.values.keep(build, stick, f"is_{stick.name}") for stick in work.sticks]
-        self.tables = self._tables(build)
+        self.tables = self._make_tables(build)
         build.out(self.lin[PARAMETERS.name], Place(PARAMETERS.name))
         arguments = (
             *STATE,
@@ -94,41 +94,50 @@ class Newton:
             PARAMETERS,
             source("a"),
             source(RHS.name, RHS.type),
-            self._written_lin(),
+            self._make_written_linearization(),
         )
         return declare_branches(build.build(arguments, owner="", prune=True))
 
-    def _pooled(self, build: KernelBuilder, parts: Parts, tangents: Tangents) -> Parts:
-        """Return the parts with each value stored once in the pool, up to its sign."""
+    def _store_parts(self, build: KernelBuilder, parts: Parts, tangents: Tangents) -> Parts:
+        """Return the parts with each value stored once in the pool, up to its sign.
 
-        def keep(value: sp.Expr, name: str) -> sp.Expr:
-            """Return the symbol of a value that is stored in the pool."""
+        `tangents` stores shared denominators and powers.
+        """
+
+        def store_value(value: sp.Expr, name: str) -> sp.Expr:
+            """Return the symbol of a value that is stored in the pool; `name`: base of its name."""
             return self.values.keep(build, tangents.shared(value), name)
 
-        def pooled(
-            what: str, part: Mapping[Pair, sp.Expr], rows: Sequence[str], columns: Sequence[str] = self.names
+        def store_part(
+            prefix: str,
+            part: Mapping[Pair, sp.Expr],
+            row_names: Sequence[str],
+            column_names: Sequence[str] = self.names,
         ) -> dict[Pair, sp.Expr]:
-            """Return the stored entries of one part."""
-            return {(i, j): keep(value, f"{what}_{rows[i]}_{columns[j]}") for (i, j), value in part.items()}
+            """Return the stored entries of one part, named after it and its row and column."""
+            return {
+                (i, j): store_value(value, f"{prefix}_{row_names[i]}_{column_names[j]}")
+                for (i, j), value in part.items()
+            }
 
         states = self.names[self.first_state :]
         works = [str(w) for w in range(N_WORK)]
         return Parts(
-            pooled("mass", parts.mass, self.names),
-            pooled("phi", parts.phi_q, self.names),
-            pooled("by_q", parts.by_q, self.names),
-            pooled("by_v", parts.by_v, self.names),
-            pooled("by_z", parts.by_z, self.names, states),
-            {k: keep(x, f"by_t_{self.names[k]}") for k, x in parts.by_t.items()},
-            pooled("power_q", parts.power_q, works),
-            pooled("power_v", parts.power_v, works),
-            pooled("power_z", parts.power_z, works, states),
-            pooled("power", parts.power_row, works),
-            {w: keep(x, f"power_t_{w}") for w, x in parts.power_t.items()},
+            store_part("mass", parts.mass, self.names),
+            store_part("phi", parts.phi_q, self.names),
+            store_part("by_q", parts.by_q, self.names),
+            store_part("by_v", parts.by_v, self.names),
+            store_part("by_z", parts.by_z, self.names, states),
+            {k: store_value(x, f"by_t_{self.names[k]}") for k, x in parts.by_t.items()},
+            store_part("power_q", parts.power_q, works),
+            store_part("power_v", parts.power_v, works),
+            store_part("power_z", parts.power_z, works, states),
+            store_part("power", parts.power_row, works),
+            {w: store_value(x, f"power_t_{w}") for w, x in parts.power_t.items()},
         )
 
-    def _tables(self, build: KernelBuilder) -> dict[str, list[tuple[int, int, int, int]]]:
-        """Return where each part is in `lin->value`: (row, column, index, sign); columns are those of y."""
+    def _make_tables(self, build: KernelBuilder) -> dict[str, list[tuple[int, int, int, int]]]:
+        """Return the entries of each part in `lin->value`: (row, column, index, sign); columns are those of y."""
         parts, n, z = self.parts, self.n, 2 * self.n + N_WORK
 
         def table(part: Mapping[Pair, sp.Expr], first: int = 0) -> list[tuple[int, int, int, int]]:
@@ -144,61 +153,71 @@ class Newton:
             "power_t": table({(w, 0): value for w, value in parts.power_t.items()}),
         }
 
-    def _entries(self, build: KernelBuilder) -> dict[Pair, sp.Expr]:
-        """Return the entries of Newton's matrix by (row, column), both triangles."""
+    def _make_matrix_entries(self, build: KernelBuilder) -> dict[Pair, sp.Expr]:
+        """Return the entries of Newton's matrix by (row, column), of both triangles.
+
+        Numbers and symbols stay, other entries become locals.
+        """
         parts = self.parts
-        self._scales(build, {self._scale(node) for node, _ in {**parts.by_v, **parts.by_q}})
+        self._append_scales(build, {self._find_scale(node) for node, _ in {**parts.by_v, **parts.by_q}})
         first = self.first_state
         build.section("matrix")
         entries: dict[Pair, sp.Expr] = dict(parts.mass)
         for node, k in sorted({*parts.by_v, *parts.by_q, *parts.phi_q}):
-            place = node, k
-            change = parts.by_v.get(place, ZERO) + ETA * parts.by_q.get(place, ZERO)
-            value = parts.mass.get(place, ZERO) if node < self.n else parts.phi_q.get(place, ZERO)
-            entries[place] = self._entry(build, place, value + self._scale(node) * change)
+            index = node, k
+            coefficient = parts.by_v.get(index, ZERO) + ETA * parts.by_q.get(index, ZERO)
+            value = parts.mass.get(index, ZERO) if node < self.n else parts.phi_q.get(index, ZERO)
+            entries[index] = self._name_entry(build, index, value + self._find_scale(node) * coefficient)
         entries |= {(k, k): sp.Integer(1) for k in range(first, self.nodes)}
-        for (node, state), by in parts.by_z.items():
-            place = node, first + state
-            entries[place] = self._entry(build, place, sp.Integer(node == place[1]) + ETA * by)
+        for (node, state), derivative in parts.by_z.items():
+            index = node, first + state
+            entries[index] = self._name_entry(build, index, sp.Integer(node == index[1]) + ETA * derivative)
         return entries | {(k, node): value for (node, k), value in parts.phi_q.items()}
 
-    def _entry(self, build: KernelBuilder, place: Pair, value: sp.Expr) -> sp.Expr:
-        """Return an entry as it is if it is simple, else as a named local."""
-        name = f"n_{self.names[place[0]]}__{self.names[place[1]]}"
+    def _name_entry(self, build: KernelBuilder, index: Pair, value: sp.Expr) -> sp.Expr:
+        """Return an entry of the matrix unchanged if it is simple, else as a named local.
+
+        `index`: its row and column.
+        """
+        name = f"n_{self.names[index[0]]}__{self.names[index[1]]}"
         return value if is_simple(value) else build.local(name, value)
 
-    def _scale(self, node: int) -> sp.Symbol:
-        """Return the factor η or η/κ by which the change of an equation is multiplied."""
+    def _find_scale(self, node: int) -> sp.Symbol:
+        """Return the factor η or η/κ by which the change of an equation is multiplied.
+
+        κ differs for constraints and sticks.
+        """
         if node < self.n or node >= self.first_state:
             return ETA
         return ETA_ROW if node < self.n + self.m else ETA_STICK
 
-    def _scales(self, build: KernelBuilder, expected: Collection[sp.Symbol]) -> None:
-        """Append η/κ of constraints and of sticks, if they are in `expected`."""
+    def _append_scales(self, build: KernelBuilder, scales: Collection[sp.Symbol]) -> None:
+        """Append η/κ of constraints and of sticks to the function, if they are among the `scales` that it reads."""
         alpha, beta = self.model.baumgarte
         derive = self.model.slots.derive
         two_alpha, beta_squared = derive("two_alpha", 2 * alpha), derive("beta_squared", beta**2)
         build.section("eta/kappa")
-        if ETA_ROW in expected:
+        if ETA_ROW in scales:
             build.line(Statement(ETA_ROW.name, ETA / (1 + ETA * (two_alpha + ETA * beta_squared))))
-        if ETA_STICK in expected:
+        if ETA_STICK in scales:
             build.line(Statement(ETA_STICK.name, ETA / (1 + ETA * stick_gain(self.model))))
 
-    def _factor(self) -> Kernel:
+    def _make_factor_kernel(self) -> Kernel:
         """Return the function of L U of the matrix, L with unit diagonal.
 
-        Entries that are neither numbers nor known are stored in `lin->lu`.
+        Entries that are neither numbers nor known are stored in `lin->lu`. It sets `elimination`, `lower`, `upper` and
+        `inverse`.
         """
         states = range(self.first_state, self.nodes)
-        more = ", inner states" if states else ""
-        build = self._builder(
+        note = ", inner states" if states else ""
+        build = self._begin_function(
             "newton_factor",
             [
                 "L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the",
-                f"number of the node (coordinates, rows, sticks{more}; from 1) whose pivot vanished or is not finite.",
+                f"number of the node (coordinates, rows, sticks{note}; from 1) whose pivot vanished or is not finite.",
             ],
         )
-        entries = self._entries(build)
+        entries = self._make_matrix_entries(build)
         pattern = [
             {j for j in range(self.nodes) if j != i and ((i, j) in entries or (j, i) in entries)}
             for i in range(self.nodes)
@@ -216,57 +235,67 @@ class Newton:
             factors.eliminate(k, self.elimination.structure[k])
         self.lower, self.upper, self.inverse = factors.lower, factors.upper, factors.inverse
         build.line(Return())
-        return self._build(build, (Argument("eta"), self._written_lin()), status=True)
+        return self._finish_function(build, (Argument("eta"), self._make_written_linearization()), status=True)
 
-    def _written_lin(self) -> Argument:
+    def _make_written_linearization(self) -> Argument:
         """Return the argument `lin` as one that the function writes."""
         return replace(self.lin, access=Access.WRITTEN)
 
-    def _build(self, build: KernelBuilder, arguments: Sequence[Argument], status: bool = False) -> Kernel:
-        """Return the function; it reads the parameters of the run through `lin`."""
-        kernel = build.build(arguments, status, prune=True)
-        numbers = Section("numbers of the run", (RunNumbers(),))
-        reads = any(PARAMETERS.name in s.reads for section in kernel.sections for s in section.statements)
-        return replace(kernel, sections=(numbers, *kernel.sections)) if reads else kernel
+    def _finish_function(self, build: KernelBuilder, arguments: Sequence[Argument], status: bool = False) -> Kernel:
+        """Return the built function, without locals that nothing reads.
 
-    def _substitute(self) -> Kernel:
-        """Return the function that replaces x = b by the solution of N x = b; nodes are coordinates, then equations."""
-        build = self._builder("newton_substitute", ["x (all nodes) holds b and becomes the solution of N x = b."])
+        It reads the parameters of the run through `lin` if it needs them.
+        """
+        kernel = build.build(arguments, status, prune=True)
+        parameter_section = Section("numbers of the run", (RunNumbers(),))
+        reads_parameters = any(PARAMETERS.name in s.reads for section in kernel.sections for s in section.statements)
+        return replace(kernel, sections=(parameter_section, *kernel.sections)) if reads_parameters else kernel
+
+    def _make_substitute_kernel(self) -> Kernel:
+        """Return the function that replaces x = b by the solution of N x = b, by forward and backward substitution.
+
+        Nodes are coordinates, then equations, frictions and inner states.
+        """
+        build = self._begin_function(
+            "newton_substitute", ["x (all nodes) holds b and becomes the solution of N x = b."]
+        )
         build.section("forward")
         order = self.elimination.order
         x: dict[int, sp.Symbol] = {}
-        earlier: dict[int, list[int]] = {k: [] for k in order}
+        earlier_columns: dict[int, list[int]] = {k: [] for k in order}
         for i, j in self.lower:
-            earlier[i].append(j)
+            earlier_columns[i].append(j)
         for k in order:
             i = self.equation.get(k, k)
-            value = PlaceSymbol(Place("x")[i]) - sp.Add(*(self.lower[i, j] * x[j] for j in earlier[i]))
+            value = PlaceSymbol(Place("x")[i]) - sp.Add(*(self.lower[i, j] * x[j] for j in earlier_columns[i]))
             x[k] = build.local(f"b_{self.names[k]}", value)
         build.section("backward")
         for k in reversed(order):
             value = x[k] - sp.Add(*(self.upper[k, j] * x[j] for j in self.elimination.structure[k]))
             x[k] = build.local(f"x_{self.names[k]}", value * self.inverse[k])
             build.out(Place("x")[k], x[k])
-        return self._build(build, (self.lin, result("x")))
+        return self._finish_function(build, (self.lin, result("x")))
 
-    def _solve(self) -> Kernel:
-        """Return the function that computes u from r (2n + works + inner states)."""
+    def _make_solve_kernel(self) -> Kernel:
+        """Return the function that computes u from r, both (2n + works + inner states), for a factor s of f_t."""
         n, parts = self.n, self.parts
         states = range(self.first_state, self.nodes)
-        build = self._builder(
+        build = self._begin_function(
             "newton_solve",
             [
                 "(1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works"
                 f"{', inner states' if states else ''}.",
             ],
         )
-        self._scales(build, {self._scale(node) for node in range(self.nodes)})
+        self._append_scales(build, {self._find_scale(node) for node in range(self.nodes)})
         build.section("right-hand side")
         build.line(Declare(Number.REAL, "x", (self.nodes,)))
         beta_squared = self.model.slots.derive("beta_squared", self.model.baumgarte[1] ** 2)
         r_q, r_v = ([PlaceSymbol(Place("r")[first + k]) for k in range(n)] for first in (0, n))
-        expected = sorted({k for node, k in parts.phi_q if node < n + self.m})
-        shifted = {k: build.local(f"shifted_{self.names[k]}", r_v[k] - ETA * beta_squared * r_q[k]) for k in expected}
+        coordinates = sorted({k for node, k in parts.phi_q if node < n + self.m})
+        shifted = {
+            k: build.local(f"shifted_{self.names[k]}", r_v[k] - ETA * beta_squared * r_q[k]) for k in coordinates
+        }
         b: list[list[sp.Expr]] = [[] for _ in range(self.nodes)]
         for (i, k), value in parts.mass.items():
             b[i].append(value * r_v[k])
@@ -277,40 +306,43 @@ class Newton:
         for i, value in parts.by_t.items():
             b[i].append(-sp.Symbol("s") * value)
         for i in range(self.first_state, self.nodes):
-            b[i].append(PlaceSymbol(Place("r")[self._state_index(i)]))
+            b[i].append(PlaceSymbol(Place("r")[self._find_state_index(i)]))
         for i, terms in enumerate(b):
-            build.out(Place("x")[i], self._scale(i) * sp.Add(*terms))
+            build.out(Place("x")[i], self._find_scale(i) * sp.Add(*terms))
         build.line(Call("newton_substitute", (Place(LINEARIZATION),), (Place("x"),)))
         build.section("solution")
         for k in range(n):
             build.out(Place("u")[k], ETA * (r_q[k] + PlaceSymbol(Place("x")[k])))
             build.out(Place("u")[n + k], PlaceSymbol(Place("x")[k]))
         for i in range(self.first_state, self.nodes):
-            build.out(Place("u")[self._state_index(i)], PlaceSymbol(Place("x")[i]))
+            build.out(Place("u")[self._find_state_index(i)], PlaceSymbol(Place("x")[i]))
         for w in range(N_WORK):
-            build.out(Place("u")[2 * n + w], self._work_change(w))
+            build.out(Place("u")[2 * n + w], self._compute_work_change(w))
         arguments = (self.lin, Argument("eta"), Argument("s"), source("r"), result("u"))
-        return self._build(build, arguments)
+        return self._finish_function(build, arguments)
 
-    def _state_index(self, state: int) -> int:
-        """Return the index in y of a node that is an inner state."""
+    def _find_state_index(self, state: int) -> int:
+        """Return the index in y of the node of an inner state."""
         return 2 * self.n + N_WORK + state - self.first_state
 
-    def _work_change(self, w: int) -> sp.Expr:
-        """Return u_w of work w; x holds u_v, that is η (δa + r_v), followed by η μ."""
+    def _compute_work_change(self, w: int) -> sp.Expr:
+        """Return u_w of work w as an expression in r, u and x.
+
+        x holds u_v, that is η (δa + r_v), followed by η μ.
+        """
         parts, n = self.parts, self.n
         terms = [PlaceSymbol(Place("r")[2 * n + w]), sp.Symbol("s") * parts.power_t.get(w, ZERO)]
         for part, first in ((parts.power_q, 0), (parts.power_v, n), (parts.power_z, 2 * n + N_WORK)):
             terms += [value * PlaceSymbol(Place("u")[first + k]) for (i, k), value in part.items() if i == w]
         changes = [ZERO]
         for (i, node), value in parts.power_row.items():
-            before = ETA * PlaceSymbol(Place("r")[n + node]) if node < n else ZERO
-            changes += [value * (PlaceSymbol(Place("x")[node]) - before)] if i == w else []
+            start_rate = ETA * PlaceSymbol(Place("r")[n + node]) if node < n else ZERO
+            changes += [value * (PlaceSymbol(Place("x")[node]) - start_rate)] if i == w else []
         return ETA * sp.Add(*terms) + sp.Add(*changes)
 
 
 def at_complex_step(newton: Newton) -> tuple[Kernel, ...]:
-    """Return the functions of Newton's matrix at complex η: factorization and solution with s = 0."""
+    """Return the functions of Newton's matrix at complex η: factorization, substitution and solution with s = 0."""
     arrays = ("eta", "r", "u", "x", newton.lin["lu"])
     return tuple(at_complex(kernel, arrays, ("s",)) for kernel in (newton.factor, newton.substitute, newton.solve))
 
@@ -322,59 +354,79 @@ class Factors:
     """L, U and inverse pivots of Newton's matrix, printed column by column."""
 
     def __init__(self, newton: Newton, build: KernelBuilder, entries: Mapping[Pair, sp.Expr]) -> None:
-        """Begin without pivots; `entries` are those of the matrix."""
+        """Begin without pivots; `entries` are those of the matrix by (row, column)."""
         self.newton, self.build, self.entries = newton, build, entries
         self.lower: dict[Pair, sp.Expr] = {}  # (later equation, earlier unknown)
         self.upper: dict[Pair, sp.Expr] = {}  # (earlier unknown, later unknown)
         self.inverse: dict[int, sp.Expr] = {}
-        self._before: dict[int, list[int]] = {k: [] for k in range(newton.nodes)}
+        self._earlier_pivots: dict[int, list[int]] = {k: [] for k in range(newton.nodes)}
 
-    def eliminate(self, k: int, later: Sequence[int]) -> None:
-        """Append pivot k, its column of L and its row of U; `later`: the nodes in them."""
-        self.inverse[k] = self._pivot(k)
+    def eliminate(self, k: int, later_nodes: Sequence[int]) -> None:
+        """Append pivot k, its column of L and its row of U; `later_nodes`: the nodes in them."""
+        self.inverse[k] = self._invert_pivot(k)
         names, equation = self.newton.names, self.newton.equation.get(k, k)
-        for i in later:
-            other = k if i == equation else i  # the unknown's own equation stays for the multiplier
-            column = self.entries.get((other, k), ZERO) - self._products(other, k)
-            row = self.entries.get((equation, i), ZERO) - self._products(equation, i)
-            self.lower[other, k] = self._store_factor(f"l_{names[other]}__{names[k]}", column * self.inverse[k])
+        for i in later_nodes:
+            target_row = k if i == equation else i  # the unknown's own equation stays for the multiplier
+            column = self.entries.get((target_row, k), ZERO) - self._sum_products(target_row, k)
+            row = self.entries.get((equation, i), ZERO) - self._sum_products(equation, i)
+            self.lower[target_row, k] = self._store_factor(
+                f"l_{names[target_row]}__{names[k]}", column * self.inverse[k]
+            )
             self.upper[k, i] = self._store_factor(f"u_{names[k]}__{names[i]}", row)
-        for i in later:
-            self._before[k if i == equation else i].append(k)
+        for i in later_nodes:
+            self._earlier_pivots[k if i == equation else i].append(k)
 
-    def _products(self, i: int, k: int, of: Sequence[int] | None = None) -> sp.Expr:
-        """Return Σ L U of earlier pivots (all, or those in `of`) for the entry of equation i in the unknown k."""
-        before = self._before[i] if of is None else of
-        return sp.Add(*(self.lower[i, j] * self.upper[j, k] for j in before if (j, k) in self.upper))
+    def _sum_products(self, i: int, k: int, pivots: Sequence[int] | None = None) -> sp.Expr:
+        """Return Σ L U of earlier pivots for the entry of equation i in the unknown k.
 
-    def _pivot(self, k: int) -> sp.Expr:
-        """Return 1/pivot; the rest of an equation is compared with its value if it were independent of the others."""
+        `pivots`: those that count; None: all.
+        """
+        columns = self._earlier_pivots[i] if pivots is None else pivots
+        return sp.Add(*(self.lower[i, j] * self.upper[j, k] for j in columns if (j, k) in self.upper))
+
+    def _invert_pivot(self, k: int) -> sp.Expr:
+        """Return 1/pivot of node k, with a test of the pivot.
+
+        The rest of an equation is compared with its value if it were independent of the others. Constant entries,
+        missing inner states and masses need no test; at slip a friction's multiplier is 0.
+        """
         newton, build, name = self.newton, self.build, self.newton.names[k]
-        own = self.entries.get((newton.equation.get(k, k), k), ZERO)
+        entry = self.entries.get((newton.equation.get(k, k), k), ZERO)
         if k in newton.equation:
-            return own if is_unit(own) else newton.factors.adopt(build, build.local(f"inverse_pivot_{name}", 1 / own))
-        if own.is_Number and own == 1:  # an inner state that this joint does not have
-            return own
-        if not self._before[k] and own in newton.model.masses:
-            return newton.model.slots.derive(f"inverse_{own}", 1 / own, "1/M")
+            return (
+                entry
+                if is_unit(entry)
+                else newton.factors.adopt(build, build.local(f"inverse_pivot_{name}", 1 / entry))
+            )
+        if entry.is_Number and entry == 1:  # an inner state that this joint does not have
+            return entry
+        if not self._earlier_pivots[k] and entry in newton.model.masses:
+            return newton.model.slots.derive(f"inverse_{entry}", 1 / entry, "1/M")
         states = newton.first_state
-        first = [
+        independent_pivots = [
             j
-            for j in self._before[k]
+            for j in self._earlier_pivots[k]
             if j < newton.n or j in newton.equation or j >= states or k < newton.n or k >= states
         ]
-        others = [j for j in self._before[k] if j not in first]
-        scale = build.local(f"scale_{name}", own - self._products(k, k, first))
-        pivot = build.local(f"pivot_{name}", scale - self._products(k, k, others)) if others else scale
-        size = own if k < newton.n or k >= states else scale
+        row_pivots = [j for j in self._earlier_pivots[k] if j not in independent_pivots]
+        scale = build.local(f"scale_{name}", entry - self._sum_products(k, k, independent_pivots))
+        pivot = build.local(f"pivot_{name}", scale - self._sum_products(k, k, row_pivots)) if row_pivots else scale
+        size = entry if k < newton.n or k >= states else scale
         stick = newton.sticks[k - newton.n - newton.m] if newton.n + newton.m <= k < states else None
-        sticks = Test(stick, "!=", (0.0,)) if stick is not None else None
-        build.line(Guard(Test(pivot, ">", (SINGULAR, Size(size)), size=True), k + 1, only=sticks))
+        is_sticking = Test(stick, "!=", (0.0,)) if stick is not None else None
+        build.line(Guard(Test(pivot, ">", (SINGULAR, Size(size)), size=True), k + 1, only=is_sticking))
         # a row that slips is switched off: its multiplier is zero
-        value = 1 / pivot if sticks is None else Conditional(sticks, 1 / pivot, ZERO)
+        value = 1 / pivot if is_sticking is None else Conditional(is_sticking, 1 / pivot, ZERO)
         return newton.factors.adopt(build, build.local(f"inverse_pivot_{name}", value))
 
     def _store_factor(self, name: str, value: sp.Expr) -> sp.Expr:
-        """Return a factor as it is if it is simple, else as a local that other functions may read."""
-        own = is_simple(value) and not value.free_symbols & {ETA, ETA_ROW, ETA_STICK}  # not what every call is given
-        return self.newton.factors.adopt(self.build, value if own else self.build.local(name, value))
+        """Return a factor as a value that other functions may read.
+
+        It is unchanged if it is simple, else a stored local.
+        """
+        is_stored_elsewhere = is_simple(value) and not value.free_symbols & {
+            ETA,
+            ETA_ROW,
+            ETA_STICK,
+        }  # not what every call is given
+        return self.newton.factors.adopt(self.build, value if is_stored_elsewhere else self.build.local(name, value))

@@ -49,20 +49,24 @@ class Factor:
 
 
 def friction_mode(build: KernelBuilder, name: str, index: int) -> tuple[sp.Symbol, sp.Symbol]:
-    """Return two symbols of a friction element's mode: 1 at stick and 0 else; the sign of the slip (0: none)."""
+    """Return two locals for a friction element's mode: 1 at stick and 0 else; the sign of the slip (0: none).
+
+    `index`: number of the element, whose discrete state the function reads.
+    """
     place = DISCRETE["mode"][index]
     mode = build.local(f"mode_{name}", place, "0 stick, 1 or -1 the sign of the slip, 2 held")
     stick = build.local(f"stick_{name}", Conditional(Test(mode, "==", (0.0,)), sp.Integer(1), ZERO))
     return stick, build.local(f"sign_{name}", Conditional(Test(mode, ">", (1.0,), size=True), ZERO, mode))
 
 
-def pivot_guard(failing: Sequence[int], which: int, value: sp.Expr, *bound: sp.Expr | float) -> Guard:
-    """Return the test that pivot `which` of a block is above the bound.
+def pivot_guard(failing: Sequence[int], position: int, value: sp.Expr, *bound: sp.Expr | float) -> Guard:
+    """Return the test that a pivot of a block is above the bound, a product.
 
-    `failing`: whether failure jumps, and the number of equations before the block.
+    `failing`: whether failure jumps, and the number of equations before the block; `position`: 1 or 2, which pivot of
+    the block.
     """
     jumps, count = failing
-    return Guard(Test(value, ">", bound), count + which, bool(jumps))
+    return Guard(Test(value, ">", bound), count + position, bool(jumps))
 
 
 def is_simple(value: sp.Expr) -> bool:
@@ -78,10 +82,16 @@ def named(build: KernelBuilder, name: str, value: sp.Expr) -> sp.Expr:
 def row_pairs(rows: Sequence[Row], n: int, pattern: Sequence[frozenset[int]]) -> dict[int, int]:
     """Return the pairs of equations of a joint in the same coordinates, of which there are more than two.
 
-    Equations are nodes from n on; each is returned with its partner.
+    Equations are nodes from n on, `pattern` has the neighbours of each node; each equation is returned with its
+    partner.
     """
-    pairs: dict[int, int] = {}
-    for r, (row, other) in enumerate(pairwise(rows), n):
-        if row.owner == other.owner and r not in pairs and pattern[r] == pattern[r + 1] and len(pattern[r]) > 2:
-            pairs |= {r: r + 1, r + 1: r}
-    return pairs
+    partner_of_row: dict[int, int] = {}
+    for node, (row, next_row) in enumerate(pairwise(rows), n):
+        if (
+            row.owner == next_row.owner
+            and node not in partner_of_row
+            and pattern[node] == pattern[node + 1]
+            and len(pattern[node]) > 2
+        ):
+            partner_of_row |= {node: node + 1, node + 1: node}
+    return partner_of_row

@@ -16,11 +16,11 @@ from types import MappingProxyType
 
 from sympy.utilities.iterables import strongly_connected_components
 
-DIVISION = 20  # products in the time of one division and what waits for it (measured)
-LONG = 8  # divisions in a chain that is long
+_DIVISION_COST = 20  # products in the time of one division and what waits for it (measured)
+_MAX_DIVISION_CHAIN = 8  # divisions in a chain that is long
 Pattern = tuple[frozenset[int], ...]  # neighbours of each node in the graph of the matrix
 NO_PAIRS: Mapping[int, int] = MappingProxyType({})
-FIRST = (-1,)  # a key before all others
+_FIRST_KEY = (-1,)  # a key before all others
 
 
 @dataclass(frozen=True)
@@ -34,11 +34,11 @@ class Elimination:
 
     @property
     def cost(self) -> int:
-        """Return the cost in products, with at most LONG divisions that wait for each other.
+        """Return the cost in products, with at most eight divisions that wait for each other.
 
         In longer chains other work fills the time.
         """
-        return self.products + DIVISION * min(self.depth, LONG)
+        return self.products + _DIVISION_COST * min(self.depth, _MAX_DIVISION_CHAIN)
 
 
 def choose_elimination(
@@ -53,50 +53,58 @@ def choose_elimination(
 
     Nodes below `coordinates` are coordinates, the others equations; nodes from `last` on come after all others.
     Equations in `pairs` (each with its partner, in the same coordinates) may be eliminated once two of their
-    coordinates
-    are: their 2 × 2 pivot then vanishes where two links are in line, so that the caller must test it. Nodes in `first`
-    come before all others, in their order; one with a `partner`, an equation with a constant entry in it, is eliminated
-    together with that equation.
+    coordinates are. Their 2 × 2 pivot then vanishes where two links are in line, so that the caller must test it. Nodes
+    in `first` come before all others, in their order. A node with a `partner`, an equation with a constant entry in it,
+    is eliminated together with that equation.
     """
     if first:
         orders = (
             _eliminate_in_order(first, pattern, coordinates, last, pairs, partner, eager) for eager in (False, True)
         )
-        return min(orders if partner else [next(orders)], key=lambda e: e.cost)
+        return min(orders if partner else [next(orders)], key=lambda elimination: elimination.cost)
     end = len(pattern) if last is None else last
 
-    def degree(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
-        """Return the key of least degree."""
+    def compute_degree_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
+        """Return the key of least degree; nodes from `last` on come last."""
         return (node >= end, len(graph[node]), node)
 
-    def fill(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
-        """Return the key of least fill-in."""
-        near = sorted(graph[node])
-        missing = sum(b not in graph[a] for i, a in enumerate(near) for b in near[i + 1 :])
-        return (node >= end, missing, len(near), node)
+    def compute_fill_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
+        """Return the key of least fill-in, then of least degree."""
+        neighbours = sorted(graph[node])
+        missing = sum(b not in graph[a] for i, a in enumerate(neighbours) for b in neighbours[i + 1 :])
+        return (node >= end, missing, len(neighbours), node)
 
-    def bodies_first(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
+    def compute_bodies_first_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
         """Return the key of least fill-in with all coordinates before equations."""
-        return (node >= end, node >= coordinates, *fill(graph, node, wait))
+        return (node >= end, node >= coordinates, *compute_fill_key(graph, node, depth))
 
-    def untouched(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
+    def compute_untouched_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
         """Return the key of least fill-in with nodes that no elimination has changed first."""
-        return (node >= end, graph[node] != pattern[node], *fill(graph, node, wait))
+        return (node >= end, graph[node] != pattern[node], *compute_fill_key(graph, node, depth))
 
-    def shallow(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
+    def compute_shallow_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
         """Return the key of least fill-in, then of the shortest chain of divisions."""
-        _, missing, near, _ = fill(graph, node, wait)
-        return (node >= end, missing, wait, near, node)
+        _, missing, neighbours, _ = compute_fill_key(graph, node, depth)
+        return (node >= end, missing, depth, neighbours, node)
 
-    def early(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
+    def compute_early_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
         """Return the key of the shortest chain of divisions, then of least fill-in."""
-        return (node >= end, wait, *fill(graph, node, wait))
+        return (node >= end, depth, *compute_fill_key(graph, node, depth))
 
-    keys = (degree, fill, bodies_first, untouched, shallow, early)
+    keys = (
+        compute_degree_key,
+        compute_fill_key,
+        compute_bodies_first_key,
+        compute_untouched_key,
+        compute_shallow_key,
+        compute_early_key,
+    )
     candidates = [
-        _eliminate(pattern, coordinates, key, which) for which in (NO_PAIRS, pairs)[: 1 + bool(pairs)] for key in keys
+        _eliminate_greedily(pattern, coordinates, key, equation_pairs)
+        for equation_pairs in (NO_PAIRS, pairs)[: 1 + bool(pairs)]
+        for key in keys
     ]
-    return min(candidates, key=lambda e: e.cost)
+    return min(candidates, key=lambda elimination: elimination.cost)
 
 
 def _eliminate_in_order(
@@ -111,97 +119,121 @@ def _eliminate_in_order(
     """Return the elimination of the nodes in `first` with their partners, then of the others by the best order.
 
     `eager`: a coordinate that is in none of the partners any more follows at once. Along a chain of bodies from its
-    end,
-    each is then coupled only with the one that carries it.
+    end, each is then coupled only with the one that carries it.
     """
-    graph = [set(near) for near in pattern]
+    graph = [set(neighbours) for neighbours in pattern]
     columns = dict[int, set[int]]()
-    rows, products = {*partner.values(), *(node for node in first if coordinates <= node < len(pattern))}, 0
+    remaining_rows, products = {*partner.values(), *(node for node in first if coordinates <= node < len(pattern))}, 0
     for node in first:
         products += _eliminate_node(node, partner.get(node), graph, columns)
-        rows -= {node, partner.get(node)}
-        ready = sorted(columns[node]) if eager and (node in partner or node >= coordinates) else ()
-        for k in ready:
-            if k < coordinates and k not in partner and k not in columns and not graph[k] & rows:
-                products += _eliminate_node(k, None, graph, columns)
-    left = [node for node in range(len(pattern)) if node not in columns]
-    number = {node: k for k, node in enumerate(left)}
-    rest = choose_elimination(
-        tuple(frozenset(number[k] for k in graph[node]) for node in left),
-        sum(node < coordinates for node in left),
-        None if last is None else sum(node < last for node in left),
-        {number[r]: number[other] for r, other in pairs.items() if r in number and other in number},
+        remaining_rows -= {node, partner.get(node)}
+        ready_coordinates = sorted(columns[node]) if eager and (node in partner or node >= coordinates) else ()
+        for candidate in ready_coordinates:
+            if (
+                candidate < coordinates
+                and candidate not in partner
+                and candidate not in columns
+                and not graph[candidate] & remaining_rows
+            ):
+                products += _eliminate_node(candidate, None, graph, columns)
+    remaining = [node for node in range(len(pattern)) if node not in columns]
+    index_of = {node: candidate for candidate, node in enumerate(remaining)}
+    remaining_elimination = choose_elimination(
+        tuple(frozenset(index_of[candidate] for candidate in graph[node]) for node in remaining),
+        sum(node < coordinates for node in remaining),
+        None if last is None else sum(node < last for node in remaining),
+        {
+            index_of[r]: index_of[partner_row]
+            for r, partner_row in pairs.items()
+            if r in index_of and partner_row in index_of
+        },
     )
-    order = (*columns, *(left[k] for k in rest.order))
-    place = {node: k for k, node in enumerate(order)}
-    structure = {node: tuple(sorted(columns[node], key=place.__getitem__)) for node in columns}
-    structure |= {left[k]: tuple(left[i] for i in column) for k, column in rest.structure.items()}
-    alone = sum(node not in partner and node not in partner.values() for node in columns)
-    return Elimination(order, structure, rest.products + products, rest.depth + alone)
+    order = (*columns, *(remaining[candidate] for candidate in remaining_elimination.order))
+    position = {node: candidate for candidate, node in enumerate(order)}
+    structure = {node: tuple(sorted(columns[node], key=position.__getitem__)) for node in columns}
+    structure |= {
+        remaining[candidate]: tuple(remaining[i] for i in column)
+        for candidate, column in remaining_elimination.structure.items()
+    }
+    n_single = sum(node not in partner and node not in partner.values() for node in columns)
+    return Elimination(
+        order, structure, remaining_elimination.products + products, remaining_elimination.depth + n_single
+    )
 
 
 def _eliminate_node(node: int, partner: int | None, graph: Sequence[set[int]], columns: dict[int, set[int]]) -> int:
-    """Eliminate a node with its partner from the graph and return the number of products.
+    """Eliminate a node with its partner from the graph in place, and return the number of products.
 
-    The partner's neighbours are coupled with those of both.
+    The columns of both are stored in `columns`. The partner's neighbours are coupled with those of both.
     """
-    gone = {node} if partner is None else {node, partner}
-    own = graph[node] - gone
-    through = own if partner is None else graph[partner] - gone
-    columns[node] = (own | through | gone) - {node}
+    eliminated = {node} if partner is None else {node, partner}
+    node_neighbours = graph[node] - eliminated
+    partner_neighbours = node_neighbours if partner is None else graph[partner] - eliminated
+    columns[node] = (node_neighbours | partner_neighbours | eliminated) - {node}
     if partner is not None:
-        columns[partner] = own | through
-    for k in own | through:
-        graph[k] -= gone
-        graph[k] |= (own | through if k in through else through) - {k}
-    return len(through) * (len(through) + 3) // 2 + (0 if partner is None else len(through) * len(own - through))
+        columns[partner] = node_neighbours | partner_neighbours
+    for k in node_neighbours | partner_neighbours:
+        graph[k] -= eliminated
+        graph[k] |= (node_neighbours | partner_neighbours if k in partner_neighbours else partner_neighbours) - {k}
+    return len(partner_neighbours) * (len(partner_neighbours) + 3) // 2 + (
+        0 if partner is None else len(partner_neighbours) * len(node_neighbours - partner_neighbours)
+    )
 
 
-def _eliminate(
+def _eliminate_greedily(
     pattern: Pattern,
     coordinates: int,
     key: Callable[[Sequence[set[int]], int, int], tuple[int, ...]],
     pairs: Mapping[int, int],
 ) -> Elimination:
-    """Return the greedy elimination that takes the node with the least `key` next."""
-    graph = [set(near) for near in pattern]
-    waiting = [sum(near < coordinates for near in pattern[n]) if n >= coordinates else 0 for n in range(len(pattern))]
-    for n in pairs:
-        waiting[n] = min(waiting[n], 2)
-    left = set(range(len(pattern)))
-    waits = [0] * len(pattern)  # how many pivots each node has to wait for, one after the other
+    """Return the greedy elimination that takes the node with the least `key` next.
+
+    An equation is ready once all its coordinates are eliminated, one in `pairs` after two. key(graph, node, depth):
+    depth is the number of divisions before the node.
+    """
+    graph = [set(neighbours) for neighbours in pattern]
+    n_missing = [
+        sum(neighbours < coordinates for neighbours in pattern[equation]) if equation >= coordinates else 0
+        for equation in range(len(pattern))
+    ]
+    for equation in pairs:
+        n_missing[equation] = min(n_missing[equation], 2)
+    remaining = set(range(len(pattern)))
+    depths = [0] * len(pattern)  # how many pivots each node has to wait for, one after the other
     order, columns = list[int](), dict[int, set[int]]()
-    keys = {node: key(graph, node, waits[node]) for node in left if waiting[node] == 0}
+    keys = {node: key(graph, node, depths[node]) for node in remaining if n_missing[node] == 0}
     heap = sorted((value, node) for node, value in keys.items())
-    while left:
+    while remaining:
         value, node = heapq.heappop(heap)
         if keys.get(node) != value:
             continue  # its key has changed since it was pushed
-        if pairs.get(node) in left:  # its partner comes next, before everything else
-            heapq.heappush(heap, (FIRST, pairs[node]))
-            keys[pairs[node]] = FIRST
-        near = graph[node]
+        if pairs.get(node) in remaining:  # its partner comes next, before everything else
+            heapq.heappush(heap, (_FIRST_KEY, pairs[node]))
+            keys[pairs[node]] = _FIRST_KEY
+        neighbours = graph[node]
         order.append(node)
-        columns[node] = set(near)
-        left.discard(node)
+        columns[node] = set(neighbours)
+        remaining.discard(node)
         del keys[node]
-        touched = set(near)
-        for a in near:
-            graph[a].discard(node)
-            own = node >= coordinates and pairs.get(node) not in left or node < coordinates and waits[node] > 0
-            waits[a] = max(waits[a], waits[node] + own)
-            graph[a] |= near - {a}
-            touched |= graph[a]
-            if a >= coordinates and node < coordinates and a in pattern[node]:
-                waiting[a] -= 1
-        for a in touched & left:
-            if keys.get(a) == FIRST:
+        changed_nodes = set(neighbours)
+        for neighbour in neighbours:
+            graph[neighbour].discard(node)
+            adds_division = (
+                node >= coordinates and pairs.get(node) not in remaining or node < coordinates and depths[node] > 0
+            )
+            depths[neighbour] = max(depths[neighbour], depths[node] + adds_division)
+            graph[neighbour] |= neighbours - {neighbour}
+            changed_nodes |= graph[neighbour]
+            if neighbour >= coordinates and node < coordinates and neighbour in pattern[node]:
+                n_missing[neighbour] -= 1
+        for neighbour in changed_nodes & remaining:
+            if keys.get(neighbour) == _FIRST_KEY:
                 continue
-            if waiting[a] <= 0:
-                keys[a] = key(graph, a, waits[a])
-                heapq.heappush(heap, (keys[a], a))
-    place = {node: k for k, node in enumerate(order)}
-    structure = {node: tuple(sorted(columns[node], key=place.__getitem__)) for node in order}
+            if n_missing[neighbour] <= 0:
+                keys[neighbour] = key(graph, neighbour, depths[neighbour])
+                heapq.heappush(heap, (keys[neighbour], neighbour))
+    position = {node: k for k, node in enumerate(order)}
+    structure = {node: tuple(sorted(columns[node], key=position.__getitem__)) for node in order}
     products = sum(len(c) * (len(c) + 3) // 2 for c in columns.values())
     return Elimination(tuple(order), structure, products, _division_depth(order, structure, coordinates))
 
@@ -211,17 +243,17 @@ def _division_depth(order: Sequence[int], structure: Mapping[int, tuple[int, ...
 
     Pivots that elimination does not change are computed beforehand; two that form a block count as one.
     """
-    changed = set[int]().union(*structure.values())
-    waits = dict.fromkeys(order, 0)
-    paired = -1
-    for place, k in enumerate(order):
-        own = k != paired and (k >= coordinates or k in changed)
-        following = order[place + 1] if place + 1 < len(order) else -1
-        paired = following if own and structure[k] == (following, *structure.get(following, ())) else -1
-        waits[k] += own
+    changed_nodes = set[int]().union(*structure.values())
+    depths = dict.fromkeys(order, 0)
+    pair_node = -1
+    for position, k in enumerate(order):
+        adds_division = k != pair_node and (k >= coordinates or k in changed_nodes)
+        next_node = order[position + 1] if position + 1 < len(order) else -1
+        pair_node = next_node if adds_division and structure[k] == (next_node, *structure.get(next_node, ())) else -1
+        depths[k] += adds_division
         for i in structure[k][:1]:
-            waits[i] = max(waits[i], waits[k])
-    return max(waits.values(), default=0)
+            depths[i] = max(depths[i], depths[k])
+    return max(depths.values(), default=0)
 
 
 @dataclass(frozen=True)
@@ -233,35 +265,48 @@ class Block:
 
 
 def match_rows(pattern: Sequence[set[int]]) -> dict[int, int]:
-    """Return a maximum matching of equations with unknowns, as the equation by unknown (augmenting paths)."""
-    owner: dict[int, int] = {}
+    """Return a maximum matching of equations with unknowns, as the equation by unknown (augmenting paths).
 
-    def find(row: int, tried: set[int]) -> bool:
-        """Return whether the equation gets an unknown, after moving other equations if necessary."""
+    `pattern`: the unknowns of each equation.
+    """
+    row_of_unknown: dict[int, int] = {}
+
+    def find_unknown(row: int, tried: set[int]) -> bool:
+        """Return whether the equation gets an unknown, after moving other equations if necessary.
+
+        `tried` collects unknowns that have been visited.
+        """
         for column in sorted(pattern[row]):
             if column not in tried:
                 tried.add(column)
-                if column not in owner or find(owner[column], tried):
-                    owner[column] = row
+                if column not in row_of_unknown or find_unknown(row_of_unknown[column], tried):
+                    row_of_unknown[column] = row
                     return True
         return False
 
     for row in range(len(pattern)):
-        find(row, set())
-    return owner
+        find_unknown(row, set())
+    return row_of_unknown
 
 
 def triangular_blocks(pattern: Sequence[set[int]], n: int) -> tuple[Block, ...] | None:
-    """Return the blocks of a square pattern in solving order; None if some unknown has no equation.
+    """Return the blocks of a square pattern in solving order.
 
-    `pattern`: the unknowns of each equation.
+    None if the pattern is not square or some unknown has no equation. `pattern`: the unknowns of each equation.
     """
     if len(pattern) != n:
         return None
-    owner = match_rows(pattern)
-    if len(owner) < n:
+    row_of_unknown = match_rows(pattern)
+    if len(row_of_unknown) < n:
         return None
-    matched = {row: column for column, row in owner.items()}
-    needs = [(row, owner[column]) for row in range(n) for column in sorted(pattern[row]) if owner[column] != row]
-    parts = strongly_connected_components((list(range(n)), needs))  # those that others need come first
-    return tuple(Block(rows := tuple(sorted(part)), tuple(matched[row] for row in rows)) for part in parts)
+    matched = {row: column for column, row in row_of_unknown.items()}
+    dependencies = [
+        (row, row_of_unknown[column])
+        for row in range(n)
+        for column in sorted(pattern[row])
+        if row_of_unknown[column] != row
+    ]
+    components = strongly_connected_components((list(range(n)), dependencies))  # those that others need come first
+    return tuple(
+        Block(rows := tuple(sorted(component)), tuple(matched[row] for row in rows)) for component in components
+    )

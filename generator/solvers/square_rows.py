@@ -44,13 +44,15 @@ class SquareRows:
     """Prints the solution of Φ_q x = r for a system's equations in its coordinates, if it `fits`."""
 
     def __init__(self, system: System, slides: Sequence[bool]) -> None:
-        """Find the blocks of the system; `slides`: whether each coordinate is a length, not an angle."""
+        """Find the blocks of the system's equations; `slides`: whether each coordinate is a length, not an angle."""
         rows, q = system.rows, system.q
-        place = {symbol: k for k, symbol in enumerate(q)}
+        coordinate_index = {symbol: k for k, symbol in enumerate(q)}
         self._symbols, self._q, self._slides = system.model.symbols, tuple(q), slides
         self.names = [row.name.replace(".", "_").replace("=", "_") for row in rows]
         self.unknowns = [symbol.name for symbol in q]
-        self.entries: list[Mapping[int, sp.Expr]] = [{place[s]: c for s, c in row.phi_q.items()} for row in rows]
+        self.entries: list[Mapping[int, sp.Expr]] = [
+            {coordinate_index[s]: c for s, c in row.phi_q.items()} for row in rows
+        ]
         self.blocks = triangular_blocks([set(entries) for entries in self.entries], len(q))
 
     @property
@@ -72,58 +74,69 @@ class SquareRows:
         solvers = []
         for block in self.blocks or ():
             size = min(len(block.rows), 3)
-            solvers.append((self._single, self._pair, self._dense)[size - 1](build, block))
+            solvers.append(
+                (self._factorize_single, self._factorize_pair, self._factorize_dense)[size - 1](build, block)
+            )
         return solvers
 
-    def _single(self, build: KernelBuilder, block: Block) -> Solver:
-        """Return the solver of a block of one equation, with a test of its pivot."""
+    def _factorize_single(self, build: KernelBuilder, block: Block) -> Solver:
+        """Return the solver of a block of one equation, with a test of its pivot unless that is a number."""
         (row,), (column,) = block.rows, block.columns
         pivot = self.entries[row][column]
         if pivot.is_Number:
             return Solver(block, 1 / pivot)
-        named = build.local(f"pivot_{self.names[row]}", pivot)
-        build.line(Guard(Test(named, ">", (SHARE, self._size(build, row, column, block)), size=True), row + 1))
-        return Solver(block, build.local(f"inverse_{self.names[row]}", 1 / named))
+        pivot_local = build.local(f"pivot_{self.names[row]}", pivot)
+        build.line(
+            Guard(
+                Test(pivot_local, ">", (SHARE, self._compute_entry_bound(build, row, column, block)), size=True),
+                row + 1,
+            )
+        )
+        return Solver(block, build.local(f"inverse_{self.names[row]}", 1 / pivot_local))
 
-    def _pair(self, build: KernelBuilder, block: Block) -> Solver:
-        """Return the solver of a block of two equations by Cramer's rule, with a test of its determinant."""
+    def _factorize_pair(self, build: KernelBuilder, block: Block) -> Solver:
+        """Return the solver of a block of two equations by Cramer's rule, with a test of its determinant.
+
+        The determinant is compared with its largest value for any direction of the arms.
+        """
         name = f"{self.names[block.rows[0]]}__{self.names[block.rows[1]]}"
-        (a, b), (c, d) = self._square(block)
+        (a, b), (c, d) = self._extract_block(block)
         determinant = build.local(f"determinant_{name}", a * d - b * c)
-        (A, B), (C, D) = ([self._size(build, r, k, block) for k in block.columns] for r in block.rows)
+        (A, B), (C, D) = ([self._compute_entry_bound(build, r, k, block) for k in block.columns] for r in block.rows)
         bound = build.local(f"bound_{name}", A * D + B * C)
         build.line(Guard(Test(determinant, ">", (SHARE, bound), size=True), block.rows[1] + 1))
         return Solver(block, build.local(f"inverse_{name}", 1 / determinant))
 
-    def _size(self, build: KernelBuilder, row: int, column: int, block: Block) -> sp.Expr:
+    def _compute_entry_bound(self, build: KernelBuilder, row: int, column: int, block: Block) -> sp.Expr:
         """Return the largest value of an entry for any direction of its arms, within a factor of two.
 
-        For an angle it is |c| + |dc/dθ|, for a slide the sum of |c| over the block's slides: units are not mixed.
+        For an angle it is |c| + |dc/dθ|, for a slide the sum of |c| over the block's slides: units are not mixed. A
+        longer expression becomes a local.
         """
         entries = self.entries[row]
         if self._slides[column]:
-            size = sp.Add(*(sp.Abs(entries.get(k, ZERO)) for k in block.columns if self._slides[k]))
+            magnitude = sp.Add(*(sp.Abs(entries.get(k, ZERO)) for k in block.columns if self._slides[k]))
         else:
             entry = entries.get(column, ZERO)
-            size = sp.Abs(entry) + sp.Abs(self._symbols.diff(entry, self._q[column]))
-        if size.is_Number:
-            return size
-        return build.local(f"size_{self.names[row]}__{self.unknowns[column]}", size.replace(sp.Abs, Size))
+            magnitude = sp.Abs(entry) + sp.Abs(self._symbols.diff(entry, self._q[column]))
+        if magnitude.is_Number:
+            return magnitude
+        return build.local(f"size_{self.names[row]}__{self.unknowns[column]}", magnitude.replace(sp.Abs, Size))
 
-    def _dense(self, build: KernelBuilder, block: Block) -> Solver:
-        """Return the solver of a larger block, which the engine factorizes at run time."""
+    def _factorize_dense(self, build: KernelBuilder, block: Block) -> Solver:
+        """Return the solver of a larger block, which the engine factorizes at run time with pivoting."""
         n, name = len(block.rows), self._symbols.unique(f"block_{self.names[block.rows[0]]}")
         values, order = f"{name}_values", f"{name}_order"
         build.line(Declare(Number.REAL, values, (n * n,)))
         build.line(Declare(Number.INTEGER, order, (n,)))
-        for k, value in enumerate(value for line in self._square(block) for value in line):
+        for k, value in enumerate(value for row in self._extract_block(block) for value in row):
             build.out(Place(values)[k], value)
-        factored = Call("factor_block", (sp.Integer(n),), (Place(values), Place(order)))
-        build.line(Guard(factored, block.rows[0] + 1))
+        factorization = Call("factor_block", (sp.Integer(n),), (Place(values), Place(order)))
+        build.line(Guard(factorization, block.rows[0] + 1))
         return Solver(block, name=name)
 
-    def _square(self, block: Block) -> list[list[sp.Expr]]:
-        """Return the entries of a block as rows."""
+    def _extract_block(self, block: Block) -> list[list[sp.Expr]]:
+        """Return the entries of a block as rows, zeros included."""
         return [[self.entries[r].get(c, ZERO) for c in block.columns] for r in block.rows]
 
     def solve(
@@ -131,34 +144,36 @@ class SquareRows:
     ) -> list[sp.Expr]:
         """Append the solution x for one right-hand side and return it by coordinate.
 
-        `prefix` begins the names of its locals.
+        `rhs`: one value for each equation; `prefix` begins the names of its locals.
         """
         x: dict[int, sp.Expr] = {}
         for solver in solvers:
             block = solver.block
-            left = [rhs[r] - sum((c * x[k] for k, c in self.entries[r].items() if k in x), ZERO) for r in block.rows]
-            if len(left) > 1:
-                left = [
+            block_rhs = [
+                rhs[r] - sum((c * x[k] for k, c in self.entries[r].items() if k in x), ZERO) for r in block.rows
+            ]
+            if len(block_rhs) > 1:
+                block_rhs = [
                     build.local(f"{prefix}_rest_{self.names[r]}", value) if len(value.free_symbols) > 1 else value
-                    for r, value in zip(block.rows, left, strict=True)
+                    for r, value in zip(block.rows, block_rhs, strict=True)
                 ]
-            for k, value in zip(block.columns, self._solve(build, solver, left, prefix), strict=True):
+            for k, value in zip(block.columns, self._solve_block(build, solver, block_rhs, prefix), strict=True):
                 x[k] = build.local(f"{prefix}_{self.unknowns[k]}", value)
         return [x[k] for k in range(len(self.unknowns))]
 
-    def _solve(
-        self, build: KernelBuilder, solver: Solver, left: Sequence[sp.Expr], prefix: str
+    def _solve_block(
+        self, build: KernelBuilder, solver: Solver, rhs: Sequence[sp.Expr], prefix: str
     ) -> Sequence[sp.Expr | Place]:
-        """Return the solution of one block for its right-hand side `left`."""
-        if len(left) == 1:
-            return [left[0] * solver.inverse]
-        if len(left) == 2:
-            (a, b), (c, d) = self._square(solver.block)
-            return [(d * left[0] - b * left[1]) * solver.inverse, (a * left[1] - c * left[0]) * solver.inverse]
-        name, n = self._symbols.unique(f"{solver.name}_{prefix}"), len(left)
+        """Return the solution of one block for its right-hand side `rhs`, one value for each of its equations."""
+        if len(rhs) == 1:
+            return [rhs[0] * solver.inverse]
+        if len(rhs) == 2:
+            (a, b), (c, d) = self._extract_block(solver.block)
+            return [(d * rhs[0] - b * rhs[1]) * solver.inverse, (a * rhs[1] - c * rhs[0]) * solver.inverse]
+        name, n = self._symbols.unique(f"{solver.name}_{prefix}"), len(rhs)
         build.line(Declare(Number.REAL, name, (n,)))
-        for k, value in enumerate(left):
+        for k, value in enumerate(rhs):
             build.out(Place(name)[k], value)
-        given = (sp.Integer(n), Place(f"{solver.name}_values"), Place(f"{solver.name}_order"))
-        build.line(Call("solve_block", given, (Place(name),)))
+        arguments = (sp.Integer(n), Place(f"{solver.name}_values"), Place(f"{solver.name}_order"))
+        build.line(Call("solve_block", arguments, (Place(name),)))
         return [Place(name)[k] for k in range(n)]

@@ -8,7 +8,7 @@ from sympy.core.symbol import Str
 from gudgeon.generator.symbols.derivatives import derivative
 from gudgeon.language.curves import HOLD, STOP, Curve
 
-_LAST = 3  # derivatives of a cubic: the third has jumps at the knots, and no derivative in between
+_MAX_ORDER = 3  # derivatives of a cubic: the third has jumps at the knots, and no derivative in between
 
 
 class CurveOf(sp.Function):
@@ -24,14 +24,17 @@ class CurveOf(sp.Function):
 
     @property
     def order(self) -> int:
-        """Return which derivative this is."""
+        """Return the order k of the derivative."""
         return int(self.args[1])
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        """Return the next derivative; the third derivative is piecewise constant."""
+        """Return the derivative by `s`: the next derivative of the curve times that of its argument.
+
+        The derivative of the third one is 0, since it is piecewise constant. Called by SymPy.
+        """
         name, order, x = self.args
         rate = derivative(x, s)
-        return sp.Integer(0) if rate == 0 or order == _LAST else CurveOf(name, order + 1, x) * rate
+        return sp.Integer(0) if rate == 0 or order == _MAX_ORDER else CurveOf(name, order + 1, x) * rate
 
 
 class CurveOn(sp.Function):
@@ -42,10 +45,13 @@ class CurveOn(sp.Function):
     name, order = CurveOf.name, CurveOf.order
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        """Return the next derivative on the same branch."""
-        name, order, x, side = self.args
+        """Return the derivative by `s` on the same branch; the derivative of the third one is 0.
+
+        Called by SymPy.
+        """
+        name, order, x, branch = self.args
         rate = derivative(x, s)
-        return sp.Integer(0) if rate == 0 or order == _LAST else CurveOn(name, order + 1, x, side) * rate
+        return sp.Integer(0) if rate == 0 or order == _MAX_ORDER else CurveOn(name, order + 1, x, branch) * rate
 
 
 class KnotsOf(sp.Function):
@@ -60,24 +66,28 @@ class KnotsOf(sp.Function):
 
 
 def curve_of(curve: Curve, x: sp.Expr) -> sp.Expr:
-    """Return a curve at x; its continuation beyond the range is by min and max, whose switching points end steps."""
+    """Return a curve of the file at x as a SymPy expression.
+
+    Beyond its range a curve is held or continued linearly, by min and max, whose switching points end steps. A periodic
+    curve, or one that stops a run there, has no continuation.
+    """
     name, zero, one = Str(curve.name), sp.Integer(0), sp.Integer(1)
     if curve.repeats or curve.extrapolate == STOP:
         return CurveOf(name, zero, x)
-    first, last = sp.Float(curve.x[0], 17), sp.Float(curve.x[-1], 17)
-    value = CurveOf(name, zero, sp.Max(first, sp.Min(last, x)))
+    first_x, last_x = sp.Float(curve.x[0], 17), sp.Float(curve.x[-1], 17)
+    value = CurveOf(name, zero, sp.Max(first_x, sp.Min(last_x, x)))
     if curve.extrapolate == HOLD:
         return value
-    down, up = CurveOf(name, one, first), CurveOf(name, one, last)
-    return value + down * sp.Min(0, x - first) + up * sp.Max(0, x - last)
+    down, up = CurveOf(name, one, first_x), CurveOf(name, one, last_x)
+    return value + down * sp.Min(0, x - first_x) + up * sp.Max(0, x - last_x)
 
 
 def c_name(name: str) -> str:
-    """Return the name of a curve in the emitted functions."""
+    """Return the name of a curve of the file in emitted code, such as `CURVE_load_`."""
     return f"CURVE_{name}_"
 
 
-_LAST_OF_CONTOUR = 2  # derivatives of a contour: the third jumps from slot to slot
+_MAX_CONTOUR_ORDER = 2  # derivatives of a contour: the third jumps from slot to slot
 
 
 class ContourOf(sp.Function):
@@ -98,16 +108,24 @@ class ContourOf(sp.Function):
 
     @property
     def order(self) -> int:
-        """Return which derivative this is."""
+        """Return the order k of the derivative."""
         return int(self.args[2])
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        """Return the next derivative; that of the second is taken as 0."""
+        """Return the derivative by `s`: the next derivative by the angle times that of the angle.
+
+        The derivative of the second one is 0. Called by SymPy.
+        """
         table, count, order, x = self.args
         rate = derivative(x, s)
-        return sp.Integer(0) if rate == 0 or order == _LAST_OF_CONTOUR else ContourOf(table, count, order + 1, x) * rate
+        return (
+            sp.Integer(0) if rate == 0 or order == _MAX_CONTOUR_ORDER else ContourOf(table, count, order + 1, x) * rate
+        )
 
 
 def contour_of(table: str, count: int, order: int, angle: sp.Expr) -> sp.Expr:
-    """Return the derivative of an `order` of the contour with the depths `table`, at an angle."""
+    """Return the k-th derivative (`order`) by the angle of a bearing's contour at an angle.
+
+    `table`: the array of Parameters that holds its depths in m; `count`: their number.
+    """
     return ContourOf(Str(table), sp.Integer(count), sp.Integer(order), angle)

@@ -54,7 +54,7 @@ class ParameterTable(Freezable):
     """
 
     def __init__(self, scene: Scene, symbols: Symbols) -> None:
-        """Begin with the section `parameters` of a scene."""
+        """Begin with the parameters in the section `parameters` of a scene, each after those on which it depends."""
         self.symbols = symbols
         self.entries: dict[str, ParameterEntry] = {}
         self.derived: dict[sp.Symbol, sp.Expr] = {}
@@ -65,124 +65,160 @@ class ParameterTable(Freezable):
         self._derived_by: dict[sp.Expr, sp.Symbol] = {}
         self._parameters, self._instead = scene.parameters, scene.instead
         for name in scene.parameters:
-            self._parameter(name)
+            self._get_or_add_parameter(name)
 
     def beside(self, symbols: Symbols) -> ParameterTable:
-        """Return the same table for functions with other symbols (`Symbols.beside`)."""
-        other = copy.copy(self)
-        other.symbols = symbols
-        return other
+        """Return a copy of the table whose new symbols are made in another symbol table (`Symbols.beside`).
+
+        The dictionaries of parameters are shared.
+        """
+        copy_ = copy.copy(self)
+        copy_.symbols = symbols
+        return copy_
 
     def is_constant(self, expression: sp.Expr) -> bool:
-        """Return whether `prepare` could compute an expression: it contains only parameters and numbers."""
+        """Return whether an expression contains only parameters and numbers.
+
+        `prepare` can then compute it once a run.
+        """
         info = self.symbols.info
         return all(s in info and info[s].is_parameter for s in expression.free_symbols)
 
-    def _parameter(self, name: str) -> sp.Symbol:
-        """Return the symbol of an entry of `parameters`, added with those on which it depends."""
-        waiting = [name]  # not by recursion: thousands may be defined through each other
-        while waiting:
-            quantity = self._parameters[waiting[-1]]
-            used = (used.path for used in names(quantity.value) if f"parameters.{used.path}" not in self.entries)
-            if (first := next(used, None)) is not None:
-                waiting.append(first)
+    def _get_or_add_parameter(self, name: str) -> sp.Symbol:
+        """Return the symbol of an entry of the section `parameters`.
+
+        The entry is added if necessary, after all entries on which it depends.
+        """
+        pending = [name]  # not by recursion: thousands may be defined through each other
+        while pending:
+            quantity = self._parameters[pending[-1]]
+            missing = (
+                missing.path for missing in names(quantity.value) if f"parameters.{missing.path}" not in self.entries
+            )
+            if (first_missing := next(missing, None)) is not None:
+                pending.append(first_missing)
                 continue
-            last = waiting.pop()
-            if f"parameters.{last}" not in self.entries:
-                self._add(f"parameters.{last}", last, quantity)
+            last_name = pending.pop()
+            if f"parameters.{last_name}" not in self.entries:
+                self._add(f"parameters.{last_name}", last_name, quantity)
         return self.entries[f"parameters.{name}"].symbol
 
-    def _add(self, address: str, expected: str, quantity: Quantity, home: Place = OWN_FIELD) -> sp.Symbol:
-        """Add a parameter with the expression of a quantity and return its symbol."""
+    def _add(self, address: str, base_name: str, quantity: Quantity, home: Place = OWN_FIELD) -> sp.Symbol:
+        """Add a parameter with an address and the expression of a quantity; return its symbol.
+
+        `base_name`: base of the symbol's name; `home`: its place in Parameters. Its default is the value of the
+        expression with all defaults.
+        """
         parts = {part.address: part for part in quantity.of}
 
         def symbol(path: str) -> sp.Expr:
-            """Return the symbol of a name in the expression."""
-            return self.use(parts[path]) if path in parts else self._parameter(path)
+            """Return the SymPy expression of a name in the quantity's expression: a named part of it or a parameter."""
+            return self.use(parts[path]) if path in parts else self._get_or_add_parameter(path)
 
         def number(path: str) -> float:
-            """Return the default value of a name in the expression."""
+            """Return the default value of a name in the quantity's expression."""
             return self.entries[path if path in parts else f"parameters.{path}"].default
 
-        follows = to_sympy(quantity.value, symbol) if names_any(quantity) else None
+        default_expression = to_sympy(quantity.value, symbol) if _has_names(quantity) else None
         default = float(evaluate(quantity.value, number))
-        value = sp.Float(default, 17) if follows is None else follows
-        short = "." not in expected and not address.startswith("parameters.")  # gravity.y is not y
-        shown = address if short else ""
-        symbol = self.symbols.new(expected, home, address, shown=shown)
+        value = sp.Float(default, 17) if default_expression is None else default_expression
+        is_short = "." not in base_name and not address.startswith("parameters.")  # gravity.y is not y
+        field_base_name = address if is_short else ""
+        symbol = self.symbols.new(base_name, home, address, field_base_name=field_base_name)
         self.entries[address] = ParameterEntry(symbol, address, value, default, quantity.dimension, (), quantity.value)
         return symbol
 
     def use(self, quantity: Quantity, zero: bool = False) -> sp.Expr:
-        """Return the parameter of a quantity, or of the scene's replacement; 0 for a literal zero unless `zero`."""
+        """Return the parameter of a quantity, added at its first use.
+
+        A scene may replace the quantity. A literal zero gives 0 unless `zero` is True.
+        """
         quantity = self._instead.get(quantity.address, quantity)
         if quantity.is_zero and not zero:
             return sp.Integer(0)
         if quantity.address not in self.entries:
-            _, _, rest = quantity.address.partition(".")
-            self._add(quantity.address, rest or quantity.address, quantity)
+            _, _, short_address = quantity.address.partition(".")
+            self._add(quantity.address, short_address or quantity.address, quantity)
         self.symbols.adopt(self.entries[quantity.address].symbol)
         return self.entries[quantity.address].symbol
 
-    def table(self, expected: str, quantities: Sequence[Quantity]) -> str:
-        """Return the name of an array of Parameters that holds several quantities."""
-        known = next((k for k, s in self.tables.items() if s[0] == self._slot(quantities[0])), "")
-        if not known:
-            known = self.symbols.unique(expected)
-            self.tables[known] = [
-                self._add(own.address, f"{known}_{k}", own, Place(PARAMETERS)[known][k])
-                for k, own in enumerate(quantities)
-            ]
-        for symbol in self.tables[known]:
-            self.symbols.adopt(symbol)
-        return known
+    def table(self, base_name: str, quantities: Sequence[Quantity]) -> str:
+        """Return the name of an array of Parameters that holds the values of several quantities, in their order.
 
-    def _slot(self, quantity: Quantity) -> sp.Symbol | None:
-        """Return the symbol of a quantity's parameter; None if it has none."""
+        Quantities that have an array already get the same name.
+        """
+        name = next((k for k, s in self.tables.items() if s[0] == self._find_symbol(quantities[0])), "")
+        if not name:
+            name = self.symbols.unique(base_name)
+            self.tables[name] = [
+                self._add(quantity.address, f"{name}_{k}", quantity, Place(PARAMETERS)[name][k])
+                for k, quantity in enumerate(quantities)
+            ]
+        for symbol in self.tables[name]:
+            self.symbols.adopt(symbol)
+        return name
+
+    def _find_symbol(self, quantity: Quantity) -> sp.Symbol | None:
+        """Return the symbol of a quantity's parameter, or None if the quantity has none."""
         entry = self.entries.get(quantity.address)
         return entry.symbol if entry else None
 
-    def constant(self, address: str, expected: str, default: float, dimension: Dimension = DIMENSIONLESS) -> sp.Symbol:
-        """Return the parameter of an address that no file names, such as a Baumgarte gain."""
+    def constant(self, address: str, base_name: str, default: float, dimension: Dimension = DIMENSIONLESS) -> sp.Symbol:
+        """Return the symbol of a parameter that no file specifies, such as a Baumgarte gain; added at first use.
+
+        `base_name`: base of its name.
+        """
         if address not in self.entries:
-            symbol = self.symbols.new(expected, OWN_FIELD, address)
+            symbol = self.symbols.new(base_name, OWN_FIELD, address)
             self.entries[address] = ParameterEntry(symbol, address, sp.Float(default, 17), default, dimension)
         self.symbols.adopt(self.entries[address].symbol)
         return self.entries[address].symbol
 
     def choice(self, address: str, words: tuple[str, ...], default: str) -> None:
-        """Add a parameter whose value is the index of the chosen word."""
+        """Add a parameter whose value is the index of the chosen word in `words`; `default` is one of them."""
         self.constant(address, address.partition(".")[2], float(words.index(default)))
         self.entries[address] = replace(self.entries[address], words=words)
 
     def derive(
-        self, expected: str, expression: sp.Expr, meaning: str = "", shown: str = "", of: Owned | None = None
+        self,
+        base_name: str,
+        expression: sp.Expr,
+        meaning: str = "",
+        field_base_name: str = "",
+        role: Owned | None = None,
     ) -> sp.Expr:
-        """Return a derived parameter, which `prepare` computes once a run; numbers and parameters stay as they are.
+        """Return a derived parameter, which `prepare` computes once a run, as a symbol.
 
-        `expected`: base of its name; `shown`: name of its field.
+        Numbers and parameters are returned unchanged; an equal expression gets the same symbol. `base_name`: base of
+        its name; `field_base_name`: that of its field in Parameters, if it differs; `role`: its role in a joint or
+        element.
         """
         if expression.is_number or (expression.is_Symbol and self.symbols.info[expression].is_parameter):
             return expression
         if expression not in self._derived_by:
-            symbol = self.symbols.define(expected, expression, OWN_FIELD, meaning, shown=shown)
+            symbol = self.symbols.define(base_name, expression, OWN_FIELD, meaning, field_base_name=field_base_name)
             self.derived[symbol] = expression
-            if of is not None:
-                self.of_owner[symbol] = of
+            if role is not None:
+                self.of_owner[symbol] = role
             self._derived_by[expression] = symbol
         self.symbols.adopt(self._derived_by[expression])
         return self._derived_by[expression]
 
-    def derive_signed(self, expected: str, expression: sp.Expr, meaning: str = "", shown: str = "") -> sp.Expr:
-        """Return a derived parameter as `derive`, but −s is written with the symbol of s.
+    def derive_signed(
+        self, base_name: str, expression: sp.Expr, meaning: str = "", field_base_name: str = ""
+    ) -> sp.Expr:
+        """Return a derived parameter as `derive`, but as −s if the opposite expression has the symbol s already.
 
-        Opposite arms are shared in this way.
+        Opposite arms then share one parameter.
         """
         opposite = self._derived_by.get(-expression)
-        return self.derive(expected, expression, meaning, shown) if opposite is None else -opposite
+        return self.derive(base_name, expression, meaning, field_base_name) if opposite is None else -opposite
 
     def default(self, expression: sp.Expr) -> float:
-        """Return the value of a constant expression with every parameter at its default."""
+        """Return the value of a constant expression with every parameter at its default.
+
+        Derived parameters are replaced by their definitions; other symbols must not occur.
+        """
         defaults = {entry.symbol: sp.Float(entry.default, 17) for entry in self.entries.values()}
         value = sp.sympify(expression)
         while value.free_symbols:
@@ -190,7 +226,7 @@ class ParameterTable(Freezable):
         return float(value)
 
     def members(self) -> list[sp.Symbol]:
-        """Return the symbols of all parameters: those of the file, then derived ones."""
+        """Return the symbols of all parameters: those of the file in order of first use, then derived ones."""
         return [*(entry.symbol for entry in self.entries.values()), *self.derived]
 
     def field(self, symbol: sp.Symbol) -> str:
@@ -198,12 +234,12 @@ class ParameterTable(Freezable):
         return self.place(symbol).member
 
     def place(self, symbol: sp.Symbol) -> Place:
-        """Return the place of a parameter in Parameters."""
+        """Return the place of a parameter in the struct Parameters; the symbol must be a parameter."""
         home = self.symbols.info[symbol].home
         assert home is not None
         return home
 
 
-def names_any(quantity: Quantity) -> bool:
-    """Return whether a quantity's expression contains a name."""
+def _has_names(quantity: Quantity) -> bool:
+    """Return whether the expression of a quantity contains any name, that is, depends on a parameter."""
     return any(True for _ in names(quantity.value))

@@ -7,20 +7,20 @@ from __future__ import annotations
 
 import sympy as sp
 
-_LONG, DEGREE = 60, 8  # operations under a root, and a power there, up to which squares are looked for
-_DIGITS = 10**15  # a whole number that binary64 has
+_MAX_OPERATIONS, DEGREE = 60, 8  # operations under a root, and a power there, up to which squares are looked for
+_MAX_INTEGER = 10**15  # a whole number that binary64 has
 
 
 def root(base: sp.Expr, exponent: sp.Expr, decimals: sp.Expr | None = None) -> sp.Expr:
-    """Return a power; squares under a root are taken out: sqrt(t**2 - 2*t + 1) is |t - 1|, with its switching point.
+    """Return base**exponent with squares under a square root taken out: sqrt(t**2 - 2*t + 1) becomes |t - 1|.
 
-    decimals: the base with its numbers as written; else the shortest decimals that identify the binary64 numbers are
-    used.
+    `decimals`: the base with its numbers as written; None: the shortest decimals that identify its binary64 numbers.
+    Other exponents, long bases and bases without squares give the plain power.
     """
-    if not (base.is_Add and exponent.is_Rational and exponent.q == 2) or base.count_ops() > _LONG:
+    if not (base.is_Add and exponent.is_Rational and exponent.q == 2) or base.count_ops() > _MAX_OPERATIONS:
         return base**exponent
     atoms: dict[sp.Expr, sp.Dummy] = {}
-    polynomial = _polynomial(base if decimals is None else decimals, atoms)
+    polynomial = _to_polynomial(base if decimals is None else decimals, atoms)
     if not polynomial.is_finite and polynomial.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
         return base**exponent
     try:
@@ -29,43 +29,47 @@ def root(base: sp.Expr, exponent: sp.Expr, decimals: sp.Expr | None = None) -> s
         return base**exponent
     if all(count == 1 for _, count in parts):
         return base**exponent
-    meant = {dummy: atom for atom, dummy in atoms.items()}
+    atom_by_dummy = {dummy: atom for atom, dummy in atoms.items()}
     powers = []
     for part, count in parts:
-        size = _size(part)
+        size = _find_scale(part)
         factor *= size**count
-        powers.append(sp.Pow((part / size).expand().xreplace(meant), count))
+        powers.append(sp.Pow((part / size).expand().xreplace(atom_by_dummy), count))
     return sp.Mul(factor, *powers) ** exponent
 
 
 def decimal(number: sp.Expr) -> sp.Expr:
-    """Return a binary64 number as the shortest decimal that is read as it."""
+    """Return a float as the shortest decimal number that is read as it; other expressions unchanged."""
     return sp.Rational(repr(float(number))) if number.is_Float and number.is_finite else number
 
 
-def _size(part: sp.Expr) -> sp.Expr:
-    """Return the number by which a polynomial with integer coefficients is divided, so that they are numbers of C."""
-    sizes = [abs(c) for c in sp.Poly(part).coeffs()]
-    return sp.Integer(1) if max(sizes) < _DIGITS else sizes[0]
+def _find_scale(polynomial: sp.Expr) -> sp.Expr:
+    """Return a number by which a polynomial with integer coefficients is divided so that they stay below 1e15.
 
-
-def _polynomial(e: sp.Expr, atoms: dict[sp.Expr, sp.Dummy]) -> sp.Expr:
-    """Return `e` with a dummy for each part that is not a sum, product or small power.
-
-    Its degree is then the one written. SymPy would take x^0.1 and x^0.0001 for powers of one generator, with as many
-    terms as memory holds.
+    It is 1, or else the magnitude of the leading coefficient.
     """
-    if e.is_Number:
-        return decimal(e)
-    if e.is_Add or e.is_Mul:
-        return e.func(*(_polynomial(a, atoms) for a in e.args))
-    base, exponent = e.as_base_exp() if e.is_Pow else (e, sp.Integer(1))
+    magnitudes = [abs(coefficient) for coefficient in sp.Poly(polynomial).coeffs()]
+    return sp.Integer(1) if max(magnitudes) < _MAX_INTEGER else magnitudes[0]
+
+
+def _to_polynomial(expression: sp.Expr, atoms: dict[sp.Expr, sp.Dummy]) -> sp.Expr:
+    """Return an expression as a polynomial in dummy symbols.
+
+    Each part that is not a sum, product or small power gets a dummy. `atoms` maps these parts to their dummies and is
+    extended in place. The degree is the one written: SymPy would take x^0.1 and x^0.0001 for powers of one generator,
+    with as many terms as memory holds.
+    """
+    if expression.is_Number:
+        return decimal(expression)
+    if expression.is_Add or expression.is_Mul:
+        return expression.func(*(_to_polynomial(argument, atoms) for argument in expression.args))
+    base, exponent = expression.as_base_exp() if expression.is_Pow else (expression, sp.Integer(1))
     if exponent.is_Integer and 1 < exponent <= DEGREE:
-        return _polynomial(base, atoms) ** exponent
+        return _to_polynomial(base, atoms) ** exponent
     if exponent.is_Rational and 1 < abs(exponent.p) <= DEGREE:
-        return _polynomial(base ** (exponent / abs(exponent.p)), atoms) ** abs(exponent.p)
-    if isinstance(e, sp.exp):
-        count, rest = e.exp.as_coeff_Mul()
+        return _to_polynomial(base ** (exponent / abs(exponent.p)), atoms) ** abs(exponent.p)
+    if isinstance(expression, sp.exp):
+        count, remaining_exponent = expression.exp.as_coeff_Mul()
         if count.is_Rational and 1 < abs(count.p) <= DEGREE:
-            return _polynomial(sp.exp(rest * count / abs(count.p)), atoms) ** abs(count.p)
-    return atoms.setdefault(e, sp.Dummy(real=True))
+            return _to_polynomial(sp.exp(remaining_exponent * count / abs(count.p)), atoms) ** abs(count.p)
+    return atoms.setdefault(expression, sp.Dummy(real=True))

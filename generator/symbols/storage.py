@@ -62,10 +62,10 @@ class PlaceSymbol(sp.Symbol):
     __slots__ = ("place",)
 
     def __new__(cls, place: Place) -> PlaceSymbol:
-        """Return the real symbol of the place."""
-        own: PlaceSymbol = sp.Symbol.__xnew__(cls, str(place), real=True)
-        own.place = place
-        return own
+        """Return the real symbol whose value is read at a place; its name is the text of the place."""
+        symbol: PlaceSymbol = sp.Symbol.__xnew__(cls, str(place), real=True)
+        symbol.place = place
+        return symbol
 
     def __getnewargs_ex__(self) -> tuple[Any, ...]:
         """Return the arguments with which the symbol is unpickled."""
@@ -81,12 +81,19 @@ Key: TypeAlias = str | Place  # what a value is known by: the name of a local or
 
 
 def key_of(symbol: sp.Symbol) -> Key:
-    """Return the place of a symbol that is read there, else its name."""
+    """Return the place of a symbol that is read at one, else the symbol's name."""
     return symbol.place if isinstance(symbol, PlaceSymbol) else str(symbol.name)
 
 
-_READ_ONLY: dict[type, Any] = {dict: MappingProxyType, list: tuple, set: frozenset}
-_GROWING: dict[type, Any] = {MappingProxyType: dict, tuple: list, frozenset: set, dict: dict, list: list, set: set}
+_READ_ONLY_TYPES: dict[type, Any] = {dict: MappingProxyType, list: tuple, set: frozenset}
+_MUTABLE_TYPES: dict[type, Any] = {
+    MappingProxyType: dict,
+    tuple: list,
+    frozenset: set,
+    dict: dict,
+    list: list,
+    set: set,
+}
 
 
 class Freezable:
@@ -95,20 +102,23 @@ class Freezable:
     frozen = False
 
     def freeze(self) -> None:
-        """Make every table of this object read only. There is no way back."""
+        """Make every dictionary, list and set of this object read only.
+
+        It cannot be undone; `thawed` returns a copy that may grow.
+        """
         self.frozen = True
-        _replace_tables(self, _READ_ONLY)
+        _replace_tables(self, _READ_ONLY_TYPES)
 
     def thawed(self) -> Self:
-        """Return a copy with tables of its own, which may grow."""
-        other = copy.copy(self)
-        other.frozen = False
-        _replace_tables(other, _GROWING)
-        return other
+        """Return a copy with its own dictionaries, lists and sets, which may grow."""
+        copy_ = copy.copy(self)
+        copy_.frozen = False
+        _replace_tables(copy_, _MUTABLE_TYPES)
+        return copy_
 
 
-def _replace_tables(of: Freezable, types: dict[type, Any]) -> None:
-    """Convert every table of an object to the type that is given for its type."""
-    for name, value in vars(of).items():
+def _replace_tables(owner: Freezable, types: dict[type, Any]) -> None:
+    """Convert each attribute of an object whose type is a key of `types` to the type that is its value."""
+    for name, value in vars(owner).items():
         if type(value) in types:
-            setattr(of, name, types[type(value)](value))
+            setattr(owner, name, types[type(value)](value))

@@ -25,7 +25,10 @@ class _Remainder(sp.Function):
     is_real = True
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        """Return the derivative of a, minus that of b for each period passed."""
+        """Return the derivative by `s` between jumps: that of a, minus that of b for each period passed.
+
+        Called by SymPy.
+        """
         a, b = self.args[:2]
         rate = derivative(b, s)
         return derivative(a, s) - (0 if rate == 0 else rate * (a - self) / b)
@@ -38,7 +41,10 @@ class ModOf(_Remainder):
 
     @classmethod
     def eval(cls, a: sp.Expr, b: sp.Expr) -> sp.Expr | None:
-        """Return the remainder of numbers: exactly, or as binary64 has it; None for other arguments."""
+        """Return the remainder of two numbers, exactly or as binary64 has it; NaN for b = 0.
+
+        Return None for other arguments, which stay unevaluated. Called by SymPy.
+        """
         if not (a.is_number and b.is_number):
             return None
         if a.is_Rational and b.is_Rational and b != 0:
@@ -80,26 +86,36 @@ class Pick(sp.Function):
     is_real = True
 
     @classmethod
-    def eval(cls, side: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr | None:
-        """Return a or b for a known branch; Pick(side, b, a) for −side, since at zero both must pick the same."""
-        if side.is_Number:
-            return b if side < 0 else a
-        return cls(-side, b, a) if (-side).is_Symbol else None
+    def eval(cls, branch: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr | None:
+        """Return a or b for a branch that is a number; otherwise None, or the equal `Pick(s, b, a)` for `branch` = −s.
+
+        At zero both forms then pick the same value. Called by SymPy.
+        """
+        if branch.is_Number:
+            return b if branch < 0 else a
+        return cls(-branch, b, a) if (-branch).is_Symbol else None
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        """Return the derivative of the active branch only: that of the other may be infinite."""
-        side, a, b = self.args
+        """Return the derivative by `s` of the active branch only; that of the other may be infinite.
+
+        Called by SymPy.
+        """
+        branch, a, b = self.args
         da, db = derivative(a, s), derivative(b, s)
-        return da if da == db else Pick(side, da, db)
+        return da if da == db else Pick(branch, da, db)
 
 
-def picked(arguments: Sequence[sp.Expr], side: Callable[[sp.Expr], sp.Expr], up: bool) -> sp.Expr:
-    """Return max (`up`) or min of some arguments, two by two, each time by the branch of their difference."""
+def select_extreme(arguments: Sequence[sp.Expr], branch_of: Callable[[sp.Expr], sp.Expr], is_maximum: bool) -> sp.Expr:
+    """Return the maximum (`is_maximum`) or minimum of some expressions as nested `Pick`.
+
+    `branch_of(g)` returns the branch of a switching function g, a difference of two of them. The order does not depend
+    on that of the arguments.
+    """
     ordered = sorted(arguments, key=lambda a: (a.is_Number, str(a)))
-    value = ordered[0]
-    for other in ordered[1:]:
-        value = Pick(side(value - other if up else other - value), value, other)
-    return value
+    extreme = ordered[0]
+    for argument in ordered[1:]:
+        extreme = Pick(branch_of(extreme - argument if is_maximum else argument - extreme), extreme, argument)
+    return extreme
 
 
 class Apart(sp.Function):
@@ -116,14 +132,17 @@ class _Extreme(sp.Function):
     as_it_is: type[sp.Expr]
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        """Return the derivative of the active argument."""
+        """Return the derivative by `s` of the active argument, as nested `Pick` by the signs of differences.
+
+        Called by SymPy.
+        """
         slopes = {x: derivative(x, s) for x in self.args}
         ordered = sorted(self.args, key=lambda a: (a.is_Number, str(a)))
         value, slope = ordered[0], slopes[ordered[0]]
-        for other in ordered[1:]:
-            more = value - other if self.as_it_is is sp.Max else other - value
-            slope = slope if slope == slopes[other] else Pick(Apart(more), slope, slopes[other])
-            value = type(self)(value, other)
+        for argument in ordered[1:]:
+            difference = value - argument if self.as_it_is is sp.Max else argument - value
+            slope = slope if slope == slopes[argument] else Pick(Apart(difference), slope, slopes[argument])
+            value = type(self)(value, argument)
         return slope
 
     def _eval_is_nonnegative(self) -> bool | None:
@@ -186,73 +205,89 @@ class Switches(Freezable):
     spare: list[int] = field(default_factory=list)  # numbers of the scene's own switches in the other table
 
     def beside(self) -> Switches:
-        """Return the table for other functions of the same scene: the joints' switches are shared, others are new."""
-        joints = {key: switch for key, switch in self.found.items() if switch.owner}
-        return Switches(joints, sorted(switch.index for switch in self.of("")))
+        """Return the table for other functions of the same scene.
+
+        Switches of joints are shared, those of the scene are new, with the same numbers.
+        """
+        joint_switches = {key: switch for key, switch in self.found.items() if switch.owner}
+        return Switches(joint_switches, sorted(switch.index for switch in self.of("")))
 
     @property
     def count(self) -> int:
-        """Return how many numbers are in use."""
+        """Return the number of switches in use: one more than the largest index."""
         return 1 + max([*(switch.index for switch in self.found.values()), *self.spare], default=-1)
 
     def known(self, owner: str, g: sp.Expr) -> tuple[Switch, int] | None:
-        """Return the switch of g, and −1 if it is stored for −g; None if there is none."""
+        """Return the switch of a switching function g and 1, or −1 if it is stored for −g.
+
+        Return None if there is none.
+        """
         for sign in (1, -1):
-            if (known := self.found.get((owner, sp.expand(sign * g)))) is not None:
-                return known, sign
+            if (switch := self.found.get((owner, sp.expand(sign * g)))) is not None:
+                return switch, sign
         return None
 
     def side(self, owner: str, g: sp.Expr) -> tuple[Switch, int]:
-        """Return the switch of g and its sign; a new switch is added if there is none."""
-        if (known := self.known(owner, g)) is not None:
-            return known
+        """Return the switch of a switching function g, and 1 or −1 as `known_switch` does.
+
+        A new switch is added if there is none; a frozen table raises AssertionError.
+        """
+        if (known_switch := self.known(owner, g)) is not None:
+            return known_switch
         assert not self.frozen, f"{g}: a corner after the tables were frozen"
         switch = Switch(self.spare.pop(0) if self.spare and not owner else self.count, owner, g)
         self.found[owner, sp.expand(g)] = switch
         return switch, 1
 
     def of(self, owner: str) -> list[Switch]:
-        """Return the switches of one joint with play, or of the scene (""), in their order."""
+        """Return the switches of one joint with play, or of the scene (owner "").
+
+        They are in the order in which they were added.
+        """
         return [switch for switch in self.found.values() if switch.owner == owner]
 
     def hold(
-        self, expression: sp.Expr, owner: str, sides: dict[sp.Symbol, sp.Expr], only_known: bool = False
+        self, expression: sp.Expr, owner: str, branches: dict[sp.Symbol, sp.Expr], only_known: bool = False
     ) -> sp.Expr:
-        """Return `expression` with held branches; the symbols that it then reads are added to `sides`.
+        """Return an expression in which max, min, abs, sign, Heaviside, curves and mod use held branches.
 
-        only_known: other switching functions stay as they are, for a second function next to the one that writes them
-        all.
+        Each branch is a symbol `side_<k>`; `branches` is extended in place by these symbols with their `BranchOf`.
+        `owner`: joint with play, or "". `only_known`: switching functions without a switch stay as they are, for a
+        function next to the one that writes all of them.
         """
         if not expression.has(sp.Max, sp.Min, sp.Abs, sp.sign, sp.Heaviside, CurveOf, ModOf):
             return expression
-        arguments = [self.hold(a, owner, sides, only_known) for a in expression.args]
+        arguments = [self.hold(a, owner, branches, only_known) for a in expression.args]
 
-        def side(g: sp.Expr) -> sp.Expr:
-            """Return the symbol of the branch of g, with its sign."""
+        def make_branch_symbol(g: sp.Expr) -> sp.Expr:
+            """Return the symbol of the branch of g with its sign, and register it.
+
+            With `only_known`, a g without a switch gives sign(g).
+            """
             if only_known and self.known(owner, g) is None:
                 return sp.sign(g)
             switch, sign = self.side(owner, g)
             symbol = sp.Symbol(f"side_{switch.index}", real=True)
-            sides.setdefault(symbol, BranchOf(sp.Integer(switch.index), switch.g))
+            branches.setdefault(symbol, BranchOf(sp.Integer(switch.index), switch.g))
             return sign * symbol
 
         match expression:
             case CurveOf() if arguments[2].free_symbols:
                 knots = KnotsOf(arguments[0], arguments[2])
-                known = not only_known or self.known(owner, knots) is not None
-                return CurveOn(*arguments, side(knots)) if known else CurveOf(*arguments)
+                is_known = not only_known or self.known(owner, knots) is not None
+                return CurveOn(*arguments, make_branch_symbol(knots)) if is_known else CurveOf(*arguments)
             case ModOf():
                 periods = PeriodsOf(*arguments)
-                known = not only_known or self.known(owner, periods) is not None
-                return ModOn(*arguments, side(periods)) if known else ModOf(*arguments)
+                is_known = not only_known or self.known(owner, periods) is not None
+                return ModOn(*arguments, make_branch_symbol(periods)) if is_known else ModOf(*arguments)
             case sp.Abs():
-                return side(arguments[0]) * arguments[0]
+                return make_branch_symbol(arguments[0]) * arguments[0]
             case sp.sign():
-                return side(arguments[0])
+                return make_branch_symbol(arguments[0])
             case sp.Heaviside():
-                return Pick(side(arguments[0]), sp.Integer(1), sp.Integer(0))
+                return Pick(make_branch_symbol(arguments[0]), sp.Integer(1), sp.Integer(0))
             case sp.Max() | sp.Min():
-                return picked(arguments, side, up=isinstance(expression, sp.Max))
+                return select_extreme(arguments, make_branch_symbol, is_maximum=isinstance(expression, sp.Max))
             case sp.Pow() if not expression.exp.is_integer and arguments[0] != expression.base:
                 # a base that may be negative gives NaN there, and must not become a number
                 base = Magnitude(arguments[0]) if expression.base.is_nonnegative else arguments[0]

@@ -23,16 +23,17 @@ from gudgeon.generator.symbols.switches import Switches
 OWN_FIELD = Place(PARAMETERS)[""]  # the home of a parameter whose field is called as the symbol
 
 
-def made_name(expected: str) -> str:
-    """Return the identifier of what a file calls `expected`: single underscores, the last one at its end.
+def made_name(base_name: str) -> str:
+    """Return the identifier of something that a file calls `base_name`: single underscores, the last one at its end.
 
-    No fixed name of the generator, of the engine or of a language has that form, so none can be equal to it.
+    Other characters become underscores. No fixed name of the generator, of the engine or of a language has that form,
+    so that none can be equal to it.
     """
-    return re.sub(r"[\W_]+", "_", expected).strip("_") + "_"
+    return re.sub(r"[\W_]+", "_", base_name).strip("_") + "_"
 
 
 def plain_name(symbol: sp.Symbol) -> str:
-    """Return what the file calls a symbol, as documents show it: its name without the ending of `made_name`."""
+    """Return the name of a symbol as documents print it: without the underscore that `made_name` appends."""
     return str(symbol.name).rstrip("_")
 
 
@@ -54,155 +55,178 @@ class Symbols(Freezable):
     """All the symbols of one model, in the order in which they were made."""
 
     def __init__(self) -> None:
-        """Begin without symbols."""
+        """Begin without symbols, definitions and rules, and with an empty table of switches."""
         self.info: dict[sp.Symbol, SymbolInfo] = {}
         self.definitions: dict[sp.Symbol, sp.Expr] = {}
         self.rules: dict[sp.Symbol, dict[sp.Symbol, sp.Expr]] = {}
         self.switches = Switches()
         self._names: set[str] = set()
-        self._shared: Symbols | None = None  # who else has the members of Parameters
-        self._numbered: dict[str, str] = {}  # names that others had before: what was wanted
+        self._shared_table: Symbols | None = None  # who else has the members of Parameters
+        self._base_of_numbered_name: dict[str, str] = {}  # names that others had before: what was wanted
 
     def freeze(self) -> None:
-        """Make these tables and the switches read only: a later request for a new name is a defect."""
+        """Make these tables and the switches read only; a later request for a new name raises AssertionError."""
         super().freeze()
         self.switches.freeze()
 
     def thawed(self) -> Symbols:
-        """Return a copy, with switches of its own, which may grow."""
-        other = super().thawed()
-        other.switches = self.switches.thawed()
-        return other
+        """Return a copy of the tables, with a copy of the switches, which may grow."""
+        copy_ = super().thawed()
+        copy_.switches = self.switches.thawed()
+        return copy_
 
     def beside(self) -> Symbols:
-        """Return a table for other functions of the same library, which shares only the members of Parameters."""
-        other = Symbols()
-        other._shared, other.switches = self, self.switches.beside()
+        """Return a symbol table for other functions of the same library, which shares only the parameters."""
+        other_table = Symbols()
+        other_table._shared_table, other_table.switches = self, self.switches.beside()
         for symbol, info in self.info.items():
             if info.is_parameter:
-                other.adopt(symbol)
-        return other
+                other_table.adopt(symbol)
+        return other_table
 
     def adopt(self, symbol: sp.Symbol) -> None:
-        """Add a member of Parameters that was made in the other table."""
-        if self._shared is not None and symbol not in self.info:
-            self.info[symbol] = self._shared.info[symbol]
-            self._names.add(symbol.name)
-            if symbol in self._shared.definitions:
-                self.definitions[symbol] = self._shared.definitions[symbol]
+        """Add a parameter that was made in the other table of the same library, with its definition.
 
-    def unique(self, expected: str) -> str:
-        """Return `expected` as an identifier that nothing else has in any target: see `made_name`."""
-        assert not self.frozen, f"{expected}: derived after the tables were frozen"
-        name = candidate = made_name(expected)
+        Nothing happens if there is no other table or the symbol is known.
+        """
+        if self._shared_table is not None and symbol not in self.info:
+            self.info[symbol] = self._shared_table.info[symbol]
+            self._names.add(symbol.name)
+            if symbol in self._shared_table.definitions:
+                self.definitions[symbol] = self._shared_table.definitions[symbol]
+
+    def unique(self, base_name: str) -> str:
+        """Return an identifier made from `base_name` that no other symbol has, and mark it as used.
+
+        A suffix 2, 3, … is appended if necessary. A frozen table raises AssertionError.
+        """
+        assert not self.frozen, f"{base_name}: derived after the tables were frozen"
+        name = candidate = made_name(base_name)
         count = 1
         while candidate in self._names:
             count += 1
             candidate = f"{name}{count}_"
         self._names.add(candidate)
         if count > 1:
-            self._numbered[candidate] = name
+            self._base_of_numbered_name[candidate] = name
         return candidate
 
-    def shorter(self, used: Collection[str]) -> dict[Key, Key]:
-        """Return shorter names for those that carry a number: without the number, or with the smallest one.
+    def shorter(self, used_names: Collection[str]) -> dict[Key, Key]:
+        """Return shorter names for names that carry a number: without the number, or with the smallest unused one.
 
-        `used`: the names in the function.
+        `used_names`: all names in the function. Names that stay are left out of the result.
         """
-        own = [name for name in used if not ((home := self._home(name)) and home.is_parameter)]
-        numbered = sorted((name for name in own if name in self._numbered), key=lambda name: (len(name), name))
-        reserved = {*own} - {*numbered}
-        found: dict[str, str] = {}
-        for name in numbered:
-            base = self._numbered[name]
-            free = base not in reserved and not self._is_member(base)
-            found[name] = (
-                base
-                if free
-                else next(called for k in range(2, len(used) + 3) if (called := f"{base}{k}_") not in reserved)
+        locals_ = [name for name in used_names if not ((home := self._find_place(name)) and home.is_parameter)]
+        numbered_names = sorted(
+            (name for name in locals_ if name in self._base_of_numbered_name), key=lambda name: (len(name), name)
+        )
+        reserved = {*locals_} - {*numbered_names}
+        short_names: dict[str, str] = {}
+        for name in numbered_names:
+            short_name = self._base_of_numbered_name[name]
+            is_free = short_name not in reserved and not self._is_parameter_field(short_name)
+            short_names[name] = (
+                short_name
+                if is_free
+                else next(
+                    candidate
+                    for k in range(2, len(used_names) + 3)
+                    if (candidate := f"{short_name}{k}_") not in reserved
+                )
             )
-            reserved.add(found[name])
-        return {name: called for name, called in found.items() if name != called}
+            reserved.add(short_names[name])
+        return {name: candidate for name, candidate in short_names.items() if name != candidate}
 
-    def _is_member(self, name: str) -> bool:
-        """Return whether a parameter has this name, which must not stand for something else."""
-        return self._home(name) == Place(PARAMETERS)[name]
+    def _is_parameter_field(self, name: str) -> bool:
+        """Return whether a parameter's field has this name, which must not stand for something else."""
+        return self._find_place(name) == Place(PARAMETERS)[name]
 
-    def _home(self, name: str) -> Place | None:
-        """Return the place of a name's symbol; None for a local."""
+    def _find_place(self, name: str) -> Place | None:
+        """Return the place of the symbol with a name; None for a local or an unknown name."""
         info = self.info.get(sp.Symbol(name, real=True))
         return info.home if info else None
 
     def new(
-        self, expected: str, home: Place | None = None, meaning: str = "", unit: str = "", shown: str = ""
+        self, base_name: str, home: Place | None = None, meaning: str = "", unit: str = "", field_base_name: str = ""
     ) -> sp.Symbol:
-        """Return a new real symbol; with home OWN_FIELD its field is called `shown`, or as the symbol.
+        """Return a new real symbol, with an unused name made from `base_name`.
 
-        Terms are ordered by the symbol's own name.
+        `home`: the place where it is read; with OWN_FIELD it is a field of Parameters, called as `field_base_name` or
+        else as the symbol. Terms are ordered by the symbol's own name.
         """
-        shared = self._shared if home and home.is_parameter else None
-        name, called = (self._unshared(text, shared) if text else "" for text in (expected, shown))
+        shared_table = self._shared_table if home and home.is_parameter else None
+        name, field_name = (
+            self._make_unique_in_both(text, shared_table) if text else "" for text in (base_name, field_base_name)
+        )
         symbol = sp.Symbol(name, real=True)
-        home = Place(PARAMETERS)[called or name] if home == OWN_FIELD else home
+        home = Place(PARAMETERS)[field_name or name] if home == OWN_FIELD else home
         self.info[symbol] = SymbolInfo(home, meaning, unit)
-        if shared is not None:
-            shared.info[symbol] = self.info[symbol]
+        if shared_table is not None:
+            shared_table.info[symbol] = self.info[symbol]
         return symbol
 
-    def _unshared(self, expected: str, shared: Symbols | None) -> str:
-        """Return a name that is new in the other table too."""
-        name = self.unique(expected)
-        while shared is not None and name in shared._names:
-            name = self.unique(expected)
-        if shared is not None:
-            shared._names.add(name)
+    def _make_unique_in_both(self, base_name: str, shared_table: Symbols | None) -> str:
+        """Return an unused name made from `base_name` that the table `shared_table` does not contain either.
+
+        The name is added there too. `shared_table` may be None.
+        """
+        name = self.unique(base_name)
+        while shared_table is not None and name in shared_table._names:
+            name = self.unique(base_name)
+        if shared_table is not None:
+            shared_table._names.add(name)
         return name
 
     def define(
         self,
-        expected: str,
+        base_name: str,
         expression: sp.Expr,
         home: Place | None = None,
         meaning: str = "",
         unit: str = "",
-        shown: str = "",
+        field_base_name: str = "",
     ) -> sp.Symbol:
-        """Return a new symbol that stands for `expression`."""
-        symbol = self.new(expected, home, meaning, unit, shown)
+        """Return a new symbol that stands for `expression`; the other arguments are those of `new`.
+
+        A parameter's definition is stored in the shared table too.
+        """
+        symbol = self.new(base_name, home, meaning, unit, field_base_name)
         self.definitions[symbol] = expression
-        if self._shared is not None and home is not None and home.is_parameter:
-            self._shared.definitions[symbol] = expression
+        if self._shared_table is not None and home is not None and home.is_parameter:
+            self._shared_table.definitions[symbol] = expression
         return symbol
 
-    def diff(self, expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
-        """Return d expression / d by, through the derived symbols."""
-        total = sp.Integer(0)
+    def diff(self, expression: sp.Expr, variable: sp.Symbol) -> sp.Expr:
+        """Return the derivative of an expression by `variable`, with the rules of derived symbols (chain rule)."""
+        result = sp.Integer(0)
         for symbol in sorted(symbols_of(expression), key=lambda s: s.name):
-            inner = sp.Integer(1) if symbol == by else self.rules.get(symbol, {}).get(by)
-            if inner is not None:
-                total += derivative(expression, symbol) * inner
-        return total
+            inner_derivative = sp.Integer(1) if symbol == variable else self.rules.get(symbol, {}).get(variable)
+            if inner_derivative is not None:
+                result += derivative(expression, symbol) * inner_derivative
+        return result
 
-    def written_out(self, expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
-        """Return d expression / d by through definitions, for a symbol that no rule names.
+    def written_out(self, expression: sp.Expr, variable: sp.Symbol) -> sp.Expr:
+        """Return the derivative of an expression by `variable`, through the definitions of derived symbols.
 
-        Such a symbol is a rate that a drive prescribes.
+        It is for symbols that no rule names: rates that a drive prescribes.
         """
-        total = sp.Integer(0)
+        result = sp.Integer(0)
         for symbol in sorted(symbols_of(expression), key=lambda s: s.name):
-            known = symbol != by and symbol in self.definitions
-            inner = self.written_out(self.definitions[symbol], by) if known else sp.Integer(symbol == by)
-            if inner != 0:
-                total += derivative(expression, symbol) * inner
-        return total
+            is_defined = symbol != variable and symbol in self.definitions
+            inner_derivative = (
+                self.written_out(self.definitions[symbol], variable) if is_defined else sp.Integer(symbol == variable)
+            )
+            if inner_derivative != 0:
+                result += derivative(expression, symbol) * inner_derivative
+        return result
 
     def in_place(self, value: sp.Expr) -> sp.Expr:
-        """Return the value with every symbol that has a home read there."""
+        """Return the value with each symbol that is stored at a place replaced by the `PlaceSymbol` of that place."""
         homes = ((s, self.info[s].home) for s in value.free_symbols if s in self.info)
         return value.xreplace({s: PlaceSymbol(home) for s, home in homes if home})
 
     def explicit(self, expression: sp.Expr) -> sp.Expr:
-        """Return `expression` with every derived symbol replaced by its definition."""
-        while found := {s: self.definitions[s] for s in expression.free_symbols if s in self.definitions}:
-            expression = expression.xreplace(found)
+        """Return `expression` with every derived symbol replaced by its definition, repeatedly, until none is left."""
+        while definitions := {s: self.definitions[s] for s in expression.free_symbols if s in self.definitions}:
+            expression = expression.xreplace(definitions)
         return expression

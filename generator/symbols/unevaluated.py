@@ -11,8 +11,8 @@ from collections.abc import Callable
 
 import sympy as sp
 
-_FAR = 60  # decades from 1 within which numbers that were not written are accepted
-_HIGH = 16  # a power that is given to the factors of its base one by one, at most
+_MAX_DECADES = 60  # decades from 1 within which numbers that were not written are accepted
+_MAX_POWER = 16  # a power that is given to the factors of its base one by one, at most
 
 
 class Whole(sp.Function):
@@ -22,7 +22,10 @@ class Whole(sp.Function):
 
     @classmethod
     def eval(cls, x: sp.Expr) -> sp.Expr | None:
-        """Return x itself if it cannot be expanded anyway; else None."""
+        """Return x itself if it is an atom or unevaluated already; else None, which keeps it unevaluated.
+
+        Called by SymPy.
+        """
         return x if x.is_Atom or isinstance(x, Whole) else None
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
@@ -59,28 +62,42 @@ class Share(Whole):
 
 
 def kept(make: Callable[..., sp.Expr], *operands: sp.Expr) -> sp.Expr:
-    """Return the result of an operation, with operands as `Whole`s if SymPy would expand them to extreme numbers."""
-    made = make(*operands)
-    if all(x.is_number for x in operands) or not _is_torn(made, operands):
-        return made
-    return make(*(x if x.is_number else Whole(x) for x in operands))
+    """Return `make(*operands)`, with the operands as `Whole` if SymPy would expand them to extreme numbers.
+
+    Operands that are numbers are never wrapped.
+    """
+    result = make(*operands)
+    if all(operand.is_number for operand in operands) or not _has_new_extremes(result, operands):
+        return result
+    return make(*(operand if operand.is_number else Whole(operand) for operand in operands))
 
 
-def _is_torn(made: sp.Expr, operands: tuple[sp.Expr, ...]) -> bool:
-    """Return whether a result has extreme numbers, or separate high powers, that its operands do not have."""
-    far = {x for x in made.atoms(sp.Number) if _is_far(x)}
-    if far and not far <= set().union(*(x.atoms(sp.Number) for x in operands)):
+def _has_new_extremes(result: sp.Expr, operands: tuple[sp.Expr, ...]) -> bool:
+    """Return whether a result contains extreme numbers, or several high powers as factors, that are new.
+
+    New are those that no operand contains.
+    """
+    extreme_numbers = {part for part in result.atoms(sp.Number) if _is_extreme(part)}
+    if extreme_numbers and not extreme_numbers <= set().union(*(part.atoms(sp.Number) for part in operands)):
         return True
-    return made.is_Mul and not any(x.is_Mul and _powers(x) for x in operands) and _powers(made) > 1
+    return (
+        result.is_Mul
+        and not any(part.is_Mul and _count_high_powers(part) for part in operands)
+        and _count_high_powers(result) > 1
+    )
 
 
-def _powers(product: sp.Mul) -> int:
-    """Return how many factors of a product are high powers."""
-    exponents = [x.exp for x in product.args if x.is_Pow]
-    return sum(bool(e.is_Number and abs(e) > _HIGH) for e in exponents)
+def _count_high_powers(product: sp.Mul) -> int:
+    """Return the number of factors of a product that are high powers."""
+    exponents = [factor.exp for factor in product.args if factor.is_Pow]
+    return sum(bool(exponent.is_Number and abs(exponent) > _MAX_POWER) for exponent in exponents)
 
 
-def _is_far(number: sp.Number) -> bool:
-    """Return whether a number is more than _FAR decades from 1."""
-    size = abs(number)
-    return bool(size.is_finite and size != 0 and not sp.Float(f"1e-{_FAR}") < size < sp.Float(f"1e{_FAR}"))
+def _is_extreme(x: sp.Number) -> bool:
+    """Return whether a number is finite, not zero, and more than 60 decades larger or smaller than 1."""
+    magnitude = abs(x)
+    return bool(
+        magnitude.is_finite
+        and magnitude != 0
+        and not sp.Float(f"1e-{_MAX_DECADES}") < magnitude < sp.Float(f"1e{_MAX_DECADES}")
+    )

@@ -160,7 +160,7 @@ def test_a_row_that_mixes_time_and_coordinates() -> None:
     body, angle = model.bodies[0], model.constraints.drive_angles["crank1"][0]
     cos, _ = model.geometry.angle(body)
     phi = body.x * angle**2 + cos * body.y * angle
-    row = model.constraints._row("mixed", "mixed", "joint", "m", phi, [body])
+    row = model.constraints._derive_row("mixed", "mixed", "joint", "m", phi, [body])
     explicit = model.symbols.explicit
     phi_q_v, nu, gamma = (numeric(model, sp.Matrix([explicit(e)])) for e in (row.phi_q_v, row.nu, row.gamma))
     t, q, v = random_state(model, 5)

@@ -43,8 +43,8 @@ def simulation(name: str, scene: str, formulation: str, n: int = 0) -> Simulatio
 
 def shorten(monkeypatch: pytest.MonkeyPatch) -> None:
     """Everything is long, and has many angles."""
-    monkeypatch.setattr(sine_pairs, "MANY", 1)
-    for name, value in (("LONG", 30), ("PART", 17), ("SHORTEST", 5)):
+    monkeypatch.setattr(sine_pairs, "_MAX_VECTORS", 1)
+    for name, value in (("_MAX_LINES", 30), ("_MAX_PART_LINES", 17), ("_MIN_PART_LINES", 5)):
         monkeypatch.setattr(parts, name, value)
 
 
