@@ -58,9 +58,12 @@ class Bound(NamedTuple):
     limit: float | str
     why: str = ""  # text of the message, "a mass is positive"; {name} is the field's name. "": its meaning
 
-    def reason(self, field: Field, owner: str) -> str:
-        """Return the reason that an error gives for a number that violates the bound."""
-        return self.why.format(name=field.name) if self.why else f"{field.meaning} ({owner})"
+    def reason(self, field: Field, owner_name: str) -> str:
+        """Return the reason that an error gives for a number that violates the bound.
+
+        `owner_name` names the law or mapping.
+        """
+        return self.why.format(name=field.name) if self.why else f"{field.meaning} ({owner_name})"
 
 
 POSITIVE = (Bound(">", 0.0, "{name} is positive"),)
@@ -120,7 +123,10 @@ class Field:
         return self.default
 
     def below(self, name: str, node: Any = ()) -> Field | None:
-        """Return the field for the key `name` in a mapping; `node`, its contents, shows the kind. None: no such key."""
+        """Return the field for the key `name` in a mapping, None if there is no such key.
+
+        `node`, the mapping's contents, shows the kind, if the keys depend on it.
+        """
         if self.kind == MAPPING:
             return self.entry
         return next((field for field in self.known(node) if field.name == name), None)
@@ -130,23 +136,28 @@ class Field:
         if self.kinds is None:
             return self.fields
         kinds = self.kinds()
-        selected = [str(node["law"])] if self.kind == LAW and "law" in node else list(node)
-        return tuple(f for kind in [k for k in selected if k in kinds] or kinds for f in kinds[kind].fields)
+        kind_names = [str(node["law"])] if self.kind == LAW and "law" in node else list(node)
+        return tuple(
+            field
+            for kind in [kind_name for kind_name in kind_names if kind_name in kinds] or kinds
+            for field in kinds[kind].fields
+        )
 
 
-def with_dimensions(fields: Iterable[Field], written: Mapping[str, Any]) -> list[Field]:
-    """Return fields with the dimension N/m^n of those that have `per`; n is the number in `written` or its default.
+def with_dimensions(fields: Iterable[Field], node: Mapping[str, Any]) -> list[Field]:
+    """Return fields in which those with `per` have the dimension N/m^n; n is the number in `node` or its default.
 
-    The dimension is any if n is not a plain number or has exponents finer than halves.
+    The dimension is any (None) if n is not a plain number or has exponents finer than halves. Other fields are
+    unchanged.
     """
-    found = list(fields)
-    defaults = {own.name: str(own.default) for own in found}
-    for k, own in enumerate(found):
-        power = str(written.get(own.per, defaults[own.per])) if own.per else ""
-        if re.fullmatch(r"\d{1,3}(\.\d{1,9}|/[1-9])?", power):
-            dimension = FORCE / LENGTH ** Fraction(power)
-            found[k] = replace(own, dimension=dimension if dimension.has_halves_at_most else None)
-    return found
+    result = list(fields)
+    defaults = {field.name: str(field.default) for field in result}
+    for index, field in enumerate(result):
+        exponent = str(node.get(field.per, defaults[field.per])) if field.per else ""
+        if re.fullmatch(r"\d{1,3}(\.\d{1,9}|/[1-9])?", exponent):
+            dimension = FORCE / LENGTH ** Fraction(exponent)
+            result[index] = replace(field, dimension=dimension if dimension.has_halves_at_most else None)
+    return result
 
 
 def number(name: str, meaning: str, dimension: Dimension | None, **more: Any) -> Field:
@@ -162,7 +173,7 @@ def vector(name: str, meaning: str, dimension: Dimension | None, **more: Any) ->
 def word(
     name: str, meaning: str, words: Iterable[str], default: str, sources: Mapping[str, str] | None = None
 ) -> Field:
-    """Declare a choice of some words."""
+    """Declare a choice of some words; `sources` maps a word to its source in the literature."""
     return Field(name, WORD, meaning, values=tuple(words), default=default, sources=sources)
 
 
@@ -177,7 +188,10 @@ def body_or_ground(name: str, meaning: str) -> Field:
 
 
 def name_in(names: str, name: str, meaning: str, required: bool = True, either: str = "", otherwise: str = "") -> Field:
-    """Declare a name of an entry of the section `names`; `either` is a key that may stand in its place."""
+    """Declare a name of an entry of the section `names`; `either` is a key that may stand in its place.
+
+    `otherwise` says what applies if the key is missing.
+    """
     return Field(name, NAME, meaning, names=names, required=required, either=either, otherwise=otherwise)
 
 

@@ -39,13 +39,19 @@ class Quantity:
 Vector = tuple[Quantity, Quantity]
 
 
-def following(address: str, of: Quantity, where: Location) -> Quantity:
-    """Return a quantity at an address whose value is another quantity, unless a run sets it."""
-    return Quantity(address, Name(of.address), of.dimension, where, (of,))
+def following(address: str, source: Quantity, location: Location) -> Quantity:
+    """Return a quantity at an address whose value is that of another quantity, unless a run sets it.
+
+    It has the other quantity's dimension and is located at `location`.
+    """
+    return Quantity(address, Name(source.address), source.dimension, location, (source,))
 
 
 def value_at_onset(force: Quantity) -> Quantity:
-    """Return the value of an expression of the penetration at δ = 0 as a quantity of its own."""
+    """Return the value of a contact force, an expression of the penetration, at δ = 0 as a quantity of its own.
+
+    Its address ends with "_at_0".
+    """
     value = replaced(force.value, {"delta": Number(0.0, "0")})
     return Quantity(f"{force.address}_at_0", value, force.dimension, force.where, kept=True)
 
@@ -302,26 +308,26 @@ class Mechanism:
 
 
 def is_massless(mechanism: Mechanism) -> bool:
-    """Return whether a body has no mass or no inertia, so that only kinematics is possible."""
+    """Return whether any body has no mass or no inertia, so that only kinematics is possible."""
     return any(body.lacks for body in mechanism.bodies.values())
 
 
-def quantities(part: object) -> Iterator[Quantity]:
-    """Yield all quantities in a frozen value and in its parts."""
-    if isinstance(part, Quantity):
-        yield part
+def quantities(value: object) -> Iterator[Quantity]:
+    """Yield all quantities in a frozen value and in its parts, recursively; curves are skipped."""
+    if isinstance(value, Quantity):
+        yield value
         return
-    inner: Iterable[object] = ()
-    if isinstance(part, Curve):  # its values are not quantities, and may be millions
+    inner_values: Iterable[object] = ()
+    if isinstance(value, Curve):  # its values are not quantities, and may be millions
         return
-    if is_dataclass(part):
-        inner = (getattr(part, one.name) for one in fields(part))
-    elif isinstance(part, Mapping):
-        inner = part.values()
-    elif isinstance(part, (tuple, list)):
-        inner = part
-    for one in inner:
-        yield from quantities(one)
+    if is_dataclass(value):
+        inner_values = (getattr(value, inner_value.name) for inner_value in fields(value))
+    elif isinstance(value, Mapping):
+        inner_values = value.values()
+    elif isinstance(value, (tuple, list)):
+        inner_values = value
+    for inner_value in inner_values:
+        yield from quantities(inner_value)
 
 
 @dataclass(frozen=True)
@@ -343,20 +349,37 @@ class Scene:
 
 
 def make_scene(mechanism: Mechanism, name: str) -> Scene:
-    """Return the scene `name` of a mechanism. Raises UnknownNameError, which lists the scenes that exist."""
+    """Return the scene `name` of a mechanism, with its values of parameters and its materials in place of the file's.
+
+    Raises UnknownNameError, which lists the scenes that exist.
+    """
     if name not in mechanism.scenes:
         raise unknown_name("scene", name, mechanism.scenes, None)
     spec = mechanism.scenes[name]
     parameters = {
-        key: replace(own, value=spec.parameters[key].value, where=spec.parameters[key].where)
+        key: replace(quantity, value=spec.parameters[key].value, where=spec.parameters[key].where)
         if key in spec.parameters
-        else own
-        for key, own in mechanism.parameters.items()
+        else quantity
+        for key, quantity in mechanism.parameters.items()
     }
-    selected = {address: spec.materials.get(address, choice.material) for address, choice in mechanism.choices.items()}
-    instead = {
-        own.address: following(own.address, mechanism.materials[selected[address]].numbers[what], own.where)
+    material_names = {
+        address: spec.materials.get(address, choice.material) for address, choice in mechanism.choices.items()
+    }
+    replaced_properties = {
+        quantity.address: following(
+            quantity.address, mechanism.materials[material_names[address]].numbers[property_name], quantity.where
+        )
         for address, choice in mechanism.choices.items()
-        for what, own in choice.numbers.items()
+        for property_name, quantity in choice.numbers.items()
     }
-    return Scene(mechanism, name, spec.play, parameters, spec.simulate, spec.events, spec.peaks, selected, instead)
+    return Scene(
+        mechanism,
+        name,
+        spec.play,
+        parameters,
+        spec.simulate,
+        spec.events,
+        spec.peaks,
+        material_names,
+        replaced_properties,
+    )

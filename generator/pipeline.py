@@ -26,12 +26,20 @@ from gudgeon.generator.targets.numpy.reference import reference_values
 def derive(
     data: bytes, file: str, scene: str, overrides: Overrides | None = None, seconds: Seconds | None = None
 ) -> Model:
-    """Derive the equations of one scene of a mechanism file, without redundant constraint equations."""
+    """Read one scene of a mechanism file and derive its equations, without redundant constraint equations.
+
+    Raises InputError. overrides: address -> value in place of the file's; seconds: a dict that gets the duration of
+    each stage (s), or None.
+    """
     return equations(read_scene(data, file, scene, overrides, seconds), seconds)
 
 
 def equations(scene: Scene, seconds: Seconds | None = None) -> Model:
-    """Derive the equations of a scene that was read, without redundant constraint equations."""
+    """Derive the equations of a scene that was read, without redundant constraint equations.
+
+    Raises BadValueError if masses make the motion undetermined. `seconds` gets the duration of each stage (s), unless
+    None.
+    """
     with stage("equations", seconds):
         model = replace(make_model(scene), targets=TARGETS)
     with stage("rank of the rows", seconds):
@@ -42,20 +50,23 @@ def equations(scene: Scene, seconds: Seconds | None = None) -> Model:
 
 
 def closed_linkage(
-    mechanism: Mechanism, scene: str, given: Mapping[str, float | str] | None = None
+    mechanism: Mechanism, scene: str, parameters: Mapping[str, float | str] | None = None
 ) -> tuple[NumPyLinkage, list[int]]:
     """Return the closed linkage of a scene in NumPy, and the indices of its rows that the scene with play keeps.
 
-    given: run-time parameters by address, as `simulate` accepts them.
+    parameters: run-time parameters by address, as `simulate` accepts them; None for the file's values.
     """
     model = make_model(make_scene(mechanism, scene))
-    remaining = {row.name for row in model.rows}
-    linkage = NumPyLinkage(model, describe(model), given)
-    return linkage, [r for r, row in enumerate(model.all_rows) if row.name in remaining]
+    names_of_remaining_rows = {row.name for row in model.rows}
+    linkage = NumPyLinkage(model, describe(model), parameters)
+    return linkage, [r for r, row in enumerate(model.all_rows) if row.name in names_of_remaining_rows]
 
 
-def _letters(model: Model) -> Any:
-    """Return how the model's equations are written in documents."""
+def _make_document_symbols(model: Model) -> Any:
+    """Return how the model's equations are written in documents: the symbols of each quantity.
+
+    Imports the LaTeX target.
+    """
     from gudgeon.generator.targets.latex.to_html import Letters
 
     return Letters(model)
@@ -64,18 +75,22 @@ def _letters(model: Model) -> Any:
 # Targets of `Model.written` by name, for the full formulation; "letters": how documents write the equations.
 TARGETS: Mapping[str, Callable[[Model], Any]] = {
     "numpy": lambda model: NumPyModel(make_program(model, "full")),
-    "letters": _letters,
+    "letters": _make_document_symbols,
 }
 
 
 def in_c(
-    model: Model, formulation: str = "reduced", seconds: Seconds | None = None, begun: Begun | None = None
+    model: Model, formulation: str = "reduced", seconds: Seconds | None = None, on_part_ready: Begun | None = None
 ) -> KernelSource:
-    """Return the C code of a model, with the description of its contents and reference values."""
+    """Return the C code of a model, with the description of its contents and reference values.
+
+    formulation: "reduced" or "full". `on_part_ready` is called with parts of the code that can be compiled already.
+    `seconds` gets the duration of each stage (s), unless None.
+    """
     with stage("functions", seconds):
         program = make_program(model, formulation)
     with stage("C", seconds):
-        source = emit(program, begun)
+        source = emit(program, on_part_ready)
     with stage("reference values", seconds):
         return replace(source, reference=reference_values(program, source))
 
@@ -83,5 +98,5 @@ def in_c(
 def generate(
     data: bytes, file: str, scene: str, overrides: Overrides | None = None, formulation: str = "reduced"
 ) -> KernelSource:
-    """Return the C code of one scene of a mechanism file."""
+    """Return the C code of one scene of a mechanism file; as `derive`, then `in_c`."""
     return in_c(derive(data, file, scene, overrides), formulation)

@@ -26,89 +26,116 @@ from gudgeon.model.compiled import Array
 
 
 def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
-    """Return the constraint equations of a scene, its joints with play open, that are redundant everywhere."""
+    """Return the constraint equations of a scene, its joints with play open, that are redundant everywhere.
+
+    The rank is that at the start or at the nearby configuration where it is largest. Empty if no equation is redundant,
+    or if the linkage does not assemble, which the run reports. Raises BadValueError unless the degrees of freedom are
+    those that the file expects.
+    """
     if not model.rows:
         return Redundancy()
-    numeric = NumPyLinkage(model, source)
+    linkage = NumPyLinkage(model, source)
     names = {row.name for row in model.rows}
-    open_rows = [r for r, row in enumerate(model.all_rows) if row.name in names]
+    rows_of_scene = [r for r, row in enumerate(model.all_rows) if row.name in names]
     try:
         with np.errstate(all="ignore"):
-            q = search(numeric, numeric.p).q
-            start = scaled_rows(numeric, numeric.p, numeric.closed_phi_q(0.0, q, numeric.p)[open_rows])
-            near = configurations(numeric, numeric.p, q, open_rows, SAMPLES if rank(start) < len(open_rows) else 0)
+            q = search(linkage, linkage.p).q
+            start = scaled_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, q, linkage.p)[rows_of_scene])
+            configurations_near_start = configurations(
+                linkage, linkage.p, q, rows_of_scene, SAMPLES if rank(start) < len(rows_of_scene) else 0
+            )
             matrices = [
-                scaled_rows(numeric, numeric.p, numeric.closed_phi_q(0.0, x, numeric.p)[open_rows]) for x in near
+                scaled_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, configuration, linkage.p)[rows_of_scene])
+                for configuration in configurations_near_start
             ]
         ranks = [rank(matrix) for matrix in matrices]
     except (GudgeonError, ArithmeticError, ValueError):  # not assembled, or not finite: the run reports the reason
         return Redundancy()
     expected_freedoms = model.scene.mechanism.freedoms
     if expected_freedoms is not None and isinstance(expected_freedoms.value, Number):
-        check_freedoms(expected_freedoms.value.value, expected_freedoms.where, find_mobility(numeric, numeric.p, q))
-    best = int(np.argmax(ranks))
-    if ranks[best] == len(open_rows):
+        check_freedoms(expected_freedoms.value.value, expected_freedoms.where, find_mobility(linkage, linkage.p, q))
+    index_of_largest_rank = int(np.argmax(ranks))
+    if ranks[index_of_largest_rank] == len(rows_of_scene):
         return Redundancy()
-    return _name_rows([model.all_rows[r] for r in open_rows], matrices[best], ranks[best])
+    return _select_redundant_rows(
+        [model.all_rows[r] for r in rows_of_scene], matrices[index_of_largest_rank], ranks[index_of_largest_rank]
+    )
 
 
 def refuse_singular_masses(model: Model, source: KernelSource) -> None:
     """Raise BadValueError if bodies without moment of inertia can turn freely, so that the mass matrix is singular.
 
-    The motion is tested at the start and near it; a motion that constraints determine needs no inertia.
+    The motion is tested at the start and near it; a motion that constraints determine needs no inertia. Nothing is
+    raised if the linkage does not assemble.
     """
     bodies = model.scene.mechanism.bodies
-    massless = {body.name: body.index + 2 for body in model.bodies if not model.slots.default(body.inertia)}
-    if not massless or model.degrees_of_freedom <= 0:
+    bodies_without_inertia = {
+        body.name: body.index + 2 for body in model.bodies if not model.slots.default(body.inertia)
+    }
+    if not bodies_without_inertia or model.degrees_of_freedom <= 0:
         return
-    numeric = NumPyLinkage(model, source)
+    linkage = NumPyLinkage(model, source)
     names = {row.name for row in model.rows}
-    open_rows = [r for r, row in enumerate(model.all_rows) if row.name in names]
+    rows_of_scene = [r for r, row in enumerate(model.all_rows) if row.name in names]
     try:
-        near = configurations(numeric, numeric.p, search(numeric, numeric.p).q, open_rows, SAMPLES)
-        heavy = numeric.mass(numeric.p) > 0.0
-        matrices = [scaled_rows(numeric, numeric.p, numeric.closed_phi_q(0.0, q, numeric.p)[open_rows]) for q in near]
-        found = [_lightest_motion(matrix, heavy) for matrix in matrices]
+        configurations_near_start = configurations(
+            linkage, linkage.p, search(linkage, linkage.p).q, rows_of_scene, SAMPLES
+        )
+        has_mass = linkage.mass(linkage.p) > 0.0
+        matrices = [
+            scaled_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, q, linkage.p)[rows_of_scene])
+            for q in configurations_near_start
+        ]
+        lightest_motions = [_find_lightest_motion(matrix, has_mass) for matrix in matrices]
     except (GudgeonError, ArithmeticError, ValueError):  # as above
         return
-    if all(fraction <= RANK for fraction, _ in found):
-        motion = found[-1][1]
-        name = max(massless, key=lambda body: abs(motion[massless[body]]))
+    if all(fraction <= RANK for fraction, _ in lightest_motions):
+        motion = lightest_motions[-1][1]
+        name = max(bodies_without_inertia, key=lambda body: abs(motion[bodies_without_inertia[body]]))
         inertia = bodies[name].inertia
-        where = inertia.where if inertia is not None else bodies[name].where
+        location = inertia.where if inertia is not None else bodies[name].where
         raise BadValueError(
             f"body {name} has no moment of inertia, and nothing else resists its turning: its motion is not determined",
-            where,
+            location,
             f"expected bodies.{name}.inertia > 0, or its centre of mass (com) away from the joint about which it"
             " turns, or a drive that turns it",
         )
 
 
-def _lightest_motion(phi_q: Array, heavy: NDArray[np.bool_]) -> tuple[float, Array]:
+def _find_lightest_motion(phi_q: Array, has_mass: NDArray[np.bool_]) -> tuple[float, Array]:
     """Return (fraction, motion (n,)) of the motion that satisfies the constraints and moves the least mass.
 
-    The fraction is the norm of its part in coordinates with mass."""
-    _, values, right = np.linalg.svd(phi_q) if len(phi_q) else (None, np.zeros(0), np.eye(len(heavy)))
-    free = right[int((values > RANK * values.max(initial=0.0)).sum()) :].T
-    _, fractions, motions = np.linalg.svd(free[heavy])
-    return float(fractions[-1]) if len(fractions) == free.shape[1] else 0.0, free @ motions[-1]
+    phi_q: the scaled Jacobian (rows, n); has_mass: mask (n,) of coordinates with mass. The motion has norm 1; the
+    fraction is the norm of its part in coordinates with mass, 0 if some motion moves no mass.
+    """
+    _, singular_values, right_vectors = (
+        np.linalg.svd(phi_q) if len(phi_q) else (None, np.zeros(0), np.eye(len(has_mass)))
+    )
+    motions_without_constraint = right_vectors[
+        int((singular_values > RANK * singular_values.max(initial=0.0)).sum()) :
+    ].T
+    _, fractions, motions = np.linalg.svd(motions_without_constraint[has_mass])
+    return float(fractions[-1]) if len(fractions) == motions_without_constraint.shape[
+        1
+    ] else 0.0, motions_without_constraint @ motions[-1]
 
 
-def _name_rows(rows: Sequence[Row], matrix: Array, independent: int) -> Redundancy:
+def _select_redundant_rows(rows: Sequence[Row], matrix: Array, rank_of_matrix: int) -> Redundancy:
     """Select independent rows, drives first, then in the order of the file, and return the others as redundant.
 
-    Pivoting is a Gram–Schmidt orthogonalization of the Jacobian's rows.
+    matrix: the Jacobian (rows, n), of rank `rank_of_matrix`. Pivoting is a Gram–Schmidt orthogonalization of its rows.
+    The result also names the owners of all rows whose multipliers are undetermined.
     """
     order = sorted(range(len(rows)), key=lambda r: (rows[r].kind != "drive", r))
     basis = np.zeros((0, matrix.shape[1]))
-    dropped = []
+    redundant = []
     for r in order:
-        rest = matrix[r] - (basis @ matrix[r]) @ basis
-        rest = rest - (basis @ rest) @ basis
-        if len(basis) < independent and np.linalg.norm(rest) > 10 * RANK * np.linalg.norm(matrix[r]):
-            basis = np.vstack([basis, rest / np.linalg.norm(rest)])
+        remainder = matrix[r] - (basis @ matrix[r]) @ basis
+        remainder = remainder - (basis @ remainder) @ basis
+        if len(basis) < rank_of_matrix and np.linalg.norm(remainder) > 10 * RANK * np.linalg.norm(matrix[r]):
+            basis = np.vstack([basis, remainder / np.linalg.norm(remainder)])
         else:
-            dropped.append(r)
-    free = tied(matrix) > 1e-7
-    owners = dict.fromkeys(rows[r].owner for r in range(len(rows)) if free[r])
-    return Redundancy(tuple(rows[r].name for r in sorted(dropped)), tuple(owners))
+            redundant.append(r)
+    is_undetermined = tied(matrix) > 1e-7
+    owners = dict.fromkeys(rows[r].owner for r in range(len(rows)) if is_undetermined[r])
+    return Redundancy(tuple(rows[r].name for r in sorted(redundant)), tuple(owners))

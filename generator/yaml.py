@@ -37,7 +37,7 @@ MOST_OPEN = 60  # open parentheses in a list: bounds the time for long lists
 
 
 class Events:
-    """Iterate over ruamel's events with a lookahead; `whole` joins texts that commas have split."""
+    """Iterate over ruamel's events with a lookahead; `join_pieces` joins texts that commas have split."""
 
     def __init__(self, events: Iterator[Any], text: str) -> None:
         self._events, self._text = events, text
@@ -52,27 +52,35 @@ class Events:
         return self._ahead.popleft() if self._ahead else next(self._events)
 
     def join_pieces(self, event: Any, in_mapping: bool) -> Any:
-        """Return `event`, a value in brackets, joined with the texts after it that belong into its parentheses."""
-        if not _is_plain(event) or _count_open(event.value) <= 0:
+        """Return `event`, a value in brackets, joined with the texts after it that belong into its parentheses.
+
+        The joined events are consumed, and `event` is changed. It is returned as it is if its parentheses match, or if
+        those of a list item do not match after all pieces: it may then be a broken component of a vector.
+        """
+        if not _is_plain_scalar(event) or _count_open_parentheses(event.value) <= 0:
             return event
-        still_open, used, last = _count_open(event.value), 0, event
+        n_open, n_pieces, last_piece = _count_open_parentheses(event.value), 0, event
         for _ in range(MOST_PIECES):
-            piece = self._peek(used)
-            if not _is_plain(piece) or in_mapping and not _is_nothing(self._peek(used + 1)):
+            piece = self._peek(n_pieces)
+            if not _is_plain_scalar(piece) or in_mapping and not _is_missing_value(self._peek(n_pieces + 1)):
                 break
-            still_open, last, used = still_open + _count_open(piece.value), piece, used + 1 + in_mapping
-            if still_open <= 0 or still_open > MOST_OPEN and not in_mapping:
+            n_open, last_piece, n_pieces = (
+                n_open + _count_open_parentheses(piece.value),
+                piece,
+                n_pieces + 1 + in_mapping,
+            )
+            if n_open <= 0 or n_open > MOST_OPEN and not in_mapping:
                 break
-        if still_open > 0 and not in_mapping:  # these may be the components of a vector, one of them broken
+        if n_open > 0 and not in_mapping:  # these may be the components of a vector, one of them broken
             return event
-        for _ in range(used):
+        for _ in range(n_pieces):
             self._ahead.popleft()
-        event.value = self._text[event.start_mark.index : last.end_mark.index]
-        event.end_mark = last.end_mark
+        event.value = self._text[event.start_mark.index : last_piece.end_mark.index]
+        event.end_mark = last_piece.end_mark
         return event
 
     def _peek(self, index: int) -> Any:
-        """Return the event after `index` others; None at the end."""
+        """Return the event after `index` others without consuming it; None at the end."""
         while len(self._ahead) <= index:
             try:
                 self._ahead.append(next(self._events))
@@ -81,18 +89,18 @@ class Events:
         return self._ahead[index]
 
 
-def _is_plain(event: Any) -> bool:
+def _is_plain_scalar(event: Any) -> bool:
     """Return whether an event is a plain scalar without quotes, anchor and tag."""
     return isinstance(event, ScalarEvent) and event.style is None and event.anchor is None and event.tag is None
 
 
-def _is_nothing(event: Any) -> bool:
-    """Return whether an event is the missing value of a key."""
-    return _is_plain(event) and event.start_mark.index == event.end_mark.index
+def _is_missing_value(event: Any) -> bool:
+    """Return whether an event is the missing value of a key, an empty plain scalar."""
+    return _is_plain_scalar(event) and event.start_mark.index == event.end_mark.index
 
 
-def _count_open(text: str) -> int:
-    """Return the number of parentheses that `text` opens and does not close."""
+def _count_open_parentheses(text: str) -> int:
+    """Return the number of parentheses that `text` opens minus the number that it closes."""
     return text.count("(") - text.count(")")
 
 
@@ -115,15 +123,15 @@ class Text(str):
     one_line: bool
 
     @staticmethod
-    def make(text: str, where: Location, plain: bool = True, one_line: bool = True) -> Text:
+    def make(text: str, location: Location, plain: bool = True, one_line: bool = True) -> Text:
         """Return a text with its location and style."""
-        made = Text(text)
-        made.where, made.plain, made.one_line = where, plain, one_line
-        return made
+        node = Text(text)
+        node.where, node.plain, node.one_line = location, plain, one_line
+        return node
 
     @property
     def is_nothing(self) -> bool:
-        """Return whether YAML reads the text as null."""
+        """Return whether YAML reads the text as null: a plain scalar that is empty, ~ or null."""
         return self.plain and self in YAML_NULL
 
 
@@ -133,18 +141,21 @@ class Map(dict[str, Any]):
     where: Location
 
     @staticmethod
-    def make(items: Any, where: Location) -> Map:
-        """Return a mapping with its location."""
-        made = Map(items)
-        made.where = where
-        return made
+    def make(items: Any, location: Location) -> Map:
+        """Return a mapping of `items`, as `dict` accepts them, with its location."""
+        node = Map(items)
+        node.where = location
+        return node
 
     def key(self, name: str) -> Text:
-        """Return the key itself, with its location."""
+        """Return the key itself as it stands in the file, with its location.
+
+        Raises StopIteration if there is no such key.
+        """
         return next(key for key in self.names() if key == name)
 
     def pairs(self) -> list[tuple[Text, Any]]:
-        """Return keys and values."""
+        """Return keys and values as a list, in the order of the file."""
         return [(key, self[key]) for key in self.names()]
 
     def part(self, name: str) -> Map:
@@ -152,7 +163,7 @@ class Map(dict[str, Any]):
         return self[name] if name in self else Map.make((), self.where)
 
     def names(self) -> list[Text]:
-        """Return the keys as Text."""
+        """Return the keys as Text, in the order of the file; keys that are plain strings are left out."""
         return [key for key in self if isinstance(key, Text)]
 
 
@@ -162,41 +173,44 @@ class Items(list[Any]):
     where: Location
 
     @staticmethod
-    def make(items: Any, where: Location) -> Items:
-        """Return a sequence with its location."""
-        made = Items(items)
-        made.where = where
-        return made
+    def make(items: Any, location: Location) -> Items:
+        """Return a sequence of `items` with its location."""
+        node = Items(items)
+        node.where = location
+        return node
 
 
 Node: TypeAlias = Text | Map | Items
 
 
-def parse_yaml(data: bytes, file: str, twice: list[InputError] | None = None, begins: str = "gudgeon/1") -> Map:
-    """Return the mapping that a file contains.
+def parse_yaml(
+    data: bytes, file: str, duplicate_errors: list[InputError] | None = None, expected_format: str = "gudgeon/1"
+) -> Map:
+    """Return the mapping that a file contains, as a tree of Map, Items and Text.
 
-    Raises NotYamlError, LimitError, or UnknownKeyError for keys that are given twice; these go to `twice`, if given.
+    `expected_format` is for messages. Raises NotYamlError, LimitError, or UnknownKeyError for keys that are
+    given twice; these errors are appended to `duplicate_errors` instead, if it is given.
     """
     if len(data) > MAX_BYTES:
         raise LimitError(f"a file of {len(data)} bytes", Location(file, 1, 1), f"expected at most {MAX_BYTES}")
-    text = _decode(data, file)
-    if long := _TAG.search(text):
-        hint, where = "expected plain text, lists and mappings", _location_after(text[: long.start()], file)
-        raise LimitError(f"a tag of more than {MAX_TAG} characters", where, hint)
+    text = _decode_file(data, file)
+    if long_tag := _TAG.search(text):
+        hint, location = "expected plain text, lists and mappings", _location_after(text[: long_tag.start()], file)
+        raise LimitError(f"a tag of more than {MAX_TAG} characters", location, hint)
     composer = _Composer(text, file)
     try:
-        root = composer.document()
+        root = composer.compose_document()
     except YAMLError as error:
-        raise _translate(error, text, file) from None
+        raise _translate_error(error, text, file) from None
     except _OF_RUAMEL:
         hint = "look at what stands behind % and behind backslashes in double quotes"
         raise NotYamlError("not YAML: a directive or an escape cannot be read", Location(file, 1, 1), hint) from None
     duplicates = composer.duplicates[:MOST_TWICE]
-    if twice is not None:
-        twice += duplicates
+    if duplicate_errors is not None:
+        duplicate_errors += duplicates
     elif duplicates:
         raise together(duplicates)
-    hint = f"expected a mapping that begins with format: {begins}"
+    hint = f"expected a mapping that begins with format: {expected_format}"
     if root is None or isinstance(root, Text) and root.is_nothing:
         raise NotYamlError("the file is empty", Location(file, 1, 1), hint)
     if not isinstance(root, Map):
@@ -205,7 +219,7 @@ def parse_yaml(data: bytes, file: str, twice: list[InputError] | None = None, be
 
 
 def kind_of(node: object) -> str:
-    """Return a phrase for a node: "a mapping", "a list", "nothing", or its quoted text."""
+    """Return a phrase for a node: "a mapping", "a list", "nothing" for null and other objects, or its quoted text."""
     if isinstance(node, Map):
         return "a mapping"
     if isinstance(node, Items):
@@ -215,38 +229,48 @@ def kind_of(node: object) -> str:
     return "nothing"
 
 
-def _decode(data: bytes, file: str) -> str:
-    """Decode the UTF-8 bytes of a file. Raises NotYamlError at the first invalid byte."""
+def _decode_file(data: bytes, file: str) -> str:
+    """Return the UTF-8 bytes of a file as text without a byte order mark.
+
+    Raises NotYamlError at the first invalid byte.
+    """
     try:
         return data.decode("utf-8").removeprefix("\ufeff")
     except UnicodeDecodeError as error:
-        where = _location_after(data[: error.start].decode("utf-8"), file)
-        raise NotYamlError(f"byte 0x{data[error.start]:02x} is no UTF-8", where, "expected a UTF-8 text file") from None
+        location = _location_after(data[: error.start].decode("utf-8"), file)
+        raise NotYamlError(
+            f"byte 0x{data[error.start]:02x} is no UTF-8", location, "expected a UTF-8 text file"
+        ) from None
 
 
-def _location_after(before: str, file: str) -> Location:
+def _location_after(leading_text: str, file: str) -> Location:
     """Return the location directly after the text with which a file begins."""
-    return Location(file, before.count("\n") + 1, len(before.rpartition("\n")[2]) + 1)
+    return Location(file, leading_text.count("\n") + 1, len(leading_text.rpartition("\n")[2]) + 1)
 
 
-def _translate(error: YAMLError, text: str, file: str) -> NotYamlError:
-    """Return ruamel's error as a NotYamlError with its location."""
+def _translate_error(error: YAMLError, text: str, file: str) -> NotYamlError:
+    """Return ruamel's error as a NotYamlError with its location, in gudgeon's words for tabs.
+
+    text: the file's text, for the location of a character that YAML does not allow.
+    """
     if isinstance(error, ReaderError):
-        where = _location_after(text[: error.position], file)
-        return NotYamlError(f"character {text[error.position : error.position + 1]!r} is not allowed in YAML", where)
+        location = _location_after(text[: error.position], file)
+        return NotYamlError(f"character {text[error.position : error.position + 1]!r} is not allowed in YAML", location)
     if not isinstance(error, MarkedYAMLError):
         return NotYamlError(f"not YAML: {error}"[:500], Location(file, 1, 1))
     mark = error.problem_mark or error.context_mark
-    where = Location(file, mark.line + 1, mark.column + 1) if mark else Location(file, 1, 1)
+    location = Location(file, mark.line + 1, mark.column + 1) if mark else Location(file, 1, 1)
     problem = str(error.problem or error.context or "")
     if "'\\t'" in problem:
-        return NotYamlError("a tab where YAML wants spaces", where, "indent with spaces")
+        return NotYamlError("a tab where YAML wants spaces", location, "indent with spaces")
     context = f" ({error.context})" if error.context and error.problem else ""
     if context and error.context_mark and error.context_mark.line != (mark.line if mark else -1):
-        begin = Location(file, error.context_mark.line + 1, error.context_mark.column + 1)
-        context = f" ({error.context} that begins at {begin})"
+        context_location = Location(file, error.context_mark.line + 1, error.context_mark.column + 1)
+        context = f" ({error.context} that begins at {context_location})"
     return NotYamlError(
-        f"not YAML: {problem}{context}"[:500], where, "a text that holds ': ', ' #' or begins with @ % ` needs quotes"
+        f"not YAML: {problem}{context}"[:500],
+        location,
+        "a text that holds ': ', ' #' or begins with @ % ` needs quotes",
     )
 
 
@@ -261,99 +285,119 @@ class _Composer:
         self.nodes = 0
         self.duplicates: list[InputError] = []
 
-    def document(self) -> Node | None:
-        """Return the root of the only document; None if there is none."""
+    def compose_document(self) -> Node | None:
+        """Return the root of the only document; None if there is none. Raises NotYamlError at a second document."""
         root, documents = None, 0
         for event in self.events:
             if isinstance(event, DocumentStartEvent):
                 documents += 1
                 if documents > 1:
                     raise NotYamlError(
-                        "a second document begins", self.location_of(event), "expected one document a file"
+                        "a second document begins", self.find_location(event), "expected one document a file"
                     )
             elif isinstance(event, (ScalarEvent, SequenceStartEvent, MappingStartEvent, AliasEvent)):
-                root = self.node(event, 0)
+                root = self.compose_node(event, 0)
         return root
 
-    def location_of(self, event: Any, shift: int = 0) -> Location:
-        """Return the location of an event's begin."""
+    def find_location(self, event: Any, shift: int = 0) -> Location:
+        """Return the location of an event's begin, `shift` columns further."""
         return Location(self.file, event.start_mark.line + 1, event.start_mark.column + 1 + shift)
 
-    def location_after(self, key: Any) -> Location:
+    def find_location_after_key(self, key: Any) -> Location:
         """Return the location directly after the colon of a key."""
         return Location(self.file, key.end_mark.line + 1, key.end_mark.column + 2)
 
-    def count(self, nodes: int, event: Any) -> None:
-        """Count nodes. Raises LimitError if there are too many."""
-        self.nodes += nodes
+    def count_nodes(self, n_nodes: int, event: Any) -> None:
+        """Add a number of nodes to the count. Raises LimitError at `event` if there are too many."""
+        self.nodes += n_nodes
         if self.nodes > MAX_NODES:
-            message = "the file is too large once its aliases are expanded" if nodes > 1 else "the file holds too much"
-            raise LimitError(message, self.location_of(event), f"expected at most {MAX_NODES} values")
+            message = (
+                "the file is too large once its aliases are expanded" if n_nodes > 1 else "the file holds too much"
+            )
+            raise LimitError(message, self.find_location(event), f"expected at most {MAX_NODES} values")
 
-    def node(self, event: Any, depth: int) -> Node:
-        """Return the node that begins with `event`. Raises LimitError or NotYamlError."""
+    def compose_node(self, event: Any, depth: int) -> Node:
+        """Return the node that begins with `event`; a node with an anchor is stored for its aliases.
+
+        Raises LimitError for too many levels or nodes, NotYamlError for a tag and what the format does not allow.
+        """
         if isinstance(event, AliasEvent):
-            return self.alias(event)
+            return self.resolve_alias(event)
         if depth > MAX_DEPTH:
-            raise LimitError("nested too deeply", self.location_of(event), f"expected at most {MAX_DEPTH} levels")
+            raise LimitError("nested too deeply", self.find_location(event), f"expected at most {MAX_DEPTH} levels")
         tag = getattr(event, "tag", None)
         if tag is not None:
             raise NotYamlError(
-                f"the tag {str(tag)[:60]!r}", self.location_of(event), "expected plain text, lists and mappings"
+                f"the tag {str(tag)[:60]!r}", self.find_location(event), "expected plain text, lists and mappings"
             )
-        before = self.nodes
-        self.count(1, event)
+        nodes_before = self.nodes
+        self.count_nodes(1, event)
         if isinstance(event, ScalarEvent):
-            where = self.location_of(event, int(event.style in ("'", '"')))
+            location = self.find_location(event, int(event.style in ("'", '"')))
             one_line = event.start_mark.line == event.end_mark.line
-            node: Node = Text.make(event.value, where, event.style is None, one_line)
+            node: Node = Text.make(event.value, location, event.style is None, one_line)
         elif isinstance(event, SequenceStartEvent):
-            node = self.sequence(event, depth)
+            node = self.compose_sequence(event, depth)
         else:
-            node = self.mapping(event, depth)
+            node = self.compose_mapping(event, depth)
         if event.anchor is not None:  # stored after its contents: a node cannot contain itself
             self.anchors[event.anchor] = node
-            self.sizes[id(node)] = self.nodes - before
+            self.sizes[id(node)] = self.nodes - nodes_before
         return node
 
-    def alias(self, event: Any) -> Node:
-        """Return the node for which an alias stands."""
+    def resolve_alias(self, event: Any) -> Node:
+        """Return the node for which an alias stands; its nodes are counted again.
+
+        Raises NotYamlError without an anchor before it.
+        """
         if event.anchor not in self.anchors:
             hint = "expected its anchor before it, and not around it"
-            raise NotYamlError(f"the alias *{event.anchor[:60]} has no anchor", self.location_of(event), hint)
+            raise NotYamlError(f"the alias *{event.anchor[:60]} has no anchor", self.find_location(event), hint)
         node = self.anchors[event.anchor]
-        self.count(self.sizes[id(node)], event)
+        self.count_nodes(self.sizes[id(node)], event)
         return node
 
-    def sequence(self, event: Any, depth: int) -> Items:
-        """Return the sequence that begins with `event`."""
-        items = Items.make((), self.location_of(event))
-        while not isinstance(inner := next(self.events), SequenceEndEvent):
-            items.append(self.node(self.events.join_pieces(inner, False) if event.flow_style else inner, depth + 1))
+    def compose_sequence(self, event: Any, depth: int) -> Items:
+        """Return the sequence that begins with `event`, with its items composed."""
+        items = Items.make((), self.find_location(event))
+        while not isinstance(item_event := next(self.events), SequenceEndEvent):
+            items.append(
+                self.compose_node(
+                    self.events.join_pieces(item_event, False) if event.flow_style else item_event, depth + 1
+                )
+            )
         return items
 
-    def mapping(self, event: Any, depth: int) -> Map:
-        """Return the mapping that begins with `event`; errors of repeated and merge keys go to `duplicates`."""
-        made, merged = Map.make((), self.location_of(event)), dict[str, Any]()
-        while not isinstance(inner := next(self.events), MappingEndEvent):
-            key = self.node(inner, depth + 1)
+    def compose_mapping(self, event: Any, depth: int) -> Map:
+        """Return the mapping that begins with `event`; errors of repeated and merge keys go to `duplicates`.
+
+        Of a repeated key the first value counts. Entries of a merge key are merged as intended. Raises NotYamlError for
+        a key that is not a scalar.
+        """
+        node, merged_entries = Map.make((), self.find_location(event)), dict[str, Any]()
+        while not isinstance(key_event := next(self.events), MappingEndEvent):
+            key = self.compose_node(key_event, depth + 1)
             if not isinstance(key, Text):
                 raise NotYamlError(f"{kind_of(key)} as a key", key.where, "expected a name as the key")
-            below = next(self.events)
-            value = self.node(self.events.join_pieces(below, True) if event.flow_style else below, depth + 1)
+            value_event = next(self.events)
+            value = self.compose_node(
+                self.events.join_pieces(value_event, True) if event.flow_style else value_event, depth + 1
+            )
             if isinstance(value, Text) and not value and value.plain and not event.flow_style:
-                value.where = self.location_after(inner)  # an empty value has the location of the next node
+                value.where = self.find_location_after_key(
+                    key_event
+                )  # an empty value has the location of the next node
             if key == "<<":
                 self.duplicates.append(UnknownKeyError(NO_MERGE, key.where, MERGED))
-                merged = value if isinstance(value, Map) else {}  # the entries are merged as intended
-            elif key in made:
-                first = made.key(key).where
+                merged_entries = value if isinstance(value, Map) else {}  # the entries are merged as intended
+            elif key in node:
+                first = node.key(key).where
                 self.duplicates.append(
                     UnknownKeyError(
                         f"{str(key)!r} is given twice", key.where, f"expected once; the first is at {first}"
                     )
                 )
             else:
-                made[key] = value
-        made.update({name: below for name, below in merged.items() if name not in made})
-        return made
+                node[key] = value
+        node.update({name: value_event for name, value_event in merged_entries.items() if name not in node})
+        return node

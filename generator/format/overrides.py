@@ -21,34 +21,41 @@ _AXES = {"x": 0, "y": 1}
 def apply_overrides(root: Map, overrides: Mapping[str, str | float | bool]) -> Map:
     """Return the file's tree with other texts at the given addresses; `root` itself is not changed.
 
-    The name of a parameter alone is an address, too. Raises UnknownNameError, with the nearest address, for one that
-    the file does not have; keys that a law or shape does not know are reported when they are read.
+    `overrides` maps an address, or the name of a parameter alone, to a number, a text or a bool. Raises
+    UnknownNameError, with the nearest address, for one that the file does not have. Keys that a law or shape does not
+    know are reported when they are read.
     """
     for address, value in overrides.items():
-        parts = _split_address(root, address)
-        text = Text.make(_as_file_text(value, address), Location(OVERRIDE + address, 1, 1))
-        root = _put_text(root, parts, text, _Address(address, root), FILE, 0)
+        keys = _split_address(root, address)
+        text = Text.make(_format_as_file_text(value, address), Location(OVERRIDE + address, 1, 1))
+        root = _replace_text(root, keys, text, _Address(address, root), FILE, 0)
     return root
 
 
 def _split_address(root: Map, address: str) -> list[str]:
-    """Split an address into the keys on its path; names of coordinates and points stay whole."""
+    """Return the keys on the path of an address; names of coordinates and points stay whole.
+
+    The name of a parameter alone is a path in `parameters`.
+    """
     if address in root.get("parameters", ()):
         return ["parameters", address]
     field: Field | None = FILE
-    parts = address.split(".")
-    for i, part in enumerate(parts):
+    keys = address.split(".")
+    for i, key in enumerate(keys):
         if field is not None and field.addresses:
-            return [*parts[:i], ".".join(parts[i:])]
+            return [*keys[:i], ".".join(keys[i:])]
         if field is not None and field.keys is not None:  # the rest is the name of a coordinate: L7.theta
-            axis = parts[-1:] if len(parts) - i > 2 and parts[-1] in _AXES else []  # of a point: upper.P.x
-            return [*parts[:i], ".".join(parts[i : len(parts) - len(axis)]), *axis]
-        field = field and field.below(part)
-    return parts
+            component = keys[-1:] if len(keys) - i > 2 and keys[-1] in _AXES else []  # of a point: upper.P.x
+            return [*keys[:i], ".".join(keys[i : len(keys) - len(component)]), *component]
+        field = field and field.below(key)
+    return keys
 
 
-def _as_file_text(value: object, address: str) -> str:
-    """Return a value as text, as it would stand in the file. Raises BadValueError for other types."""
+def _format_as_file_text(value: object, address: str) -> str:
+    """Return a value as text, as it would stand in the file.
+
+    Raises BadValueError for other types; `address` is for messages.
+    """
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):
@@ -70,18 +77,22 @@ class _Address:
     root: Map
 
     def unknown(self) -> InputError:
-        """Return the UnknownNameError for an address that the file does not have."""
-        known = [*_addresses(self.root), *self.root.get("parameters", ())]
-        return unknown_name("address", self.text, known, None)
+        """Return the UnknownNameError for an address that the file does not have, with the nearest addresses."""
+        known_addresses = [*_iterate_addresses(self.root), *self.root.get("parameters", ())]
+        return unknown_name("address", self.text, known_addresses, None)
 
 
-def _put_text(node: Any, parts: list[str], text: Text, address: _Address, field: Field | None, depth: int) -> Any:
-    """Return a copy of `node`, which `field` declares, with `text` at the path `parts`; other subtrees are shared."""
-    if not parts:
+def _replace_text(node: Any, keys: list[str], text: Text, address: _Address, field: Field | None, depth: int) -> Any:
+    """Return a copy of `node`, which `field` declares, with `text` at the path `keys`; other subtrees are shared.
+
+    `field` is None below a list. A key that may be added is created. Raises an InputError for an address that does not
+    exist, that of a whole mapping, and a number of a curve or contour.
+    """
+    if not keys:
         if isinstance(node, (Map, Items)) and not (field is not None and field.kind == RESULTS):
-            raise BadValueError(f"{address.text} is {kind_of(node)}", None, _inner_addresses_hint(address.text, node))
+            raise BadValueError(f"{address.text} is {kind_of(node)}", None, _format_inner_addresses(address.text, node))
         return text
-    head, rest = parts[0], parts[1:]
+    first_key, other_keys = keys[0], keys[1:]
     if field is not None and field.kind == POINTS:
         message = f"{address.text} is a number of a curve, which is a part of the compiled scene"
         raise BadValueError(message, None, "scale the curve by a parameter, or write another one into the file")
@@ -89,53 +100,71 @@ def _put_text(node: Any, parts: list[str], text: Text, address: _Address, field:
         message = f"{address.text} is a depth of a contour: it is no part of the file's structure"
         raise BadValueError(message, None, "give it to the run: contour={joint: depths} of simulate")
     if isinstance(node, Items):
-        if head not in _AXES or _AXES[head] >= len(node):
+        if first_key not in _AXES or _AXES[first_key] >= len(node):
             raise address.unknown()
-        i = _AXES[head]
+        component = _AXES[first_key]
         return Items.make(
-            [*node[:i], _put_text(node[i], rest, text, address, None, depth + 1), *node[i + 1 :]], node.where
+            [
+                *node[:component],
+                _replace_text(node[component], other_keys, text, address, None, depth + 1),
+                *node[component + 1 :],
+            ],
+            node.where,
         )
     if not isinstance(node, Map):
         raise address.unknown()
-    inner = field and field.below(head, node)
-    if head in node:
-        key, below = node.key(head), node[head]
+    field_of_child = field and field.below(first_key, node)
+    if first_key in node:
+        key, child = node.key(first_key), node[first_key]
     else:
-        if not _may_add(field, inner, parts, depth) or rest and inner is not None and inner.kind in SCALARS:
+        if (
+            not _may_add_key(field, field_of_child, keys, depth)
+            or other_keys
+            and field_of_child is not None
+            and field_of_child.kind in SCALARS
+        ):
             raise address.unknown()
-        key, below = Text.make(head, text.where), _new_node(inner, rest, text.where)
-    return Map.make({**node, key: _put_text(below, rest, text, address, inner, depth + 1)}, node.where)
+        key, child = Text.make(first_key, text.where), _make_node(field_of_child, other_keys, text.where)
+    return Map.make(
+        {**node, key: _replace_text(child, other_keys, text, address, field_of_child, depth + 1)}, node.where
+    )
 
 
-def _may_add(field: Field | None, inner: Field | None, parts: list[str], depth: int) -> bool:
+def _may_add_key(field: Field | None, field_of_child: Field | None, keys: list[str], depth: int) -> bool:
     """Return whether an override may add a key to the file: one with a default, an inherited number, a component.
 
-    Entries of a section must exist in the file. Unknown keys deeper in the tree are reported when they are read.
+    `field_of_child` declares the key `parts[0]` in the mapping that `field` declares. Entries of a section must exist
+    in the file. Unknown keys deeper in the tree are reported when they are read.
     """
     if depth == 0:
-        return inner is not None and (inner.kind != MAPPING or len(parts) > 1 and parts[1] in inner.given)
-    return depth > 1 or field is None or field.kind != MAPPING or parts[0] in field.given
+        return field_of_child is not None and (
+            field_of_child.kind != MAPPING or len(keys) > 1 and keys[1] in field_of_child.given
+        )
+    return depth > 1 or field is None or field.kind != MAPPING or keys[0] in field.given
 
 
-def _new_node(field: Field | None, rest: list[str], where: Location) -> Any:
-    """Return the node in which a new text is put: a vector of zeros, a mapping, or an empty text."""
-    if rest and field is not None and field.kind == VECTOR:
-        return Items.make([Text.make("0", where), Text.make("0", where)], where)
-    return Map.make((), where) if rest else Text.make("", where)
+def _make_node(field: Field | None, other_keys: list[str], location: Location) -> Any:
+    """Return the node in which a new text is put: a vector of zeros, a mapping, or an empty text.
+
+    `other_keys` contains the keys that follow on the path.
+    """
+    if other_keys and field is not None and field.kind == VECTOR:
+        return Items.make([Text.make("0", location), Text.make("0", location)], location)
+    return Map.make((), location) if other_keys else Text.make("", location)
 
 
-def _addresses(node: Any, prefix: str = "") -> Iterator[str]:
-    """Yield the addresses of all texts in a subtree."""
+def _iterate_addresses(node: Any, prefix: str = "") -> Iterator[str]:
+    """Yield the addresses of all texts in a subtree; `prefix` is the address of its root, "" for the file."""
     if isinstance(node, Map):
-        for key, below in node.items():
-            yield from _addresses(below, f"{prefix}.{key}" if prefix else str(key))
+        for key, child in node.items():
+            yield from _iterate_addresses(child, f"{prefix}.{key}" if prefix else str(key))
     elif isinstance(node, Items):
-        for axis, below in zip(_AXES, node, strict=False):
-            yield from _addresses(below, f"{prefix}.{axis}")
+        for axis, child in zip(_AXES, node, strict=False):
+            yield from _iterate_addresses(child, f"{prefix}.{axis}")
     else:
         yield prefix
 
 
-def _inner_addresses_hint(address: str, node: Map | Items) -> str:
-    """Return the hint that names addresses inside a mapping or list."""
-    return f"expected one of: {', '.join(list(_addresses(node, address))[:8])}"
+def _format_inner_addresses(address: str, node: Map | Items) -> str:
+    """Return the hint that names addresses inside a mapping or list, at most eight."""
+    return f"expected one of: {', '.join(list(_iterate_addresses(node, address))[:8])}"

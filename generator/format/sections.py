@@ -127,30 +127,38 @@ COORDINATES: Mapping[str, Dimension] = {"x": LENGTH, "y": LENGTH, "theta": DIMEN
 RATES: Mapping[str, Dimension] = {"vx": VELOCITY, "vy": VELOCITY, "omega": RATE}
 
 
-def _joints() -> Mapping[str, Kind]:
-    """Return the joint types as kinds of the section `joints`."""
-    return {kind: Kind(of.title, of.fields, of.joins, (2,), of.also) for kind, of in joint_types().items()}
+def _list_joint_kinds() -> Mapping[str, Kind]:
+    """Return the joint types as kinds of the section `joints`, by name."""
+    return {
+        kind: Kind(joint_type.title, joint_type.fields, joint_type.joins, (2,), joint_type.also)
+        for kind, joint_type in joint_types().items()
+    }
 
 
-def _forces() -> Mapping[str, Kind]:
-    """Return the force elements as kinds of the section `forces`."""
-    return {kind: Kind(of.title, of.fields, of.targets, of.counts, of.also) for kind, of in element_types().items()}
+def _list_force_kinds() -> Mapping[str, Kind]:
+    """Return the force elements as kinds of the section `forces`, by name."""
+    return {
+        kind: Kind(
+            element_type.title, element_type.fields, element_type.targets, element_type.counts, element_type.also
+        )
+        for kind, element_type in element_types().items()
+    }
 
 
-def _title(law: Law, name: str) -> str:
+def _format_law_title(law: Law, name: str) -> str:
     """Return a law's title, or for another name of the law the options that this name implies."""
-    choices = law.also.get(name, {})
-    options = ", ".join(f"{key}: {value}" for key, value in choices.items())
-    return f"{law.name} with {options}" if choices else law.title
+    implied_options = law.also.get(name, {})
+    options = ", ".join(f"{key}: {value}" for key, value in implied_options.items())
+    return f"{law.name} with {options}" if implied_options else law.title
 
 
-def _law(role: str, meaning: str) -> Field:
-    """Return the field of a contact for the laws of one role."""
+def _make_law_field(role: str, meaning: str) -> Field:
+    """Return the field of a contact for the laws of one role; its kinds are found when they are needed."""
 
     def kinds() -> Mapping[str, Kind]:
-        """Return the laws of the role by each of their names."""
+        """Return the laws of the role by each of their names, with the keys that each name allows."""
         return {
-            name: Kind(_title(law, name), law.fields_as(name), like="" if name == law.name else law.name)
+            name: Kind(_format_law_title(law, name), law.fields_as(name), like="" if name == law.name else law.name)
             for name, law in called(role).items()
         }
 
@@ -269,10 +277,12 @@ CONTACT = record(
     "contact",
     "what happens between journal and bearing: a normal law, a film, or both",
     name_in("contacts", "extends", "contact from which missing keys are taken", required=False),
-    _law("normal", "law of the normal force"),
-    _law("friction", "law of dry friction"),
-    _law("film", "law of the oil film"),
-    _law("mixed", "law of mixed lubrication: shares of the load of film and dry contact; instead of `transition`"),
+    _make_law_field("normal", "law of the normal force"),
+    _make_law_field("friction", "law of dry friction"),
+    _make_law_field("film", "law of the oil film"),
+    _make_law_field(
+        "mixed", "law of mixed lubrication: shares of the load of film and dry contact; instead of `transition`"
+    ),
     number(
         "transition",
         "length of the transition from film to dry contact, if a contact has both",
@@ -436,9 +446,11 @@ FILE = record(
         whole=True,
         bounds=(Bound(">=", 0.0, "a count is not negative"),),
     ),
-    mapping("joints", "joints by name", Field("joint", KINDS, "one kind and its keys", kinds=_joints)),
+    mapping("joints", "joints by name", Field("joint", KINDS, "one kind and its keys", kinds=_list_joint_kinds)),
     mapping("drives", "drives by name", Field("drive", KINDS, "one kind and its keys", kinds=lambda: DRIVES)),
-    mapping("forces", "force elements by name", Field("force", KINDS, "one kind and its keys", kinds=_forces)),
+    mapping(
+        "forces", "force elements by name", Field("force", KINDS, "one kind and its keys", kinds=_list_force_kinds)
+    ),
     START,
     mapping("bearings", "bearings by name", BEARING),
     mapping("guides", "guides by name", GUIDE),

@@ -62,23 +62,29 @@ class Checked:
 def check_shape(root: Map) -> Checked:
     """Return the valid part of a file's tree and the errors of the rest.
 
-    Raises UnknownKeyError, MissingKeyError or BadValueError, or several at once, if nothing can be read.
+    Empty optional sections count as absent. Entries with errors are removed until no error remains. Raises
+    UnknownKeyError, MissingKeyError or BadValueError, or several at once, if a required section is wrong or there are
+    too many errors.
     """
     check_format(root)
     # an empty section, for example with all lines commented out, counts as absent
-    sections = {k: v for k, v in root.items() if not (isinstance(v, Text) and v.is_nothing and k in _MAY_BE_EMPTY)}
+    sections = {
+        name: value
+        for name, value in root.items()
+        if not (isinstance(value, Text) and value.is_nothing and name in _MAY_BE_EMPTY)
+    }
     document = Map.make(sections, root.where)
     errors: list[InputError] = []
     left_out: set[str] = set()
     while len(errors) < MAX_FINDINGS:
-        findings = list(islice(_findings(FILE, document, ()), MAX_FINDINGS))
+        findings = list(islice(_find_errors(FILE, document, ()), MAX_FINDINGS))
         if not findings:
             return Checked(document, tuple(errors), frozenset(left_out))
-        errors += _errors(findings, document)
-        if any(found.path[0] in _NEEDED and len(found.path) == 1 for found in findings):
+        errors += _make_errors(findings, document)
+        if any(finding.path[0] in _NEEDED and len(finding.path) == 1 for finding in findings):
             break
-        for found in findings:
-            document = _leave_out(document, found, left_out)
+        for finding in findings:
+            document = _remove_wrong_entry(document, finding, left_out)
     raise together(errors)
 
 
@@ -88,14 +94,14 @@ _MAY_BE_EMPTY = frozenset(field.name for field in FILE.fields if not field.requi
 
 
 def check_format(root: Map) -> None:
-    """Raise an InputError unless the file's `format` is this version."""
-    found = root.get("format")
-    if found is None:
+    """Raise an InputError unless the file's `format` is this version; the message names study files."""
+    file_format = root.get("format")
+    if file_format is None:
         raise MissingKeyError("no format", root.where, f"expected the key format: {FORMAT}")
-    if found != FORMAT:
-        is_study = isinstance(found, Text) and found.startswith(STUDIES)
-        more = "; this file is a study, whose runs `gudgeon study FILE` makes" if is_study else ""
-        raise BadValueError(f"format is {kind_of(found)}", found.where, f"expected {FORMAT}{more}")
+    if file_format != FORMAT:
+        is_study = isinstance(file_format, Text) and file_format.startswith(STUDIES)
+        remark = "; this file is a study, whose runs `gudgeon study FILE` makes" if is_study else ""
+        raise BadValueError(f"format is {kind_of(file_format)}", file_format.where, f"expected {FORMAT}{remark}")
 
 
 @dataclass(frozen=True)
@@ -111,15 +117,19 @@ class _Finding:
 _TWO = "two: [x, y]"
 
 
-def _findings(field: Field, node: Any, path: Path) -> Iterator[_Finding]:
-    """Yield the errors in the shape of a node, in the order of the declaration."""
+def _find_errors(field: Field, node: Any, path: Path) -> Iterator[_Finding]:
+    """Yield the errors in the shape of a node, in the order of the declaration.
+
+    `field` declares the node at `path`. Inner nodes are checked recursively. Entries whose kind decides on their keys
+    (KINDS, LAW) are not checked.
+    """
     if field.kind in SCALARS:
         if not isinstance(node, Text):
             yield _Finding(path, "a number or a text")
     elif field.kind == VECTOR or field.kind == PLACE and isinstance(node, Items):
-        yield from _findings_in_vector(node, path)
+        yield from _find_errors_in_vector(node, path)
     elif field.kind == POINTS:
-        yield from _findings_in_points(node, path)
+        yield from _find_errors_in_points(node, path)
     elif field.kind == DEPTHS:
         if not all(isinstance(item, Text) for item in (node if isinstance(node, Items) else [node])):
             yield _Finding(path, "depths at equal angles: [0 mm, 0.1 mm, …], or how many of them there are")
@@ -133,24 +143,26 @@ def _findings(field: Field, node: Any, path: Path) -> Iterator[_Finding]:
         if not isinstance(node, Items) or len(node) != 3 or not all(isinstance(item, Text) for item in node):
             yield _Finding(path, "three points of the body: [P, Q, R]")
     elif not isinstance(node, Map):
-        needed = ", ".join(f"{below.name}: …" for below in field.fields if below.required or below.either)
+        needed = ", ".join(
+            f"{inner_field.name}: …" for inner_field in field.fields if inner_field.required or inner_field.either
+        )
         yield _Finding(path, f"a mapping: {{{needed}}}" if path and needed else "a mapping")
     elif field.kind == RECORD:
-        for below in field.fields:
-            if below.name in node:
-                yield from _findings(below, node[below.name], (*path, below.name))
-            elif below.required:
-                yield _Finding((*path, below.name), missing=True)
-        known = tuple(below.name for below in field.fields)
-        yield from (_Finding((*path, key), unknown=known) for key in node if key not in known)
+        for inner_field in field.fields:
+            if inner_field.name in node:
+                yield from _find_errors(inner_field, node[inner_field.name], (*path, inner_field.name))
+            elif inner_field.required:
+                yield _Finding((*path, inner_field.name), missing=True)
+        known_keys = tuple(inner_field.name for inner_field in field.fields)
+        yield from (_Finding((*path, key), unknown=known_keys) for key in node if key not in known_keys)
     elif field.kind == MAPPING and field.entry is not None:
         for name, entry in node.items():
-            yield from _findings(field.entry, entry, (*path, name))
+            yield from _find_errors(field.entry, entry, (*path, name))
     else:
         assert field.kind in (KINDS, LAW)
 
 
-def _findings_in_vector(node: Any, path: Path) -> Iterator[_Finding]:
+def _find_errors_in_vector(node: Any, path: Path) -> Iterator[_Finding]:
     """Yield the errors of a node that must be a list of two texts."""
     if not isinstance(node, Items):
         yield _Finding(path, "a list of two: [x, y]")
@@ -160,95 +172,120 @@ def _findings_in_vector(node: Any, path: Path) -> Iterator[_Finding]:
         yield from (_Finding((*path, i), "a number or a text") for i in (0, 1) if not isinstance(node[i], Text))
 
 
-def _findings_in_points(node: Any, path: Path) -> Iterator[_Finding]:
-    """Yield the errors of a node that must be a list of points."""
+def _find_errors_in_points(node: Any, path: Path) -> Iterator[_Finding]:
+    """Yield the errors of a node that must be a list of points, each a list of two texts."""
     if not isinstance(node, Items):
         yield _Finding(path, "a list of points: [[x, y], …]")
     else:
-        for i, pair in enumerate(node):
-            yield from _findings_in_vector(pair, (*path, i))
+        for i, point in enumerate(node):
+            yield from _find_errors_in_vector(point, (*path, i))
 
 
-def _leave_out(document: Map, finding: _Finding, left_out: set[str]) -> Map:
-    """Return the tree without an unknown key, or without the entry that contains an error; names go to `left_out`."""
+def _remove_wrong_entry(document: Map, finding: _Finding, removed_names: set[str]) -> Map:
+    """Return the tree without an unknown key, or without the entry that contains an error.
+
+    Names of removed entries are added to `removed_names`; ANY_NAME is added if a section was removed that is not a
+    mapping.
+    """
     path, section = finding.path, SECTIONS.get(str(finding.path[0]))
     has_names = section is None or section.kind == MAPPING
     if finding.unknown is None:
         path = path[:2] if section is not None and has_names else path[:1]
         if len(path) == 2:
-            left_out.add(str(path[1]))
+            removed_names.add(str(path[1]))
     if len(path) == 1 and has_names:
-        whole = document.get(str(path[0]))
-        left_out.update(whole if isinstance(whole, Map) else (ANY_NAME,))
-    return _remove(document, path)
+        removed_section = document.get(str(path[0]))
+        removed_names.update(removed_section if isinstance(removed_section, Map) else (ANY_NAME,))
+    return _remove_node(document, path)
 
 
-def _remove(node: Map, path: Path) -> Map:
-    """Return the mapping without the node at `path`."""
-    head, rest = str(path[0]), path[1:]
-    if head not in node or rest and not isinstance(node[head], Map):
+def _remove_node(node: Map, path: Path) -> Map:
+    """Return a copy of the mapping without the node at `path`; the mapping itself if there is no such node."""
+    first_key, other_keys = str(path[0]), path[1:]
+    if first_key not in node or other_keys and not isinstance(node[first_key], Map):
         return node
-    if rest:
-        return Map.make({**node, node.key(head): _remove(node[head], rest)}, node.where)
-    return Map.make({key: value for key, value in node.items() if key != head}, node.where)
+    if other_keys:
+        return Map.make({**node, node.key(first_key): _remove_node(node[first_key], other_keys)}, node.where)
+    return Map.make({key: value for key, value in node.items() if key != first_key}, node.where)
 
 
-def _errors(findings: Sequence[_Finding], document: Map) -> list[InputError]:
+def _make_errors(findings: Sequence[_Finding], document: Map) -> list[InputError]:
     """Return the findings as errors; a missing key is not reported if a mistyped one stands in its place."""
-    mistyped = {(*f.path[:-1], nearest(str(f.path[-1]), f.unknown)) for f in findings if f.unknown is not None}
-    return [_error(f, document) for f in findings if not (f.missing and f.path in mistyped)]
+    paths_of_mistyped_keys = {
+        (*finding.path[:-1], nearest(str(finding.path[-1]), finding.unknown))
+        for finding in findings
+        if finding.unknown is not None
+    }
+    return [
+        _make_error(finding, document)
+        for finding in findings
+        if not (finding.missing and finding.path in paths_of_mistyped_keys)
+    ]
 
 
-def _error(finding: _Finding, document: Map) -> InputError:
-    """Return one finding as an error at its location."""
-    path, owner = finding.path, finding.path[:-1]
+def _make_error(finding: _Finding, document: Map) -> InputError:
+    """Return one finding as an error at its location; an empty node is located by its key."""
+    path, parent_path = finding.path, finding.path[:-1]
     if finding.unknown is not None:
-        key = _node_at(document, owner).key(str(path[-1]))
-        return unknown_key(key, finding.unknown, _address(owner), _hint_from_other_programs(owner, key.lower()))
+        key = _find_node(document, parent_path).key(str(path[-1]))
+        return unknown_key(
+            key, finding.unknown, _format_address(parent_path), _make_hint_for_foreign_key(parent_path, key.lower())
+        )
     if finding.missing:
-        return missing_key(str(path[-1]), _node_at(document, owner).where, _address(owner))
-    node = _node_at(document, path)
-    place = node.where
+        return missing_key(str(path[-1]), _find_node(document, parent_path).where, _format_address(parent_path))
+    node = _find_node(document, path)
+    location = node.where
     if isinstance(node, Text) and node.is_nothing and path and isinstance(path[-1], str):
-        place = _node_at(document, owner).key(path[-1]).where  # an empty node has no location: the key's is used
-    what = f"has {len(node)} component{'s' * (len(node) != 1)}" if finding.expected == _TWO else f"is {kind_of(node)}"
-    return BadValueError(f"{_address(path)} {what}", place, f"expected {finding.expected}")
+        location = (
+            _find_node(document, parent_path).key(path[-1]).where
+        )  # an empty node has no location: the key's is used
+    fault = f"has {len(node)} component{'s' * (len(node) != 1)}" if finding.expected == _TWO else f"is {kind_of(node)}"
+    return BadValueError(f"{_format_address(path)} {fault}", location, f"expected {finding.expected}")
 
 
-def _hint_from_other_programs(owner: Path, key: str) -> str:
-    """Return a hint about a key that other programs use there; "" for a mistyped one."""
-    if not owner and key in _SECTIONS:
+def _make_hint_for_foreign_key(parent_path: Path, key: str) -> str:
+    """Return a hint about a key that other programs use there; "" for a mistyped one.
+
+    `parent_path` is the path of the mapping: sections by other names, and options of a run in `simulate`, have hints.
+    """
+    if not parent_path and key in _SECTIONS:
         return f"{key!r} is called {_SECTIONS[key]} here"
-    if owner and owner[-1] == "simulate" and key in _OPTIONS:
+    if parent_path and parent_path[-1] == "simulate" and key in _OPTIONS:
         return f"a file has no {key}: it is an option of gudgeon run, --{key}, and an argument of simulate"
     return ""
 
 
-def unknown_key(key: Text, known: Iterable[str], owner: str, hint: str = "") -> InputError:
+def unknown_key(key: Text, known_keys: Iterable[str], owner_address: str, hint: str = "") -> InputError:
     """Return the error for a key that its mapping does not know; for the address of an override, UnknownNameError.
 
-    `hint` replaces the list of the nearest keys.
+    `known_keys` are the allowed keys, `owner_address` is the mapping's address. `hint` replaces the list of the nearest
+    keys.
     """
     if key.where.file.startswith(OVERRIDE):
         address = key.where.file.removeprefix(OVERRIDE)
-        return unknown_name("address", address, [f"{address.rpartition('.')[0]}.{name}" for name in known], None)
-    return UnknownKeyError(f"unknown key {str(key)[:60]!r} in {owner}", key.where, hint or known_hint(key, known, 20))
+        return unknown_name("address", address, [f"{address.rpartition('.')[0]}.{name}" for name in known_keys], None)
+    return UnknownKeyError(
+        f"unknown key {str(key)[:60]!r} in {owner_address}", key.where, hint or known_hint(key, known_keys, 20)
+    )
 
 
-def missing_key(name: str, where: Location, owner: str) -> MissingKeyError:
-    """Return the error for a key that a mapping needs."""
-    return MissingKeyError(f"{owner} has no {name}", where, f"expected the key {name!r}")
+def missing_key(name: str, location: Location, owner_address: str) -> MissingKeyError:
+    """Return the error for a key that a mapping needs.
+
+    `location` and `owner_address` are the mapping's location and address.
+    """
+    return MissingKeyError(f"{owner_address} has no {name}", location, f"expected the key {name!r}")
 
 
-def _address(path: Path) -> str:
-    """Return a path as an address for messages."""
-    return ".".join(str(part) for part in path) or "the file"
+def _format_address(path: Path) -> str:
+    """Return a path as an address for messages; "the file" for the root."""
+    return ".".join(str(key) for key in path) or "the file"
 
 
-def _node_at(node: Any, path: Path) -> Any:
+def _find_node(node: Any, path: Path) -> Any:
     """Return the node at a path, or the text at which the path ends early."""
-    for part in path:
+    for key in path:
         if not isinstance(node, (Map, Items)):
             return node
-        node = node[part]  # type: ignore[index]
+        node = node[key]  # type: ignore[index]
     return node

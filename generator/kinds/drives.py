@@ -8,25 +8,29 @@ from gudgeon.generator.field import OF_TIME, Field, Kind, number
 from gudgeon.language.units import DIMENSIONLESS, LENGTH, Dimension
 
 
-def _value(dimension: Dimension | None, meaning: str = "where it is at each time, without jumps") -> tuple[Field, ...]:
-    """Return the field of the prescribed value."""
+def _make_value_field(
+    dimension: Dimension | None, meaning: str = "where it is at each time, without jumps"
+) -> tuple[Field, ...]:
+    """Return the field of the prescribed value, an expression of t, as a tuple."""
     return (number("value", meaning, dimension, required=True, varies=OF_TIME),)
 
 
 DRIVES: Mapping[str, Kind] = {
     "angle": Kind(
         "angle of a body, or of one relative to another",
-        _value(DIMENSIONLESS),
+        _make_value_field(DIMENSIONLESS),
         "bodies",
         (1, 2),
         ("rotation", "theta", "motor", "turn"),
     ),
     "coordinate": Kind(
         "x or y of a body's centre of mass, in ground axes, or theta",
-        _value(None, "where it is at each time, without jumps: a length, of theta an angle"),
+        _make_value_field(None, "where it is at each time, without jumps: a length, of theta an angle"),
         "coordinates",
         (1,),
         ("position", "translation", "displacement", "x", "y"),
     ),
-    "distance": Kind("distance of two points", _value(LENGTH), "points", (2,), ("length", "actuator", "cylinder")),
+    "distance": Kind(
+        "distance of two points", _make_value_field(LENGTH), "points", (2,), ("length", "actuator", "cylinder")
+    ),
 }

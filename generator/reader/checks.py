@@ -26,97 +26,127 @@ MASSLESS = (
 
 
 def check_values(reader: Reader, parameters: Mapping[str, Quantity], scenes: Mapping[str, SceneSpec]) -> None:
-    """Collect a BadValueError at the location of each number that is not finite or violates a condition."""
-    wrong = _check_with(reader, parameters, None)
+    """Collect a BadValueError at the location of each number that is not finite or violates a condition.
+
+    Numbers are checked with the file's parameters, then with those of each scene that sets parameters. Durations of
+    ramps that are parameters get the condition > 0, which run-time overrides must satisfy too.
+    """
+    addresses_of_errors = _check_with_parameters(reader, parameters, None)
     for scene in scenes.values():
         if scene.parameters:
-            _check_with(reader, parameters, scene, wrong)
-    lasts = dict.fromkeys(
-        call.arguments[2] for quantity in reader.quantities.values() for call in _ramp_calls(quantity)
+            _check_with_parameters(reader, parameters, scene, addresses_of_errors)
+    durations = dict.fromkeys(
+        call.arguments[2] for quantity in reader.quantities.values() for call in _find_ramp_calls(quantity)
     )
-    for name in {lasting.path for lasting in lasts if isinstance(lasting, Name)}.intersection(parameters):
+    for name in {duration.path for duration in durations if isinstance(duration, Name)}.intersection(parameters):
         reader.require(
             parameters[name], ">", 0.0, "a ramp or smooth_step takes that long"
         )  # also for run-time overrides
 
 
-def _check_with(
-    reader: Reader, parameters: Mapping[str, Quantity], scene: SceneSpec | None, before: Container[str] = ()
+def _check_with_parameters(
+    reader: Reader, parameters: Mapping[str, Quantity], scene: SceneSpec | None, reported: Container[str] = ()
 ) -> Container[str]:
     """Check all numbers with the file's parameters or a scene's, and return the addresses of the wrong ones.
 
-    Numbers in `before`, and numbers that follow from an unreadable one, are not reported again.
+    `scene` None: with the file's parameters. Numbers in `reported`, numbers that follow from an unreadable one, and
+    errors that follow from another error are not reported. () is returned for parameters in a cycle, which was reported
+    already.
     """
-    own = scene.parameters if scene else {}
+    scene_parameters = scene.parameters if scene else {}
     context = f" in scene {scene.name}" if scene else ""
     try:
-        known = parameter_values({**parameters, **own})
+        parameter_numbers = parameter_values({**parameters, **scene_parameters})
     except InputError:
         return ()  # a cycle, reported already
-    unread = _find_unreadable(reader, {**parameters, **own}, known) if reader.errors else ()
-    values = _evaluate_all(reader, known)
+    unreadable = (
+        _find_unreadable(reader, {**parameters, **scene_parameters}, parameter_numbers) if reader.errors else ()
+    )
+    values = _evaluate_all(reader, parameter_numbers)
     errors: dict[str, list[tuple[str, str]]] = {}
 
     def record(address: str, message: str, hint: str) -> None:
-        """Record an error for the number at `address`."""
-        if address not in before:
+        """Add an error, message and hint, for the number at `address`, unless it was reported before."""
+        if address not in reported:
             errors.setdefault(address, []).append((message, hint))
 
     for address, value in values.items():
-        if not math.isfinite(value) and address not in unread:
+        if not math.isfinite(value) and address not in unreadable:
             record(address, f"is {value}{context}", FINITE)
         elif address in reader.wholes and math.isfinite(value) and value != math.floor(value):
             record(address, f"is {value:.6g}{context}", f"expected a whole {reader.wholes[address]}")
     for address, quantity in reader.quantities.items():
-        if address in unread or quantity.of or isinstance(quantity.value, Number):
+        if address in unreadable or quantity.of or isinstance(quantity.value, Number):
             continue
         if ".parameters." not in address or address in values:
-            message, hint = _find_invalid_part(quantity, known, not math.isfinite(values.get(address, 0.0)))
+            message, hint = _find_invalid_part(quantity, parameter_numbers, not math.isfinite(values.get(address, 0.0)))
             if message:
                 record(address, f"{message}{context}", hint)
     for condition in reader.conditions:
-        violation = _violation(condition, values)
+        violation = _describe_violation(condition, values)
         if violation:
             unit = si_unit(reader.quantities[condition.address].dimension)
-            found, hint = violation
-            message = f"is {found} {unit}".rstrip() + f"{context}: {condition.message}"
+            value_text, hint = violation
+            message = f"is {value_text} {unit}".rstrip() + f"{context}: {condition.message}"
             is_massless = condition.address.endswith(".mass") and values[condition.address] == 0.0
             record(condition.address, message, f"{hint} {unit}".rstrip() + MASSLESS * is_massless)
     for vector in reader.vectors_not_zero:
         if all(values.get(component.address) == 0.0 for component in vector):
             record(vector[0].address, f"and .y are both 0{context}", "expected a direction, such as [1, 0]")
-    _report(reader, errors, own)
+    _report_errors(reader, errors, scene_parameters)
     return errors.keys()
 
 
 def _find_unreadable(reader: Reader, parameters: Mapping[str, Quantity], order: Iterable[str]) -> set[str]:
-    """Return parameters and addresses of numbers that could not be read, or that depend on such a number."""
-    unread: set[str] = set()
+    """Return parameters and addresses of numbers that could not be read, or that depend on such a number.
+
+    `order`: names of the parameters, each after those that it depends on.
+    """
+    unreadable: set[str] = set()
     for path, quantity in (*((name, parameters[name]) for name in order), *reader.quantities.items()):
         is_broken = isinstance(quantity.value, Number) and math.isnan(quantity.value.value)
-        if is_broken or any(name.path in unread for name in names(quantity.value)):
-            unread.add(path)
-    return unread
+        if is_broken or any(name.path in unreadable for name in names(quantity.value)):
+            unreadable.add(path)
+    return unreadable
 
 
-def _report(reader: Reader, wrong: Mapping[str, Sequence[tuple[str, str]]], own: Mapping[str, Quantity]) -> None:
-    """Collect the errors (message, hint) by address, except those of numbers that are wrong because another one is."""
-    for address, messages in wrong.items():
+def _report_errors(
+    reader: Reader, errors: Mapping[str, Sequence[tuple[str, str]]], scene_parameters: Mapping[str, Quantity]
+) -> None:
+    """Collect the errors (message, hint) by address, except those that follow from another error.
+
+    `scene_parameters`: the parameters of the scene, at which an error is located if the number depends on one; {} for
+    the file's.
+    """
+    for address, messages_and_hints in errors.items():
         quantity = reader.quantities[address]
-        if not _follows_from_error(reader, quantity, wrong):
-            place, users = _location_of_cause(quantity, own), _describe_users(reader, address)
-            reader.errors += [BadValueError(f"{address} {message}{users}", place, hint) for message, hint in messages]
+        if not _follows_from_error(reader, quantity, errors):
+            location, description_of_users = (
+                _location_of_cause(quantity, scene_parameters),
+                _describe_users(reader, address),
+            )
+            reader.errors += [
+                BadValueError(f"{address} {message}{description_of_users}", location, hint)
+                for message, hint in messages_and_hints
+            ]
 
 
-def _follows_from_error(reader: Reader, quantity: Quantity, wrong: Container[str]) -> bool:
-    """Return whether a number is wrong because another number, or a named expression that it contains, is wrong."""
-    return any(part.address in wrong or _follows_from_error(reader, part, wrong) for part in quantity.of) or any(
-        f"{EXPRESSIONS}{name}" in wrong for name in reader.made_of.get(quantity.address, ())
-    )
+def _follows_from_error(reader: Reader, quantity: Quantity, wrong_addresses: Container[str]) -> bool:
+    """Return whether a number is wrong because another number, or a named expression that it contains, is wrong.
+
+    `wrong_addresses` contains the addresses of wrong numbers.
+    """
+    return any(
+        operand.address in wrong_addresses or _follows_from_error(reader, operand, wrong_addresses)
+        for operand in quantity.of
+    ) or any(f"{EXPRESSIONS}{name}" in wrong_addresses for name in reader.made_of.get(quantity.address, ()))
 
 
 def _describe_users(reader: Reader, address: str) -> str:
-    """Return a phrase that names the users of a named expression; "" for the address of another number."""
+    """Return a phrase that names the values that use a named expression.
+
+    "" for the address of another number, and for an expression that only other expressions use.
+    """
     name = address.removeprefix(EXPRESSIONS)
     users = [user for user, names in reader.made_of.items() if name in names and not user.startswith(EXPRESSIONS)]
     if name == address or not users:
@@ -124,79 +154,100 @@ def _describe_users(reader: Reader, address: str) -> str:
     return f", and {users[0]} and {len(users) - 1} more use it" if len(users) > 1 else f", and {users[0]} uses it"
 
 
-def _find_invalid_part(quantity: Quantity, known: Mapping[str, float], is_wrong: bool) -> tuple[str, str]:
+def _find_invalid_part(quantity: Quantity, parameter_numbers: Mapping[str, float], is_wrong: bool) -> tuple[str, str]:
     """Return (message, hint) about a part of an expression that cannot be intended; ("", "") if there is none.
 
-    Examples are an underflow or a negative duration. Nothing is returned if the whole value is already wrong.
+    Tested are undefined parts, underflows, and ramps with a negative duration. `parameter_numbers`: values of
+    parameters. `is_wrong`: the whole value is not finite, which was reported; its undefined parts are then not
+    searched.
     """
-    wrong = None if is_wrong else find_undefined_part(quantity.value, known)
-    if wrong is not None:
-        return f"has a part that is {wrong}", FINITE
-    if (small := _find_underflow(quantity.value, known)) is not None:
+    undefined_part = None if is_wrong else find_undefined_part(quantity.value, parameter_numbers)
+    if undefined_part is not None:
+        return f"has a part that is {undefined_part}", FINITE
+    if (underflow := _find_underflow(quantity.value, parameter_numbers)) is not None:
         hint = "expected products and powers from 2.3e-308: (0.01*x)**161, not 0.01**161 * x**161"
-        return f"has a part that is {small:g}, too small for its digits", hint
-    for call in _ramp_calls(quantity):
+        return f"has a part that is {underflow:g}, too small for its digits", hint
+    for call in _find_ramp_calls(quantity):
         duration = call.arguments[2]
-        if all(name.path in known for name in names(duration)):
-            lasts = float(evaluate(duration, known.__getitem__))
-            if lasts < 0.0:
-                message = f"has a {call.function} that lasts {lasts:.6g}: it would end before it begins"
+        if all(name.path in parameter_numbers for name in names(duration)):
+            duration_s = float(evaluate(duration, parameter_numbers.__getitem__))
+            if duration_s < 0.0:
+                message = f"has a {call.function} that lasts {duration_s:.6g}: it would end before it begins"
                 return message, f"expected {call.function}(t, start, duration), its duration above zero"
     return "", ""
 
 
-def _ramp_calls(quantity: Quantity) -> list[Call]:
-    """Return the calls of ramp and smooth_step in an expression."""
+def _find_ramp_calls(quantity: Quantity) -> list[Call]:
+    """Return the calls of ramp and smooth_step in an expression; their third argument is the duration."""
     return [call for function in ("ramp", "smooth_step") for call in calls(quantity.value, function)]
 
 
-def _find_underflow(expr: Expr, known: Mapping[str, float]) -> float | None:
+def _find_underflow(expr: Expr, parameter_numbers: Mapping[str, float]) -> float | None:
     """Return the first factor of an expression that underflows in binary64, None if there is none.
 
-    Products of numbers, and powers in products, are tested.
+    Products of numbers, and powers in products, are tested. `parameter_numbers`: values of parameters by name.
     """
     match expr:
         case Unary(operand=operand):
-            return _find_underflow(operand, known)
+            return _find_underflow(operand, parameter_numbers)
         case Call(arguments=inner):
             pass
         case Binary(operator=operator, left=left, right=right):
             inner = (left, right)
             for part in (expr, left, right) if operator in ("*", "/") else ():
-                if (value := _underflowing_value(part, known)) is not None:
+                if (value := _find_underflowing_value(part, parameter_numbers)) is not None:
                     return value
         case _:
             return None
-    return next((value for part in inner if (value := _find_underflow(part, known)) is not None), None)
+    return next((value for part in inner if (value := _find_underflow(part, parameter_numbers)) is not None), None)
 
 
-def _underflowing_value(part: Expr, known: Mapping[str, float]) -> float | None:
-    """Return the value of a product, quotient or power of nonzero numbers if it underflows, else None."""
-    if not isinstance(part, Binary) or part.operator in ("+", "-") or any(n.path not in known for n in names(part)):
+def _find_underflowing_value(part: Expr, parameter_numbers: Mapping[str, float]) -> float | None:
+    """Return the value of a product, quotient or power of nonzero numbers if it underflows, else None.
+
+    None also if the part contains names without a known value.
+    """
+    if (
+        not isinstance(part, Binary)
+        or part.operator in ("+", "-")
+        or any(n.path not in parameter_numbers for n in names(part))
+    ):
         return None
-    value, left, right = (float(evaluate(x, known.__getitem__)) for x in (part, part.left, part.right))
+    value, left, right = (float(evaluate(x, parameter_numbers.__getitem__)) for x in (part, part.left, part.right))
     return value if abs(value) < sys.float_info.min and all(math.isfinite(x) and x for x in (left, right)) else None
 
 
-def _evaluate_all(reader: Reader, known: dict[str, float]) -> dict[str, float]:
-    """Return all numbers (SI) that parameters alone determine, by address; `known` gets those that others follow."""
+def _evaluate_all(reader: Reader, values_by_name: dict[str, float]) -> dict[str, float]:
+    """Return all numbers (SI) that parameters alone determine, by address.
+
+    Numbers that other numbers depend on are added to `values_by_name`, the values of parameters. Expressions of t or
+    motion, and parameters of scenes, are left out.
+    """
     for part in (part for quantity in reader.quantities.values() for part in quantity.of):
-        known[part.address] = float(evaluate(part.value, known.__getitem__))  # in their order: parts come first
+        values_by_name[part.address] = float(
+            evaluate(part.value, values_by_name.__getitem__)
+        )  # in their order: parts come first
     return {
-        address: float(evaluate(quantity.value, known.__getitem__))
+        address: float(evaluate(quantity.value, values_by_name.__getitem__))
         for address, quantity in reader.quantities.items()
         if not (address.startswith("scenes.") and ".parameters." in address)  # they are parameters of their scene
-        and all(name.path in known for name in names(quantity.value))  # neither t nor a result
+        and all(name.path in values_by_name for name in names(quantity.value))  # neither t nor a result
     }
 
 
-def _location_of_cause(quantity: Quantity, own: Mapping[str, Quantity]) -> Location:
+def _location_of_cause(quantity: Quantity, scene_parameters: Mapping[str, Quantity]) -> Location:
     """Return where a wrong value comes from: the scene's parameter if the number uses one, else the number itself."""
-    return next((own[name.path].where for name in names(quantity.value) if name.path in own), quantity.where)
+    return next(
+        (scene_parameters[name.path].where for name in names(quantity.value) if name.path in scene_parameters),
+        quantity.where,
+    )
 
 
-def _violation(condition: Condition, values: Mapping[str, float]) -> tuple[str, str] | None:
-    """Return the value and the expected bound as texts if a condition is violated, else None; also None for NaN."""
+def _describe_violation(condition: Condition, values: Mapping[str, float]) -> tuple[str, str] | None:
+    """Return the value and the expected bound as texts if a condition is violated, else None.
+
+    None also if the value or the bound is NaN or unknown. `values`: numbers in SI by address.
+    """
     value = values.get(condition.address, math.nan)
     bound = condition.bound
     if isinstance(bound, str):

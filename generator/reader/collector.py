@@ -36,7 +36,7 @@ MAX_ERRORS = 50  # reading stops there: each error costs a search for the neares
 
 @dataclass(frozen=True)
 class NamedExpression:
-    """Represent an entry of `expressions:`, which others use by its name."""
+    """Represent an entry of `expressions:`, which other values use by its name."""
 
     written: Expr  # as in the file, with the names of other expressions
     value: Expr  # with the trees of other expressions in place of their names
@@ -46,7 +46,7 @@ class NamedExpression:
 
 @dataclass(frozen=True)
 class _NumberNames(Container[str]):
-    """Contain the names that stand for a number in the value at `address`: parameters and expressions, except its own.
+    """Contain the names of parameters and named expressions that the value at `address` may use, except its own name.
 
     `constant`: the value must not depend on t or motion, so that named expressions are excluded.
     """
@@ -56,9 +56,9 @@ class _NumberNames(Container[str]):
     constant: bool
 
     def __contains__(self, name: object) -> bool:
-        """Return whether `name` stands for a number in the value at `address`."""
-        known = name in self.reader.parameters or name in self.reader.expressions and not self.constant
-        return known and self.address not in (f"parameters.{name}", f"expressions.{name}")
+        """Return whether `name` is a parameter or an allowed named expression, and not the one at `address` itself."""
+        is_known = name in self.reader.parameters or name in self.reader.expressions and not self.constant
+        return is_known and self.address not in (f"parameters.{name}", f"expressions.{name}")
 
 
 class TooManyErrors(Exception):
@@ -98,13 +98,17 @@ class Reader:
     def check_shape(self, root: Map) -> Map:
         """Return the file's tree without the entries whose keys or node types are wrong.
 
-        Their errors are collected, and their names go to `left_out`. Raises TooManyErrors if nothing is left to read.
+        Their errors are collected, and the names of the removed entries are stored in `left_out`. A key that is given
+        twice adds ANY_NAME to them, since it may have been meant as a missing key. Raises TooManyErrors if nothing is
+        left to read.
         """
         with self.collect():
             checked = check_shape(root)
-            is_twice = any(error.message != NO_MERGE for error in self.errors)
-            twice = (ANY_NAME,) if is_twice else ()  # the duplicate may have been meant as a key that is missing
-            self.left_out = checked.left_out.union(twice)
+            has_duplicates = any(error.message != NO_MERGE for error in self.errors)
+            unknown_names = (
+                (ANY_NAME,) if has_duplicates else ()
+            )  # the duplicate may have been meant as a key that is missing
+            self.left_out = checked.left_out.union(unknown_names)
             self.errors += checked.errors
             return checked.root
         raise TooManyErrors  # nothing is left to read
@@ -113,7 +117,7 @@ class Reader:
     def collect(self) -> Iterator[None]:
         """Return a context manager that collects an InputError raised inside and continues after the block.
 
-        Raises TooManyErrors if MAX_ERRORS errors were collected.
+        InputErrors are collected one by one. Raises TooManyErrors at the end if MAX_ERRORS errors were collected.
         """
         try:
             yield
@@ -127,70 +131,94 @@ class Reader:
     def raise_errors(self) -> None:
         """Raise the collected errors: one error as itself, several as InputErrors; return if there are none.
 
-        Duplicates and errors that follow from another error are left out.
+        Left out are duplicates, unknown names of entries that `check_shape` removed, and errors in expressions that use
+        a refused name: they follow from another error.
         """
-        several = {_error_key(e): e for e in reversed(self.errors)}.values()
-        misnamed = self._with_refused_names()
+        unique_errors = {_error_key(error): error for error in reversed(self.errors)}.values()
+        texts_with_refused_names = self._find_texts_with_refused_names()
         errors = [
-            e for e in several if not (self._is_consequence(e) or any(_is_located_in(e, text) for text in misnamed))
+            error
+            for error in unique_errors
+            if not (
+                self._is_unknown_name_of_removed_entry(error)
+                or any(_is_located_in(error, text) for text in texts_with_refused_names)
+            )
         ]
         if errors:
             raise together(errors)
 
-    def _is_consequence(self, error: InputError) -> bool:
-        """Return whether an error reports an unknown name that belongs to an entry left out by `check_shape`."""
+    def _is_unknown_name_of_removed_entry(self, error: InputError) -> bool:
+        """Return whether an error reports an unknown name of an entry that `check_shape` removed.
+
+        If a whole section was removed (ANY_NAME), this holds for every unknown name.
+        """
         name = re.match(r"unknown [^']*'([A-Za-z0-9_]+)", error.message)
         return isinstance(error, UnknownNameError) and bool(self.left_out.intersection((ANY_NAME, name and name[1])))
 
-    def _with_refused_names(self) -> list[Text]:
-        """Return the expressions that use a name whose definition was refused; their errors follow from that refusal.
+    def _find_texts_with_refused_names(self) -> list[Text]:
+        """Return the parsed expressions that use a name whose definition was refused.
 
-        Names that are valid in every expression (t, pi) do not count.
+        Their errors follow from that refusal. Names that are valid in every expression (t, pi) do not count. [] if no
+        name was refused.
         """
         names = [re.escape(name) for name in self.refused if name not in RESERVED]
-        held = re.compile(rf"(?<![\w.])(?:{'|'.join(names)})(?!\w| *\()")
-        return [text for text in self.texts if held.search(text)] if names else []
+        pattern = re.compile(rf"(?<![\w.])(?:{'|'.join(names)})(?!\w| *\()")
+        return [text for text in self.texts if pattern.search(text)] if names else []
 
     def quantity(self, text: Text, address: str, expected: Dimension | None, varies: str = "") -> Quantity:
-        """Read the number at `address` and return it; an error is collected, and the number is then NaN.
+        """Read the number or expression at an address, check its dimension, and register and return it as a quantity.
 
-        `expected` is its dimension, None if any. `varies` says which names it may use besides parameters
-        (generator/field.py).
+        `expected` is its dimension, None if any. `varies` says which names it may use in addition to parameters
+        (generator/field.py). Named expressions are replaced by their trees. An error is collected, and the value is NaN
+        then.
         """
         tree: Expr = unreadable_number(text)
-        found = expected
+        dimension = expected
 
-        def read(value: str) -> tuple[Expr, Dimension | None]:
-            written = text if value is text else Text.make(value, text.where, text.plain, text.one_line)
-            parsed = self.parse(written, address, constant=not varies)
-            known = self.dimensions_of_names(parsed, text.where, varies)
-            if known:
-                parsed = choose_reading(written, parsed, expected, known.get, self.curves)
-            return parsed, check_dimension(parsed, expected, known.get, text.where)
+        def read(spelling_text: str) -> tuple[Expr, Dimension | None]:
+            """Return the expression tree and dimension of one spelling of the value. Raises InputError.
+
+            A name that is also a unit is interpreted by `choose_reading`. `unit_remedies` calls this function with
+            other spellings.
+            """
+            spelling = (
+                text if spelling_text is text else Text.make(spelling_text, text.where, text.plain, text.one_line)
+            )
+            parsed = self.parse(spelling, address, constant=not varies)
+            dimensions = self.dimensions_of_names(parsed, text.where, varies)
+            if dimensions:
+                parsed = choose_reading(spelling, parsed, expected, dimensions.get, self.curves)
+            return parsed, check_dimension(parsed, expected, dimensions.get, text.where)
 
         with self.collect(), unit_remedies(text, text.where, read, expected, _NumberNames(self, "", False)):
-            tree, found = read(text)
+            tree, dimension = read(text)
         if not isinstance(tree, Number):
-            self._record_dimension(tree, expected)
-            if parts := self.expressions_in_tree(tree):
-                self.made_of[address] = parts
-                tree = replaced(tree, {name: self.expressions[name].value for name in parts})
-        self.quantities[address] = Quantity(address, tree, DIMENSIONLESS if found is None else found, text.where)
+            self._record_candidate_dimension(tree, expected)
+            if used_expressions := self.expressions_in_tree(tree):
+                self.made_of[address] = used_expressions
+                tree = replaced(tree, {name: self.expressions[name].value for name in used_expressions})
+        self.quantities[address] = Quantity(
+            address, tree, DIMENSIONLESS if dimension is None else dimension, text.where
+        )
         return self.quantities[address]
 
     def dimension_of_number(self, name: str) -> Dimension | None:
-        """Return the dimension of a parameter or named expression; None if it is unknown or defined without a unit."""
+        """Return the dimension of a parameter or named expression.
+
+        None if the name is unknown, or if it was defined without a unit and thus fits any dimension.
+        """
         return self.expressions[name].dimension if name in self.expressions else self.parameters.get(name)
 
     def keep(self, quantity: Quantity) -> Quantity:
-        """Register a quantity under its address and return it."""
+        """Register a quantity under its address, replacing one that is there, and return it."""
         self.quantities[quantity.address] = quantity
         return quantity
 
     def parse(self, text: Text, address: str, constant: bool = False) -> Expr:
-        """Parse a scalar of the file and return its expression tree. Raises InputError, also for an empty or long text.
+        """Parse a scalar of the file and return its expression tree; its text is recorded in `texts`.
 
-        `constant`: the value must not contain named expressions.
+        `constant`: the value must not contain named expressions. Raises BadValueError for an empty value,
+        ExpressionError for a text on several lines, and InputError for other errors.
         """
         self.texts.append(text)
         if text.is_nothing:
@@ -201,76 +229,104 @@ class Reader:
             )
         return parse(text, text.where, _NumberNames(self, address, constant), self.curves)
 
-    def dimensions_of_names(self, expr: Expr, where: Location, varies: str = "") -> dict[str, Dimension | None]:
-        """Return the dimension of every name in `expr`.
+    def dimensions_of_names(self, expr: Expr, location: Location, varies: str = "") -> dict[str, Dimension | None]:
+        """Return the dimension of every name in `expr` by name, None for a name that fits any dimension.
 
-        Raises an ExpressionError or UnknownNameError at a name that is not allowed there, InputErrors for several.
+        `varies` says which names are allowed in addition to parameters. Calls of curves are checked too. Raises an
+        ExpressionError or UnknownNameError at a name that is not allowed there, InputErrors for several.
         """
         for call in curve_calls(expr):
-            check_curve(call, at(where, call.offset), varies != "")
-        found: dict[str, Dimension | None] = {}
-        wrong: dict[str, InputError] = {}
+            check_curve(call, at(location, call.offset), varies != "")
+        dimensions: dict[str, Dimension | None] = {}
+        errors: dict[str, InputError] = {}
         for name in names(expr):
-            if name.path not in found and name.path not in wrong:
+            if name.path not in dimensions and name.path not in errors:
                 try:
-                    found[name.path] = self._dimension_of(name, at(where, name.offset), varies)
+                    dimensions[name.path] = self._find_dimension(name, at(location, name.offset), varies)
                 except InputError as error:
-                    wrong[name.path] = error
-        if wrong:
-            raise together(wrong.values())
-        return found
+                    errors[name.path] = error
+        if errors:
+            raise together(errors.values())
+        return dimensions
 
-    def _dimension_of(self, name: Name, place: Location, varies: str) -> Dimension | None:
-        """Return the dimension of one name at `place`. Raises an InputError if `varies` does not allow it."""
-        time, result = varies not in CONSTANT_IN_TIME, self.scopes.get(varies)
+    def _find_dimension(self, name: Name, location: Location, varies: str) -> Dimension | None:
+        """Return the dimension of one name; None if it fits any dimension.
+
+        Tried in this order: t, parameters, named expressions, and results in the scope `varies`. Raises an InputError
+        at `location` if the name is unknown or `varies` does not allow it.
+        """
+        allows_time, result_dimension = varies not in CONSTANT_IN_TIME, self.scopes.get(varies)
         if name.path == "t":
-            return _dimension_of_time(place, time, result is not None)
+            return _dimension_of_time(location, allows_time, result_dimension is not None)
         if name.path in self.parameters:
             return self.parameters[name.path]
         if name.path in self.expressions:
-            self._check_expression(name.path, place, time, result)
+            self._check_dependencies_of_expression(name.path, location, allows_time, result_dimension)
             return self.expressions[name.path].dimension
-        if result is not None:
-            return result(name, place)
+        if result_dimension is not None:
+            return result_dimension(name, location)
         if "." in name.path:
-            hint = "expected parameters" + (" and t" if time else "") + ", which have no parts"
-            raise ExpressionError(f"{name.path!r} cannot stand here", place, hint)
+            hint = "expected parameters" + (" and t" if allows_time else "") + ", which have no parts"
+            raise ExpressionError(f"{name.path!r} cannot stand here", location, hint)
         if name.path.lower() in ("time", "t"):
-            raise ExpressionError(f"{name.path!r} is no name here", place, "time is written t")
-        raise unknown_name("name", name.path, (*self.parameters, *(self.expressions if varies else ())), place)
+            raise ExpressionError(f"{name.path!r} is no name here", location, "time is written t")
+        raise unknown_name("name", name.path, (*self.parameters, *(self.expressions if varies else ())), location)
 
-    def _check_expression(self, name: str, place: Location, time: bool, result: ResultDimension | None) -> None:
-        """Raise ExpressionError if a named expression depends on time or motion and the value at `place` must not."""
-        if not time and result is None:
+    def _check_dependencies_of_expression(
+        self, name: str, location: Location, allows_time: bool, result_dimension: ResultDimension | None
+    ) -> None:
+        """Raise ExpressionError if a named expression depends on t or motion and the value at `location` must not.
+
+        `allows_time`: the value may depend on t. `result_dimension`: returns the dimension of a result, and raises for
+        a result that is not allowed; None if no results are allowed.
+        """
+        if not allows_time and result_dimension is None:
             hint = (
                 "expected parameters: an expression by name may hold t and motion, and can stand in drives, forces,"
                 " events and outputs only"
             )
-            raise ExpressionError(f"{name!r} is an expression, and this number is constant", place, hint)
-        for read in self._dependencies_of(name):
-            if read in self.parameters or read == "t" and time:
+            raise ExpressionError(f"{name!r} is an expression, and this number is constant", location, hint)
+        for dependency in self._iterate_dependencies(name):
+            if dependency in self.parameters or dependency == "t" and allows_time:
                 continue
-            if read == "t" or result is None:
-                hint = f"expected {'t and parameters' if time else 'parameters'}"
-                raise ExpressionError(f"{name!r} reads {read}, which cannot stand here", place, hint)
-            result(Name(read), place)
+            if dependency == "t" or result_dimension is None:
+                hint = f"expected {'t and parameters' if allows_time else 'parameters'}"
+                raise ExpressionError(f"{name!r} reads {dependency}, which cannot stand here", location, hint)
+            result_dimension(Name(dependency), location)
 
-    def _dependencies_of(self, name: str) -> Iterator[str]:
-        """Yield the names that a named expression depends on, with other named expressions expanded."""
-        for one in self.expressions_in_tree(Name(name)):
-            yield from (read.path for read in names(self.expressions[one].written) if read.path not in self.expressions)
+    def _iterate_dependencies(self, name: str) -> Iterator[str]:
+        """Yield the names in a named expression that are not named expressions.
+
+        The expressions that it contains, directly or through others, are searched too.
+        """
+        for expression_name in self.expressions_in_tree(Name(name)):
+            yield from (
+                dependency.path
+                for dependency in names(self.expressions[expression_name].written)
+                if dependency.path not in self.expressions
+            )
 
     def expressions_in_tree(self, expr: Expr) -> tuple[str, ...]:
-        """Return the named expressions that `expr` contains, directly or through other named expressions."""
-        found, waiting = dict[str, None](), [expr]
-        while waiting:
-            new = [x.path for x in names(waiting.pop()) if x.path in self.expressions and x.path not in found]
-            found |= dict.fromkeys(new)
-            waiting += [self.expressions[name].written for name in new]
-        return tuple(found)
+        """Return the names of the named expressions that `expr` contains, directly or through others.
 
-    def _record_dimension(self, expr: Expr, expected: Dimension | None) -> None:
-        """Record `expected` as a dimension of a parameter without a unit, if the value is that parameter alone."""
+        Each name occurs once.
+        """
+        expression_names, trees = dict[str, None](), [expr]
+        while trees:
+            new = [
+                inner.path
+                for inner in names(trees.pop())
+                if inner.path in self.expressions and inner.path not in expression_names
+            ]
+            expression_names |= dict.fromkeys(new)
+            trees += [self.expressions[name].written for name in new]
+        return tuple(expression_names)
+
+    def _record_candidate_dimension(self, expr: Expr, expected: Dimension | None) -> None:
+        """Record `expected` as a possible dimension of a parameter without a unit that is the whole value.
+
+        Signs before the parameter are ignored. Nothing is recorded for other values, or if any dimension fits.
+        """
         while isinstance(expr, Unary):
             expr = expr.operand
         if isinstance(expr, Name) and expected is not None and self.parameters.get(expr.path, TIME) is None:
@@ -279,57 +335,69 @@ class Reader:
     def require(self, quantity: Quantity, relation: str, bound: float | Quantity, message: str) -> None:
         """Record the condition `quantity relation bound`, which is checked after reading and at each run-time override.
 
-        `bound` is a number in SI units or another quantity; `message` states the condition in the error.
+        `relation` is ">", ">=", "<" or "<="; `bound` is a number in SI units or another quantity; `message` states the
+        condition in the error.
         """
         limit = bound.address if isinstance(bound, Quantity) else bound
         self.conditions.append(Condition(quantity.address, relation, limit, message))
 
-    def require_less(self, quantity: Quantity, sum_of: str, message: str) -> None:
-        """Record the condition that a quantity is less than a sum; `sum_of` contains the addresses joined by " + "."""
-        self.conditions.append(Condition(quantity.address, "<", sum_of, message))
+    def require_less(self, quantity: Quantity, addresses_of_sum: str, message: str) -> None:
+        """Record the condition that a quantity is less than a sum of other quantities.
+
+        `addresses_of_sum` contains their addresses joined by " + ". The condition is checked after reading and at each
+        run-time override; `message` states it in the error.
+        """
+        self.conditions.append(Condition(quantity.address, "<", addresses_of_sum, message))
 
 
-def _dimension_of_time(place: Location, may_stand: bool, of_penetration: bool) -> Dimension:
-    """Return the dimension of t. Raises ExpressionError if the value must not depend on time.
+def _dimension_of_time(location: Location, is_allowed: bool, is_contact_force: bool) -> Dimension:
+    """Return the dimension of t, the time. Raises ExpressionError if the value must not depend on time.
 
-    `of_penetration`: the value is the force of a contact, for which the message differs.
+    `is_allowed`: the value may depend on t. `is_contact_force`: the value is the force of a contact, for which the
+    message differs.
     """
-    if may_stand:
+    if is_allowed:
         return TIME
     hint = "time can stand in drives and outputs only"
-    if of_penetration:
+    if is_contact_force:
         message = "'t' is time, and this force follows the penetration alone"
-        raise ExpressionError(message, place, f"expected delta and parameters; {hint}")
-    raise ExpressionError("'t' is time, and this number is constant", place, f"expected parameters; {hint}")
+        raise ExpressionError(message, location, f"expected delta and parameters; {hint}")
+    raise ExpressionError("'t' is time, and this number is constant", location, f"expected parameters; {hint}")
 
 
 def _is_located_in(error: InputError, text: Text) -> bool:
-    """Return whether the location of an error lies within an expression of the file."""
-    if (at_error := error.where) is None or (at_error.file, at_error.line) != (text.where.file, text.where.line):
+    """Return whether the location of an error lies within an expression of the file.
+
+    False for an error without a location.
+    """
+    if (location := error.where) is None or (location.file, location.line) != (text.where.file, text.where.line):
         return False
-    return 0 <= at_error.column - text.where.column <= len(text)
+    return 0 <= location.column - text.where.column <= len(text)
 
 
 def _error_key(error: InputError) -> tuple[str, str, str]:
     """Return the key by which duplicate errors are recognised: location, type, and message without contact and scene.
 
-    An entry that contacts or scenes inherit is thus reported once, where it is written.
+    An error in an entry that contacts or scenes inherit is thus reported once, where it is written.
     """
     message = re.sub(r"\b(contacts\.|scenes\.|in scene )\w+", "", error.message)
     return str(error.where), type(error).__name__, message
 
 
-def check_curve(call: CurveCall, place: Location, varies: bool) -> None:
-    """Raise an InputError if a curve is not allowed at `place`, or if its constant argument is outside its range."""
+def check_curve(call: CurveCall, location: Location, may_vary: bool) -> None:
+    """Raise an InputError if a call of a curve is not allowed, or if its constant argument is outside its range.
+
+    `may_vary`: the value may depend on t or motion; without it no curve is allowed. The error is located at `location`.
+    """
     (argument,), curve = call.arguments, call.curve
-    if not varies:
+    if not may_vary:
         hint = "expected parameters; a curve can stand in drives, forces, events and outputs only"
-        raise ExpressionError(f"{call.function!r} is a curve, and this number is constant", place, hint)
+        raise ExpressionError(f"{call.function!r} is a curve, and this number is constant", location, hint)
     if not any(True for _ in names(argument)) and not curve.within(x := float(evaluate(argument, lambda _: 0.0))):
         message = f"curve {call.function} is called {curve.outside(x)}"
-        raise BadValueError(message, place, "expected an argument in it")
+        raise BadValueError(message, location, "expected an argument in it")
 
 
 def unreadable_number(text: str) -> Number:
-    """Return NaN, which represents a number that could not be read."""
+    """Return a number node with the value NaN, which represents a number that could not be read."""
     return Number(math.nan, str(text))

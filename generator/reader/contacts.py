@@ -25,15 +25,17 @@ from gudgeon.language.tree import Number, names
 
 
 def order_by_inheritance(
-    reader: Reader, what: str, section: Map, known: Iterable[str] = ()
+    reader: Reader, kind: str, section: Map, outside_parents: Iterable[str] = ()
 ) -> Iterator[tuple[Text, Map]]:
-    """Yield the entries of a section so that each comes after the entry that it extends.
+    """Yield the entries (name, node) of a section so that each comes after the entry that it extends.
 
-    `what` names the kind of entry in messages; `known` are parents outside the section. Entries that extend an unknown
-    name, or themselves through others, are reported and left out.
+    `kind` names the kind of entry in messages; `outside_parents` are parents outside the section. Errors are collected
+    for entries that extend an unknown name, or themselves through others; these and their heirs are left out.
     """
     by_name = {str(name): (name, entry) for name, entry in section.pairs()}
-    ordered = dict.fromkeys(name for name in known if name not in by_name)  # a dict keeps the order for messages
+    ordered = dict.fromkeys(
+        name for name in outside_parents if name not in by_name
+    )  # a dict keeps the order for messages
     refused: set[str] = set()
     for start in by_name:
         path: list[str] = []
@@ -42,15 +44,15 @@ def order_by_inheritance(
             entry = by_name[current][1]
             if current in path:
                 cycle = [*path[path.index(current) :], current]
-                where = entry["extends"].where if "extends" in entry else by_name[current][0].where
-                message = f"{what}s that extend each other: {' → '.join(cycle)}"
-                reader.errors.append(CycleError(message, where, "expected one of them to extend none"))
+                location = entry["extends"].where if "extends" in entry else by_name[current][0].where
+                message = f"{kind}s that extend each other: {' → '.join(cycle)}"
+                reader.errors.append(CycleError(message, location, "expected one of them to extend none"))
                 refused.update(path)
                 break
             path.append(current)
             parent = entry.get("extends")
             if parent is not None and parent not in by_name and parent not in ordered:
-                reader.errors.append(unknown_name(what, parent, dict.fromkeys([*ordered, *by_name]), parent.where))
+                reader.errors.append(unknown_name(kind, parent, dict.fromkeys([*ordered, *by_name]), parent.where))
                 refused.update(path)
                 break
             current = str(parent) if parent is not None else None
@@ -69,96 +71,138 @@ _ROLES = tuple(field.name for field in CONTACT.fields if field.kind == LAW)
 def read_bearings_and_guides(
     reader: Reader, root: Map, materials: Materials
 ) -> dict[str, Mapping[str, Bearing | Guide]]:
-    """Read bearings and guides and return them by name, under the keys "bearing" and "guide" of a scene's `play`."""
+    """Read bearings and guides and return them by name, under the keys "bearing" and "guide" of a scene's `play`.
+
+    Entries with an unknown material are left out; their errors are collected.
+    """
     return {
         "bearing": {
-            name: Bearing(name, own["radius"], own["clearance"], own["length"], *pair)
-            for name, own, pair in _read_with_materials(
+            name: Bearing(name, quantities["radius"], quantities["clearance"], quantities["length"], *material_pair)
+            for name, quantities, material_pair in _read_entries_with_materials(
                 reader, root.part("bearings"), BEARING, ("bearing_material", "journal_material"), materials
             )
         },
         "guide": {
-            name: Guide(name, own["gap"], own["half_length"], own["half_height"], own.get("corner_radius"), *pair)
-            for name, own, pair in _read_with_materials(
+            name: Guide(
+                name,
+                quantities["gap"],
+                quantities["half_length"],
+                quantities["half_height"],
+                quantities.get("corner_radius"),
+                *material_pair,
+            )
+            for name, quantities, material_pair in _read_entries_with_materials(
                 reader, root.part("guides"), GUIDE, ("guide_material", "slider_material"), materials
             )
         },
     }
 
 
-def _read_with_materials(
-    reader: Reader, section: Map, of: Field, roles: tuple[str, str], materials: Materials
+def _read_entries_with_materials(
+    reader: Reader, section: Map, declaration: Field, material_keys: tuple[str, str], materials: Materials
 ) -> Iterator[tuple[str, Mapping[str, Quantity], list[Material]]]:
     """Yield name, numbers and both materials of each entry of a section whose materials are known.
 
-    `roles` are the keys of the two materials: bearing and journal, or guide and slider.
+    `material_keys` are the keys of the two materials: of bearing and journal, or of guide and slider; `declaration`
+    declares an entry.
     """
     for name, node in section.pairs():
-        owner = f"{of.name}s.{name}"
-        own = read_fields(reader, node, of.fields, FieldContext(owner)).quantities
-        pair = _read_material_pair(reader, node, owner, roles, materials)
-        if len(pair) == 2:
-            yield str(name), own, pair
+        address = f"{declaration.name}s.{name}"
+        quantities = read_fields(reader, node, declaration.fields, FieldContext(address)).quantities
+        material_pair = _read_material_pair(reader, node, address, material_keys, materials)
+        if len(material_pair) == 2:
+            yield str(name), quantities, material_pair
 
 
 def _read_material_pair(
-    reader: Reader, node: Map, owner: str, roles: tuple[str, str], materials: Materials
+    reader: Reader, node: Map, address: str, material_keys: tuple[str, str], materials: Materials
 ) -> list[Material]:
-    """Return the materials at the keys `roles` of an entry, without those that are unknown; these are reported."""
-    pair = []
-    for role in roles:
+    """Return the materials at the keys `material_keys` of an entry; errors of unknown ones are collected.
+
+    The list is shorter than `material_keys` if a material is unknown. The materials have the properties E and nu at
+    addresses of this entry.
+    """
+    material_pair = []
+    for material_key in material_keys:
         with reader.collect():
-            pair.append(Material(str(node[role]), materials.values_of_material(f"{owner}.{role}", node[role], ELASTIC)))
-    return pair
+            material_pair.append(
+                Material(
+                    str(node[material_key]),
+                    materials.values_of_material(f"{address}.{material_key}", node[material_key], ELASTIC),
+                )
+            )
+    return material_pair
 
 
 def read_contacts(reader: Reader, root: Map) -> dict[str, Contact]:
-    """Read all contacts with `extends` resolved; inherited numbers get addresses of the contact that inherits them."""
+    """Read all contacts by name with `extends` resolved; contacts with errors are left out.
+
+    Inherited numbers get addresses of the contact that inherits them.
+    """
     merged: dict[str, Map] = {}
-    found: dict[str, Contact] = {}
+    contacts: dict[str, Contact] = {}
     for name, node in order_by_inheritance(reader, "contact", root.part("contacts")):
         merged[str(name)] = contact = _merge_contacts(merged[node["extends"]], node) if "extends" in node else node
         with reader.collect():
-            found[str(name)] = _read_contact(reader, name, contact)
-    return {str(name): found[name] for name in root.part("contacts") if name in found}
+            contacts[str(name)] = _read_contact(reader, name, contact)
+    return {str(name): contacts[name] for name in root.part("contacts") if name in contacts}
 
 
 def _merge_contacts(parent: Map, child: Map) -> Map:
-    """Return the parent's keys overridden by the child's; a law of another name replaces the parent's law entirely."""
+    """Return the parent's keys overridden by the child's; a law of another name replaces the parent's law entirely.
+
+    A law of the same name, or without a name, overrides single keys of the parent's law.
+    """
     changes = dict(child)
     for role in _ROLES:
-        above, own = parent.get(role), child.get(role)
-        if above is not None and own is not None and own.get("law", above.get("law")) == above.get("law"):
-            changes[role] = Map.make({**above, **own}, own.where)
+        parent_law, child_law = parent.get(role), child.get(role)
+        if (
+            parent_law is not None
+            and child_law is not None
+            and child_law.get("law", parent_law.get("law")) == parent_law.get("law")
+        ):
+            changes[role] = Map.make({**parent_law, **child_law}, child_law.where)
     return Map.make({**parent, **changes}, child.where)
 
 
 def _read_contact(reader: Reader, name: Text, node: Map) -> Contact:
-    """Read one contact, whose `extends` was resolved before.
+    """Return one contact, whose `extends` was resolved before.
 
-    Raises an InputError if its parts contradict each other.
+    Errors of its laws are collected. Raises an InputError if its parts contradict each other.
     """
     address = f"contacts.{name}"
-    uses: dict[str, LawUse | None] = dict.fromkeys(_ROLES)
+    law_uses: dict[str, LawUse | None] = dict.fromkeys(_ROLES)
     for role in _ROLES:
         if role in node:
             with reader.collect():
-                uses[role] = _read_law(reader, f"{address}.{role}", role, node[role])
-    _check_parts(name, node)
-    if uses["normal"] and uses["friction"] and uses["normal"].options.get("pulls") is True:
+                law_uses[role] = _read_law(reader, f"{address}.{role}", role, node[role])
+    _check_contact_keys(name, node)
+    if law_uses["normal"] and law_uses["friction"] and law_uses["normal"].options.get("pulls") is True:
         hint = "expected one: friction of a force that pulls would drive the slip"
         raise BadValueError(f"contact {name} has friction, and a normal law that pulls", node["friction"].where, hint)
-    if uses["mixed"] and uses["film"] and uses["film"].options.get("as_printed") is True:
+    if law_uses["mixed"] and law_uses["film"] and law_uses["film"].options.get("as_printed") is True:
         hint = "expected one: a film as printed drives what it should damp, and goes with the paper's transition alone"
         raise BadValueError(f"contact {name} has a film as printed, and mixed lubrication", node["mixed"].where, hint)
-    own = read_fields(reader, node, CONTACT.fields, FieldContext(address))
-    clip = own.options.get("clip_ratio", False) is True
-    transition, floor = own.quantities.get("transition"), own.quantities.get("velocity_floor")
-    return Contact(str(name), uses["normal"], uses["friction"], uses["film"], transition, clip, floor, uses["mixed"])
+    values = read_fields(reader, node, CONTACT.fields, FieldContext(address))
+    clip = values.options.get("clip_ratio", False) is True
+    transition, floor = values.quantities.get("transition"), values.quantities.get("velocity_floor")
+    return Contact(
+        str(name),
+        law_uses["normal"],
+        law_uses["friction"],
+        law_uses["film"],
+        transition,
+        clip,
+        floor,
+        law_uses["mixed"],
+    )
 
 
-def _check_parts(name: Text, node: Map) -> None:
-    """Raise an InputError if the contact lacks a law, or combines keys that contradict each other."""
+def _check_contact_keys(name: Text, node: Map) -> None:
+    """Raise an InputError if the contact lacks a law, or combines keys that contradict each other.
+
+    It needs a normal law or a film; with both it needs a transition or mixed lubrication.
+    """
     if "normal" not in node and "film" not in node:
         raise MissingKeyError(f"contact {name} has no law", name.where, "expected normal: or film:, or both")
     if "normal" not in node:
@@ -166,8 +210,8 @@ def _check_parts(name: Text, node: Map) -> None:
             if part in node:
                 message = f"contact {name} has {part} but no normal law"
                 raise MissingKeyError(message, node[part].where, "expected the key 'normal'")
-    if "normal" in node and isinstance(law := node["normal"].get("law"), Text) and law in _rigid_laws():
-        _check_rigid(name, law, node)
+    if "normal" in node and isinstance(law := node["normal"].get("law"), Text) and law in _find_rigid_laws():
+        _check_rigid_contact(name, law, node)
     if "transition" in node and "mixed" in node:
         hint = "expected one: a length over which the film hands over, or a law by which film and contact share"
         raise BadValueError(f"contact {name} has both transition and mixed", node.key("mixed").where, hint)
@@ -183,10 +227,11 @@ def _check_parts(name: Text, node: Map) -> None:
             raise MissingKeyError(message, node[part].where, "expected the key 'film'")
 
 
-def _check_rigid(name: Text, law: Text, node: Map) -> None:
+def _check_rigid_contact(name: Text, law: Text, node: Map) -> None:
     """Raise BadValueError if a contact of rigid surfaces has keys or a friction law that impacts cannot use.
 
-    Friction in an impact must be F_n times a coefficient of the slip, without inner states.
+    Friction in an impact must be F_n times a coefficient of the slip, without inner states, and not a user-defined law.
+    `law` is the normal law's name.
     """
     for part in ("film", "mixed", "velocity_floor", "clip_ratio"):
         if part in node:
@@ -199,102 +244,121 @@ def _check_rigid(name: Text, law: Text, node: Map) -> None:
         and friction_law is not None
         and (friction_law.states or friction_law.name in USER_LAWS)
     ):
-        fit = sorted(
-            other.name for other in called("friction").values() if not other.states and other.name not in USER_LAWS
+        allowed_laws = sorted(
+            friction_law_type.name
+            for friction_law_type in called("friction").values()
+            if not friction_law_type.states and friction_law_type.name not in USER_LAWS
         )
-        why = (
+        reason = (
             "a blow has no time in which bristles bend"
             if friction_law.states
             else "blows need F_n times what the slip says"
         )
-        hint = f"expected one of {', '.join(fit)}: {why}"
+        hint = f"expected one of {', '.join(allowed_laws)}: {reason}"
         raise BadValueError(f"contact {name} has {law} and friction by {friction_law.name}", friction.where, hint)
 
 
 def _check_penetration_force(reader: Reader, force: Quantity) -> None:
-    """Raise an InputError unless a force law's expression depends on delta; require that it is 0 at delta = 0."""
-    used = {name.path: at(force.where, name.offset) for name in names(force.value)}
-    if "delta" in reader.parameters and "delta" in used:
+    """Raise an InputError unless a force law's expression depends on delta; require that it is 0 at delta = 0.
+
+    Raises BadNameError if a parameter of the file is called delta. Nothing is checked if the expression could not be
+    read.
+    """
+    locations = {name.path: at(force.where, name.offset) for name in names(force.value)}
+    if "delta" in reader.parameters and "delta" in locations:
         hint = "give the parameter another name"
-        raise BadNameError("'delta' is the penetration here, and a parameter of this file", used["delta"], hint)
+        raise BadNameError("'delta' is the penetration here, and a parameter of this file", locations["delta"], hint)
     if isinstance(force.value, Number) and math.isnan(force.value.value):
         return  # reported already
-    if "delta" not in used:
+    if "delta" not in locations:
         hint = "expected an expression such as 1e8 N/m * delta"
         raise ExpressionError(f"{force.address} does not follow delta, the penetration", force.where, hint)
-    onset = reader.keep(value_at_onset(force))
+    force_at_onset = reader.keep(value_at_onset(force))
     for relation, bound in ((">=", -ZERO_FORCE_TOL), ("<=", ZERO_FORCE_TOL)):
-        reader.require(onset, relation, bound, "a force that is not 0 at delta = 0 would jump at every onset")
+        reader.require(force_at_onset, relation, bound, "a force that is not 0 at delta = 0 would jump at every onset")
 
 
-def _rigid_laws() -> set[str]:
+def _find_rigid_laws() -> set[str]:
     """Return the names of the normal laws of rigid surfaces."""
     return {name for name, law in called("normal").items() if law.rigid}
 
 
 def _read_law(reader: Reader, address: str, role: str, node: Map) -> LawUse:
-    """Read a force law of the given role with its numbers and options; defaults of the law are filled in."""
+    """Return a force law of the given role with its numbers and options; defaults of the law are filled in.
+
+    Errors of its numbers are collected. Raises an InputError if the law is missing, unknown or of another role, or for
+    a choice that has a meaning only without a number that is given.
+    """
     if not isinstance(node.get("law"), Text):
         raise missing_key("law", node.where, address)
     text = node["law"]
-    fitting = called(role)
-    if text not in fitting:
-        other = next((r for r in _ROLES if text in called(r)), None)
-        if other is not None:
-            raise BadValueError(f"{text} is a {other} law", text.where, known_hint(text, fitting))
-        hint = f"{known_hint(text, fitting)}\n  a law of your own is made known by --laws FILE.py, or gudgeon.register"
+    laws_of_role = called(role)
+    if text not in laws_of_role:
+        other_role = next((other_role for other_role in _ROLES if text in called(other_role)), None)
+        if other_role is not None:
+            raise BadValueError(f"{text} is a {other_role} law", text.where, known_hint(text, laws_of_role))
+        hint = known_hint(text, laws_of_role)
+        hint += "\n  a law of your own is made known by --laws FILE.py, or gudgeon.register"
         raise UnknownNameError(f"unknown {role} law {str(text)[:200]!r}", text.where, hint)
-    law, fields = fitting[text], fitting[text].fields_as(text)
+    law, fields = laws_of_role[text], laws_of_role[text].fields_as(text)
     if law.name in USER_LAWS:
         reader.laws[law.name] = key_of(law.name)
     mistyped = check_keys(reader, node, ["law", *field_names(fields)], address)
-    around = FieldContext(address, str(text), text.where, mistyped)
-    own = read_fields(reader, node, with_dimensions(fields, node), around)
-    for field in fields:
-        if field.varies == OF_PENETRATION and field.name in own.quantities:
+    context = FieldContext(address, str(text), text.where, mistyped)
+    values = read_fields(reader, node, with_dimensions(fields, node), context)
+    for declaration in fields:
+        if declaration.varies == OF_PENETRATION and declaration.name in values.quantities:
             with reader.collect():
-                _check_penetration_force(reader, own.quantities[field.name])
-    for choice, number in law.instead.items():
-        if number in own.quantities:
-            if choice in node:
-                hint = f"expected one: {choice} says something where {number} is left out"
-                raise BadValueError(f"{address} has both {number} and {choice}", node.key(choice).where, hint)
-            own.options.pop(choice, None)
-    return LawUse(law.name, own.quantities, {**own.options, **law.also.get(text, {})})
+                _check_penetration_force(reader, values.quantities[declaration.name])
+    for option, number_name in law.instead.items():
+        if number_name in values.quantities:
+            if option in node:
+                hint = f"expected one: {option} says something where {number_name} is left out"
+                raise BadValueError(f"{address} has both {number_name} and {option}", node.key(option).where, hint)
+            values.options.pop(option, None)
+    return LawUse(law.name, values.quantities, {**values.options, **law.also.get(text, {})})
 
 
-def check_guide(joint: str, guide: Guide, contact: Contact, use: Map) -> None:
+def check_guide(joint: str, guide: Guide, contact: Contact, play_node: Map) -> None:
     """Raise an InputError unless the contact fits a slider in a guide: no film, no contour, a law of corners on walls.
 
-    `use` is the entry of the scene's `play` for the joint.
+    A law that takes its stiffness from the geometry needs the guide's corner radius. `play_node` is the entry of the
+    scene's `play` for the joint.
     """
-    where = use["contact"].where
-    if "contour" in use:
+    location = play_node["contact"].where
+    if "contour" in play_node:
         message = f"the contour of {joint} is one of a guide: contours are those of bearings"
-        raise BadValueError(message, use.key("contour").where, "expected no contour")
+        raise BadValueError(message, play_node.key("contour").where, "expected no contour")
     if contact.film is not None:
         message = f"contact {contact.name} of {joint} has a film, whose laws are those of a journal in its bearing"
-        raise BadValueError(message, where, "expected a contact without a film: guides have dry contact alone")
+        raise BadValueError(message, location, "expected a contact without a film: guides have dry contact alone")
     normal = contact.normal
     if normal is None:
         return
     if laws()[normal.law].in_hole:
-        fit = sorted(name for name, law in called("normal").items() if not law.in_hole)
+        allowed_laws = sorted(name for name, law in called("normal").items() if not law.in_hole)
         message = f"contact {contact.name} of {joint} has {normal.law}, a law of a pin in a hole"
-        raise BadValueError(message, where, f"expected one of a corner on a wall: {', '.join(fit)}")
+        raise BadValueError(message, location, f"expected one of a corner on a wall: {', '.join(allowed_laws)}")
     if "geometry" in normal.options and guide.corner_radius is None:
         message = f"guide {guide.name} of {joint} has no corner_radius, from which {normal.law} takes its stiffness"
-        able = any(own.name == "stiffness" for own in laws()[normal.law].fields)
-        also = "stiffness" if able else f"a law that needs none ({', '.join(sorted(_laws_of_sharp_corners()))})"
-        hint = f"expected corner_radius in guides.{guide.name}, or {also} in contacts.{contact.name}.normal"
-        raise MissingKeyError(message, use["guide"].where, hint)
+        has_stiffness = any(declaration.name == "stiffness" for declaration in laws()[normal.law].fields)
+        alternative = (
+            "stiffness"
+            if has_stiffness
+            else f"a law that needs none ({', '.join(sorted(_describe_laws_of_sharp_corners()))})"
+        )
+        hint = f"expected corner_radius in guides.{guide.name}, or {alternative} in contacts.{contact.name}.normal"
+        raise MissingKeyError(message, play_node["guide"].where, hint)
 
 
-def _laws_of_sharp_corners() -> Iterator[str]:
-    """Yield the normal laws for guides that need no corner radius: they use no radii, or a given stiffness instead."""
+def _describe_laws_of_sharp_corners() -> Iterator[str]:
+    """Yield the normal laws for guides that need no corner radius: they use no radii, or a given stiffness instead.
+
+    Each is a text for a hint: the law's name, and "with stiffness" where it needs one.
+    """
     for name, law in laws().items():
         if law.role == "normal" and not law.in_hole and law.name == name:
             if "geometry" in law.instead:
                 yield f"{name} with {law.instead['geometry']}"
-            elif all(own.name != "geometry" for own in law.fields):
+            elif all(declaration.name != "geometry" for declaration in law.fields):
                 yield name

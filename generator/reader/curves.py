@@ -39,29 +39,31 @@ class Row:
 def read_table(data: bytes, file: str, is_number: Callable[[str], bool]) -> list[Row]:
     """Return the rows of a CSV file; a header line, empty lines and lines that begin with # are skipped.
 
-    Raises BadValueError, at line and column of the table, if a cell is not a number or a row has not two columns.
+    Columns are separated by the first of `;`, tab and `,` that the text contains. Raises BadValueError, at line and
+    column of the table, if a cell is not a number (`is_number`) or a row has not two columns.
     """
-    text = _decode(data, file)
-    mark = next((mark for mark in _SEPARATORS if mark in text), ",")
+    text = _decode_table(data, file)
+    separator = next((separator for separator in _SEPARATORS if separator in text), ",")
     rows: list[Row] = []
-    first = True
-    for number, line in enumerate(re.split(r"\r\n|\n|\r", text), start=1):
+    is_first_row = True
+    for line_number, line in enumerate(re.split(r"\r\n|\n|\r", text), start=1):
         if not line.strip() or line.lstrip().startswith("#"):
             continue
-        row = _split_row(line, mark, file, number)
-        wrong = [k for k in (0, 1) if not is_number(row.text[k])]
-        if wrong and not (first and len(wrong) == 2 and is_header(row.text)):
+        row = _split_row(line, separator, file, line_number)
+        wrong_columns = [k for k in (0, 1) if not is_number(row.text[k])]
+        if wrong_columns and not (is_first_row and len(wrong_columns) == 2 and is_header(row.text)):
             hint = "expected a decimal number such as -0.5: with a point, '-' as its sign, and no quotes or brackets"
-            raise BadValueError(f"{row.text[wrong[0]][:40]!r} is no number", row.where[wrong[0]], hint)
-        rows += [] if wrong else [row]
-        first = False
+            raise BadValueError(f"{row.text[wrong_columns[0]][:40]!r} is no number", row.where[wrong_columns[0]], hint)
+        rows += [] if wrong_columns else [row]
+        is_first_row = False
     return rows
 
 
 def is_header(cells: Sequence[str]) -> bool:
     """Return whether both cells of a first row can be column names: one contains a letter, neither is a number.
 
-    A cell counts as a number if a digit stands before its first letter: "\u22121", "(1)", '"-1"', "0 mm".
+    A cell counts as a number if a digit stands before its first letter: "−1", "(1)", '"-1"', "0 mm"; nan and inf are
+    numbers.
     """
     names = [re.sub(r"^[\W_]+", "", cell) for cell in cells]
     return (
@@ -71,28 +73,37 @@ def is_header(cells: Sequence[str]) -> bool:
     )
 
 
-def _decode(data: bytes, file: str) -> str:
-    """Decode UTF-8 bytes of a table. Raises BadValueError at the first invalid byte."""
+def _decode_table(data: bytes, file: str) -> str:
+    """Return the UTF-8 bytes of a table as text without a byte order mark.
+
+    Raises BadValueError at the first invalid byte.
+    """
     try:
         return data.decode("utf-8").removeprefix("\ufeff")
     except UnicodeDecodeError as error:
         before = data[: error.start]
-        where = Location(file, before.count(b"\n") + 1, len(before.rpartition(b"\n")[2]) + 1)
+        location = Location(file, before.count(b"\n") + 1, len(before.rpartition(b"\n")[2]) + 1)
         hint = "expected a UTF-8 text file"
-        raise BadValueError(f"byte 0x{data[error.start]:02x} is no UTF-8", where, hint) from None
+        raise BadValueError(f"byte 0x{data[error.start]:02x} is no UTF-8", location, hint) from None
 
 
-def _split_row(line: str, mark: str, file: str, number: int) -> Row:
-    """Split a line of a table into its two cells. Raises BadValueError if it has another number of columns."""
-    cells = line.split(mark)
+def _split_row(line: str, separator: str, file: str, line_number: int) -> Row:
+    """Split a line of a table into its two cells, without spaces around them, each with its location.
+
+    Raises BadValueError if the line has another number of columns. `line_number` is the line's number in the file.
+    """
+    cells = line.split(separator)
     if len(cells) != 2:
         columns = f"{len(cells)} column{'s' * (len(cells) != 1)}"
-        hint = f"expected two, x and y, with {mark!r} between them, and numbers with a decimal point"
-        raise BadValueError(f"{columns} in a table", Location(file, number, 1), hint)
+        hint = f"expected two, x and y, with {separator!r} between them, and numbers with a decimal point"
+        raise BadValueError(f"{columns} in a table", Location(file, line_number, 1), hint)
     starts = (0, len(cells[0]) + 1)
-    places = [start + len(cell) - len(cell.lstrip()) + 1 for start, cell in zip(starts, cells, strict=True)]
-    one, two = (cell.strip() for cell in cells)
-    return Row((one, two), (Location(file, number, places[0]), Location(file, number, places[1])))
+    columns_of_cells = [start + len(cell) - len(cell.lstrip()) + 1 for start, cell in zip(starts, cells, strict=True)]
+    first_cell, second_cell = (cell.strip() for cell in cells)
+    return Row(
+        (first_cell, second_cell),
+        (Location(file, line_number, columns_of_cells[0]), Location(file, line_number, columns_of_cells[1])),
+    )
 
 
 MAX_POINTS = 1 << 21  # points of a curve
@@ -104,7 +115,11 @@ _PLACEHOLDER = Curve(
 
 
 def read_curves(reader: Reader, root: Map) -> dict[str, Curve]:
-    """Read the section `curves:` into reader.curves, and the hashes of its tables into reader.tables."""
+    """Read the section `curves:` into reader.curves, and return it; hashes of tables go to reader.tables.
+
+    A placeholder replaces a curve that cannot be read. A curve with the name of a function is left out: its name was
+    refused.
+    """
     for name, node in root.part("curves").pairs():
         reader.curves[str(name)] = _PLACEHOLDER
         with reader.collect():
@@ -115,109 +130,121 @@ def read_curves(reader: Reader, root: Map) -> dict[str, Curve]:
 
 
 def _read_curve(reader: Reader, name: Text, node: Map) -> Curve | None:
-    """Read one curve; None if it cannot be read and the error was collected."""
-    owner = f"curves.{name}"
+    """Return the curve of one entry, with its values and knots in SI; None if an error was collected.
+
+    Raises an InputError for contradicting keys and invalid points. Tables of more than a megabyte are parsed at once.
+    """
+    address = f"curves.{name}"
     errors_before = len(reader.errors)
-    options = read_fields(reader, node, [f for f in CURVE.fields if f.kind == WORD], FieldContext(owner)).options
-    over, of = _read_unit(node, "x", owner), _read_unit(node, "y", owner)
+    options = read_fields(reader, node, [f for f in CURVE.fields if f.kind == WORD], FieldContext(address)).options
+    x_unit, y_unit = _read_unit(node, "x", address), _read_unit(node, "y", address)
     if ("points" in node) == ("table" in node):
-        both = "both points and a table" if "points" in node else "neither points nor a table"
-        raise MissingKeyError(f"{owner} has {both}", name.where, "expected points: [[x, y], …] or table: FILE.csv")
+        fault = "both points and a table" if "points" in node else "neither points nor a table"
+        raise MissingKeyError(f"{address} has {fault}", name.where, "expected points: [[x, y], …] or table: FILE.csv")
     data = _read_table_bytes(reader, node["table"]) if "table" in node else b""
     if len(reader.errors) > errors_before:
         return None
     ends, extrapolate = str(options["ends"]), str(options["extrapolate"])
     if ends == PERIODIC and extrapolate != STOP:
-        where = node["extrapolate"].where
-        raise BadValueError(f"{owner} is periodic and goes on {extrapolate!r}", where, "leave extrapolate out")
+        location = node["extrapolate"].where
+        raise BadValueError(f"{address} is periodic and goes on {extrapolate!r}", location, "leave extrapolate out")
     interpolation = str(options["interpolation"])
     if interpolation == MONOTONE and ends == NOT_A_KNOT:
         hint = "expected natural, clamped or periodic"
-        raise BadValueError(f"{owner} is monotone with ends: not_a_knot", node["ends"].where, hint)
-    long = _parse_long_table(data, over, of, ends)
-    if long is None:
+        raise BadValueError(f"{address} is monotone with ends: not_a_knot", node["ends"].where, hint)
+    long_table = _parse_long_table(data, x_unit, y_unit, ends)
+    if long_table is None:
         rows = (
-            _rows_of_table(reader, node["table"], data) if "table" in node else _rows_of_points(node["points"], owner)
+            _parse_table_rows(reader, node["table"], data)
+            if "table" in node
+            else _convert_points_to_rows(node["points"], address)
         )
-        x, y = _column_in_si(rows, 0, over), _column_in_si(rows, 1, of)
-        _check_points(owner, ends, rows, x, y, name.where)
+        x, y = _convert_column_to_si(rows, 0, x_unit), _convert_column_to_si(rows, 1, y_unit)
+        _check_points(address, ends, rows, x, y, name.where)
     else:
-        x, y = long
+        x, y = long_table
     coefficients = spline(x, y, ends, interpolation)
     knots, coefficients = even_pieces(x, coefficients) if ends == PERIODIC else (x, coefficients)
     if not np.isfinite(np.array(coefficients)).all():
         hint = "expected points whose slopes are numbers: are two of them too close?"
-        raise BadValueError(f"{owner} has a slope that is no number", name.where, hint)
+        raise BadValueError(f"{address} has a slope that is no number", name.where, hint)
     return Curve(
         str(name),
         knots,
         coefficients,
         ends,
         extrapolate,
-        over.dimension if over else None,
-        of.dimension if of else None,
-        _si_unit_text(of),
-        str(node["x"]) if over else "",
+        x_unit.dimension if x_unit else None,
+        y_unit.dimension if y_unit else None,
+        _format_si_unit(y_unit),
+        str(node["x"]) if x_unit else "",
         str(node["table"]) if "table" in node else "",
         interpolation,
         len(x),
     )
 
 
-def _read_unit(node: Map, key: str, owner: str) -> Unit | None:
-    """Return the unit of a column, `x` or `y`; None for bare SI numbers, which fit any dimension."""
+def _read_unit(node: Map, key: str, address: str) -> Unit | None:
+    """Return the unit of a column, `x` or `y`; None for bare SI numbers, which fit any dimension. Raises UnitError."""
     if key not in node:
         return None
     text = node[key]
-    found = parse_unit(str(text))
-    if found is None or found[1] != len(text):
-        raise UnitError(f"{owner}.{key} is {kind_of(text)}, which is no unit", text.where, "expected one such as deg")
-    return found[0]
+    unit_and_length = parse_unit(str(text))
+    if unit_and_length is None or unit_and_length[1] != len(text):
+        raise UnitError(f"{address}.{key} is {kind_of(text)}, which is no unit", text.where, "expected one such as deg")
+    return unit_and_length[0]
 
 
-def _si_unit_text(of: Unit | None) -> str | None:
-    """Return the SI unit of a curve's values as text, None if they have no declared unit."""
-    return None if of is None else "rad" if of.dimension == DIMENSIONLESS else si_unit(of.dimension)
+def _format_si_unit(unit: Unit | None) -> str | None:
+    """Return the SI unit of a curve's values as text, "rad" for a dimensionless unit; None without a declared unit."""
+    return None if unit is None else "rad" if unit.dimension == DIMENSIONLESS else si_unit(unit.dimension)
 
 
-def _rows_of_points(items: Items, owner: str) -> list[Row]:
-    """Return the points of a list in the file as rows."""
+def _convert_points_to_rows(items: Items, owner: str) -> list[Row]:
+    """Return the points of a list in the file as rows, in the order of the file."""
     return [Row((str(x), str(y)), (x.where, y.where)) for x, y in items]
 
 
 def _read_table_bytes(reader: Reader, name: Text) -> bytes:
-    """Return the bytes of a table next to the mechanism file and record their sha256."""
+    """Return the bytes of a table next to the mechanism file.
+
+    Their SHA-256 is recorded in reader.tables. Raises InputError.
+    """
     data = read_beside(reader.file, str(name), MAX_TABLE_BYTES, name.where)
     reader.tables[str(name)] = hashlib.sha256(data).hexdigest()
     return data
 
 
-def _rows_of_table(reader: Reader, name: Text, data: bytes) -> list[Row]:
-    """Return the rows of a table whose bytes were read."""
+def _parse_table_rows(reader: Reader, name: Text, data: bytes) -> list[Row]:
+    """Return the rows of a table whose bytes were read; `name` is its path relative to the mechanism file.
+
+    Raises BadValueError at a cell that is not a number.
+    """
     return read_table(data, str(Path(reader.file).parent / name), lambda text: _parse_decimal(text) is not None)
 
 
 def _parse_long_table(
-    data: bytes, over: Unit | None, of: Unit | None, ends: str
+    data: bytes, x_unit: Unit | None, y_unit: Unit | None, ends: str
 ) -> tuple[tuple[float, ...], tuple[float, ...]] | None:
     """Return both columns (SI) of a table of more than a megabyte, parsed at once; None if it must be read row by row.
 
-    Numbers are converted to SI in binary64: their last digit may differ from that of a shorter table.
+    That is so for shorter tables and for those with an error, whose location only the rows show. Numbers are converted
+    to SI in binary64: their last digit may differ from that of a shorter table.
     """
     if len(data) <= MAX_BYTES:
         return None
-    mark = next((mark for mark in (";", "\t", ",") if mark.encode() in data), ",")
-    head, _, rows = data.partition(b"\n")
-    if not re.search(rb"[0-9]|\r.", head):  # the first line has no digit
-        line = head.decode("utf-8-sig", "replace")
-        data = rows if line.lstrip().startswith("#") or is_header(line.split(mark)) else data
+    separator = next((separator for separator in (";", "\t", ",") if separator.encode() in data), ",")
+    first_line, _, rows = data.partition(b"\n")
+    if not re.search(rb"[0-9]|\r.", first_line):  # the first line has no digit
+        first_line_text = first_line.decode("utf-8-sig", "replace")
+        data = rows if first_line_text.lstrip().startswith("#") or is_header(first_line_text.split(separator)) else data
     if re.search(rb"[^-+.,;\t\r\n 0-9eE]", data):
         return None
     try:
-        table = np.loadtxt(io.BytesIO(data), delimiter=mark, ndmin=2)
+        table = np.loadtxt(io.BytesIO(data), delimiter=separator, ndmin=2)
     except ValueError:
         return None
-    scales = [float(unit.to_si(Fraction(1))) if unit else 1.0 for unit in (over, of)]
+    scales = [float(unit.to_si(Fraction(1))) if unit else 1.0 for unit in (x_unit, y_unit)]
     if table.shape[1:] != (2,) or len(table) > MAX_POINTS:
         return None
     x, y = (table * scales).T
@@ -232,43 +259,49 @@ _LOW, _HIGH = 1e-140, 1e140  # magnitudes that stay within binary64 after conver
 
 
 def _parse_decimal(text: str) -> Fraction | None:
-    """Return a decimal number as an exact fraction, None if the text is not one."""
+    """Return a decimal number as an exact fraction, None if the text is not one or has more than 40 characters."""
     return Fraction(text) if len(text) <= _MAX_DECIMAL_LENGTH and _DECIMAL.fullmatch(text) else None
 
 
-def _column_in_si(rows: Sequence[Row], column: int, unit: Unit | None) -> tuple[float, ...]:
-    """Return a column of the rows in SI units. Raises BadValueError at a cell that is not a number or out of range."""
+def _convert_column_to_si(rows: Sequence[Row], column: int, unit: Unit | None) -> tuple[float, ...]:
+    """Return a column (0: x, 1: y) of the rows in SI units; without a unit, the numbers as they are.
+
+    Raises LimitError for too many points, BadValueError at a cell that is not a number or out of range.
+    """
     if len(rows) > MAX_POINTS:
         raise LimitError(f"{len(rows)} points", rows[0].where[0], f"expected at most {MAX_POINTS} in a curve")
-    found = []
+    values = []
     for row in rows:
-        text, where = row.text[column], row.where[column]
-        exact = _parse_decimal(text)
-        if exact is None:
+        text, location = row.text[column], row.where[column]
+        fraction = _parse_decimal(text)
+        if fraction is None:
             hint = "expected a decimal number, with its unit in x: or y:"
-            raise BadValueError(f"{text[:_MAX_DECIMAL_LENGTH]!r} is no number", where, hint)
+            raise BadValueError(f"{text[:_MAX_DECIMAL_LENGTH]!r} is no number", location, hint)
         try:
-            value = unit.to_si(exact) if unit else float(exact)
+            value = unit.to_si(fraction) if unit else float(fraction)
         except OverflowError:
             value = math.inf
-        if not abs(value) < 1e150 or exact and abs(value) < 1e-150:  # their powers must be finite in C
-            raise BadValueError(f"{text!r} is out of range", where, "expected a magnitude from 1e-150 to 1e150")
-        found.append(value)
-    return tuple(found)
+        if not abs(value) < 1e150 or fraction and abs(value) < 1e-150:  # their powers must be finite in C
+            raise BadValueError(f"{text!r} is out of range", location, "expected a magnitude from 1e-150 to 1e150")
+        values.append(value)
+    return tuple(values)
 
 
 def _check_points(
-    owner: str, ends: str, rows: Sequence[Row], x: Sequence[float], y: Sequence[float], where: Location
+    address: str, ends: str, rows: Sequence[Row], x: Sequence[float], y: Sequence[float], location: Location
 ) -> None:
-    """Raise BadValueError unless there are enough points, x rises strictly, and periodic curves end as they begin."""
+    """Raise BadValueError unless there are enough points, x rises strictly, and periodic curves end as they begin.
+
+    `address`: the curve's address; `ends`: its end condition; `location`: the location of its name.
+    """
     if len(x) < LEAST[ends]:
         hint = f"expected at least {LEAST[ends]} for ends: {ends}"
-        raise BadValueError(f"{owner} has {len(x)} point{'s' * (len(x) != 1)}", where, hint)
+        raise BadValueError(f"{address} has {len(x)} point{'s' * (len(x) != 1)}", location, hint)
     for k in range(1, len(x)):
         if not x[k] > x[k - 1]:
             texts = rows[k].text[0], rows[k - 1].text[0]
             hint = "expected rising x, each once"
-            raise BadValueError(f"{owner}: x is {texts[0]} behind {texts[1]}", rows[k].where[0], hint)
+            raise BadValueError(f"{address}: x is {texts[0]} behind {texts[1]}", rows[k].where[0], hint)
     if ends == PERIODIC and y[0] != y[-1]:
         hint = f"expected {rows[0].text[1]}, as in the first point, or other ends"
-        raise BadValueError(f"{owner} is periodic and ends at {rows[-1].text[1]}", rows[-1].where[1], hint)
+        raise BadValueError(f"{address} is periodic and ends at {rows[-1].text[1]}", rows[-1].where[1], hint)

@@ -34,18 +34,18 @@ _COORDINATES = ("x", "y", "theta", "vx", "vy", "omega", "ax", "ay", "alpha")
 def read_names(reader: Reader, root: Map) -> tuple[PointNames, ResultNames]:
     """Return the names of points and of results; other names go to reader.parameters, .expressions and .scopes.
 
-    A BadNameError is collected for each name that is not allowed.
+    A BadNameError is collected for each name that is not allowed or used twice. Nothing else of the sections is read.
     """
     reader.parameters.update(dict.fromkeys(map(str, root.part("parameters"))))
     expressions = (name for name in root.part("expressions").names() if name != "t")
     reader.expressions.update((str(name), NamedExpression(BROKEN, BROKEN, None, name.where)) for name in expressions)
     _check_labels(reader, root)
-    _check_in_expressions(reader, root)
-    _check_points(reader, root)
-    point_names, twice = PointNames(root), frozenset(_check_indexed(reader, root))
-    numbers = dict.fromkeys(reader.parameters, "a parameter") | dict.fromkeys(reader.expressions, "an expression")
-    results = ResultNames(point_names, root, numbers, twice)
-    reader.scopes |= {OF_MOTION: MotionNames(point_names, root, numbers), OF_RESULTS: results}
+    _check_expression_names(reader, root)
+    _check_point_names(reader, root)
+    point_names, repeated_names = PointNames(root), frozenset(_check_result_names(reader, root))
+    number_kinds = dict.fromkeys(reader.parameters, "a parameter") | dict.fromkeys(reader.expressions, "an expression")
+    results = ResultNames(point_names, root, number_kinds, repeated_names)
+    reader.scopes |= {OF_MOTION: MotionNames(point_names, root, number_kinds), OF_RESULTS: results}
     return point_names, results
 
 
@@ -61,9 +61,12 @@ def _check_labels(reader: Reader, root: Map) -> None:
                 check_label(name, "event", name.where)
 
 
-def _check_in_expressions(reader: Reader, root: Map) -> None:
-    """Collect an error for each name of a parameter, curve or expression that is not allowed or used twice."""
-    seen: dict[str, str] = {}
+def _check_expression_names(reader: Reader, root: Map) -> None:
+    """Collect an error for each name of a parameter, curve or expression that is not allowed or used twice.
+
+    Names that are not allowed are recorded in reader.refused.
+    """
+    users_of_names: dict[str, str] = {}
     for section, kind in _EXPRESSION_SECTIONS.items():
         names = root.part(section).names()
         for name in names if section != "outputs" else ():  # names of outputs are checked with the results
@@ -71,44 +74,51 @@ def _check_in_expressions(reader: Reader, root: Map) -> None:
                 reader.refused.add(str(name))
                 check_name(name, kind, name.where)
                 reader.refused.remove(str(name))
-                if name in seen:
-                    message = f"{name!r} names this {kind} and {seen[name]}"
+                if name in users_of_names:
+                    message = f"{name!r} names this {kind} and {users_of_names[name]}"
                     raise BadNameError(message, name.where, "expected a name of its own: both stand in expressions")
-        seen = dict.fromkeys(names, f"a{'n' * (kind == 'output')} {kind}") | seen
+        users_of_names = dict.fromkeys(names, f"a{'n' * (kind == 'output')} {kind}") | users_of_names
 
 
-def _check_indexed(reader: Reader, root: Map) -> Iterator[str]:
-    """Check the names that index results, and yield those that two entries have."""
-    seen: dict[str, tuple[str, Location]] = {}
+def _check_result_names(reader: Reader, root: Map) -> Iterator[str]:
+    """Check the names that index results, and yield those that two entries have.
+
+    An error is collected for each name that is not allowed or used twice: bodies, joints, drives, forces and outputs
+    share one namespace.
+    """
+    users_of_names: dict[str, tuple[str, Location]] = {}
     for section, kind in _RESULT_SECTIONS.items():
         for name in root.part(section).names():
             with reader.collect():
                 check_name(name, kind, name.where)
-                if name in seen:
+                if name in users_of_names:
                     yield str(name)
-                    other, place = seen[name]
+                    other_kind, location = users_of_names[name]
                     hint = "expected a name of its own: bodies, joints, drives, forces and outputs share one namespace"
-                    message = f"{name!r} names two things: this {kind}, and the {other} at {place}"
+                    message = f"{name!r} names two things: this {kind}, and the {other_kind} at {location}"
                     raise BadNameError(message, name.where, hint)
-                seen[name] = kind, name.where
+                users_of_names[name] = kind, name.where
 
 
-def _check_points(reader: Reader, root: Map) -> None:
-    """Collect an error for each point whose name is reserved or not allowed."""
+def _check_point_names(reader: Reader, root: Map) -> None:
+    """Collect an error for each point whose name is reserved or not allowed.
+
+    Reserved are coordinates, implied points, and on a body with `sides` the corners P, Q and R.
+    """
     for body, node in root["bodies"].pairs():
         reasons = dict.fromkeys(CORNERS_OF_SIDES, "it is one of sides") if "sides" in node else {}
         reasons |= {name: f"{body}.{name} is a coordinate" for name in _COORDINATES}
         reasons |= dict.fromkeys(IMPLIED_POINTS, "every body has it")
         for point in node.part("points").names():
             with reader.collect():
-                _check_point(point, reasons.get(point, ""), "expected another name")
+                _check_point_name(point, reasons.get(point, ""), "expected another name")
     for point in root.part("ground").names():
         with reader.collect():
-            _check_point(point, "it names a coordinate" if point in _COORDINATES else "")
+            _check_point_name(point, "it names a coordinate" if point in _COORDINATES else "")
 
 
-def _check_point(point: Text, reason: str, hint: str = "") -> None:
-    """Raise BadNameError for a point's name that is not allowed; `reason` says why it is reserved."""
+def _check_point_name(point: Text, reason: str, hint: str = "") -> None:
+    """Raise BadNameError for a point's name that is not allowed; `reason` says why it is reserved, "" if it is not."""
     check_name(point, "point", point.where)
     if reason:
         raise BadNameError(f"{str(point)!r} cannot name a point: {reason}", point.where, hint)

@@ -30,40 +30,46 @@ class _Target:
 
 
 def read_drives(reader: Reader, root: Map, point_names: PointNames) -> dict[str, Drive]:
-    """Read all drives by name; two drives that prescribe the same quantity are an error."""
+    """Return all drives by name; drives with errors are left out.
+
+    An error is collected for a drive that prescribes the same quantity as one before it.
+    """
     drives: dict[str, Drive] = {}
-    driven: dict[tuple[str, frozenset[str]], Drive] = {}
+    drives_by_target: dict[tuple[str, frozenset[str]], Drive] = {}
     for name, node in root.part("drives").pairs():
         with reader.collect():
-            found = _read_drive(reader, name, node, point_names)
-            if found is None:
+            drive_and_key = _read_drive(reader, name, node, point_names)
+            if drive_and_key is None:
                 continue
-            drive, key = found
-            if key in driven:
-                other = driven[key]
-                message = f"drive {name} prescribes what drive {other.name} at {other.where} prescribes"
+            drive, key = drive_and_key
+            if key in drives_by_target:
+                other_drive = drives_by_target[key]
+                message = f"drive {name} prescribes what drive {other_drive.name} at {other_drive.where} prescribes"
                 raise JoinError(message, name.where, "expected one drive for one thing")
-            drives[str(name)] = driven[key] = drive
+            drives[str(name)] = drives_by_target[key] = drive
     return drives
 
 
 def _read_drive(
     reader: Reader, name: Text, node: Map, point_names: PointNames
 ) -> tuple[Drive, tuple[str, frozenset[str]]] | None:
-    """Read one drive and return it with the key of what it prescribes; None if either cannot be read."""
-    owner = f"drives.{name}"
-    kind, mistyped = read_kind(reader, node, DRIVES, owner)
+    """Return one drive with the key of what it prescribes; None if its target or value cannot be read.
+
+    Errors are collected. Raises BadValueError for a value with `sign`, which jumps.
+    """
+    address = f"drives.{name}"
+    kind, mistyped = read_kind(reader, node, DRIVES, address)
     target = None
     with reader.collect():
         target = _TARGET_READERS[kind](reader, node, kind, point_names)
-    of = target.dimension if target else None
-    fields = [replace(f, dimension=of) if f.any_dimension else f for f in DRIVES[kind].fields]
-    value = read_fields(reader, node, fields, FieldContext(owner, mistyped=mistyped)).quantities.get("value")
+    dimension = target.dimension if target else None
+    fields = [replace(f, dimension=dimension) if f.any_dimension else f for f in DRIVES[kind].fields]
+    value = read_fields(reader, node, fields, FieldContext(address, mistyped=mistyped)).quantities.get("value")
     if target is None or value is None:
         return None
     if "sign" in functions(value.value):
         raise BadValueError(
-            f"{owner}.value jumps where the argument of sign changes its sign",
+            f"{address}.value jumps where the argument of sign changes its sign",
             value.where,
             "a drive moves without jumps: abs, min, max, ramp, smooth_step and a where whose branches meet have none",
         )
@@ -74,41 +80,50 @@ def _read_drive(
 
 
 def _read_angle_target(reader: Reader, node: Map, kind: Text, point_names: PointNames) -> _Target:
-    """Read the target of an angle drive: `L1`, or `[L1, L2]` for the angle of L1 relative to L2."""
-    refs = read_targets(reader, node, kind, DRIVES[kind].targets, DRIVES[kind].counts, point_names)
-    body, reference = refs[0].body, refs[-1].body if len(refs) == 2 else GROUND
+    """Return the target of an angle drive: `L1`, or `[L1, L2]` for the angle of L1 relative to L2.
+
+    Raises JoinError for the ground and for a body relative to itself.
+    """
+    references = read_targets(reader, node, kind, DRIVES[kind].targets, DRIVES[kind].counts, point_names)
+    body, reference = references[0].body, references[-1].body if len(references) == 2 else GROUND
     hint = "expected a body, or a body and its reference"
     if body == GROUND:
-        raise JoinError("a drive cannot turn the ground", refs[-1].where, hint)
+        raise JoinError("a drive cannot turn the ground", references[-1].where, hint)
     if body == reference:
-        raise JoinError(f"{body} cannot be driven against itself", refs[-1].where, hint)
+        raise JoinError(f"{body} cannot be driven against itself", references[-1].where, hint)
     key = ("theta", frozenset((body, reference)))
     return _Target(body, None if reference == GROUND else reference, "theta", (), None, key)
 
 
 def _read_coordinate_target(reader: Reader, node: Map, kind: Text, point_names: PointNames) -> _Target:
-    """Read the target of a coordinate drive: `S9.y`, of the centre of mass in ground axes."""
-    text = node[kind]
-    if not isinstance(text, Text) or "." not in text:
+    """Return the target of a coordinate drive: `S9.y`, of the centre of mass in ground axes.
+
+    Raises BadValueError for a text without a dot, UnknownNameError for an unknown body or coordinate.
+    """
+    node_of_target = node[kind]
+    if not isinstance(node_of_target, Text) or "." not in node_of_target:
         hint = "expected a coordinate: BODY.x, BODY.y or BODY.theta"
-        raise BadValueError(f"{kind} is {kind_of(text)}", _location_of(text, kind), hint)
-    dimension = coordinate_of(text, COORDINATES, point_names, text.where)
-    body, _, coordinate = text.partition(".")
+        raise BadValueError(f"{kind} is {kind_of(node_of_target)}", _find_location(node_of_target, kind), hint)
+    dimension = coordinate_of(node_of_target, COORDINATES, point_names, node_of_target.where)
+    body, _, coordinate = node_of_target.partition(".")
     return _Target(body, None, coordinate, (), dimension, (coordinate, frozenset((body, GROUND))))
 
 
 def _read_distance_target(reader: Reader, node: Map, kind: Text, point_names: PointNames) -> _Target:
-    """Read the target of a distance drive: two points of different bodies, `[L1.head, S9.origin]`."""
-    refs = read_targets(reader, node, kind, DRIVES[kind].targets, DRIVES[kind].counts, point_names)
-    refuse_same_body("a driven distance", refs)
-    body = next(ref.body for ref in refs if ref.body != GROUND)
-    key = ("distance", frozenset(f"{ref.body}.{ref.point}" for ref in refs))
-    return _Target(body, None, "", refs, None, key)
+    """Return the target of a distance drive: two points of different bodies, `[L1.head, S9.origin]`.
+
+    The target's body is the first that is not the ground. Raises an InputError for points of the same body.
+    """
+    references = read_targets(reader, node, kind, DRIVES[kind].targets, DRIVES[kind].counts, point_names)
+    refuse_same_body("a driven distance", references)
+    body = next(ref.body for ref in references if ref.body != GROUND)
+    key = ("distance", frozenset(f"{ref.body}.{ref.point}" for ref in references))
+    return _Target(body, None, "", references, None, key)
 
 
-def _location_of(node: object, kind: Text) -> Location:
+def _find_location(node: object, key: Text) -> Location:
     """Return the location of a node, or of its key if the node is not a text."""
-    return node.where if isinstance(node, Text) else kind.where
+    return node.where if isinstance(node, Text) else key.where
 
 
 _TARGET_READERS: Mapping[str, Callable[[Reader, Map, Text, PointNames], _Target]] = {

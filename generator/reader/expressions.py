@@ -25,7 +25,10 @@ MAX_LEVELS = 100  # levels of such a tree
 
 
 def read_expressions(reader: Reader, root: Map) -> dict[str, Quantity]:
-    """Read the section `expressions:` in the order of the file; reader.expressions contains the entries afterwards."""
+    """Return the section `expressions:` as quantities in the order of the file, and fill reader.expressions.
+
+    Each is read after those that it uses. Errors are collected; a placeholder remains for an entry with an error.
+    """
     texts = {str(name): text for name, text in root.part("expressions").pairs() if name in reader.expressions}
     trees: dict[str, Expr] = {}
     for name, text in texts.items():
@@ -38,52 +41,65 @@ def read_expressions(reader: Reader, root: Map) -> dict[str, Quantity]:
     for name in order:
         with reader.collect():
             reader.expressions[name] = _read_named_expression(reader, name, texts[name], trees[name], sizes)
-    for name, one in reader.expressions.items():
-        reader.made_of[f"expressions.{name}"] = reader.expressions_in_tree(one.written)
+    for name, expression in reader.expressions.items():
+        reader.made_of[f"expressions.{name}"] = reader.expressions_in_tree(expression.written)
     return {
         name: reader.keep(
-            Quantity(f"expressions.{name}", one.value, one.dimension or DIMENSIONLESS, one.where, written=one.written)
+            Quantity(
+                f"expressions.{name}",
+                expression.value,
+                expression.dimension or DIMENSIONLESS,
+                expression.where,
+                written=expression.written,
+            )
         )
-        for name, one in reader.expressions.items()
+        for name, expression in reader.expressions.items()
     }
 
 
 def _read_named_expression(
     reader: Reader, name: str, text: Text, tree: Expr, sizes: dict[str, tuple[int, int]]
 ) -> NamedExpression:
-    """Return one named expression whose parts are already known.
+    """Return one named expression whose parts are already known; `sizes` gets its size.
 
-    Raises an InputError for a name that is not allowed.
+    Raises an InputError for a name that is not allowed, for another error of dimension, and for too large an
+    expression.
     """
     tree = choose_reading(text, tree, None, reader.dimension_of_number, reader.curves)
     sizes[name] = _check_size(name, tree, text.where, sizes)
-    value = replaced(tree, {other: one.value for other, one in reader.expressions.items()})
-    moves = any("." in inner.path for inner in names(value))
-    known = reader.dimensions_of_names(tree, text.where, OF_MOTION if moves else OF_TIME)
-    return NamedExpression(tree, value, check_dimension(tree, None, known.get, text.where), text.where)
+    value = replaced(tree, {other_name: expression.value for other_name, expression in reader.expressions.items()})
+    depends_on_motion = any("." in inner.path for inner in names(value))
+    dimensions = reader.dimensions_of_names(tree, text.where, OF_MOTION if depends_on_motion else OF_TIME)
+    return NamedExpression(tree, value, check_dimension(tree, None, dimensions.get, text.where), text.where)
 
 
-def _check_size(name: str, tree: Expr, where: Location, of: Mapping[str, tuple[int, int]]) -> tuple[int, int]:
-    """Return the number of parts and levels of a tree with all names replaced. Raises LimitError if it is too large."""
-    parts, levels = _measure_tree(tree, of)
+def _check_size(name: str, tree: Expr, location: Location, sizes: Mapping[str, tuple[int, int]]) -> tuple[int, int]:
+    """Return the number of parts and levels of a tree with all names replaced. Raises LimitError if it is too large.
+
+    `sizes` contains these numbers for each named expression that was read before.
+    """
+    parts, levels = _measure_tree(tree, sizes)
     if parts > MAX_PARTS or levels > MAX_LEVELS:
         message = f"expressions.{name} has {parts} parts in {levels} levels with all names written out"
-        raise LimitError(message, where, f"expected at most {MAX_PARTS} in {MAX_LEVELS}")
+        raise LimitError(message, location, f"expected at most {MAX_PARTS} in {MAX_LEVELS}")
     return parts, levels
 
 
-def _measure_tree(tree: Expr, of: Mapping[str, tuple[int, int]]) -> tuple[int, int]:
-    """Return (parts, levels) of a tree; `of` contains them for each named expression."""
+def _measure_tree(tree: Expr, sizes: Mapping[str, tuple[int, int]]) -> tuple[int, int]:
+    """Return (parts, levels) of a tree; `sizes` contains them for each named expression.
+
+    Arguments of functions that are derived with several copies count as often.
+    """
     match tree:
         case Name(path=path):
-            return of.get(path, (1, 1))
+            return sizes.get(path, (1, 1))
         case Unary(operand=operand):
-            below = [_measure_tree(operand, of)]
+            sizes_of_parts = [_measure_tree(operand, sizes)]
         case Binary(left=left, right=right):
-            below = [_measure_tree(left, of), _measure_tree(right, of)]
+            sizes_of_parts = [_measure_tree(left, sizes), _measure_tree(right, sizes)]
         case Call(arguments=arguments):
-            below = [_measure_tree(argument, of) for argument in arguments]
+            sizes_of_parts = [_measure_tree(argument, sizes) for argument in arguments]
         case _:
             return 1, 1
     copies = COPIES.get(getattr(tree, "function", ""), 1)
-    return 1 + copies * sum(parts for parts, _ in below), 1 + max(levels for _, levels in below)
+    return 1 + copies * sum(parts for parts, _ in sizes_of_parts), 1 + max(levels for _, levels in sizes_of_parts)

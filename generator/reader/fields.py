@@ -33,14 +33,14 @@ _NOWHERE: Mapping[str, str] = MappingProxyType({})
 
 @dataclass(frozen=True)
 class Values:
-    """Contain the numbers, vectors and choices of a mapping, with defaults filled in."""
+    """Contain the numbers, vectors and options of a mapping by field name, with defaults filled in."""
 
     quantities: dict[str, Quantity] = field(default_factory=dict)
     vectors: dict[str, Vector] = field(default_factory=dict)
     options: dict[str, str | bool] = field(default_factory=dict)
 
     def words(self) -> dict[str, str]:
-        """Return the choices as texts, as a file writes them."""
+        """Return the options as texts, as a file writes them: True becomes "true"."""
         return {name: str(value).lower() if isinstance(value, bool) else value for name, value in self.options.items()}
 
 
@@ -55,99 +55,121 @@ class _Kind(Protocol):
 
 
 def read_kind(
-    reader: Reader, node: Map, kinds: Mapping[str, _Kind], owner: str, elsewhere: Mapping[str, str] = _NOWHERE
+    reader: Reader, node: Map, kinds: Mapping[str, _Kind], address: str, hints: Mapping[str, str] = _NOWHERE
 ) -> tuple[Text, frozenset[str | None]]:
-    """Return the key that states an entry's kind, and the keys that its unknown keys probably mean (`check_keys`)."""
-    kind = find_kind(node, kinds, [key for of in kinds.values() for key in field_names(of.fields)], owner)
-    return kind, check_keys(reader, node, [kind, *field_names(kinds[kind].fields)], owner, elsewhere)
+    """Return the key that states an entry's kind, and the keys that its unknown keys probably mean (`check_keys`).
+
+    Errors of unknown keys are collected. `address` is the entry's address; `hints` maps keys of other sections to a
+    hint. Raises an InputError if there is no kind or more than one.
+    """
+    kind_key = find_kind(
+        node, kinds, [key for kind_type in kinds.values() for key in field_names(kind_type.fields)], address
+    )
+    return kind_key, check_keys(reader, node, [kind_key, *field_names(kinds[kind_key].fields)], address, hints)
 
 
-def find_kind(node: Map, known: Mapping[str, _Kind], also: Iterable[str], owner: str) -> Text:
+def find_kind(node: Map, kinds: Mapping[str, _Kind], other_keys: Iterable[str], address: str) -> Text:
     """Return the only key of a mapping that is a kind. Raises an InputError if there is none or more than one.
 
-    `also` are the other keys that are allowed; `owner` is the mapping's address.
+    `kinds` maps kinds to their declarations, `other_keys` are the other allowed keys, `address` is the mapping's
+    address. The hint names the kind that another program calls by an unknown key.
     """
-    found = [key for key in node.names() if key in known]
-    if len(found) == 1:
-        return found[0]
-    if found:
-        raise UnknownKeyError(f"{owner} is both {found[0]} and {found[1]}", found[1].where, "expected one kind")
-    strange = next((key for key in node.names() if key not in also), None)
-    otherwise = {other: kind for kind, of in known.items() for other in of.also}
+    kind_keys = [key for key in node.names() if key in kinds]
+    if len(kind_keys) == 1:
+        return kind_keys[0]
+    if kind_keys:
+        raise UnknownKeyError(
+            f"{address} is both {kind_keys[0]} and {kind_keys[1]}", kind_keys[1].where, "expected one kind"
+        )
+    unknown = next((key for key in node.names() if key not in other_keys), None)
+    foreign_names = {foreign_name: kind for kind, kind_type in kinds.items() for foreign_name in kind_type.also}
     for key in node.names():
-        if key.lower() in otherwise:
-            raise unknown_key(key, known, owner, f"{str(key)!r} is called {otherwise[key.lower()]} here")
-    if strange is None:
-        raise MissingKeyError(f"{owner} has no kind", node.where, known_hint("", known))
-    raise unknown_key(strange, known, owner)
+        if key.lower() in foreign_names:
+            raise unknown_key(key, kinds, address, f"{str(key)!r} is called {foreign_names[key.lower()]} here")
+    if unknown is None:
+        raise MissingKeyError(f"{address} has no kind", node.where, known_hint("", kinds))
+    raise unknown_key(unknown, kinds, address)
 
 
 def check_keys(
-    reader: Reader, node: Map, known: Sequence[str], owner: str, elsewhere: Mapping[str, str] = _NOWHERE
+    reader: Reader, node: Map, known_keys: Sequence[str], address: str, hints: Mapping[str, str] = _NOWHERE
 ) -> frozenset[str | None]:
-    """Collect an error for each unknown key of an entry, and return the keys that they probably stand for.
+    """Collect an error for each unknown key of an entry, and return the known keys that these probably stand for.
 
-    `elsewhere` maps keys of other sections to a hint where to write them.
+    The set contains None for a key that resembles no known key. `address` is the entry's address; `hints` maps keys of
+    other sections to a hint where to write them.
     """
-    strange = [key for key in node.names() if key not in known]
-    reader.errors.extend(unknown_key(key, known, owner, elsewhere.get(key, "")) for key in strange)
-    return frozenset(nearest(key, known) for key in strange)
+    unknown_keys = [key for key in node.names() if key not in known_keys]
+    reader.errors.extend(unknown_key(key, known_keys, address, hints.get(key, "")) for key in unknown_keys)
+    return frozenset(nearest(key, known_keys) for key in unknown_keys)
 
 
 def read_targets(
-    reader: Reader, node: Map, kind: Text, targets: str, counts: Sequence[int], point_names: PointNames
+    reader: Reader, node: Map, kind: Text, target_kind: str, counts: Sequence[int], point_names: PointNames
 ) -> tuple[PointRef, ...]:
-    """Return the points (`targets` "points") or bodies that an entry lists.
+    """Return the points (`target_kind` "points") or bodies that an entry lists, in the order of the file.
 
-    `counts` are the allowed numbers of them. All are checked before an error is raised.
+    `kind` is the key of the list; `counts` are the allowed numbers of targets. All names are checked: the last error is
+    raised, the others are collected. Raises BadValueError for another number of targets.
     """
-    found = node[kind]
-    items = list(found) if isinstance(found, Items) else [found]
-    if len(items) not in counts or isinstance(found, Items) and len(items) == 1:
-        one, many = ("point", "points") if targets == "points" else ("body", "bodies")
-        what = counted(len(items), one, many) if isinstance(found, Items) else kind_of(found)
-        place = found.where if isinstance(found, Items) else kind.where
-        hint = _targets_hint(targets, counts)
+    value = node[kind]
+    items = list(value) if isinstance(value, Items) else [value]
+    if len(items) not in counts or isinstance(value, Items) and len(items) == 1:
+        singular, plural = ("point", "points") if target_kind == "points" else ("body", "bodies")
+        phrase = counted(len(items), singular, plural) if isinstance(value, Items) else kind_of(value)
+        location = value.where if isinstance(value, Items) else kind.where
+        hint = _format_targets_hint(target_kind, counts)
         joint = joint_types().get(kind)
         if len(items) > 2 and joint and joint.is_pivot and all(isinstance(item, Text) for item in items):
-            hint += f"; {_pairs_hint(kind, items)}"
-        raise BadValueError(f"{kind} has {what}", place, hint)
-    refs: list[PointRef] = []
+            hint += f"; {_format_joints_hint(kind, items)}"
+        raise BadValueError(f"{kind} has {phrase}", location, hint)
+    references: list[PointRef] = []
     errors: list[InputError] = []
     for item in items:
-        place = getattr(item, "where", kind.where)
+        location = getattr(item, "where", kind.where)
         try:
-            refs.append(point_names.point(item, place) if targets == "points" else point_names.body(item, place))
+            references.append(
+                point_names.point(item, location) if target_kind == "points" else point_names.body(item, location)
+            )
         except InputError as error:
             errors.append(error)
     if errors:
         reader.errors.extend(errors[:-1])
         raise errors[-1]
-    return tuple(refs)
+    return tuple(references)
 
 
-def _targets_hint(targets: str, counts: Sequence[int]) -> str:
-    """Return the hint that says how many points or bodies are expected."""
-    one, two = ("L1.head", "[L1.head, L2.tail]") if targets == "points" else ("L1", "[L1, L2]")
-    examples = {1: f"one {'point' if targets == 'points' else 'body'}: {one}", 2: f"two {targets}: {two}"}
+def _format_targets_hint(target_kind: str, counts: Sequence[int]) -> str:
+    """Return the hint that says how many points or bodies are expected, with an example for each allowed number."""
+    single_example, pair_example = ("L1.head", "[L1.head, L2.tail]") if target_kind == "points" else ("L1", "[L1, L2]")
+    examples = {
+        1: f"one {'point' if target_kind == 'points' else 'body'}: {single_example}",
+        2: f"two {target_kind}: {pair_example}",
+    }
     return f"expected {' or '.join(examples[count] for count in counts)}"
 
 
-def _pairs_hint(kind: Text, points: Sequence[object]) -> str:
-    """Return the hint for several bodies on one pin: the joints, of two points each, that replace the list."""
-    first, *others = (str(point)[:60] for point in points[:4])
-    lines = ", ".join(f"{name}: {{{kind}: [{first}, {other}]}}" for name, other in zip("ABC", others, strict=False))
+def _format_joints_hint(kind: Text, points: Sequence[object]) -> str:
+    """Return the hint for more than two points at one pin: the joints of two points each that replace the list.
+
+    At most three joints are written out; texts of points are cut at 60 characters.
+    """
+    first_point, *other_points = (str(point)[:60] for point in points[:4])
+    lines = ", ".join(
+        f"{name}: {{{kind}: [{first_point}, {other_point}]}}"
+        for name, other_point in zip("ABC", other_points, strict=False)
+    )
     return f"{len(points)} bodies on one pin are {len(points) - 1} joints: {lines}"
 
 
-def refuse_same_body(kind: str, refs: Sequence[PointRef]) -> None:
+def refuse_same_body(kind: str, references: Sequence[PointRef]) -> None:
     """Raise JoinError unless the references are two different bodies, or one body that is not the ground."""
-    last = refs[-1]
-    if len(refs) == 1 and last.body == GROUND:
+    last = references[-1]
+    if len(references) == 1 and last.body == GROUND:
         raise JoinError(f"{kind} acts on the ground", last.where, "expected a body: the ground does not move")
-    if len(refs) == 2 and refs[0].body == last.body:
-        what = "the ground to the ground" if last.body == GROUND else f"body {last.body} to itself"
-        raise JoinError(f"{kind} joins {what}", last.where, "expected two different bodies")
+    if len(references) == 2 and references[0].body == last.body:
+        phrase = "the ground to the ground" if last.body == GROUND else f"body {last.body} to itself"
+        raise JoinError(f"{kind} joins {phrase}", last.where, "expected two different bodies")
 
 
 @dataclass(frozen=True)
@@ -162,93 +184,125 @@ class FieldContext:
 
 
 def read_fields(reader: Reader, node: Map, fields: Sequence[Field], context: FieldContext) -> Values:
-    """Read the numbers, vectors, words, flags and bodies among the fields of a mapping, and record their conditions."""
+    """Return the numbers, vectors, words, flags and bodies among the fields of a mapping, and record their conditions.
+
+    Defaults are filled in. Errors are collected, also for a required key that is missing, unless an unknown key
+    probably stands for it (`context.mistyped`).
+    """
     values = Values()
-    for declared in fields:
+    for declaration in fields:
         with reader.collect():
-            if declared.name in node:
-                _read_field(reader, node, declared, context, values)
-            elif declared.required and declared.name not in context.mistyped:
-                raise missing_key(declared.name, node.where, context.owner)
-            elif declared.default is not None:
+            if declaration.name in node:
+                _read_field(reader, node, declaration, context, values)
+            elif declaration.required and declaration.name not in context.mistyped:
+                raise missing_key(declaration.name, node.where, context.owner)
+            elif declaration.default is not None:
                 _fill_in_default(
-                    reader, declared, f"{context.owner}.{declared.name}", context.place or node.where, values
+                    reader, declaration, f"{context.owner}.{declaration.name}", context.place or node.where, values
                 )
     _record_bounds(reader, fields, context, values)
     return values
 
 
-def _fill_in_default(reader: Reader, declared: Field, address: str, place: Location, values: Values) -> None:
-    """Store the default of a field in `values`."""
-    if declared.kind == NUMBER:
-        number = Number(float(declared.default or 0.0), repr(declared.default))
-        dimension = declared.dimension or DIMENSIONLESS
-        values.quantities[declared.name] = reader.keep(Quantity(address, number, dimension, place))
+def _fill_in_default(reader: Reader, declaration: Field, address: str, location: Location, values: Values) -> None:
+    """Store the default of a field in `values`.
+
+    A number becomes a registered quantity at `address`; a word, flag or body becomes an option.
+    """
+    if declaration.kind == NUMBER:
+        number = Number(float(declaration.default or 0.0), repr(declaration.default))
+        dimension = declaration.dimension or DIMENSIONLESS
+        values.quantities[declaration.name] = reader.keep(Quantity(address, number, dimension, location))
     else:
-        values.options[declared.name] = declared.choice
+        values.options[declaration.name] = declaration.choice
 
 
-def _read_field(reader: Reader, node: Map, declared: Field, context: FieldContext, values: Values) -> None:
-    """Read one field that the mapping contains into `values`."""
-    address, text = f"{context.owner}.{declared.name}", node[declared.name]
-    if declared.kind in (NUMBER, BODY) and not isinstance(text, Text):
-        where = node.key(declared.name).where
-        raise BadValueError(f"{address} is {kind_of(text)}", where, "expected a number or a text")
-    if declared.kind == VECTOR:
-        values.vectors[declared.name] = read_vector(reader, text, node.key(declared.name), declared, address)
-    elif declared.kind == NUMBER:
-        values.quantities[declared.name] = reader.quantity(text, address, declared.dimension, declared.varies)
-        if declared.whole:
-            reader.wholes[address] = declared.meaning
-    elif declared.kind in (WORD, FLAG):
-        values.options[declared.name] = _read_word(text, node.key(declared.name), declared, address)
-    elif declared.kind == BODY and context.point_names is not None:
-        values.options[declared.name] = context.point_names.check_body(text, text.where)
+def _read_field(reader: Reader, node: Map, declaration: Field, context: FieldContext, values: Values) -> None:
+    """Read the value of one field of the mapping, check it by the field's kind, and store it in `values`.
+
+    Fields of other kinds (names, records) are skipped: other readers read them. Raises BadValueError for a node of the
+    wrong type.
+    """
+    address, node_of_field = f"{context.owner}.{declaration.name}", node[declaration.name]
+    if declaration.kind in (NUMBER, BODY) and not isinstance(node_of_field, Text):
+        location = node.key(declaration.name).where
+        raise BadValueError(f"{address} is {kind_of(node_of_field)}", location, "expected a number or a text")
+    if declaration.kind == VECTOR:
+        values.vectors[declaration.name] = read_vector(
+            reader, node_of_field, node.key(declaration.name), declaration, address
+        )
+    elif declaration.kind == NUMBER:
+        values.quantities[declaration.name] = reader.quantity(
+            node_of_field, address, declaration.dimension, declaration.varies
+        )
+        if declaration.whole:
+            reader.wholes[address] = declaration.meaning
+    elif declaration.kind in (WORD, FLAG):
+        values.options[declaration.name] = _read_word(node_of_field, node.key(declaration.name), declaration, address)
+    elif declaration.kind == BODY and context.point_names is not None:
+        values.options[declaration.name] = context.point_names.check_body(node_of_field, node_of_field.where)
 
 
-def read_vector(reader: Reader, pair: object, key: Text, declared: Field, address: str) -> Vector:
-    """Read two numbers `address`.x and `address`.y as their field declares them; `key` is the key before them."""
-    if not isinstance(pair, Items) or len(pair) != 2 or not all(isinstance(item, Text) for item in pair):
-        raise BadValueError(f"{address} is {kind_of(pair)}", key.where, "expected a list of two: [x, y]")
+def read_vector(reader: Reader, node: object, key: Text, declaration: Field, address: str) -> Vector:
+    """Return the two quantities `address`.x and `address`.y of a list [x, y], read as their field declares.
+
+    `key` is the key before the list, for the location of errors. A vector that must not be zero is recorded for
+    `check_values`. Raises BadValueError unless `node` is a list of two scalars.
+    """
+    if not isinstance(node, Items) or len(node) != 2 or not all(isinstance(item, Text) for item in node):
+        raise BadValueError(f"{address} is {kind_of(node)}", key.where, "expected a list of two: [x, y]")
     x, y = (
-        reader.quantity(text, f"{address}.{axis}", declared.dimension, declared.varies)
-        for text, axis in zip(pair, "xy", strict=True)
+        reader.quantity(text, f"{address}.{axis}", declaration.dimension, declaration.varies)
+        for text, axis in zip(node, "xy", strict=True)
     )
-    if declared.nonzero:
+    if declaration.nonzero:
         reader.vectors_not_zero.append((x, y))
     return x, y
 
 
-def _read_word(text: object, key: Text, declared: Field, address: str) -> str | bool:
-    """Return one of the allowed words of a field, or True or False of a flag. Raises BadValueError."""
-    words = {str(value).lower() if isinstance(value, bool) else value: value for value in declared.values}
-    if not isinstance(text, Text) or text not in words:
-        place = text.where if isinstance(text, Text) and not text.is_nothing else key.where
-        hint = "expected true or false" if declared.kind == FLAG else known_hint(str(text), words)
-        raise BadValueError(f"{address} is {kind_of(text)}", place, hint)
-    return words[text]
+def _read_word(node: object, key: Text, declaration: Field, address: str) -> str | bool:
+    """Return one of the allowed words of a field; for a flag, True or False. Raises BadValueError.
+
+    `key` is the key before the node, which locates the error if the node is empty or not a scalar.
+    """
+    allowed_values = {str(value).lower() if isinstance(value, bool) else value: value for value in declaration.values}
+    if not isinstance(node, Text) or node not in allowed_values:
+        location = node.where if isinstance(node, Text) and not node.is_nothing else key.where
+        hint = "expected true or false" if declaration.kind == FLAG else known_hint(str(node), allowed_values)
+        raise BadValueError(f"{address} is {kind_of(node)}", location, hint)
+    return allowed_values[node]
 
 
 def _record_bounds(reader: Reader, fields: Sequence[Field], context: FieldContext, values: Values) -> None:
-    """Record the bounds of numbers and vectors as conditions; bounds of a limit come before those that use it."""
-    seen: set[str] = set()
-    waiting: list[tuple[Field, Bound]] = []
-    for declared in fields:
-        seen.add(declared.name)
-        waiting = [*((declared, bound) for bound in declared.bounds), *waiting]
-        for bounded, bound in waiting:
-            if not isinstance(bound.limit, str) or bound.limit in seen:
-                _record_bound(reader, bounded, bound, context, values)
-        waiting = [(f, bound) for f, bound in waiting if isinstance(bound.limit, str) and bound.limit not in seen]
+    """Record the bounds of numbers and vectors as conditions.
+
+    A bound by another field is recorded after that field's own bounds, so that an error of the limit is reported first.
+    """
+    visited: set[str] = set()
+    postponed: list[tuple[Field, Bound]] = []
+    for declaration in fields:
+        visited.add(declaration.name)
+        postponed = [*((declaration, bound) for bound in declaration.bounds), *postponed]
+        for bounded_declaration, bound in postponed:
+            if not isinstance(bound.limit, str) or bound.limit in visited:
+                _record_bound(reader, bounded_declaration, bound, context, values)
+        postponed = [
+            (bounded_declaration, bound)
+            for bounded_declaration, bound in postponed
+            if isinstance(bound.limit, str) and bound.limit not in visited
+        ]
 
 
-def _record_bound(reader: Reader, declared: Field, bound: Bound, context: FieldContext, values: Values) -> None:
-    """Record one bound of a number, or of both components of a vector."""
-    own = values.quantities.get(declared.name)
+def _record_bound(reader: Reader, declaration: Field, bound: Bound, context: FieldContext, values: Values) -> None:
+    """Record one bound of a number, or of both components of a vector, as a condition of the reader.
+
+    Nothing is recorded if the number or the field that limits it was not read.
+    """
+    quantity = values.quantities.get(declaration.name)
     limit = values.quantities.get(bound.limit) if isinstance(bound.limit, str) else bound.limit
-    for number in values.vectors.get(declared.name, ()) if own is None else (own,):
+    for bounded_quantity in values.vectors.get(declaration.name, ()) if quantity is None else (quantity,):
         if limit is not None:
-            reader.require(number, bound.relation, limit, bound.reason(declared, context.why))
+            reader.require(bounded_quantity, bound.relation, limit, bound.reason(declaration, context.why))
 
 
 def field_names(fields: Iterable[Field]) -> list[str]:

@@ -19,70 +19,83 @@ from gudgeon.language.tree import Number, functions, names
 
 
 def read_joints(reader: Reader, root: Map, point_names: PointNames) -> dict[str, Joint]:
-    """Read all joints by name; errors are collected, and joints with errors are left out."""
+    """Return all joints by name; errors are collected, and joints with errors are left out."""
     joints = {}
     for name, node in root.part("joints").pairs():
         with reader.collect():
-            joints[str(name)] = _read_joint(reader, name, node, point_names, _play_hints(name, node, root))
+            joints[str(name)] = _read_joint(reader, name, node, point_names, _make_play_hints(name, node, root))
     return joints
 
 
-def _play_hints(joint: Text, node: Map, root: Map) -> Mapping[str, str]:
-    """Return hints for keys such as `clearance` in a joint: the play that belongs into a scene."""
-    slides = any(kind.play == "guide" and key in node for key, kind in joint_types().items())
-    measured = "guide" if slides else "bearing"
-    measures, contact = (next(iter(root.part(f"{what}s")), _PLAY[what]) for what in (measured, "contact"))
-    line = f"scenes: {{worn: {{play: {{{joint}: {{{measured}: {measures}, contact: {contact}}}}}}}}}"
-    return dict.fromkeys(("play", "clearance", "bearing", "guide", "contact"), f"play stands in scenes: {line}")
+def _make_play_hints(joint: Text, node: Map, root: Map) -> Mapping[str, str]:
+    """Return the hint for each of the keys `clearance`, `bearing`, … in a joint: the play that belongs into a scene.
+
+    The hint is an example with the file's first bearing, or guide for a slider, and its first contact.
+    """
+    is_slider = any(joint_type.play == "guide" and key in node for key, joint_type in joint_types().items())
+    dimensions_key = "guide" if is_slider else "bearing"
+    dimensions_name, contact = (
+        next(iter(root.part(f"{section}s")), _PLAY[section]) for section in (dimensions_key, "contact")
+    )
+    example = f"scenes: {{worn: {{play: {{{joint}: {{{dimensions_key}: {dimensions_name}, contact: {contact}}}}}}}}}"
+    return dict.fromkeys(("play", "clearance", "bearing", "guide", "contact"), f"play stands in scenes: {example}")
 
 
 _PLAY = {"bearing": "pin", "guide": "way", "contact": "metal"}
 
 
-def _read_joint(reader: Reader, name: Text, node: Map, point_names: PointNames, elsewhere: Mapping[str, str]) -> Joint:
-    """Read one joint. Raises an InputError if its bodies or its profile are not allowed."""
-    owner = f"joints.{name}"
-    kind, mistyped = read_kind(reader, node, joint_types(), owner, elsewhere)
+def _read_joint(reader: Reader, name: Text, node: Map, point_names: PointNames, hints: Mapping[str, str]) -> Joint:
+    """Return one joint; `hints` maps keys that belong into other sections to hints.
+
+    Errors of its numbers are collected. Raises an InputError if its bodies or its profile are not allowed.
+    """
+    address = f"joints.{name}"
+    kind, mistyped = read_kind(reader, node, joint_types(), address, hints)
     joint_type = joint_types()[kind]
     values = read_fields(
-        reader, node, joint_type.fields, FieldContext(owner, mistyped=mistyped, point_names=point_names)
+        reader, node, joint_type.fields, FieldContext(address, mistyped=mistyped, point_names=point_names)
     )
     first, second = read_targets(reader, node, kind, joint_type.joins, (2,), point_names)
     refuse_same_body(kind, (first, second))
     for field in joint_type.fields:
         if field.varies == OF_CAM_ANGLE and field.name in values.quantities:
             with reader.collect():
-                _check_profile(reader, values.quantities[field.name])
+                _check_cam_profile(reader, values.quantities[field.name])
     for field in joint_type.fields:
         if field.kind == BODY and values.options.get(field.name) in (first.body, second.body):
             body = values.options[field.name]
-            place = node[field.name].where if field.name in node else kind.where
-            raise JoinError(f"{body} is one of the two bodies and their {field.name}", place, "expected a third one")
+            location = node[field.name].where if field.name in node else kind.where
+            raise JoinError(f"{body} is one of the two bodies and their {field.name}", location, "expected a third one")
     return Joint(str(name), str(kind), first, second, values.quantities, values.vectors, values.words(), name.where)
 
 
-def _check_profile(reader: Reader, profile: Quantity) -> None:
-    """Raise an InputError unless a cam's profile is a function of phi with a continuous slope."""
+def _check_cam_profile(reader: Reader, profile: Quantity) -> None:
+    """Raise an InputError unless a cam's profile is a function of phi with a continuous slope.
+
+    Nothing is checked if the profile could not be read. Raises BadNameError if a parameter of the file is called phi.
+    """
     if isinstance(profile.value, Number) and profile.value.value != profile.value.value:
         return  # NaN: reported already
-    used = {name.path: at(profile.where, name.offset) for name in names(profile.value)}
-    if OF_CAM_ANGLE in reader.parameters and OF_CAM_ANGLE in used:
+    locations = {name.path: at(profile.where, name.offset) for name in names(profile.value)}
+    if OF_CAM_ANGLE in reader.parameters and OF_CAM_ANGLE in locations:
         hint = "give the parameter another name"
-        raise BadNameError("'phi' is the cam's angle here, and a parameter of this file", used[OF_CAM_ANGLE], hint)
-    strange = next((path for path in used if path not in (OF_CAM_ANGLE, *reader.parameters)), None)
-    if strange is not None:
+        raise BadNameError("'phi' is the cam's angle here, and a parameter of this file", locations[OF_CAM_ANGLE], hint)
+    unknown = next((path for path in locations if path not in (OF_CAM_ANGLE, *reader.parameters)), None)
+    if unknown is not None:
         hint = "expected phi, the cam's angle, parameters and curves"
-        raise ExpressionError(f"{strange!r} cannot stand in the profile of a cam", profile.where, hint)
-    if OF_CAM_ANGLE not in used:
+        raise ExpressionError(f"{unknown!r} cannot stand in the profile of a cam", profile.where, hint)
+    if OF_CAM_ANGLE not in locations:
         hint = "expected an expression such as 30 mm + lift(phi)"
         raise ExpressionError(f"{profile.address} does not follow phi, the cam's angle", profile.where, hint)
-    if jumps := sorted(PIECEWISE.intersection(functions(profile.value))):
+    if piecewise_functions := sorted(PIECEWISE.intersection(functions(profile.value))):
         hint = "expected curves (extrapolate: none, or ends: periodic) and smooth functions: the slope is a speed"
-        raise BadValueError(f"{profile.address} has a slope that may jump, by {jumps[0]}", profile.where, hint)
+        raise BadValueError(
+            f"{profile.address} has a slope that may jump, by {piecewise_functions[0]}", profile.where, hint
+        )
 
 
 def read_forces(reader: Reader, root: Map, point_names: PointNames) -> dict[str, ForceElement]:
-    """Read all force elements by name; errors are collected, and elements with errors are left out."""
+    """Return all force elements by name; errors are collected, and elements with errors are left out."""
     forces = {}
     for name, node in root.part("forces").pairs():
         with reader.collect():
@@ -91,11 +104,16 @@ def read_forces(reader: Reader, root: Map, point_names: PointNames) -> dict[str,
 
 
 def _read_force(reader: Reader, name: Text, node: Map, point_names: PointNames) -> ForceElement:
-    """Read one force element."""
-    owner = f"forces.{name}"
-    kind, mistyped = read_kind(reader, node, element_types(), owner)
-    element = element_types()[kind]
-    values = read_fields(reader, node, element.fields, FieldContext(owner, mistyped=mistyped, point_names=point_names))
-    targets = read_targets(reader, node, kind, element.targets, element.counts, point_names)
+    """Return one force element; errors of its numbers are collected.
+
+    Raises an InputError if its targets are not allowed.
+    """
+    address = f"forces.{name}"
+    kind, mistyped = read_kind(reader, node, element_types(), address)
+    element_type = element_types()[kind]
+    values = read_fields(
+        reader, node, element_type.fields, FieldContext(address, mistyped=mistyped, point_names=point_names)
+    )
+    targets = read_targets(reader, node, kind, element_type.targets, element_type.counts, point_names)
     refuse_same_body(kind, targets)
     return ForceElement(str(name), str(kind), targets, values.quantities, values.vectors, values.words(), name.where)

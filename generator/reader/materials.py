@@ -21,9 +21,9 @@ EXAMPLE = "materials: {steel: {E: 210 GPa, nu: 0.3, density: 7850 kg/m^3}}"
 
 
 class Materials:
-    """Contain the materials of a file.
+    """Contain the materials of a file: `known` by name, and in `choices` by address those that a run may replace.
 
-    `known` contains them by name, `choices` the replaceable ones by address: "bearings.pin.journal_material".
+    An address is "bearings.pin.journal_material".
     """
 
     def __init__(self, reader: Reader, section: Map) -> None:
@@ -36,52 +36,64 @@ class Materials:
         for needs in (ELASTIC, ("density",)):
             self._make_replaceable(needs)
 
-    def _make_replaceable(self, needs: tuple[str, ...]) -> None:
-        """Make the values of materials that can be chosen run-time parameters, also those that are written as 0."""
-        fitting = self._names_with(needs)
-        for name in fitting if len(fitting) > 1 else ():
-            numbers = self.known[name].numbers
-            kept = {what: self._reader.keep(replace(numbers[what], kept=True)) for what in needs}
-            self.known[name] = Material(name, {**numbers, **kept})
+    def _make_replaceable(self, properties: tuple[str, ...]) -> None:
+        """Make the values of materials that can be chosen run-time parameters, also those that are written as 0.
 
-    def _names_with(self, needs: Iterable[str]) -> list[str]:
-        """Return the names of the materials that have all properties in `needs`."""
-        return [name for name, material in self.known.items() if all(what in material.numbers for what in needs)]
-
-    def values_of_material(self, address: str, text: Text, needs: tuple[str, ...]) -> dict[str, Quantity]:
-        """Return the properties of the material named at an address, by their names `needs`.
-
-        If another material may be chosen, they are parameters of their own. Raises UnknownNameError, MissingKeyError.
+        `properties` are the properties that a use needs; nothing changes unless at least two materials have them all.
         """
-        self._needs[address] = needs
-        numbers = self._find_material(text, needs).numbers
-        if len(self._names_with(needs)) < 2:
-            return {what: numbers[what] for what in needs}
-        own = {what: self._reader.keep(following(f"{address}.{what}", numbers[what], text.where)) for what in needs}
+        names = self._find_materials_with(properties)
+        for name in names if len(names) > 1 else ():
+            numbers = self.known[name].numbers
+            parameters = {key: self._reader.keep(replace(numbers[key], kept=True)) for key in properties}
+            self.known[name] = Material(name, {**numbers, **parameters})
+
+    def _find_materials_with(self, properties: Iterable[str]) -> list[str]:
+        """Return the names of the materials that have all properties in `properties`."""
+        return [name for name, material in self.known.items() if all(key in material.numbers for key in properties)]
+
+    def values_of_material(self, address: str, text: Text, properties: tuple[str, ...]) -> dict[str, Quantity]:
+        """Return the properties of the material named at an address, by their names `properties`.
+
+        If another material has them too, the properties become run-time parameters at this address, with the bounds of
+        materials, and `choices` gets the address. Raises UnknownNameError, MissingKeyError.
+        """
+        self._needs[address] = properties
+        quantities = self._find_material(text, properties).numbers
+        if len(self._find_materials_with(properties)) < 2:
+            return {key: quantities[key] for key in properties}
+        parameters = {
+            key: self._reader.keep(following(f"{address}.{key}", quantities[key], text.where)) for key in properties
+        }
         for field in MATERIAL.fields:
-            for bound in field.bounds if field.name in own else ():
-                self._reader.require(own[field.name], bound.relation, float(bound.limit), bound.why)
-        self.choices[address] = Choice(address, str(text), own)
-        return own
+            for bound in field.bounds if field.name in parameters else ():
+                self._reader.require(parameters[field.name], bound.relation, float(bound.limit), bound.why)
+        self.choices[address] = Choice(address, str(text), parameters)
+        return parameters
 
     def check_choice(self, address: Text, text: Text) -> str:
-        """Return the name of the material that a scene gives an address. Raises UnknownNameError, MissingKeyError."""
+        """Return the name of the material that a scene gives an address. Raises UnknownNameError, MissingKeyError.
+
+        The address must be that of a bearing, guide or shape with a material, whose needed properties the material must
+        have.
+        """
         if address not in self._needs:
             raise unknown_name("address of a material", address, self._needs, address.where)
         return self._find_material(text, self._needs[address]).name
 
-    def _find_material(self, text: Text, needs: tuple[str, ...]) -> Material:
-        """Return the material with this name if it has all properties in `needs`.
+    def _find_material(self, text: Text, properties: tuple[str, ...]) -> Material:
+        """Return the material named `text` if it has all properties in `properties`.
 
-        Raises UnknownNameError, MissingKeyError.
+        Raises UnknownNameError, with an example if the file has no materials, and MissingKeyError.
         """
         if not self.known:
             raise UnknownNameError(f"unknown material {str(text)[:200]!r}", text.where, f"write it: {EXAMPLE}")
         if text not in self.known:
             raise unknown_name("material", text, self.known, text.where)
-        lacking = [what for what in needs if what not in self.known[text].numbers]
-        if lacking:
-            fitting = ", ".join(self._names_with(needs))
-            hint = f"expected the key {lacking[0]!r} in materials.{text}" + (f", or one of: {fitting}" * bool(fitting))
-            raise MissingKeyError(f"material {text} has no {' and no '.join(lacking)}", text.where, hint)
+        missing_keys = [key for key in properties if key not in self.known[text].numbers]
+        if missing_keys:
+            suitable_names = ", ".join(self._find_materials_with(properties))
+            hint = f"expected the key {missing_keys[0]!r} in materials.{text}" + (
+                f", or one of: {suitable_names}" * bool(suitable_names)
+            )
+            raise MissingKeyError(f"material {text} has no {' and no '.join(missing_keys)}", text.where, hint)
         return self.known[text]

@@ -20,7 +20,11 @@ MAX_REPORTED = 8  # names of a cycle in a message
 
 
 def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
-    """Read the section `parameters:` in the order of the file; reader.parameters then contains their dimensions."""
+    """Return the section `parameters:` by name, in the order of the file.
+
+    Dimensions are then in reader.parameters, None for a parameter without a unit. Errors are collected: the value of
+    such a parameter is NaN.
+    """
     texts = {str(name): text for name, text in section.pairs()}
     trees: dict[str, Expr] = {name: unreadable_number(text) for name, text in texts.items()}
     for name, text in texts.items():
@@ -28,12 +32,15 @@ def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
             continue
         with reader.collect():
 
-            def read(value: str, name: str = name, text: Text = text) -> Expr:
-                """Parse one spelling of a parameter's value and check its names and dimension."""
-                written = Text.make(value, text.where, text.plain, text.one_line)
-                tree = reader.parse(written, f"parameters.{name}", constant=True)
+            def read(spelling_text: str, name: str = name, text: Text = text) -> Expr:
+                """Return the tree of one spelling of a parameter's value, after checks of its names and dimension.
+
+                `unit_remedies` calls this function with other spellings. Raises InputError.
+                """
+                spelling = Text.make(spelling_text, text.where, text.plain, text.one_line)
+                tree = reader.parse(spelling, f"parameters.{name}", constant=True)
                 reader.dimensions_of_names(tree, text.where)
-                _parameter_dimension(name, tree, lambda _: None, text.where)
+                _find_parameter_dimension(name, tree, lambda _: None, text.where)
                 return tree
 
             with unit_remedies(text, text.where, read, None, reader.parameters):
@@ -41,10 +48,12 @@ def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
     order: tuple[str, ...] = tuple(trees)
     with reader.collect():
         order = dependency_order(trees, {name: text.where for name, text in texts.items()})
-    for used in order:
+    for parameter in order:
         with reader.collect():
-            trees[used] = choose_reading(texts[used], trees[used], None, reader.parameters.get, {})
-            reader.parameters[used] = _parameter_dimension(used, trees[used], reader.parameters.get, texts[used].where)
+            trees[parameter] = choose_reading(texts[parameter], trees[parameter], None, reader.parameters.get, {})
+            reader.parameters[parameter] = _find_parameter_dimension(
+                parameter, trees[parameter], reader.parameters.get, texts[parameter].where
+            )
     return {
         name: reader.keep(
             Quantity(f"parameters.{name}", trees[name], reader.parameters[name] or DIMENSIONLESS, text.where)
@@ -53,35 +62,45 @@ def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
     }
 
 
-def _parameter_dimension(
-    name: str, tree: Expr, of: Callable[[str], Dimension | None], where: Location
+def _find_parameter_dimension(
+    name: str, tree: Expr, dimension_of: Callable[[str], Dimension | None], location: Location
 ) -> Dimension | None:
-    """Return the dimension of a parameter, None without a unit. Raises InputError for exponents finer than halves."""
-    found = check_dimension(tree, None, of, where)
-    if found is not None and not found.has_halves_at_most:
+    """Return the dimension of a parameter, None without a unit. Raises InputError for exponents finer than halves.
+
+    `dimension_of` returns the dimension of another parameter. `location` locates errors.
+    """
+    dimension = check_dimension(tree, None, dimension_of, location)
+    if dimension is not None and not dimension.has_halves_at_most:
         raise InputError(
-            f"the unit of parameter {name} has a broken exponent", where, "expected whole or half powers of m, kg, s"
+            f"the unit of parameter {name} has a broken exponent", location, "expected whole or half powers of m, kg, s"
         )
-    return found
+    return dimension
 
 
 def infer_dimensions(reader: Reader, parameters: Mapping[str, Quantity]) -> dict[str, Quantity]:
-    """Give parameters without a unit the dimension in which they are used, if there is only one."""
+    """Return all parameters; those without a unit get the dimension in which they are used, if there is only one.
+
+    They are registered again with this dimension. A parameter that is used in several dimensions stays without a unit.
+    """
     inferred = dict(parameters)
-    for name, used_as in reader.uses.items():
-        if len(used_as) == 1:  # a number that is used in several dimensions stays without a unit
-            inferred[name] = reader.keep(replace(inferred[name], dimension=next(iter(used_as))))
+    for name, dimensions in reader.uses.items():
+        if len(dimensions) == 1:  # a number that is used in several dimensions stays without a unit
+            inferred[name] = reader.keep(replace(inferred[name], dimension=next(iter(dimensions))))
     return inferred
 
 
 def dependency_order(
-    trees: Mapping[str, Expr], places: Mapping[str, Location], what: str = "parameters"
+    trees: Mapping[str, Expr], locations: Mapping[str, Location], section: str = "parameters"
 ) -> tuple[str, ...]:
     """Return names so that each comes after those that it uses.
 
+    `trees` and `locations` are the expression and location of each name; `section` names the section in messages.
     Raises CycleError, or InputErrors for several cycles.
     """
-    uses = {name: [used.path for used in names(tree) if used.path in trees] for name, tree in trees.items()}
+    uses = {
+        name: [dependency.path for dependency in names(tree) if dependency.path in trees]
+        for name, tree in trees.items()
+    }
     cycles: list[InputError] = []
     while True:
         try:
@@ -89,25 +108,35 @@ def dependency_order(
             break
         except graphlib.CycleError as error:
             cycle = error.args[1][:0:-1]  # graphlib lists users first and the first one twice
-            cycles.append(_cycle_error(cycle, places, what))
-            uses = {name: [x for x in of if x not in cycle] for name, of in uses.items() if name not in cycle}
+            cycles.append(_make_cycle_error(cycle, locations, section))
+            uses = {
+                name: [other_name for other_name in dependencies if other_name not in cycle]
+                for name, dependencies in uses.items()
+                if name not in cycle
+            }
     if cycles:
         raise together(cycles)
     return order
 
 
-def _cycle_error(cycle: list[str], places: Mapping[str, Location], what: str) -> CycleError:
-    """Return the error for a cycle, beginning at the name that the file contains first; long cycles are shortened."""
-    first = min(range(len(cycle)), key=lambda i: places[cycle[i]])
+def _make_cycle_error(cycle: list[str], locations: Mapping[str, Location], section: str) -> CycleError:
+    """Return the error for a cycle of names, which begins at the one that the file contains first.
+
+    At most MAX_REPORTED names are listed.
+    """
+    first = min(range(len(cycle)), key=lambda i: locations[cycle[i]])
     path = [*cycle[first:], *cycle[:first]]
     if len(path) > MAX_REPORTED:
         path[MAX_REPORTED - 1 :] = [f"… ({len(path) - MAX_REPORTED + 1} more)"]
-    message = f"{what} defined through each other: {' → '.join([*path, cycle[first]])}"
-    return CycleError(message, places[cycle[first]], "expected one of them to have a value of its own")
+    message = f"{section} defined through each other: {' → '.join([*path, cycle[first]])}"
+    return CycleError(message, locations[cycle[first]], "expected one of them to have a value of its own")
 
 
 def parameter_values(parameters: Mapping[str, Quantity]) -> dict[str, float]:
-    """Return the value of every parameter in SI units, by name. Raises CycleError."""
+    """Return the value of every parameter in SI units by name. Raises CycleError.
+
+    The names are ordered by their dependencies: each comes after those that it uses.
+    """
     trees = {name: quantity.value for name, quantity in parameters.items()}
     values: dict[str, float] = {}
     for name in dependency_order(trees, {name: quantity.where for name, quantity in parameters.items()}):

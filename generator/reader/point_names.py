@@ -26,68 +26,82 @@ class PointNames:
         self.bodies, self.ground = root["bodies"], root.part("ground")
 
     def points(self, body: str) -> list[str]:
-        """Return the names of a body's points, declared ones first. Raises KeyError if there is no such body."""
+        """Return the names of a body's points: declared ones first, then the implied ones.
+
+        Raises KeyError if there is no such body. The ground has declared points only.
+        """
         if body == GROUND:
             return [str(point) for point in self.ground]
         node = self.bodies[body]
-        implied = IMPLIED_POINTS if "length" in node else IMPLIED_POINTS[:2]
-        named = dict.fromkeys((*CORNERS_OF_SIDES * ("sides" in node), *map(str, node.part("points"))))
-        return [*(point for point in named if point not in implied), *reversed(implied)]
+        implied_points = IMPLIED_POINTS if "length" in node else IMPLIED_POINTS[:2]
+        declared = dict.fromkeys((*CORNERS_OF_SIDES * ("sides" in node), *map(str, node.part("points"))))
+        return [*(point for point in declared if point not in implied_points), *reversed(implied_points)]
 
-    def check_body(self, name: str, where: Location) -> str:
-        """Return the name if it is a body or `ground`. Raises UnknownNameError."""
+    def check_body(self, name: str, location: Location) -> str:
+        """Return the name if it is a body or `ground`. Raises UnknownNameError at `location`."""
         if name not in self.bodies and name != GROUND:
-            raise unknown_name("body", name, (*self.bodies, GROUND), where)
+            raise unknown_name("body", name, (*self.bodies, GROUND), location)
         return str(name)
 
-    def point(self, text: object, where: Location) -> PointRef:
+    def point(self, text: object, default_location: Location) -> PointRef:
         """Return the reference for a text such as `L1.head`.
 
-        Raises BadValueError or UnknownNameError at the wrong part.
+        Raises BadValueError for a text that is not a body and a point, UnknownNameError at the wrong part.
+        `default_location` locates the error if `text` is not a scalar.
         """
         if not isinstance(text, Text) or text.count(".") != 1:
             hint = "expected body.point, such as L1.head or ground.O1"
             with suppress(InputError, KeyError):
-                body = self.check_body(str(text), where)
-                hint = f"expected one of: {', '.join(f'{body}.{p}' for p in self.points(body))}"
-            raise BadValueError(f"{kind_of(text)} is no point", getattr(text, "where", where), hint)
+                body = self.check_body(str(text), default_location)
+                hint = f"expected one of: {', '.join(f'{body}.{point_name}' for point_name in self.points(body))}"
+            raise BadValueError(f"{kind_of(text)} is no point", getattr(text, "where", default_location), hint)
         body, _, point = text.partition(".")
         self.check_body(body, text.where)
-        known = self.points(body)
-        if point not in known:
-            place = Location(text.where.file, text.where.line, text.where.column + len(body) + 1)
-            raise unknown_name(f"point of {body}", point, known, place)
+        points = self.points(body)
+        if point not in points:
+            location = Location(text.where.file, text.where.line, text.where.column + len(body) + 1)
+            raise unknown_name(f"point of {body}", point, points, location)
         return PointRef(body, point, text.where)
 
-    def body(self, text: object, where: Location) -> PointRef:
-        """Return a body as a reference to its centre of mass; for the ground, the name of the point is empty."""
+    def body(self, text: object, location: Location) -> PointRef:
+        """Return a body as a reference to its centre of mass; for the ground, the name of the point is empty.
+
+        Raises BadValueError if `text` is not a scalar, UnknownNameError for an unknown body.
+        """
         if not isinstance(text, Text):
-            raise BadValueError(f"{kind_of(text)} is no body", where, known_hint("", (*self.bodies, GROUND)))
-        name = self.check_body(text, where)
-        return PointRef(str(name), "" if name == GROUND else "com", where)
+            raise BadValueError(f"{kind_of(text)} is no body", location, known_hint("", (*self.bodies, GROUND)))
+        name = self.check_body(text, location)
+        return PointRef(str(name), "" if name == GROUND else "com", location)
 
     def names(self) -> Iterator[str]:
-        """Yield every point of the file, such as "L1.head"."""
+        """Yield the name of every point of the file, such as "L1.head", body by body, the ground last."""
         for body in (*self.bodies, GROUND):
             yield from (f"{body}.{point}" for point in self.points(body))
 
 
 def coordinate_of(
-    key: str, known: Mapping[str, Dimension], places: PointNames, where: Location, hints: Mapping[str, str] = _NONE
+    key: str,
+    dimensions: Mapping[str, Dimension],
+    point_names: PointNames,
+    location: Location,
+    hints: Mapping[str, str] = _NONE,
 ) -> Dimension:
     """Return the dimension of a coordinate such as "L7.theta". Raises UnknownNameError at the wrong part.
 
-    `known` maps allowed coordinates to dimensions; `hints` maps coordinates of other sections to a hint.
+    `dimensions` maps allowed coordinates to dimensions; `point_names` contains the bodies; `hints` maps coordinates of
+    other sections to a hint.
     """
     body, _, coordinate = key.partition(".")
-    if body not in places.bodies:
-        raise unknown_name("body", body, places.bodies, where)
+    if body not in point_names.bodies:
+        raise unknown_name("body", body, point_names.bodies, location)
     if not coordinate:
-        hint = f"expected one of: {', '.join(f'{body}.{name}' for name in known)}"
-        raise UnknownNameError(f"{body} is a body, no coordinate", where, hint)
-    if coordinate not in known:
-        place = Location(where.file, where.line, where.column + len(body) + 1)
+        hint = f"expected one of: {', '.join(f'{body}.{name}' for name in dimensions)}"
+        raise UnknownNameError(f"{body} is a body, no coordinate", location, hint)
+    if coordinate not in dimensions:
+        location_of_coordinate = Location(location.file, location.line, location.column + len(body) + 1)
         if coordinate in hints:
-            raise UnknownNameError(f"unknown coordinate of {body} {coordinate!r}", place, hints[coordinate])
-        raise unknown_name(f"coordinate of {body}", coordinate, known, place)
-    return known[coordinate]
+            raise UnknownNameError(
+                f"unknown coordinate of {body} {coordinate!r}", location_of_coordinate, hints[coordinate]
+            )
+        raise unknown_name(f"coordinate of {body}", coordinate, dimensions, location_of_coordinate)
+    return dimensions[coordinate]

@@ -36,16 +36,16 @@ _SHOWN = r"\x20-\x7e\u00a0-\u2027\u202f-\u2065\u206a-\ud7ff\ue000-\uffef\U000100
 
 
 def read_mechanism(data: bytes, file: str, overrides: Mapping[str, str | float | bool] | None = None) -> Mechanism:
-    """Return the mechanism that a file describes.
+    """Return the mechanism that a file describes, after all checks that need no equations.
 
-    data: the file's bytes; file: its name, for messages and for `Mechanism.file`;
-    overrides: address -> text or number that replaces the file's value there.
-    Raises an InputError at file:line:column, or InputErrors with all errors of the file.
+    data: the file's bytes; file: its name, for messages and for `Mechanism.file`; overrides: address -> text or number
+    that replaces the file's value there; None for none. Raises an InputError at file:line:column, or InputErrors with
+    all errors of the file (at most MAX_ERRORS).
     """
     reader = Reader(file)
     root = apply_overrides(parse_yaml(data, file, reader.errors), overrides or {})
     try:
-        mechanism = _read(reader, reader.check_shape(root), hashlib.sha256(data).hexdigest())
+        mechanism = _read_sections(reader, reader.check_shape(root), hashlib.sha256(data).hexdigest())
     except TooManyErrors:
         mechanism = None
     reader.raise_errors()
@@ -53,8 +53,12 @@ def read_mechanism(data: bytes, file: str, overrides: Mapping[str, str | float |
     return mechanism
 
 
-def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
-    """Read all sections in the order of their dependencies and check the values; errors are collected in the reader."""
+def _read_sections(reader: Reader, root: Map, sha256: str) -> Mechanism:
+    """Read all sections of the tree and return the mechanism; errors are collected in the reader.
+
+    Names are read first, so that sections can refer to each other. Values and conditions are checked last, with the
+    file's parameters and with those of each scene. `sha256` is that of the file's bytes. Raises TooManyErrors.
+    """
     point_names, results = read_names(reader, root)
     title, curves = _read_title(reader, root), read_curves(reader, root)
     parameters, expressions = read_parameters(reader, root.part("parameters")), read_expressions(reader, root)
@@ -85,7 +89,7 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
         file=reader.file,
         sha256=sha256,
         forces=forces,
-        freedoms=_read_freedoms(reader, root),
+        freedoms=_read_expected_dof(reader, root),
         curves=curves,
         expressions=expressions,
         materials=materials.known,
@@ -96,21 +100,29 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
 
 
 def _read_title(reader: Reader, root: Map) -> str:
-    """Return the title as one line that is safe in comments of emitted code; the mechanism's name if there is none."""
+    """Return the title, which is safe in comments of emitted code; the mechanism's name if there is no title.
+
+    Errors are collected for a name that is not allowed, and for a title of several lines, of more than 200 characters,
+    or with backslashes or comment signs.
+    """
     with reader.collect():
         check_name(root["name"], "mechanism", root["name"].where)
     title = root.get("title", root["name"])
     with reader.collect():
-        bad = re.search(rf"[^{_SHOWN}]|\\|\*/|/\*|\?\?/", title)
-        if bad or len(title) > _MAX_TITLE:
-            what = f"has {bad[0]!r}" if bad else f"has {len(title)} characters"
+        invalid = re.search(rf"[^{_SHOWN}]|\\|\*/|/\*|\?\?/", title)
+        if invalid or len(title) > _MAX_TITLE:
+            fault = f"has {invalid[0]!r}" if invalid else f"has {len(title)} characters"
             hint = f"expected one line of at most {_MAX_TITLE} characters without backslashes or comment signs"
-            raise BadValueError(f"the title {what}", title.where, hint)
+            raise BadValueError(f"the title {fault}", title.where, hint)
     return str(title)
 
 
-def _read_freedoms(reader: Reader, root: Map) -> Quantity | None:
-    """Return the expected degrees of freedom, a whole number that is compared with a rank; None if not given."""
+def _read_expected_dof(reader: Reader, root: Map) -> Quantity | None:
+    """Return the expected degrees of freedom (`freedoms:`) as a quantity; None if the file does not give them.
+
+    The run compares them with the rank of the Jacobian. An error is collected, and None is returned, unless the value
+    is a whole number ≥ 0. NaN, an expression that was already reported, is returned as it is.
+    """
     if "freedoms" not in root:
         return None
     with reader.collect():
@@ -124,7 +136,7 @@ def _read_freedoms(reader: Reader, root: Map) -> Quantity | None:
 
 
 def _read_outputs(reader: Reader, root: Map) -> dict[str, Quantity]:
-    """Read `outputs:`: named expressions of t, parameters and results."""
+    """Return the section `outputs:` by name: expressions of t, parameters and results; errors are collected."""
     return {
         str(name): reader.quantity(text, f"outputs.{name}", OUTPUT.dimension, OUTPUT.varies)
         for name, text in root.part("outputs").pairs()
@@ -138,26 +150,36 @@ Seconds = dict[str, float]
 def read_scene(
     data: bytes, file: str, scene: str, overrides: Overrides | None = None, seconds: Seconds | None = None
 ) -> Scene:
-    """Return one scene of a mechanism file; the seconds of this stage are added to `seconds`."""
+    """Read a mechanism file and return one of its scenes.
+
+    The seconds of this stage are stored in `seconds` under "reading", if it is given. Raises InputError or InputErrors,
+    and UnknownNameError for a scene that the file does not have.
+    """
     with stage("reading", seconds):
         return make_scene(read_mechanism(data, file, overrides), scene)
 
 
 def overrides_change_scene(data: bytes, file: str, scene: str, overrides: Overrides) -> bool:
-    """Return whether overrides change any input from which a scene's equations are derived. Raises InputError."""
-    with_them, without = (read_scene(data, file, scene, given) for given in (overrides, None))
-    return _without_other_scenes(with_them) != _without_other_scenes(without)
+    """Return whether overrides change any input from which a scene's equations are derived.
+
+    The file is read twice, with and without the overrides; other scenes are not compared. Raises InputError.
+    """
+    scene_with_overrides, scene_of_file = (read_scene(data, file, scene, values) for values in (overrides, None))
+    return _remove_other_scenes(scene_with_overrides) != _remove_other_scenes(scene_of_file)
 
 
-def _without_other_scenes(scene: Scene) -> Scene:
-    """Return the scene with a mechanism that contains no other scenes."""
+def _remove_other_scenes(scene: Scene) -> Scene:
+    """Return a copy of the scene whose mechanism contains no scenes, for a comparison of two scenes."""
     return replace(scene, mechanism=replace(scene.mechanism, scenes={}))
 
 
 @contextmanager
 def stage(name: str, seconds: Seconds | None) -> Iterator[None]:
-    """Return a context manager that stores the seconds of a stage of the compiler in `seconds`, if it is given."""
-    begun = perf_counter()
+    """Return a context manager that stores the elapsed seconds of a compiler stage in `seconds[name]`.
+
+    Nothing is stored if `seconds` is None or if the block raises.
+    """
+    start_time = perf_counter()
     yield
     if seconds is not None:
-        seconds[name] = perf_counter() - begun
+        seconds[name] = perf_counter() - start_time

@@ -66,7 +66,8 @@ class ResultNames:
     """Return the dimension of each result of a mechanism, with and without play.
 
     `numbers` maps names without a dot to what they are ("a parameter"). `unread` are joints, drives and forces whose
-    own errors were reported: their results are accepted without a check.
+    own errors were reported: their results are accepted without a check. `owners` maps the owner of results ("A",
+    "L1.head", "energy") to the dimensions of its results by name.
     """
 
     def __init__(self, point_names: PointNames, root: Map, numbers: Mapping[str, str], unread: Iterable[str]) -> None:
@@ -77,7 +78,7 @@ class ResultNames:
         self.unread, self._joints = set(unread), frozenset(joints)
         self.owners: dict[str, Mapping[str, Dimension]] = dict(_TOTALS)
         self.owners |= dict.fromkeys(map(str, point_names.bodies), _BODY)
-        self.owners |= {name: _drive_results(kind, root["drives"][name]) for name, kind in drives.items()}
+        self.owners |= {name: _find_drive_results(kind, root["drives"][name]) for name, kind in drives.items()}
         self.owners |= dict.fromkeys(point_names.names(), _POINT)
         self.owners |= {name: dict(element_types()[kind].results) for name, kind in forces.items()}
         for name in point_names.ground:
@@ -88,55 +89,65 @@ class ResultNames:
         self.numbers = numbers
 
     def __call__(self, name: Name, where: Location) -> Dimension | None:
-        """Return the dimension of a name; None if it fits any. Raises UnknownNameError at the wrong part."""
-        owner, dot, last = name.path.rpartition(".")
+        """Return the dimension of a result's name; None if its owner could not be read, so that any dimension fits.
+
+        Raises UnknownNameError at the wrong part of the name, with the nearest known names.
+        """
+        owner, dot, result = name.path.rpartition(".")
         if owner in self.unread:
             return None
         if not dot:
-            known = [path for path in self.paths() if path.partition(".")[0] == name.path]
-            raise unknown_name("name", name.path, known or self.numbers, where)
+            candidates = [path for path in self.paths() if path.partition(".")[0] == name.path]
+            raise unknown_name("name", name.path, candidates or self.numbers, where)
         if owner not in self.owners:
             raise unknown_name("name", name.path, self.paths(), where)
-        if last not in self.owners[owner]:
-            place = Location(where.file, where.line, where.column + len(owner) + 1)
-            raise unknown_name(f"result of {owner}", last, self.owners[owner], place)
-        return self.owners[owner][last]
+        if result not in self.owners[owner]:
+            location = Location(where.file, where.line, where.column + len(owner) + 1)
+            raise unknown_name(f"result of {owner}", result, self.owners[owner], location)
+        return self.owners[owner][result]
 
     def check_series(self, name: Text, outputs: Iterable[str]) -> None:
-        """Raise UnknownNameError, with the nearest series, for a name without a dot that is not an output."""
+        """Raise UnknownNameError, with the nearest series, for a name without a dot that is not an output.
+
+        Names with a dot are not checked here; callers pass no names of `outputs`.
+        """
         if "." in name:
             return
         if name in self.numbers:
-            alike = [path for path in self.paths() if path.rpartition(".")[2] == name]
-            hint = f"expected {', '.join(alike[:6])}" if alike else "expected a result: L1.omega, A.F, drive.torque"
+            same_results = [path for path in self.paths() if path.rpartition(".")[2] == name]
+            hint = (
+                f"expected {', '.join(same_results[:6])}"
+                if same_results
+                else "expected a result: L1.omega, A.F, drive.torque"
+            )
             raise UnknownNameError(f"{str(name)!r} is {self.numbers[name]}, no series", name.where, hint)
-        owned = [path for path in self.paths() if path.partition(".")[0] == name]
-        raise unknown_name("series", name, owned or [*outputs, *self.paths()], name.where)
+        results_of_owner = [path for path in self.paths() if path.partition(".")[0] == name]
+        raise unknown_name("series", name, results_of_owner or [*outputs, *self.paths()], name.where)
 
     def check_play(self, name: Text, scene: str, play: Container[str]) -> None:
         """Raise BadValueError for a result that a joint has only with play, or only without, in other scenes.
 
-        `play` contains the joints that have play in this scene.
+        `play` contains the joints that have play in the scene named `scene`. Names of other owners are accepted.
         """
-        owner, _, last = name.rpartition(".")
+        owner, _, result = name.rpartition(".")
         joint, _, corner = owner.partition(".")
         if joint in self.unread:
             return
         if joint in self._joints and corner in CORNERS and joint not in play:
-            hint = f"expected one of: {', '.join(f'{joint}.{one}' for one in _JOINT)}; or give it play there"
+            hint = f"expected one of: {', '.join(f'{joint}.{result}' for result in _JOINT)}; or give it play there"
             raise BadValueError(f"{name}: joint {joint} has no play in scene {scene}", name.where, hint)
-        if owner not in self._joints or last in _ALWAYS:
+        if owner not in self._joints or result in _ALWAYS:
             return
-        if owner in play and last in _JOINT and f"{owner}.{next(iter(CORNERS))}" not in self.owners:
+        if owner in play and result in _JOINT and f"{owner}.{next(iter(CORNERS))}" not in self.owners:
             raise BadValueError(f"{name}: joint {owner} has play in scene {scene}", name.where, _RESULTS_OF_PLAY)
-        if owner not in play and last in _PLAY:
+        if owner not in play and result in _PLAY:
             hint = f"expected one of: {', '.join(_JOINT)}; or give it play there"
             raise BadValueError(f"{name}: joint {owner} has no play in scene {scene}", name.where, hint)
 
     def paths(self) -> Iterator[str]:
-        """Yield the full name of every result."""
-        read = ((owner, parts) for owner, parts in self.owners.items() if owner not in self.unread)
-        return (f"{owner}.{part}" for owner, parts in read for part in parts)
+        """Return an iterator over the full name of every result, without those of unreadable owners."""
+        readable = ((owner, results) for owner, results in self.owners.items() if owner not in self.unread)
+        return (f"{owner}.{result}" for owner, results in readable for result in results)
 
 
 class MotionNames(ResultNames):
@@ -154,18 +165,23 @@ class MotionNames(ResultNames):
         self._later = frozenset((*_TOTALS, *root.part("drives"), *root.part("joints"), *root.part("forces")))
 
     def __call__(self, name: Name, where: Location) -> Dimension | None:
-        """Return the dimension of a name.
+        """Return the dimension of a name on which a force may depend; None if any fits.
 
-        Raises ExpressionError for accelerations and results that follow from forces.
+        Raises ExpressionError for accelerations and results that follow from forces, UnknownNameError for other names.
         """
-        owner, _, last = name.path.rpartition(".")
-        if owner in self._later or owner in self.owners and last in _ACCELERATIONS and last not in self.owners[owner]:
-            what = "an acceleration" if last in _ACCELERATIONS else "a result"
+        owner, _, component = name.path.rpartition(".")
+        if (
+            owner in self._later
+            or owner in self.owners
+            and component in _ACCELERATIONS
+            and component not in self.owners[owner]
+        ):
+            phrase = "an acceleration" if component in _ACCELERATIONS else "a result"
             hint = (
                 "expected t, parameters, and coordinates and velocities of bodies and points:"
                 " L1.x .y .theta .vx .vy .omega, L1.head.x .y .vx .vy"
             )
-            raise ExpressionError(f"{name.path!r} is {what} that follows from the forces", where, hint)
+            raise ExpressionError(f"{name.path!r} is {phrase} that follows from the forces", where, hint)
         return super().__call__(name, where)
 
 
@@ -176,7 +192,7 @@ class PenetrationNames:
         self._parameters = parameters
 
     def __call__(self, name: Name, where: Location) -> Dimension | None:
-        """Return the dimension of delta.
+        """Return the dimension of delta, the penetration (a length).
 
         Raises ExpressionError for other results of a contact, UnknownNameError otherwise.
         """
@@ -195,7 +211,10 @@ class CamAngleNames:
         self._parameters = parameters
 
     def __call__(self, name: Name, where: Location) -> Dimension | None:
-        """Return the dimension of phi. Raises ExpressionError for names of motion, UnknownNameError otherwise."""
+        """Return the dimension of phi, the cam's angle.
+
+        Raises ExpressionError for names of motion, UnknownNameError otherwise.
+        """
         if name.path == OF_CAM_ANGLE:
             return DIMENSIONLESS
         if "." in name.path:
@@ -204,7 +223,7 @@ class CamAngleNames:
         raise unknown_name("name", name.path, (OF_CAM_ANGLE, *self._parameters), where)
 
 
-def _drive_results(kind: str, node: Map) -> Mapping[str, Dimension]:
-    """Return the results of a drive: a torque if it prescribes an angle, a force if a length."""
-    turns = kind == "angle" or kind == "coordinate" and str(node[kind]).endswith(".theta")
-    return {"torque": TORQUE} if turns else {"force": FORCE}
+def _find_drive_results(kind: str, node: Map) -> Mapping[str, Dimension]:
+    """Return the results of a drive by name: a torque if it prescribes an angle, a force if it prescribes a length."""
+    is_angle = kind == "angle" or kind == "coordinate" and str(node[kind]).endswith(".theta")
+    return {"torque": TORQUE} if is_angle else {"force": FORCE}

@@ -68,61 +68,79 @@ class _MergedScene:
 
 
 def read_scenes(reader: Reader, parts: SceneParts) -> dict[str, SceneSpec]:
-    """Read all scenes in the order of the file; `ideal` is the first and always present."""
+    """Read all scenes in the order of the file; `ideal` is the first and always present.
+
+    Errors are collected, also for `ideal` with play, parameters or materials. Scenes that extend an unknown scene are
+    left out.
+    """
     section = parts.root.part("scenes")
-    nothing = Map.make((), section.where)
-    plain = _MergedScene(nothing, nothing, nothing, nothing, dict(parts.events))
-    drafts: dict[str, _MergedScene] = {IDEAL: plain}
-    found: dict[str, SceneSpec] = {IDEAL: SceneSpec(IDEAL, {}, {}, {}, Location(reader.file, 1, 1), plain.events)}
+    empty_map = Map.make((), section.where)
+    ideal_scene = _MergedScene(empty_map, empty_map, empty_map, empty_map, dict(parts.events))
+    merged_scenes: dict[str, _MergedScene] = {IDEAL: ideal_scene}
+    scenes: dict[str, SceneSpec] = {
+        IDEAL: SceneSpec(IDEAL, {}, {}, {}, Location(reader.file, 1, 1), ideal_scene.events)
+    }
     for name, scene in order_by_inheritance(reader, "scene", section, (IDEAL,)):
         with reader.collect():
             if name == IDEAL and any(scene.get(key) for key in ("play", "parameters", "materials", "extends")):
                 hint = "expected simulate: and events: only"
                 message = "the scene ideal has no play, and the file's parameters and materials"
                 raise BadValueError(message, name.where, hint)
-        own = read_events(reader, scene.part("events"), f"scenes.{name}.events")
-        draft = _merge_scene(drafts[scene["extends"]] if scene.get("extends") else plain, scene, own)
-        drafts[str(name)] = draft
-        found[str(name)] = _read_scene(reader, name, draft, parts)
-    return {IDEAL: found[IDEAL]} | {str(name): found[name] for name in section if name in found}
+        events = read_events(reader, scene.part("events"), f"scenes.{name}.events")
+        merged_scene = _merge_scene(
+            merged_scenes[scene["extends"]] if scene.get("extends") else ideal_scene, scene, events
+        )
+        merged_scenes[str(name)] = merged_scene
+        scenes[str(name)] = _read_scene(reader, name, merged_scene, parts)
+    return {IDEAL: scenes[IDEAL]} | {str(name): scenes[name] for name in section if name in scenes}
 
 
 def _merge_scene(parent: _MergedScene, scene: Map, events: Mapping[str, EventSpec]) -> _MergedScene:
-    """Merge a scene's entries over those of the scene that it extends."""
+    """Return a scene's entries merged over those of the scene that it extends; names in `peaks` are appended.
 
-    def merged(above: Map, key: str) -> Map:
-        """Return one section of the parent overridden by the scene's own entries."""
-        return Map.make({**above, **scene.part(key)}, scene.where)
+    `events` are the scene's own events.
+    """
+
+    def merge_section(parent_section: Map, key: str) -> Map:
+        """Return one section of the parent, overridden by the scene's own entries at `key`."""
+        return Map.make({**parent_section, **scene.part(key)}, scene.where)
 
     return _MergedScene(
-        merged(parent.play, "play"),
-        merged(parent.parameters, "parameters"),
-        merged(parent.simulate, "simulate"),
-        merged(parent.materials, "materials"),
+        merge_section(parent.play, "play"),
+        merge_section(parent.parameters, "parameters"),
+        merge_section(parent.simulate, "simulate"),
+        merge_section(parent.materials, "materials"),
         {**parent.events, **events},
         (*parent.peaks, *_split_names(scene.get("peaks", ()))),
     )
 
 
 def _split_names(node: Any) -> tuple[Text, ...]:
-    """Return the names in a list, or in a text with commas between the names, each with its location."""
+    """Return the names in a list, or in a text with commas between the names, each with its location.
+
+    () for an empty text.
+    """
     if not isinstance(node, Text):
         return tuple(node)
-    places = accumulate((len(part) + 1 for part in node.split(",")), initial=0)
-    parts = zip(node.split(","), places, strict=False)
-    found = ((part.strip(), begin + len(part) - len(part.lstrip())) for part, begin in parts)
-    return tuple(Text.make(name, at(node.where, offset)) for name, offset in found if not node.is_nothing)
+    offsets = accumulate((len(part) + 1 for part in node.split(",")), initial=0)
+    parts = zip(node.split(","), offsets, strict=False)
+    names_and_offsets = ((part.strip(), begin_offset + len(part) - len(part.lstrip())) for part, begin_offset in parts)
+    return tuple(Text.make(name, at(node.where, offset)) for name, offset in names_and_offsets if not node.is_nothing)
 
 
-def _read_scene(reader: Reader, name: Text, draft: _MergedScene, parts: SceneParts) -> SceneSpec:
-    """Read one merged scene: play, parameter values, materials and run settings."""
+def _read_scene(reader: Reader, name: Text, merged_scene: _MergedScene, parts: SceneParts) -> SceneSpec:
+    """Return one merged scene: play, parameter values, materials and run settings.
+
+    Errors are collected; entries with errors are left out. An error is collected for a cycle of parameters, and for a
+    contour together with a friction law that has an inner state.
+    """
     play = {}
-    for joint, use in draft.play.pairs():
+    for joint, play_node in merged_scene.play.pairs():
         with reader.collect():
-            if (made := _read_play(reader, joint, use, parts, f"scenes.{name}.play.{joint}")) is not None:
-                play[str(joint)] = made
+            if (joint_play := _read_play(reader, joint, play_node, parts, f"scenes.{name}.play.{joint}")) is not None:
+                play[str(joint)] = joint_play
     parameters = {}
-    for key, text in draft.parameters.pairs():
+    for key, text in merged_scene.parameters.pairs():
         with reader.collect():
             if key not in parts.parameters:
                 raise unknown_name("parameter", key, parts.parameters, key.where)
@@ -130,160 +148,204 @@ def _read_scene(reader: Reader, name: Text, draft: _MergedScene, parts: ScenePar
             parameters[str(key)] = reader.quantity(text, address, reader.parameters[key])
     with reader.collect():
         _check_cycles(name, parameters, parts)
-    simulate = read_fields(reader, draft.simulate, SIMULATE.fields, FieldContext(f"scenes.{name}.simulate")).quantities
+    simulate = read_fields(
+        reader, merged_scene.simulate, SIMULATE.fields, FieldContext(f"scenes.{name}.simulate")
+    ).quantities
     materials = {}
-    for address, text in draft.materials.pairs():
+    for address, text in merged_scene.materials.pairs():
         with reader.collect():
             materials[str(address)] = parts.materials.check_choice(address, text)
-    scene = SceneSpec(str(name), play, parameters, simulate, name.where, draft.events, draft.peaks, materials)
+    scene = SceneSpec(
+        str(name), play, parameters, simulate, name.where, merged_scene.events, merged_scene.peaks, materials
+    )
     with reader.collect():
-        _check_contours(scene, draft.play)
+        _check_contours(scene, merged_scene.play)
     return scene
 
 
-def _read_play(reader: Reader, joint: Text, use: Map, parts: SceneParts, owner: str) -> Play | None:
-    """Read the play of one joint; None if a part that it needs was reported as wrong elsewhere."""
-    joints, contact = parts.root.part("joints"), use["contact"]
+def _read_play(reader: Reader, joint: Text, play_node: Map, parts: SceneParts, address: str) -> Play | None:
+    """Return the play of one joint; None if a part that it needs was reported as wrong elsewhere.
+
+    `play_node` is the node of the play, `address` its address. Raises an InputError for unknown names, a joint that
+    cannot have play, and a contact that does not fit the bearing, guide or contour.
+    """
+    joints, contact = parts.root.part("joints"), play_node["contact"]
     errors: list[InputError] = []
     if joint not in joints:
         errors.append(unknown_name("joint", joint, joints, joint.where))
-    for what in ("bearing", "guide", "contact"):
-        if what in use and use[what] not in (known := parts.root.part(f"{what}s")):
-            errors.append(unknown_name(what, use[what], known, use[what].where))
+    for reference_key in ("bearing", "guide", "contact"):
+        if reference_key in play_node and play_node[reference_key] not in (
+            section := parts.root.part(f"{reference_key}s")
+        ):
+            errors.append(
+                unknown_name(reference_key, play_node[reference_key], section, play_node[reference_key].where)
+            )
     contour: tuple[Quantity, ...] = ()
     with reader.collect():
-        contour = _read_contour(reader, use, f"{owner}.contour") if "contour" in use else ()
+        contour = _read_contour(reader, play_node, f"{address}.contour") if "contour" in play_node else ()
     if errors:
         raise together(errors)
     if joint not in parts.joints:
         return None
-    measured = _dimensions_key(joint, use, parts)
-    if use[measured] not in parts.bearings_and_guides[measured] or contact not in parts.contacts:
+    dimensions_key = _find_dimensions_key(joint, play_node, parts)
+    if play_node[dimensions_key] not in parts.bearings_and_guides[dimensions_key] or contact not in parts.contacts:
         return None
-    bearing, law = parts.bearings_and_guides[measured][use[measured]], parts.contacts[contact]
+    bearing, law = parts.bearings_and_guides[dimensions_key][play_node[dimensions_key]], parts.contacts[contact]
     if isinstance(bearing, Guide):
-        check_guide(str(joint), bearing, law, use)
+        check_guide(str(joint), bearing, law, play_node)
         return Play(bearing, law, joint.where)
     if contour and parts.contacts[contact].film is not None:
         message = f"the contour of {joint} is one with a film: the film's laws are those of a circle"
-        raise BadValueError(message, use.key("contour").where, "expected a contact without a film, or no contour")
+        raise BadValueError(message, play_node.key("contour").where, "expected a contact without a film, or no contour")
     normal = parts.contacts[contact].normal
     if contour and normal and laws()[normal.law].rigid:
         message = f"the contour of {joint} is one with {normal.law}: its blows are those of a circle"
-        raise BadValueError(message, use.key("contour").where, "expected a contact whose surfaces give, or no contour")
+        raise BadValueError(
+            message, play_node.key("contour").where, "expected a contact whose surfaces give, or no contour"
+        )
     for depth in contour:
         reader.require(depth, "<", bearing.radius, "a contour's depth is smaller than the radius")
     return Play(bearing, law, joint.where, contour)
 
 
-def _dimensions_key(joint: Text, use: Map, parts: SceneParts) -> str:
+def _find_dimensions_key(joint: Text, play_node: Map, parts: SceneParts) -> str:
     """Return the key of the play's dimensions that fits the joint's type: "bearing" or "guide".
 
-    Raises BadValueError if the joint cannot have play or the entry has the other key.
+    Raises BadValueError if the joint cannot have play or the entry has the other key, MissingKeyError without the key.
     """
-    kind = joint_types()[parts.joints[joint].kind]
-    if not kind.play:
-        able = [name for name, other in parts.joints.items() if joint_types()[other.kind].play]
-        hint = f"expected one of: {', '.join(able)}" if able else "there are no joints here that can"
-        raise BadValueError(f"joint {joint} is a {kind.title}: it cannot have play", joint.where, hint)
-    for other in {"bearing", "guide"} - {kind.play}:
-        if other in use:
-            message = f"joint {joint} is a {kind.title}: a {kind.play} says what play it has, no {other}"
-            raise BadValueError(message, use.key(other).where, f"expected {kind.play}: one of the file's {kind.play}s")
-    if kind.play not in use:
-        raise missing_key(kind.play, use.where, f"the play of {joint}")
-    return kind.play
+    joint_type = joint_types()[parts.joints[joint].kind]
+    if not joint_type.play:
+        joints_with_play = [name for name, other_key in parts.joints.items() if joint_types()[other_key.kind].play]
+        hint = (
+            f"expected one of: {', '.join(joints_with_play)}"
+            if joints_with_play
+            else "there are no joints here that can"
+        )
+        raise BadValueError(f"joint {joint} is a {joint_type.title}: it cannot have play", joint.where, hint)
+    for other_key in {"bearing", "guide"} - {joint_type.play}:
+        if other_key in play_node:
+            message = (
+                f"joint {joint} is a {joint_type.title}: a {joint_type.play} says what play it has, no {other_key}"
+            )
+            raise BadValueError(
+                message,
+                play_node.key(other_key).where,
+                f"expected {joint_type.play}: one of the file's {joint_type.play}s",
+            )
+    if joint_type.play not in play_node:
+        raise missing_key(joint_type.play, play_node.where, f"the play of {joint}")
+    return joint_type.play
 
 
-def _read_contour(reader: Reader, use: Map, address: str) -> tuple[Quantity, ...]:
-    """Read a contour: its depths (m) at equal angles, or that many zeros if the file gives a whole number."""
-    given, where = use["contour"], use.key("contour").where
-    if isinstance(given, Text):
-        count = int(given) if given.isdecimal() and given.isascii() and len(given) < 6 else 0
+def _read_contour(reader: Reader, play_node: Map, address: str) -> tuple[Quantity, ...]:
+    """Return a contour as run-time parameters: depths (m) at equal angles, or zeros if the file gives their count.
+
+    Raises BadValueError for another number of depths than 8 to 512.
+    """
+    node, location = play_node["contour"], play_node.key("contour").where
+    if isinstance(node, Text):
+        count = int(node) if node.isdecimal() and node.isascii() and len(node) < 6 else 0
         hint = f"expected a list of depths, or how many there are: {MIN_DEPTHS} to {MAX_DEPTHS}, 128 say"
     else:
-        count, hint = len(given), f"expected {MIN_DEPTHS} to {MAX_DEPTHS} depths at equal angles"
+        count, hint = len(node), f"expected {MIN_DEPTHS} to {MAX_DEPTHS} depths at equal angles"
     if not MIN_DEPTHS <= count <= MAX_DEPTHS:
-        message = f"{address} is {kind_of(given)}" if isinstance(given, Text) else f"{address} has {count} depths"
-        raise BadValueError(message, where, hint)
-    if isinstance(given, Text):
-        zero = Quantity(address, Number(0.0, "0"), LENGTH, where, kept=True)
-        return tuple(reader.keep(replace(zero, address=f"{address}.{k}")) for k in range(count))
-    read = (reader.quantity(text, f"{address}.{k}", LENGTH) for k, text in enumerate(given))
-    return tuple(reader.keep(replace(depth, kept=True)) for depth in read)
+        message = f"{address} is {kind_of(node)}" if isinstance(node, Text) else f"{address} has {count} depths"
+        raise BadValueError(message, location, hint)
+    if isinstance(node, Text):
+        zero = Quantity(address, Number(0.0, "0"), LENGTH, location, kept=True)
+        return tuple(reader.keep(replace(zero, address=f"{address}.{index}")) for index in range(count))
+    depths = (reader.quantity(text, f"{address}.{index}", LENGTH) for index, text in enumerate(node))
+    return tuple(reader.keep(replace(depth, kept=True)) for depth in depths)
 
 
-def check_peaks(reader: Reader, scenes: Mapping[str, SceneSpec], known: ResultNames, outputs: Iterable[str]) -> None:
-    """Collect an error for each name in `peaks:` that no result of the scene has, as far as the file tells.
+def check_peaks(
+    reader: Reader, scenes: Mapping[str, SceneSpec], result_names: ResultNames, outputs: Iterable[str]
+) -> None:
+    """Collect an error for each name in `peaks:` that no result of the scene has, as far as the file determines it.
 
-    Results that only the equations determine are checked by the run.
+    `result_names` are the names of results, `outputs` those of outputs. Results that only the equations determine, such
+    as multipliers, are checked by the run.
     """
     for scene in scenes.values():
-        for text in scene.peaks:
-            is_later = text.partition(".")[0] in LATER or text in _inner_states(scene)
-            if isinstance(text, Text) and text not in outputs and not is_later:
+        for name in scene.peaks:
+            is_later = name.partition(".")[0] in LATER or name in _find_inner_states(scene)
+            if isinstance(name, Text) and name not in outputs and not is_later:
                 with reader.collect():
-                    known.check_series(text, outputs)
-                    known(Name(str(text)), text.where)
-                    known.check_play(text, scene.name, scene.play)
+                    result_names.check_series(name, outputs)
+                    result_names(Name(str(name)), name.where)
+                    result_names.check_play(name, scene.name, scene.play)
 
 
-def _check_contours(scene: SceneSpec, uses: Map) -> None:
+def _check_contours(scene: SceneSpec, play_section: Map) -> None:
     """Raise BadValueError if a scene combines a contour with a friction law that has an inner state.
 
-    Derivatives by the angle in the bearing and by inner states are not derived together.
+    Derivatives by the angle in the bearing and by inner states are not derived together. `play_section` is the scene's
+    `play`.
     """
     with_contour = [joint for joint, play in scene.play.items() if play.contour]
-    if with_contour and (states := sorted(_inner_states(scene))):
+    if with_contour and (states := sorted(_find_inner_states(scene))):
         message = f"scene {scene.name} has a contour beside a law with an inner state ({states[0]})"
-        where = uses[with_contour[0]].key("contour").where
-        raise BadValueError(message, where, "expected friction without an inner state, or no contour")
+        location = play_section[with_contour[0]].key("contour").where
+        raise BadValueError(message, location, "expected friction without an inner state, or no contour")
 
 
-def _inner_states(scene: SceneSpec) -> set[str]:
+def _find_inner_states(scene: SceneSpec) -> set[str]:
     """Return the names of the inner states of a scene's friction laws, such as A.z."""
-    used = {joint: play.contact.friction for joint, play in scene.play.items()}
-    known = called("friction")
-    return {f"{joint}.{state.name}" for joint, use in used.items() if use for state in known[use.law].states}
+    friction_laws = {joint: play.contact.friction for joint, play in scene.play.items()}
+    laws_of_friction = called("friction")
+    return {
+        f"{joint}.{state.name}"
+        for joint, friction in friction_laws.items()
+        if friction
+        for state in laws_of_friction[friction.law].states
+    }
 
 
-def _check_cycles(name: Text, own: Mapping[str, Quantity], parts: SceneParts) -> None:
-    """Raise CycleError if a scene's parameter values close a cycle that the file's own values do not have."""
-    if not own:
+def _check_cycles(name: Text, scene_parameters: Mapping[str, Quantity], parts: SceneParts) -> None:
+    """Raise CycleError if a scene's parameter values close a cycle that the file's own values do not have.
+
+    A cycle of the file's own values was reported when they were read.
+    """
+    if not scene_parameters:
         return
-    used = {**parts.parameters, **own}
-    trees: dict[str, Expr] = {key: quantity.value for key, quantity in used.items()}
-    places = {key: own[key].where if key in own else Location("~", 0, 0) for key in used}
+    parameters = {**parts.parameters, **scene_parameters}
+    trees: dict[str, Expr] = {key: quantity.value for key, quantity in parameters.items()}
+    locations = {
+        key: scene_parameters[key].where if key in scene_parameters else Location("~", 0, 0) for key in parameters
+    }
     try:
-        dependency_order({key: q.value for key, q in parts.parameters.items()}, places)
+        dependency_order({key: q.value for key, q in parts.parameters.items()}, locations)
     except CycleError:
         return  # reported already
     try:
-        dependency_order(trees, {key: quantity.where for key, quantity in used.items()})
+        dependency_order(trees, {key: quantity.where for key, quantity in parameters.items()})
     except CycleError as error:
-        where = min(quantity.where for quantity in own.values())
-        raise CycleError(f"in scene {name}, {error.message}", where, error.hint) from None
+        location = min(quantity.where for quantity in scene_parameters.values())
+        raise CycleError(f"in scene {name}, {error.message}", location, error.hint) from None
 
 
-def read_events(reader: Reader, section: Map, owner: str) -> dict[str, EventSpec]:
-    """Read the events of a section by name; `owner` is the section's address."""
+def read_events(reader: Reader, section: Map, address: str) -> dict[str, EventSpec]:
+    """Read the events of a section by name; `address` is the section's address. Errors are collected."""
     events = {}
     for name, node in section.pairs():
         with reader.collect():
-            events[str(name)] = _read_event(reader, name, node, f"{owner}.{name}")
+            events[str(name)] = _read_event(reader, name, node, f"{address}.{name}")
     return events
 
 
-def _read_event(reader: Reader, name: Text, node: Map, owner: str) -> EventSpec:
-    """Read one event: its expression, direction and action. An expression that never changes is an error."""
+def _read_event(reader: Reader, name: Text, node: Map, address: str) -> EventSpec:
+    """Return one event: its expression, direction and action.
+
+    Errors of its keys are collected. Raises BadValueError for an expression that never changes.
+    """
     errors_before = len(reader.errors)
-    own = read_fields(reader, node, EVENT.fields, FieldContext(owner))
-    zero = own.quantities["zero"]
-    choice = {field.name: field.choice for field in EVENT.fields if field.kind == WORD} | own.options
+    values = read_fields(reader, node, EVENT.fields, FieldContext(address))
+    zero = values.quantities["zero"]
+    options = {field.name: field.choice for field in EVENT.fields if field.kind == WORD} | values.options
     if len(reader.errors) == errors_before and not _varies_in_time(zero.value):
         hint = "expected an expression of t, or of coordinates and velocities: S9.y, L1.omega - 20 rad/s"
-        raise BadValueError(f"{owner}.zero never changes: it crosses zero at no time", node["zero"].where, hint)
-    return EventSpec(str(name), zero, str(choice["direction"]), str(choice["action"]), name.where)
+        raise BadValueError(f"{address}.zero never changes: it crosses zero at no time", node["zero"].where, hint)
+    return EventSpec(str(name), zero, str(options["direction"]), str(options["action"]), name.where)
 
 
 def _varies_in_time(expr: Expr) -> bool:

@@ -36,48 +36,61 @@ _SQUARED_RADIUS_OF_GYRATION = (
 
 
 def derive_quantity(
-    reader: Reader, formula: str, of: Mapping[str, Quantity], address: str, dimension: Dimension, where: Location
+    reader: Reader,
+    formula: str,
+    quantities: Mapping[str, Quantity],
+    address: str,
+    dimension: Dimension,
+    location: Location,
 ) -> Quantity:
-    """Return the quantity at an address as a formula of others, whose letters `of` maps to quantities."""
-    value = _with_addresses(parse(formula, where), of)
-    return reader.keep(Quantity(address, value, dimension, where, tuple(of.values())))
+    """Return a registered quantity at an address whose value is a formula of other quantities.
+
+    `formula` is an expression with letters; `quantities` maps these letters to quantities. `location` is the location
+    in the file.
+    """
+    value = _replace_letters(parse(formula, location), quantities)
+    return reader.keep(Quantity(address, value, dimension, location, tuple(quantities.values())))
 
 
-def _with_addresses(expr: Expr, of: Mapping[str, Quantity]) -> Expr:
-    """Replace the letters of a formula by the addresses of their quantities, literal zeros by 0."""
+def _replace_letters(expr: Expr, quantities: Mapping[str, Quantity]) -> Expr:
+    """Return a formula's tree with the letters replaced by the addresses of their quantities, literal zeros by 0."""
     match expr:
         case Name(path=path):
-            return Number(0.0, "0") if of[path].is_zero else Name(of[path].address)
+            return Number(0.0, "0") if quantities[path].is_zero else Name(quantities[path].address)
         case Unary(operator=operator, operand=operand):
-            return Unary(operator, _with_addresses(operand, of))
+            return Unary(operator, _replace_letters(operand, quantities))
         case Binary(operator=operator, left=left, right=right):
-            return Binary(operator, _with_addresses(left, of), _with_addresses(right, of))
+            return Binary(operator, _replace_letters(left, quantities), _replace_letters(right, quantities))
         case Call(function=function, arguments=arguments):
-            return Call(function, tuple(_with_addresses(argument, of) for argument in arguments))
+            return Call(function, tuple(_replace_letters(argument, quantities) for argument in arguments))
     return expr
 
 
 def read_sides(reader: Reader, node: Map, address: str) -> dict[str, Vector]:
-    """Return the points P, Q and R of a body with `sides`; R follows from three distances. {} without `sides`."""
+    """Return the points P, Q and R of a body with `sides`; R follows from three distances. {} without `sides`.
+
+    P is the origin, Q is on the x axis; R is to the left of PQ unless `side` is right. The triangle inequality is
+    recorded as three conditions.
+    """
     if "sides" not in node:
         return {}
-    address, where = f"{address}.sides", node.key("sides").where
-    own = read_fields(reader, node.part("sides"), SIDES.fields, FieldContext(address))
-    a, b, c = sides = [own.quantities[name] for name in ("PQ", "QR", "PR")]
+    address, location = f"{address}.sides", node.key("sides").where
+    values = read_fields(reader, node.part("sides"), SIDES.fields, FieldContext(address))
+    a, b, c = sides = [values.quantities[name] for name in ("PQ", "QR", "PR")]
     for k, side in enumerate(sides):
-        others = " + ".join(other.address for other in (sides[k - 1], sides[k - 2]))
-        reader.require_less(side, others, "each side of a triangle is shorter than the other two together")
-    zero = Quantity(f"{address}.P", Number(0.0, "0"), LENGTH, where)
-    of = {"a": a, "b": b, "c": c}
-    sign = "-" if own.options.get("side") == "right" else ""
+        addresses_of_others = " + ".join(other_side.address for other_side in (sides[k - 1], sides[k - 2]))
+        reader.require_less(side, addresses_of_others, "each side of a triangle is shorter than the other two together")
+    zero = Quantity(f"{address}.P", Number(0.0, "0"), LENGTH, location)
+    quantities = {"a": a, "b": b, "c": c}
+    sign = "-" if values.options.get("side") == "right" else ""
     height = f"{sign}sqrt((a + b + c) * (b + c - a) * (a + c - b) * (a + b - c)) / (2 * a)"
-    x = derive_quantity(reader, "(a**2 + c**2 - b**2) / (2 * a)", of, f"{address}.R.x", LENGTH, where)
-    y = derive_quantity(reader, height, of, f"{address}.R.y", LENGTH, where)
+    x = derive_quantity(reader, "(a**2 + c**2 - b**2) / (2 * a)", quantities, f"{address}.R.x", LENGTH, location)
+    y = derive_quantity(reader, height, quantities, f"{address}.R.y", LENGTH, location)
     return dict(zip(CORNERS_OF_SIDES, ((zero, zero), (a, zero), (x, y)), strict=True))
 
 
 class MassProperties:
-    """Contain mass, moment of inertia and centre of mass of one body, and the keys that dynamics lacks."""
+    """Contain mass, moment of inertia and centre of mass of one body; shapes set those that the file does not give."""
 
     def __init__(self, reader: Reader, address: str, own: Values, materials: Materials) -> None:
         self._reader, self._address, self._materials = reader, address, materials
@@ -87,106 +100,132 @@ class MassProperties:
 
     @property
     def lacks(self) -> tuple[str, ...]:
-        """Return the keys that dynamics needs and the body does not have."""
-        inertia = self.inertia is None and not self.follows_mass
-        return (*(("mass",) if self.mass is None else ()), *(("inertia",) if inertia else ()))
+        """Return the keys, "mass" or "inertia", that dynamics needs and the body does not have."""
+        needs_inertia = self.inertia is None and not self.follows_mass
+        return (*(("mass",) if self.mass is None else ()), *(("inertia",) if needs_inertia else ()))
 
-    def set_slender_inertia(self, where: Location) -> None:
-        """Set the inertia of a slender bar, m l²/12, for `inertia: auto`.
+    def set_slender_inertia(self, location: Location) -> None:
+        """Set the inertia of a slender bar about its centre, m l²/12, for `inertia: auto` at `location`.
 
-        Raises BadValueError if the body is no such bar.
+        Raises BadValueError if the body has no length, or a centre of mass that the file gives.
         """
         address, hint = f"{self._address}.inertia", "expected a number, or a body with length: and mass: alone"
         if self.length is None:
-            raise BadValueError(f"{address} is auto, that of a slender bar, and there is no length", where, hint)
+            raise BadValueError(f"{address} is auto, that of a slender bar, and there is no length", location, hint)
         if self.com is not None:
-            what = f"{address} is auto, that of a slender bar about its middle, and com is elsewhere"
-            raise BadValueError(what, where, "expected no com, or a number for inertia")
-        self._set_inertia(_AUTO, {"l": self.length}, where)
+            fault = f"{address} is auto, that of a slender bar about its middle, and com is elsewhere"
+            raise BadValueError(fault, location, "expected no com, or a number for inertia")
+        self._set_inertia(_AUTO, {"l": self.length}, location)
 
     def set_shape(self, node: Map, key: Text, points: Mapping[str, Vector], has_inertia: bool) -> None:
-        """Set mass, inertia and centre of mass that follow from the body's shape. Raises InputError."""
+        """Set mass, inertia and centre of mass that follow from the body's shape.
+
+        `node` and `key` are the shape's node and key; `points` are the points that a triangle may name. Raises
+        InputError, also if the body has both a moment of inertia and a shape.
+        """
         address = f"{self._address}.shape"
         kind = find_kind(node, _KINDS, [field.name for field in SHAPE.fields], address)
-        own = read_fields(self._reader, node, SHAPE.fields, FieldContext(address))
+        values = read_fields(self._reader, node, SHAPE.fields, FieldContext(address))
         if has_inertia:
             raise BadValueError(f"{self._address} has inertia and a shape", key.where, "expected one of the two")
         if kind == "triangle":
-            area, squared_radius, of = self._triangle(node, kind, points)
+            area, squared_radius, lengths = self._describe_triangle(node, kind, points)
         else:
-            area, squared_radius, of = self._centred_shape(kind, own)
-        self._set_mass(node, own, area, of, key)
-        self._set_inertia(f"m * {squared_radius}", of, key.where)
+            area, squared_radius, lengths = self._describe_centred_shape(kind, values)
+        self._set_mass(node, values, area, lengths, key)
+        self._set_inertia(f"m * {squared_radius}", lengths, key.where)
 
-    def _density(self, node: Map, own: Values) -> Quantity | None:
+    def _read_density(self, node: Map, values: Values) -> Quantity | None:
         """Return the shape's density or that of its material, None without both. Raises an InputError for both."""
         if "material" not in node:
-            return own.quantities.get("density")
+            return values.quantities.get("density")
         address, text = f"{self._address}.shape", node["material"]
         if "density" in node:
             raise BadValueError(f"{address} has density and material", text.where, "expected one of the two")
         return self._materials.values_of_material(f"{address}.material", text, ("density",))["density"]
 
-    def _set_mass(self, node: Map, own: Values, area: str, of: Mapping[str, Quantity], key: Text) -> None:
-        """Set the mass to density times thickness times `area`, unless the body gives it."""
-        plate = {"d": self._density(node, own), "h": own.quantities.get("thickness")}
-        given = {letter: quantity for letter, quantity in plate.items() if quantity is not None}
-        if given and self.mass is not None:
+    def _set_mass(self, node: Map, values: Values, area: str, lengths: Mapping[str, Quantity], key: Text) -> None:
+        """Set the mass to density times thickness times `area`, unless the shape has neither density nor thickness.
+
+        `area` is a formula of the letters in `lengths`. Raises an InputError if the body also gives its mass, or if one
+        of density and thickness is missing.
+        """
+        plate_quantities = {"d": self._read_density(node, values), "h": values.quantities.get("thickness")}
+        known_quantities = {letter: quantity for letter, quantity in plate_quantities.items() if quantity is not None}
+        if known_quantities and self.mass is not None:
             hint = "expected the mass, or density or material, and thickness"
-            what = "material" if "material" in node else "density"
-            raise BadValueError(f"{self._address} has mass and a shape with {what} or thickness", key.where, hint)
-        if len(given) == 1:
-            raise missing_key("thickness" if "d" in given else "density", key.where, f"{self._address}.shape")
-        if given:
+            phrase = "material" if "material" in node else "density"
+            raise BadValueError(f"{self._address} has mass and a shape with {phrase} or thickness", key.where, hint)
+        if len(known_quantities) == 1:
+            raise missing_key(
+                "thickness" if "d" in known_quantities else "density", key.where, f"{self._address}.shape"
+            )
+        if known_quantities:
             address = f"{self._address}.mass"
-            self.mass = derive_quantity(self._reader, f"d * h * ({area})", {**given, **of}, address, MASS, key.where)
+            self.mass = derive_quantity(
+                self._reader, f"d * h * ({area})", {**known_quantities, **lengths}, address, MASS, key.where
+            )
             self._reader.require(self.mass, ">", 0.0, "a mass is positive")
 
-    def _set_inertia(self, formula: str, of: Mapping[str, Quantity], where: Location) -> None:
-        """Set the moment of inertia to a formula of the mass m and the lengths `of`, if the mass is known."""
+    def _set_inertia(self, formula: str, lengths: Mapping[str, Quantity], location: Location) -> None:
+        """Set the moment of inertia to a formula of the mass m and the lengths `lengths`, if the mass is known.
+
+        Otherwise only `follows_mass` is set. The condition that the inertia is positive is recorded.
+        """
         self.follows_mass = True
         if self.mass is not None:
             address = f"{self._address}.inertia"
-            self.inertia = derive_quantity(self._reader, formula, {"m": self.mass, **of}, address, INERTIA, where)
+            self.inertia = derive_quantity(
+                self._reader, formula, {"m": self.mass, **lengths}, address, INERTIA, location
+            )
             self._reader.require(self.inertia, ">", 0.0, "a moment of inertia is positive")
 
-    def _centred_shape(self, kind: Text, own: Values) -> tuple[str, str, dict[str, Quantity]]:
-        """Return area, squared radius of gyration and their letters for a shape centred on the centre of mass."""
+    def _describe_centred_shape(self, kind: Text, values: Values) -> tuple[str, str, dict[str, Quantity]]:
+        """Return area, squared radius of gyration and their letters for a shape centred on the centre of mass.
+
+        The first two are formulas, the last maps letters to quantities. Raises BadValueError for a bar without a
+        length.
+        """
         if kind == "disc":
-            return "pi * r**2", "r**2 / 2", {"r": own.quantities["disc"]}
+            return "pi * r**2", "r**2 / 2", {"r": values.quantities["disc"]}
         if kind == "rectangle":
-            a, b = own.vectors["rectangle"]
+            a, b = values.vectors["rectangle"]
         elif self.length is None:
-            what, hint = (
+            fault, hint = (
                 f"{self._address}.shape is a bar, and there is no length",
                 "expected rectangle: [length, width]",
             )
-            raise BadValueError(what, kind.where, hint)
+            raise BadValueError(fault, kind.where, hint)
         else:
-            a, b = self.length, own.quantities["bar"]
+            a, b = self.length, values.quantities["bar"]
         return "a * b", "(a**2 + b**2) / 12", {"a": a, "b": b}
 
-    def _triangle(self, node: Map, kind: Text, points: Mapping[str, Vector]) -> tuple[str, str, dict[str, Quantity]]:
-        """Return area, squared radius of gyration and their letters for a triangle, and set its centre of mass."""
+    def _describe_triangle(
+        self, node: Map, kind: Text, points: Mapping[str, Vector]
+    ) -> tuple[str, str, dict[str, Quantity]]:
+        """Return area, squared radius of gyration and their letters for a triangle, and set its centre of mass.
+
+        Raises BadValueError if the body has a centre of mass already, UnknownNameError for an unknown corner.
+        """
         if self.com is not None:
-            what = f"{self._address} has com and a triangle, whose centre of mass is its own"
-            raise BadValueError(what, kind.where, "expected one of the two")
-        of: dict[str, Quantity] = {}
+            fault = f"{self._address} has com and a triangle, whose centre of mass is its own"
+            raise BadValueError(fault, kind.where, "expected one of the two")
+        coordinates: dict[str, Quantity] = {}
         for letter, name in zip("pqr", node["triangle"], strict=True):
             if name not in points:
                 owner = self._address.removeprefix("bodies.")
                 raise unknown_name(f"point of {owner}", name, points, name.where)
-            of |= {f"{letter}{axis}": x for axis, x in zip("xy", points[name], strict=True)}
-        middle = [
+            coordinates |= {f"{letter}{axis}": x for axis, x in zip("xy", points[name], strict=True)}
+        centroid = [
             derive_quantity(
                 self._reader,
                 f"(p{axis} + q{axis} + r{axis}) / 3",
-                {k: x for k, x in of.items() if k[1] == axis},
+                {k: x for k, x in coordinates.items() if k[1] == axis},
                 f"{self._address}.com.{axis}",
                 LENGTH,
                 kind.where,
             )
             for axis in "xy"
         ]
-        self.com = (middle[0], middle[1])
-        return _AREA, _SQUARED_RADIUS_OF_GYRATION, of
+        self.com = (centroid[0], centroid[1])
+        return _AREA, _SQUARED_RADIUS_OF_GYRATION, coordinates

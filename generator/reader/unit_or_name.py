@@ -25,35 +25,49 @@ DimensionOf = Callable[[str], Dimension | None]  # None: defined without a unit
 
 
 def choose_reading(
-    text: Text, by_name: Expr, expected: Dimension | None, dimension_of: DimensionOf, curves: Mapping[str, Curve]
+    text: Text,
+    tree_with_names: Expr,
+    expected: Dimension | None,
+    dimension_of: DimensionOf,
+    curves: Mapping[str, Curve],
 ) -> Expr:
-    """Return the tree of `text`: `by_name`, in which names precede units, or the one in which they are all units.
+    """Return the tree of `text`: `tree_with_names`, in which names precede units, or the one in which all are units.
 
-    `expected` is the dimension of the value, None if any. Raises ExpressionError if both readings are possible.
+    `expected` is the dimension of the value, None if any. `dimension_of` returns that of a name. Raises ExpressionError
+    if both readings are possible.
     """
-    shadowed = sorted(set(names_over_units(by_name)))
-    if not shadowed:
-        return by_name
+    ambiguous_names = sorted(set(names_over_units(tree_with_names)))
+    if not ambiguous_names:
+        return tree_with_names
     try:
-        by_unit = parse(text, text.where, (), curves)
+        tree_with_units = parse(text, text.where, (), curves)
     except InputError:
-        return by_name
-    if by_unit == by_name:  # in brackets: 3 N*(m)
-        return by_name
-    is_quantity = next(names(by_unit), None) is None and all(unit in UNITS for unit in units(by_unit))
-    name_fits, unit_fits = (_fits(tree, expected, dimension_of, text) for tree in (by_name, by_unit))
+        return tree_with_names
+    if tree_with_units == tree_with_names:  # in brackets: 3 N*(m)
+        return tree_with_names
+    is_quantity = next(names(tree_with_units), None) is None and all(unit in UNITS for unit in units(tree_with_units))
+    name_fits, unit_fits = (
+        _has_dimension(tree, expected, dimension_of, text) for tree in (tree_with_names, tree_with_units)
+    )
     if name_fits and not unit_fits:
-        return by_name
-    dimensions = [(dimension_of(name), symbol_dimension(name)) for name in shadowed]
-    if is_quantity and unit_fits and all(of is not None and of != its for of, its in dimensions):
-        return by_unit
-    if not is_quantity and all(of is not None for of, _ in dimensions):
-        return by_name
-    raise _ambiguity_error(text, shadowed)
+        return tree_with_names
+    dimensions = [(dimension_of(name), symbol_dimension(name)) for name in ambiguous_names]
+    if (
+        is_quantity
+        and unit_fits
+        and all(
+            dimension_of_name is not None and dimension_of_name != dimension_of_unit
+            for dimension_of_name, dimension_of_unit in dimensions
+        )
+    ):
+        return tree_with_units
+    if not is_quantity and all(dimension_of_name is not None for dimension_of_name, _ in dimensions):
+        return tree_with_names
+    raise _make_ambiguity_error(text, ambiguous_names)
 
 
-def _fits(tree: Expr, expected: Dimension | None, dimension_of: DimensionOf, text: Text) -> bool:
-    """Return whether a tree has the expected dimension."""
+def _has_dimension(tree: Expr, expected: Dimension | None, dimension_of: DimensionOf, text: Text) -> bool:
+    """Return whether a tree has the expected dimension; `text` locates the expression."""
     try:
         check_dimension(tree, expected, dimension_of, text.where)
     except UnitError:
@@ -61,11 +75,15 @@ def _fits(tree: Expr, expected: Dimension | None, dimension_of: DimensionOf, tex
     return True
 
 
-def _ambiguity_error(text: Text, shadowed: list[str]) -> ExpressionError:
+def _make_ambiguity_error(text: Text, ambiguous_names: list[str]) -> ExpressionError:
     """Return the error for a value with two readings, with both unambiguous spellings as a hint."""
-    compact = re.sub(r" *([*/]) *", r"\1", text)
-    factor = re.compile(rf"(?<=[*/])({'|'.join(shadowed)})(?![\w.^(])")
-    are = f"{' and '.join(shadowed)} {'are names and units' if shadowed[1:] else 'is a name of this file and a unit'}"
-    by_name, by_unit = factor.sub(r"(\1)", compact), factor.sub(r"\1^1", compact)
-    hint = f"write {by_name} for the name, {by_unit} for the unit"
-    return ExpressionError(f"{str(text)!r} can mean two things: {are}", text.where, hint)
+    text_without_spaces = re.sub(r" *([*/]) *", r"\1", text)
+    pattern = re.compile(rf"(?<=[*/])({'|'.join(ambiguous_names)})(?![\w.^(])")
+    predicate = "are names and units" if ambiguous_names[1:] else "is a name of this file and a unit"
+    phrase = f"{' and '.join(ambiguous_names)} {predicate}"
+    spelling_for_names, spelling_for_units = (
+        pattern.sub(r"(\1)", text_without_spaces),
+        pattern.sub(r"\1^1", text_without_spaces),
+    )
+    hint = f"write {spelling_for_names} for the name, {spelling_for_units} for the unit"
+    return ExpressionError(f"{str(text)!r} can mean two things: {phrase}", text.where, hint)

@@ -45,7 +45,10 @@ TREND = (*MESSAGES, *TRIAL, "all", "not_computed")
 
 
 def read_claims(reader: Reader, root: Map) -> Claims:
-    """Read the claims of a study file; empty Claims if it makes none."""
+    """Return the claims of a study file; empty Claims if it makes none. Errors are collected.
+
+    Wrong claims are left out. Names of claims must be unique.
+    """
     if "claims" not in root:
         return Claims()
     with reader.collect():
@@ -55,188 +58,235 @@ def read_claims(reader: Reader, root: Map) -> Claims:
         with reader.collect():
             source = line(node, "source", "claims")
         numbers, trends = list[NumberClaim](), list[TrendClaim]()
-        for name, below in _claim_entries(reader, node, "numbers"):
+        for name, value in _list_claim_entries(reader, node, "numbers"):
             with reader.collect():
-                numbers.append(_read_number(reader, name, mapping(below, f"claims.numbers.{name}", name)))
-        for name, below in _claim_entries(reader, node, "trends"):
+                numbers.append(_read_number_claim(reader, name, mapping(value, f"claims.numbers.{name}", name)))
+        for name, value in _list_claim_entries(reader, node, "trends"):
             with reader.collect():
-                trends.append(_read_trend(name, mapping(below, f"claims.trends.{name}", name)))
-        _check_names_once(reader, [*(one.name for one in numbers), *(one.name for one in trends)])
+                trends.append(_read_trend_claim(name, mapping(value, f"claims.trends.{name}", name)))
+        _check_unique_names(reader, [*(claim.name for claim in numbers), *(claim.name for claim in trends)])
         _check_references(reader, numbers)
         return Claims(source, tuple(numbers), tuple(trends))
     return Claims()
 
 
-def _claim_entries(reader: Reader, node: Map, section: str) -> Sequence[tuple[Text, Any]]:
-    """Return the entries of a section of claims, none if the section is missing or wrong."""
+def _list_claim_entries(reader: Reader, node: Map, section: str) -> Sequence[tuple[Text, Any]]:
+    """Return the entries (name, node) of a section of claims, none if the section is missing or wrong.
+
+    The error is collected.
+    """
     with reader.collect():
         if section in node:
             return mapping(node[section], f"claims.{section}", node.key(section)).pairs()
     return ()
 
 
-def _check_names_once(reader: Reader, names: Sequence[Text]) -> None:
-    """Collect an error for each claim whose name was used before."""
+def _check_unique_names(reader: Reader, names: Sequence[Text]) -> None:
+    """Collect an error for each claim whose name was used before, with the location of the first one."""
     for k, name in enumerate(names):
         if name in names[:k]:
-            first = names[names.index(name)].where
-            reader.errors.append(BadNameError(f"claim {str(name)[:60]!r} is there twice", name.where, f"once: {first}"))
+            first_location = names[names.index(name)].where
+            reader.errors.append(
+                BadNameError(f"claim {str(name)[:60]!r} is there twice", name.where, f"once: {first_location}")
+            )
 
 
-def _read_number(reader: Reader, name: Text, node: Map) -> NumberClaim:
-    """Read a claim about one number."""
-    owner = f"claims.numbers.{name}"
+def _read_number_claim(reader: Reader, name: Text, node: Map) -> NumberClaim:
+    """Return a claim about one published number. Raises an InputError.
+
+    It may have a value to compare with, or the name of another claim (key `beside`), not both.
+    """
+    address = f"claims.numbers.{name}"
     label(name, "claim")
-    if not check_keys(reader, node, NUMBER, owner, ("measure",)):
-        raise missing_key("measure", node.where, owner)
-    measure = text(node["measure"], f"{owner}.measure", node.key("measure"), "the name of a measure")
-    value = text(node["value"], f"{owner}.value", node.key("value"), "a number") if "value" in node else None
-    beside = text(node["beside"], f"{owner}.beside", node.key("beside"), "a name") if "beside" in node else None
-    if value is not None and beside is not None:
-        raise BadValueError(f"{owner} has both value and beside", node.key("beside").where, "expected one of both")
-    figure, says, note, heading = (line(node, key, owner) for key in ("figure", "says", "note", "heading"))
-    return NumberClaim(name, figure, measure, _read_selection(node, owner, name), value, says, note, beside, heading)
+    if not check_keys(reader, node, NUMBER, address, ("measure",)):
+        raise missing_key("measure", node.where, address)
+    measure = text(node["measure"], f"{address}.measure", node.key("measure"), "the name of a measure")
+    value = text(node["value"], f"{address}.value", node.key("value"), "a number") if "value" in node else None
+    reference_claim = (
+        text(node["beside"], f"{address}.beside", node.key("beside"), "a name") if "beside" in node else None
+    )
+    if value is not None and reference_claim is not None:
+        raise BadValueError(f"{address} has both value and beside", node.key("beside").where, "expected one of both")
+    figure, says, note, heading = (line(node, key, address) for key in ("figure", "says", "note", "heading"))
+    return NumberClaim(
+        name, figure, measure, _read_selection(node, address, name), value, says, note, reference_claim, heading
+    )
 
 
 def _check_references(reader: Reader, numbers: Sequence[NumberClaim]) -> None:
     """Collect an error unless the claim that a number refers to (`beside`) exists and has the same measure."""
-    measures = {str(one.name): one.measure for one in numbers}
-    for one in numbers:
+    measures = {str(claim.name): claim.measure for claim in numbers}
+    for claim in numbers:
         with reader.collect():
-            other = one.beside
-            if other is None:
+            reference_claim = claim.beside
+            if reference_claim is None:
                 continue
-            if other not in measures:
-                raise unknown_name("number", other, list(measures), other.where)
-            if measures[other] != one.measure:
-                message = f"{other} is about {measures[other]}, {one.name} about {one.measure}"
-                raise BadValueError(message, other.where, "expected a number of the same measure")
+            if reference_claim not in measures:
+                raise unknown_name("number", reference_claim, list(measures), reference_claim.where)
+            if measures[reference_claim] != claim.measure:
+                message = f"{reference_claim} is about {measures[reference_claim]}, {claim.name} about {claim.measure}"
+                raise BadValueError(message, reference_claim.where, "expected a number of the same measure")
 
 
-def _read_selection(node: Map, owner: str, where: Text) -> Selection:
-    """Read `part` and `at`: the runs that a claim concerns."""
-    part = text(node["part"], f"{owner}.part", node.key("part"), "the name of a part") if "part" in node else None
-    at = _read_values(mapping(node["at"], f"{owner}.at", node.key("at")), f"{owner}.at") if "at" in node else {}
-    return Selection(part, at, where)
+def _read_selection(node: Map, address: str, location_text: Text) -> Selection:
+    """Return the runs that a claim concerns, from its keys `part` and `at`. Raises an InputError.
+
+    `location_text` has the location of the selection. Without these keys, all runs are selected.
+    """
+    part = text(node["part"], f"{address}.part", node.key("part"), "the name of a part") if "part" in node else None
+    coordinate_values = (
+        _read_coordinate_values(mapping(node["at"], f"{address}.at", node.key("at")), f"{address}.at")
+        if "at" in node
+        else {}
+    )
+    return Selection(part, coordinate_values, location_text)
 
 
-def _read_values(node: Map, owner: str) -> dict[Text, Text]:
-    """Read a mapping of coordinates to single values."""
-    return {key: text(value, f"{owner}.{key}", key, "one value") for key, value in node.pairs()}
+def _read_coordinate_values(node: Map, address: str) -> dict[Text, Text]:
+    """Return a mapping of coordinates to single values, as texts. Raises BadValueError for another node."""
+    return {key: text(value, f"{address}.{key}", key, "one value") for key, value in node.pairs()}
 
 
-def _read_other_selection(node: Map, key: str, owner: str, base: Selection) -> Selection:
-    """Read the selection at a key, {part: …, c: 0.3 mm}, merged over the selection `base` of the trend."""
-    own = mapping(node[key], f"{owner}.{key}", node.key(key))
-    values = _read_values(own, f"{owner}.{key}")
+def _read_other_selection(node: Map, key: str, address: str, base: Selection) -> Selection:
+    """Return the selection at a key, {part: …, c: 0.3 mm}, merged over the selection `base` of the trend.
+
+    Raises an InputError.
+    """
+    selection_node = mapping(node[key], f"{address}.{key}", node.key(key))
+    values = _read_coordinate_values(selection_node, f"{address}.{key}")
     part = next((value for name, value in values.items() if name == "part"), base.part)
-    kept = {name: value for name, value in base.at.items() if name not in values}
-    return Selection(part, kept | {name: value for name, value in values.items() if name != "part"}, node.key(key))
+    inherited_values = {name: value for name, value in base.at.items() if name not in values}
+    return Selection(
+        part, inherited_values | {name: value for name, value in values.items() if name != "part"}, node.key(key)
+    )
 
 
-def _read_trend(name: Text, node: Map) -> TrendClaim:
-    """Read a claim about a trend, with its trials or the reason why it is not computed."""
-    owner = f"claims.trends.{name}"
+def _read_trend_claim(name: Text, node: Map) -> TrendClaim:
+    """Return a claim about a trend, with its trials or the reason why it is not computed. Raises an InputError."""
+    address = f"claims.trends.{name}"
     label(name, "claim")
-    figure, says, note, heading = (line(node, key, owner) for key in ("figure", "says", "note", "heading"))
-    if strange := [key for key in node.names() if key not in TREND]:
-        raise unknown_key(strange[0], TREND, owner)
-    why = line(node, "not_computed", owner)
-    own = Map.make([(key, below) for key, below in node.pairs() if key not in MESSAGES], node.where)
-    if why:
-        if extra := [key for key in own.names() if key != "not_computed"]:
-            raise BadValueError(f"{owner} is not computed, and has {extra[0]}", extra[0].where, "expected one of both")
-        return TrendClaim(name, figure, says, (), why, note, heading)
-    return TrendClaim(name, figure, says, tuple(_read_trials(name, own, owner)), "", note, heading)
+    figure, says, note, heading = (line(node, key, address) for key in ("figure", "says", "note", "heading"))
+    if unknown_keys := [key for key in node.names() if key not in TREND]:
+        raise unknown_key(unknown_keys[0], TREND, address)
+    reason = line(node, "not_computed", address)
+    trial_node = Map.make([(key, value) for key, value in node.pairs() if key not in MESSAGES], node.where)
+    if reason:
+        if extra_keys := [key for key in trial_node.names() if key != "not_computed"]:
+            raise BadValueError(
+                f"{address} is not computed, and has {extra_keys[0]}", extra_keys[0].where, "expected one of both"
+            )
+        return TrendClaim(name, figure, says, (), reason, note, heading)
+    return TrendClaim(name, figure, says, tuple(_read_trials(name, trial_node, address)), "", note, heading)
 
 
-def _read_trials(name: Text, node: Map, owner: str) -> list[Trial]:
-    """Read the trials of a trend: one, or each of `all`, whose keys override those next to `all`."""
+def _read_trials(name: Text, node: Map, address: str) -> list[Trial]:
+    """Return the trials of a trend: one, or each of `all`, whose keys override those next to `all`.
+
+    Raises an InputError for an unknown key or an empty list.
+    """
     if "all" not in node:
-        return [_read_trial(name, node, owner)]
-    every = node["all"]
-    if not isinstance(every, Items) or not every:
-        raise BadValueError(f"{owner}.all is {kind_of(every)}", node.key("all").where, "expected a list of trials")
-    found = []
-    for k, below in enumerate(every):
-        own = mapping(below, f"{owner}.all[{k}]", node.key("all"))
-        if strange := [key for key in own.names() if key not in TRIAL]:
-            raise unknown_key(strange[0], TRIAL, f"{owner}.all[{k}]")
-        kept = [(key, value) for key, value in node.pairs() if key != "all" and key not in own]
-        found.append(_read_trial(name, Map.make([*kept, *own.pairs()], own.where), f"{owner}.all[{k}]"))
-    return found
+        return [_read_trial(name, node, address)]
+    trial_nodes = node["all"]
+    if not isinstance(trial_nodes, Items) or not trial_nodes:
+        raise BadValueError(
+            f"{address}.all is {kind_of(trial_nodes)}", node.key("all").where, "expected a list of trials"
+        )
+    trials = []
+    for k, node_in_list in enumerate(trial_nodes):
+        trial_node = mapping(node_in_list, f"{address}.all[{k}]", node.key("all"))
+        if unknown_keys := [key for key in trial_node.names() if key not in TRIAL]:
+            raise unknown_key(unknown_keys[0], TRIAL, f"{address}.all[{k}]")
+        inherited_entries = [(key, value) for key, value in node.pairs() if key != "all" and key not in trial_node]
+        trials.append(
+            _read_trial(
+                name, Map.make([*inherited_entries, *trial_node.pairs()], trial_node.where), f"{address}.all[{k}]"
+            )
+        )
+    return trials
 
 
-def _read_trial(name: Text, node: Map, owner: str) -> Trial:
+def _read_trial(name: Text, node: Map, address: str) -> Trial:
     """Read one trial: its kind, measures, selections and limits. Raises an InputError."""
     selected = [key for key in node.names() if key in KINDS]
     if len(selected) != 1:
-        message = f"{owner} has {'nothing to judge it by' if not selected else f'both {selected[0]} and {selected[1]}'}"
+        message = (
+            f"{address} has {'nothing to judge it by' if not selected else f'both {selected[0]} and {selected[1]}'}"
+        )
         hint = f"expected one of: {', '.join((*KINDS, 'all', 'not_computed'))}"
         raise BadValueError(message, place_of(node, name), hint)
-    kind, known = selected[0], (selected[0], *COMMON, *MORE.get(selected[0], ()))
-    if strange := [key for key in node.names() if key not in known]:
-        raise unknown_key(strange[0], known, owner)
-    if (needed := NEEDED.get(kind)) and needed not in node:
-        raise missing_key(needed, node.where, owner)
-    base = _read_selection(node, owner, kind)
+    kind, known_keys = selected[0], (selected[0], *COMMON, *MORE.get(selected[0], ()))
+    if unknown_keys := [key for key in node.names() if key not in known_keys]:
+        raise unknown_key(unknown_keys[0], known_keys, address)
+    if (required_key := NEEDED.get(kind)) and required_key not in node:
+        raise missing_key(required_key, node.where, address)
+    base = _read_selection(node, address, kind)
     if kind == COUNTS:
-        counts = _read_counts(mapping(node[kind], f"{owner}.{kind}", kind), f"{owner}.{kind}")
+        counts = _read_counts(mapping(node[kind], f"{address}.{kind}", kind), f"{address}.{kind}")
         return Trial(kind, (), base, kind, counts=counts)
     if "measure" not in node:
-        raise missing_key("measure", node.where, owner)
-    measures = texts(node["measure"], f"{owner}.measure", node.key("measure"), "names of measures")
-    by = next(
-        (text(node[key], f"{owner}.{key}", node.key(key), "a number") for key in ("by", "within") if key in node), None
+        raise missing_key("measure", node.where, address)
+    measures = texts(node["measure"], f"{address}.measure", node.key("measure"), "names of measures")
+    factor_or_tolerance = next(
+        (text(node[key], f"{address}.{key}", node.key(key), "a number") for key in ("by", "within") if key in node),
+        None,
     )
     if kind in BETWEEN:
-        return _read_comparison(node, owner, kind, measures, base, by)
-    of = text(node[kind], f"{owner}.{kind}", kind, "a dimension" if kind in ALONG else "a measure or a number")
-    others = (
-        texts(node["more_than"], f"{owner}.more_than", node.key("more_than"), "measures")
+        return _read_comparison(node, address, kind, measures, base, factor_or_tolerance)
+    comparison_text = text(
+        node[kind], f"{address}.{kind}", kind, "a dimension" if kind in ALONG else "a measure or a number"
+    )
+    other_measures = (
+        texts(node["more_than"], f"{address}.more_than", node.key("more_than"), "measures")
         if "more_than" in node
-        else (of,)
+        else (comparison_text,)
         if kind in SAME
         else ()
     )
-    if kind == "spreads_along" and len(others) != len(measures):
+    if kind == "spreads_along" and len(other_measures) != len(measures):
         raise BadValueError(
-            f"{owner}.more_than has {counted(len(others), 'name')}",
+            f"{address}.more_than has {counted(len(other_measures), 'name')}",
             node.key("more_than").where,
             f"expected as many as measure: {len(measures)}",
         )
-    return Trial(kind, measures, base, of, None, others, by)
+    return Trial(kind, measures, base, comparison_text, None, other_measures, factor_or_tolerance)
 
 
 def _read_comparison(
-    node: Map, owner: str, kind: Text, measures: tuple[Text, ...], base: Selection, by: Text | None
+    node: Map, address: str, kind: Text, measures: tuple[Text, ...], base: Selection, factor: Text | None
 ) -> Trial:
-    """Read a trial that compares two selections."""
+    """Return a trial that compares two selections of runs; `kind` is "larger" or "most_lowered".
+
+    `base` is the selection of the trend, `factor` the value of `by` or None. Raises an InputError if a selection is
+    missing.
+    """
     if kind == "larger":
         return Trial(
             kind,
             measures,
-            _read_other_selection(node, kind, owner, base),
+            _read_other_selection(node, kind, address, base),
             kind,
-            _read_other_selection(node, "than", owner, base),
+            _read_other_selection(node, "than", address, base),
             (),
-            by,
+            factor,
         )
-    if lacking := [key for key in ("from", "to") if key not in node]:
-        raise missing_key(lacking[0], node.where, owner)
-    others = texts(node[kind], f"{owner}.{kind}", kind, "other measures, which are lowered less")
+    if missing_keys := [key for key in ("from", "to") if key not in node]:
+        raise missing_key(missing_keys[0], node.where, address)
+    other_measures = texts(node[kind], f"{address}.{kind}", kind, "other measures, which are lowered less")
     return Trial(
         kind,
         measures,
-        _read_other_selection(node, "from", owner, base),
+        _read_other_selection(node, "from", address, base),
         kind,
-        _read_other_selection(node, "to", owner, base),
-        others,
+        _read_other_selection(node, "to", address, base),
+        other_measures,
     )
 
 
-def _read_counts(node: Map, owner: str) -> dict[Text, int]:
-    """Read the expected counts of bodies, joints and others in a scene."""
-    if strange := [key for key in node.names() if key not in COUNTED]:
-        raise unknown_key(strange[0], COUNTED, owner)
-    return {key: whole(value, f"{owner}.{key}", key, 0) for key, value in node.pairs()}
+def _read_counts(node: Map, address: str) -> dict[Text, int]:
+    """Return the expected counts of bodies, joints and others in a scene, by key.
+
+    Raises an InputError for an unknown key.
+    """
+    if unknown_keys := [key for key in node.names() if key not in COUNTED]:
+        raise unknown_key(unknown_keys[0], COUNTED, address)
+    return {key: whole(value, f"{address}.{key}", key, 0) for key, value in node.pairs()}

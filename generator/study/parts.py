@@ -19,143 +19,181 @@ MOST_TEXT = 1000  # characters of a descriptive text
 _WHOLE = re.compile(r"0|[1-9][0-9]{0,18}")
 
 
-def mapping(node: Any, owner: str, where: Any) -> Map:
-    """Return the node if it is a mapping. Raises BadValueError."""
+def mapping(node: Any, address: str, key: Any) -> Map:
+    """Return the node if it is a mapping; `key` has the location for an error at an empty node.
+
+    Raises BadValueError.
+    """
     if not isinstance(node, Map):
-        raise BadValueError(f"{owner} is {kind_of(node)}", place_of(node, where), "expected a mapping")
+        raise BadValueError(f"{address} is {kind_of(node)}", place_of(node, key), "expected a mapping")
     return node
 
 
-def place_of(node: Any, otherwise: Any) -> Any:
-    """Return the location of a node; for an empty node, that of its key `otherwise`."""
-    nothing = isinstance(node, Text) and node.is_nothing
-    return otherwise.where if nothing else getattr(node, "where", otherwise.where)
+def place_of(node: Any, key: Any) -> Any:
+    """Return the location of a node; for an empty node, or one without a location, that of the key before it."""
+    is_null = isinstance(node, Text) and node.is_nothing
+    return key.where if is_null else getattr(node, "where", key.where)
 
 
-def check_keys(reader: Reader, node: Map, known: Sequence[str], owner: str, needed: Sequence[str] = ()) -> bool:
-    """Return whether all needed keys are present; an error is collected for each missing and each unknown key."""
-    strange = [key for key in node.names() if key not in known]
-    reader.errors.extend(unknown_key(key, known, owner) for key in strange)
-    meant, missing = {nearest(key, known) for key in strange}, [name for name in needed if name not in node]
-    reader.errors.extend(missing_key(name, node.where, owner) for name in missing if name not in meant)
-    return not missing
+def check_keys(
+    reader: Reader, node: Map, known_keys: Sequence[str], address: str, required_keys: Sequence[str] = ()
+) -> bool:
+    """Return whether all required keys are present; an error is collected for each missing and each unknown key.
+
+    A missing key is not reported if an unknown key resembles it. `address` is the mapping's address.
+    """
+    unknown_keys = [key for key in node.names() if key not in known_keys]
+    reader.errors.extend(unknown_key(key, known_keys, address) for key in unknown_keys)
+    similar_keys, missing_keys = (
+        {nearest(key, known_keys) for key in unknown_keys},
+        [name for name in required_keys if name not in node],
+    )
+    reader.errors.extend(missing_key(name, node.where, address) for name in missing_keys if name not in similar_keys)
+    return not missing_keys
 
 
-def text(node: Any, owner: str, where: Any, what: str = "a number or a text") -> Text:
-    """Return the node if it is a nonempty text on one line. Raises BadValueError."""
+def text(node: Any, address: str, key: Any, expected_text: str = "a number or a text") -> Text:
+    """Return the node if it is a nonempty text on one line.
+
+    Raises BadValueError; `expected_text` says what was expected.
+    """
     if not isinstance(node, Text) or node.is_nothing or not node.one_line:
         message = "stands on several lines" if isinstance(node, Text) and not node.one_line else f"is {kind_of(node)}"
-        raise BadValueError(f"{owner} {message}", place_of(node, where), f"expected {what}")
+        raise BadValueError(f"{address} {message}", place_of(node, key), f"expected {expected_text}")
     return node
 
 
-def line(node: Map, key: str, owner: str) -> str:
+def line(node: Map, key: str, address: str) -> str:
     """Return the descriptive text at a key on one line; "" if there is none. Raises BadValueError."""
-    return words(node[key], f"{owner}.{key}", node.key(key)) if key in node else ""
+    return words(node[key], f"{address}.{key}", node.key(key)) if key in node else ""
 
 
-def words(found: Any, owner: str, where: Any) -> str:
-    """Return a node as a descriptive text on one line. Raises BadValueError."""
-    if not isinstance(found, Text) or found.is_nothing:
-        raise BadValueError(f"{owner} is {kind_of(found)}", place_of(found, where), "expected a text")
-    joined = " ".join(found.split())
+def words(node: Any, address: str, key: Any) -> str:
+    """Return a node as a descriptive text on one line, with single spaces.
+
+    Raises BadValueError for other nodes, and for more than 1000 or invisible characters.
+    """
+    if not isinstance(node, Text) or node.is_nothing:
+        raise BadValueError(f"{address} is {kind_of(node)}", place_of(node, key), "expected a text")
+    joined = " ".join(node.split())
     if len(joined) > MOST_TEXT or not joined.isprintable():
-        raise BadValueError(f"{owner} has {len(joined)} characters", found.where, f"at most {MOST_TEXT}, visible")
+        raise BadValueError(f"{address} has {len(joined)} characters", node.where, f"at most {MOST_TEXT}, visible")
     return joined
 
 
-def texts(node: Any, owner: str, where: Any, what: str) -> tuple[Text, ...]:
-    """Return the texts of a nonempty list, or a text alone. Raises BadValueError."""
+def texts(node: Any, address: str, key: Any, expected_text: str) -> tuple[Text, ...]:
+    """Return the texts of a nonempty list, or a text alone, as a tuple. Raises BadValueError for another node."""
     if isinstance(node, Text):
-        return (text(node, owner, where, what),)
+        return (text(node, address, key, expected_text),)
     if not isinstance(node, Items) or not node:
         raise BadValueError(
-            f"{owner} is {'an empty list' if node == [] else kind_of(node)}", place_of(node, where), f"expected {what}"
+            f"{address} is {'an empty list' if node == [] else kind_of(node)}",
+            place_of(node, key),
+            f"expected {expected_text}",
         )
-    return tuple(text(one, f"{owner}[{k}]", node, what) for k, one in enumerate(node))
+    return tuple(text(item, f"{address}[{k}]", node, expected_text) for k, item in enumerate(node))
 
 
-def word(node: Any, owner: str, where: Any, words: Iterable[str]) -> str:
-    """Return the node if it is one of the allowed words. Raises BadValueError."""
-    known, found = list(words), text(node, owner, where, "a word")
-    if found not in known:
-        raise BadValueError(f"{owner} is {kind_of(found)}", found.where, known_hint(found, known, 20))
-    return str(found)
+def word(node: Any, address: str, key: Any, allowed_words: Iterable[str]) -> str:
+    """Return the node as text if it is one of the allowed words. Raises BadValueError, with the nearest word."""
+    known_words, word_node = list(allowed_words), text(node, address, key, "a word")
+    if word_node not in known_words:
+        raise BadValueError(
+            f"{address} is {kind_of(word_node)}", word_node.where, known_hint(word_node, known_words, 20)
+        )
+    return str(word_node)
 
 
-def whole(node: Any, owner: str, where: Any, least: int = 1, most: int = MAX_COUNT) -> int:
-    """Return a whole number from `least` to `most`. Raises BadValueError."""
-    what = f"a whole number from {least} to {most}"
-    found = text(node, owner, where, what)
-    if not _WHOLE.fullmatch(found) or not least <= int(found) <= most:
-        raise BadValueError(f"{owner} is {kind_of(found)}", found.where, f"expected {what}")
-    return int(found)
+def whole(node: Any, address: str, key: Any, minimum: int = 1, maximum: int = MAX_COUNT) -> int:
+    """Return a whole number from `minimum` to `maximum` that is written in decimal digits. Raises BadValueError."""
+    expected_text = f"a whole number from {minimum} to {maximum}"
+    digits = text(node, address, key, expected_text)
+    if not _WHOLE.fullmatch(digits) or not minimum <= int(digits) <= maximum:
+        raise BadValueError(f"{address} is {kind_of(digits)}", digits.where, f"expected {expected_text}")
+    return int(digits)
 
 
-def seed(node: Map, owner: str) -> int:
-    """Return the seed of the random numbers of a section, 0 by default."""
-    return whole(node["seed"], f"{owner}.seed", node.key("seed"), 0, MAX_SEED) if "seed" in node else 0
+def seed(node: Map, address: str) -> int:
+    """Return the seed of the random numbers of a section, 0 by default. Raises BadValueError."""
+    return whole(node["seed"], f"{address}.seed", node.key("seed"), 0, MAX_SEED) if "seed" in node else 0
 
 
-def label(name: Text, what: str) -> str:
-    """Return the name of an option, window or measure if it is allowed. Raises BadNameError."""
+def label(name: Text, kind: str) -> str:
+    """Return the name of an option, window or measure if it is allowed. Raises BadNameError.
+
+    Allowed are ASCII letters, digits and _, at most 64 characters; null is not. `kind` is the noun in the message.
+    """
     if not re.fullmatch(LABEL, name):
         hint = "expected letters, digits and _ in ASCII, at most 64, no digit first"
-        raise BadNameError(f"{str(name)[:60]!r} cannot name a {what}", name.where, hint)
-    check_not_null(name, f"a {what}", name.where)
+        raise BadNameError(f"{str(name)[:60]!r} cannot name a {kind}", name.where, hint)
+    check_not_null(name, f"a {kind}", name.where)
     return str(name)
 
 
-def dimension_name(name: Text, what: str) -> str:
-    """Return the name of a dimension of the dataset if it is allowed. Raises BadNameError for a reserved one."""
+def dimension_name(name: Text, kind: str) -> str:
+    """Return the name of a dimension of the dataset if it is allowed. Raises BadNameError for a reserved one.
+
+    `kind` is the noun in the message; the name of a "parameter" may be any address.
+    """
     if name in RESERVED:
-        hint = "take another name" if what != "parameter" else f"write parameters.{name}"
+        hint = "take another name" if kind != "parameter" else f"write parameters.{name}"
         raise BadNameError(f"{str(name)!r} is what the study's dataset calls something of its own", name.where, hint)
-    return label(name, what) if what != "parameter" else str(name)
+    return label(name, kind) if kind != "parameter" else str(name)
 
 
-def written(node: Any, owner: str, where: Any) -> Written:
-    """Parse an expression, whose dimension is not yet known. Raises InputError at its column."""
-    found = text(node, owner, where, "an expression: 2*pi/omega")
-    return Written(parse(found, found.where), found)
+def written(node: Any, address: str, key: Any) -> Written:
+    """Parse an expression and return it with its text; its dimension is not yet known.
+
+    Raises InputError at its column.
+    """
+    expression_text = text(node, address, key, "an expression: 2*pi/omega")
+    return Written(parse(expression_text, expression_text.where), expression_text)
 
 
 MOST = 80  # characters
 
 
 def read_titles(reader: Reader, root: Map, parts: Mapping[str, StudyFile | None]) -> dict[str, str]:
-    """Return the titles of names in the study's parts; an error is collected for an unknown name."""
-    found: dict[str, str] = {}
+    """Return the titles of names in the study's parts; an error is collected for an unknown name or an invalid title.
+
+    Unknown names are accepted if a part could not be read (None).
+    """
+    titles: dict[str, str] = {}
     with reader.collect():
         node = mapping(root["titles"], "titles", root.key("titles")) if "titles" in root else root.part("titles")
-        known = list(dict.fromkeys(name for key, part in parts.items() if part for name in (key, *_titled_names(part))))
-        for name, below in node.pairs():
+        known_names = list(
+            dict.fromkeys(name for key, part in parts.items() if part for name in (key, *_iterate_titled_names(part)))
+        )
+        for name, value in node.pairs():
             with reader.collect():
-                if name not in known and None not in parts.values():
-                    raise unknown_name("name", name, known, name.where)
-                title = text(below, f"titles.{name}", name, "a line")
+                if name not in known_names and None not in parts.values():
+                    raise unknown_name("name", name, known_names, name.where)
+                title = text(value, f"titles.{name}", name, "a line")
                 if len(title) > MOST or not title.isprintable():
                     hint = f"expected one line of at most {MOST} characters that can be seen"
                     raise BadValueError(f"titles.{name} has {len(title)} characters", title.where, hint)
-                found[str(name)] = str(title)
-    return found
+                titles[str(name)] = str(title)
+    return titles
 
 
 def read_about(reader: Reader, root: Map) -> tuple[str, ...]:
-    """Return the paragraphs of `about:`, which is a text or a list of texts."""
+    """Return the paragraphs of `about:`, which is a text or a list of texts; () if there are none.
+
+    Errors are collected.
+    """
     with reader.collect():
         if "about" not in root:
             return ()
-        found = root["about"]
-        every = list(found) if isinstance(found, Items) and found else [found]
-        return tuple(words(one, "about", root.key("about")) for one in every)
+        node = root["about"]
+        paragraphs = list(node) if isinstance(node, Items) and node else [node]
+        return tuple(words(paragraph, "about", root.key("about")) for paragraph in paragraphs)
     return ()
 
 
-def _titled_names(part: StudyFile) -> Iterator[str]:
+def _iterate_titled_names(part: StudyFile) -> Iterator[str]:
     """Yield the names of a part that may have a title, such as scenes, measures, ensembles and varied parameters."""
     yield from map(str, (*part.scenes, *part.keep, *part.fixed))
-    yield from (one.name for one in part.measures)
+    yield from (measure.name for measure in part.measures)
     yield from ("ensemble", "start", *part.starts.ensembles) if part.starts else ()
     yield from map(str, part.draw.numbers if part.draw else ())
     for choice in part.choices:
@@ -171,7 +209,10 @@ MOST_ROUNDS = 1000
 
 
 def read_wear(reader: Reader, root: Map) -> WearRounds | None:
-    """Read `wear:`, the rounds of wear before the measured runs; None if there are none."""
+    """Return `wear:`, the rounds of wear before the measured runs; None if there are none.
+
+    None also if one of joints, rounds and k is missing or wrong. Errors are collected.
+    """
     if "wear" not in root:
         return None
     with reader.collect():
@@ -181,13 +222,13 @@ def read_wear(reader: Reader, root: Map) -> WearRounds | None:
         joints = texts(node["joints"], "wear.joints", node.key("joints"), "names of joints")
         rounds = whole(node["rounds"], "wear.rounds", node.key("rounds"), 1, MOST_ROUNDS)
         law = word(node["law"], "wear.law", node.key("law"), WEAR_LAWS) if "law" in node else WEAR_LAWS[0]
-        k, hardness, scale = (_number_text(node, name) for name in ("k", "hardness", "scale"))
+        k, hardness, scale = (_read_number_text(node, name) for name in ("k", "hardness", "scale"))
         if k is None:
             raise MissingKeyError("wear has no k", node.where, "expected k: 1e-4, and hardness: 1 GPa")
         return WearRounds(joints, rounds, k, hardness, scale, law)
     return None
 
 
-def _number_text(node: Map, name: str) -> Text | None:
-    """Return the text of a number of `wear`, None if it is not given."""
+def _read_number_text(node: Map, name: str) -> Text | None:
+    """Return the text of a number of `wear`, None if it is not given. Raises BadValueError."""
     return text(node[name], f"wear.{name}", node.key(name), "a number") if name in node else None

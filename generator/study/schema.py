@@ -34,114 +34,143 @@ _SPACING: Json = {"enum": [LINEAR, GEOMETRIC]}
 
 
 def schema() -> Json:
-    """Return the JSON Schema of a study file."""
-    row = _record({"from": _NUMBER, "to": _NUMBER, "count": _count(2), "spacing": _SPACING}, "from", "to", "count")
-    values = {"anyOf": [*_LIST["anyOf"], row]}
+    """Return the JSON Schema of a study file, with or without parts."""
+    value_range = _make_object_schema(
+        {"from": _NUMBER, "to": _NUMBER, "count": _make_count_schema(2), "spacing": _SPACING}, "from", "to", "count"
+    )
+    values = {"anyOf": [*_LIST["anyOf"], value_range]}
     names = {"anyOf": [_TEXT, {"type": "array", "items": _TEXT}]}
-    own = {
+    part_properties = {
         "title": {"type": "string", "maxLength": MAX_TITLE},
         "mechanism": _TEXT | {"description": "a file beside this one, or the name of a shipped mechanism"},
         "scenes": names,
-        "choices": _map({"anyOf": [*_LIST["anyOf"], _map(_map(_NUMBER))]}),
-        "parameters": _map(values),
-        "zip": _map(_map(values)),
-        "draw": _draw(),
-        "starts": _starts(),
+        "choices": _make_map_schema({"anyOf": [*_LIST["anyOf"], _make_map_schema(_make_map_schema(_NUMBER))]}),
+        "parameters": _make_map_schema(values),
+        "zip": _make_map_schema(_make_map_schema(values)),
+        "draw": _make_draw_schema(),
+        "starts": _make_starts_schema(),
         "t_end": _NUMBER,
         "output": _NUMBER,
         "step": _NUMBER,
         "method": {"enum": [*OFFERED, KINEMATIC]},
         "rtol": _NUMBER,
         "stop": {"enum": [True, False, "true", "false"]},
-        "windows": _map(_record({"from": _NUMBER, "to": _NUMBER}), LABEL),
-        "measures": _map(_measure(), LABEL),
+        "windows": _make_map_schema(_make_object_schema({"from": _NUMBER, "to": _NUMBER}), LABEL),
+        "measures": _make_map_schema(_make_measure_schema(), LABEL),
         "keep": names,
-        "wear": _wear(),
+        "wear": _make_wear_schema(),
     }
-    parts = _map(_record(own), LABEL) | {"minProperties": 1}
-    titles = _map(_TEXT | {"maxLength": MOST})
-    whole = {"format": {"const": FORMAT}, "parts": parts, "claims": _claims(), "titles": titles, "about": _about()}
+    parts = _make_map_schema(_make_object_schema(part_properties), LABEL) | {"minProperties": 1}
+    titles = _make_map_schema(_TEXT | {"maxLength": MOST})
+    file_properties = {
+        "format": {"const": FORMAT},
+        "parts": parts,
+        "claims": _make_claims_schema(),
+        "titles": titles,
+        "about": _make_about_schema(),
+    }
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": f"study file, {FORMAT}",
-        **_record(whole | own, "format"),
+        **_make_object_schema(file_properties | part_properties, "format"),
         "anyOf": [{"required": ["mechanism"]}, {"required": ["parts"]}],
     }
 
 
-def _record(properties: Json, *required: str) -> Json:
-    """Return the schema of a mapping with known keys, of which some are required."""
+def _make_object_schema(properties: Json, *required: str) -> Json:
+    """Return the schema of a mapping with known keys, of which those in `required` must be present."""
     return {"type": "object", "properties": properties, "required": list(required), "additionalProperties": False}
 
 
-def _map(values: Json, names: str = "") -> Json:
-    """Return the schema of a mapping of names to values of one schema; `names` is a pattern of the names."""
-    found = {"type": "object", "additionalProperties": values}
-    return found | {"propertyNames": {"pattern": f"^{names}$"}} if names else found
+def _make_map_schema(values: Json, name_pattern: str = "") -> Json:
+    """Return the schema of a mapping of names to values of one schema.
+
+    `name_pattern` is a pattern of the names, "" for any.
+    """
+    schema_of_map = {"type": "object", "additionalProperties": values}
+    return schema_of_map | {"propertyNames": {"pattern": f"^{name_pattern}$"}} if name_pattern else schema_of_map
 
 
-def _count(least: int) -> Json:
-    """Return the schema of a whole number of at least `least`."""
-    return {"type": "integer", "minimum": least, "maximum": MAX_COUNT}
+def _make_count_schema(minimum: int) -> Json:
+    """Return the schema of a whole number from `minimum` to MAX_COUNT."""
+    return {"type": "integer", "minimum": minimum, "maximum": MAX_COUNT}
 
 
-def _draw() -> Json:
-    """Return the schema of `draw`."""
-    normal = _record({"mean": _NUMBER, "std": _NUMBER}, "mean", "std")
-    between = _record({"from": _NUMBER, "to": _NUMBER, "spacing": _SPACING}, "from", "to")
+def _make_draw_schema() -> Json:
+    """Return the schema of `draw`: count, seed, method, and a distribution for each parameter."""
+    normal_distribution = _make_object_schema({"mean": _NUMBER, "std": _NUMBER}, "mean", "std")
+    range_distribution = _make_object_schema({"from": _NUMBER, "to": _NUMBER, "spacing": _SPACING}, "from", "to")
     seed = {"type": "integer", "minimum": 0, "maximum": MAX_SEED}
-    spreads = _map({"anyOf": [normal, between]}) | {"minProperties": 1}
-    own = {"count": _count(1), "seed": seed, "method": {"enum": list(DRAWN)}, "parameters": spreads}
-    return _record(own, "count", "parameters")
+    spreads = _make_map_schema({"anyOf": [normal_distribution, range_distribution]}) | {"minProperties": 1}
+    properties = {"count": _make_count_schema(1), "seed": seed, "method": {"enum": list(DRAWN)}, "parameters": spreads}
+    return _make_object_schema(properties, "count", "parameters")
 
 
-def _wear() -> Json:
-    """Return the schema of `wear`."""
+def _make_wear_schema() -> Json:
+    """Return the schema of `wear`: joints, rounds, the wear law and its numbers."""
     numbers = dict.fromkeys(("k", "hardness", "scale"), _NUMBER)
     joints = {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]}
     rounds = {"type": "integer", "minimum": 1, "maximum": MOST_ROUNDS}
-    own = {"joints": joints, "rounds": rounds, "law": {"enum": list(WEAR_LAWS)}}
-    return _record(own | numbers, "joints", "rounds", "k")
+    properties = {"joints": joints, "rounds": rounds, "law": {"enum": list(WEAR_LAWS)}}
+    return _make_object_schema(properties | numbers, "joints", "rounds", "k")
 
 
-def _starts() -> Json:
-    """Return the schema of `starts`."""
-    sizes = {"relative": _map(_NUMBER), "absolute": _map(_NUMBER)}
+def _make_starts_schema() -> Json:
+    """Return the schema of `starts`: count, seed, distribution and deviations.
+
+    The deviations may be grouped in named ensembles.
+    """
+    sizes = {"relative": _make_map_schema(_NUMBER), "absolute": _make_map_schema(_NUMBER)}
     seed = {"type": "integer", "minimum": 0, "maximum": MAX_SEED}
-    own = {"count": _count(1), "seed": seed, "distribution": {"enum": [UNIFORM, NORMAL]}}
-    return _record(own | sizes | {"ensembles": _map(_record(sizes), LABEL)}, "count")
+    properties = {"count": _make_count_schema(1), "seed": seed, "distribution": {"enum": [UNIFORM, NORMAL]}}
+    return _make_object_schema(
+        properties | sizes | {"ensembles": _make_map_schema(_make_object_schema(sizes), LABEL)}, "count"
+    )
 
 
-def _about() -> Json:
-    """Return the schema of `about`."""
+def _make_about_schema() -> Json:
+    """Return the schema of `about`: a paragraph or a nonempty list of paragraphs."""
     paragraph = {"type": "string", "minLength": 1, "maxLength": MOST_TEXT}
     return {"anyOf": [paragraph, {"type": "array", "items": paragraph, "minItems": 1}]}
 
 
-def _claims() -> Json:
+def _make_claims_schema() -> Json:
     """Return the schema of `claims`: numbers, and trends with one trial, several or none."""
-    at, texts = _map(_NUMBER), {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]}
+    coordinate_values, texts = (
+        _make_map_schema(_NUMBER),
+        {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]},
+    )
     descriptive = {key: {"type": "string", "maxLength": MOST_TEXT} for key in MESSAGES}
-    number = _record(
-        descriptive | {"measure": _TEXT, "part": _TEXT, "at": at, "value": _NUMBER, "beside": _TEXT}, "measure"
+    number = _make_object_schema(
+        descriptive | {"measure": _TEXT, "part": _TEXT, "at": coordinate_values, "value": _NUMBER, "beside": _TEXT},
+        "measure",
     )
     counts = {
         "type": "object",
         "properties": {name: {"type": "integer", "minimum": 0} for name in COUNTED},
         "additionalProperties": False,
     }
-    own: Json = dict.fromkeys(TRIAL, _NUMBER) | dict.fromkeys(("larger", "than", "from", "to", "at"), at)
-    own |= {"measure": texts, "more_than": texts, "most_lowered": texts, "counts": counts, "part": _TEXT}
-    several = {"all": {"type": "array", "items": _record(own), "minItems": 1}, "not_computed": _TEXT}
-    trend = _record(descriptive | own | several)
+    trial_properties: Json = dict.fromkeys(TRIAL, _NUMBER) | dict.fromkeys(
+        ("larger", "than", "from", "to", "at"), coordinate_values
+    )
+    trial_properties |= {"measure": texts, "more_than": texts, "most_lowered": texts, "counts": counts, "part": _TEXT}
+    further_properties = {
+        "all": {"type": "array", "items": _make_object_schema(trial_properties), "minItems": 1},
+        "not_computed": _TEXT,
+    }
+    trend = _make_object_schema(descriptive | trial_properties | further_properties)
     source = {"type": "string", "maxLength": MOST_TEXT}
-    return _record({"source": source, "numbers": _map(number, LABEL), "trends": _map(trend, LABEL)})
+    return _make_object_schema(
+        {"source": source, "numbers": _make_map_schema(number, LABEL), "trends": _make_map_schema(trend, LABEL)}
+    )
 
 
-def _measure() -> Json:
+def _make_measure_schema() -> Json:
     """Return the schema of a measure: one statistic, with a window or another scene where the statistic allows it."""
-    each = []
+    alternatives = []
     for name in STATISTICS:
-        own = {name: _TEXT} | {key: _TEXT for key, of in (("window", WINDOWED), ("from", OF_SERIES)) if name in of}
-        each.append(_record(own, name, *(["from"] if name in DEVIATIONS else [])))
-    return {"oneOf": each}
+        properties = {name: _TEXT} | {
+            key: _TEXT for key, statistics in (("window", WINDOWED), ("from", OF_SERIES)) if name in statistics
+        }
+        alternatives.append(_make_object_schema(properties, name, *(["from"] if name in DEVIATIONS else [])))
+    return {"oneOf": alternatives}

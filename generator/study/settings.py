@@ -15,44 +15,47 @@ MOST_DEPTH, MOST_VALUES = 16, 1_000_000
 
 
 def tree_of(value: Any, address: str = "", depth: int = 0) -> Any:
-    """Return a file's tree for mappings, lists, arrays, numbers and texts; locations are addresses.
+    """Return a file's tree for mappings, lists, arrays, numbers and texts in Python; locations are addresses.
 
-    Raises BadValueError for other types.
+    None becomes an empty text, a bool "true" or "false". Raises BadValueError for other types, keys that are not texts,
+    more than 16 levels and more than a million values in a list.
     """
-    where = Location(f"value of {address}" if address else "the study", 1, 1)
+    location = Location(f"value of {address}" if address else "the study", 1, 1)
     if depth > MOST_DEPTH:
-        raise BadValueError(f"{address} is nested too deeply", where, f"expected at most {MOST_DEPTH} levels")
+        raise BadValueError(f"{address} is nested too deeply", location, f"expected at most {MOST_DEPTH} levels")
     if isinstance(value, Mapping):
         for key in value:
             if not isinstance(key, str):
-                raise BadValueError(f"{address or 'the study'}: its key {message(key)} is no text", where)
-        names = {key: f"{address}.{key}" if address else key for key in value}
-        pairs = ((Text.make(key, Location(f"value of {name}", 1, 1)), value[key]) for key, name in names.items())
-        return Map.make(((key, tree_of(below, names[key], depth + 1)) for key, below in pairs), where)
+                raise BadValueError(f"{address or 'the study'}: its key {message(key)} is no text", location)
+        addresses = {key: f"{address}.{key}" if address else key for key in value}
+        pairs = ((Text.make(key, Location(f"value of {name}", 1, 1)), value[key]) for key, name in addresses.items())
+        return Map.make(
+            ((key, tree_of(inner_value, addresses[key], depth + 1)) for key, inner_value in pairs), location
+        )
     if isinstance(value, str):
-        return Text.make(value, where, one_line="\n" not in value)
+        return Text.make(value, location, one_line="\n" not in value)
     if isinstance(value, bool) or value is None:
-        return Text.make({True: "true", False: "false", None: ""}[value], where)
+        return Text.make({True: "true", False: "false", None: ""}[value], location)
     if isinstance(value, Iterable):
-        every = value.tolist() if hasattr(value, "tolist") else list(value)
-        if not isinstance(every, list):  # an array without a dimension
-            return tree_of(every, address, depth + 1)
-        if len(every) > MOST_VALUES:
-            raise BadValueError(f"{address} has {len(every)} values", where, f"expected at most {MOST_VALUES}")
-        return Items.make((tree_of(one, f"{address}[{k}]", depth + 1) for k, one in enumerate(every)), where)
+        values = value.tolist() if hasattr(value, "tolist") else list(value)
+        if not isinstance(values, list):  # an array without a dimension
+            return tree_of(values, address, depth + 1)
+        if len(values) > MOST_VALUES:
+            raise BadValueError(f"{address} has {len(values)} values", location, f"expected at most {MOST_VALUES}")
+        return Items.make((tree_of(item, f"{address}[{k}]", depth + 1) for k, item in enumerate(values)), location)
     try:
-        return Text.make(repr(int(value)) if is_whole(value) else repr(float(value)), where)
+        return Text.make(repr(int(value)) if is_whole(value) else repr(float(value)), location)
     except (TypeError, ValueError, OverflowError):
         hint = "expected a number, a text, a list or a mapping"
-        raise BadValueError(f"{address or 'the study'} is {message(value)}", where, hint) from None
+        raise BadValueError(f"{address or 'the study'} is {message(value)}", location, hint) from None
 
 
 def plain_texts(node: Any) -> Any:
-    """Return a tree as JSON values that contain texts only."""
+    """Return a tree as JSON values that contain texts only: mappings, lists, and texts with single spaces."""
     if isinstance(node, Map):
-        return {str(key): plain_texts(below) for key, below in node.items()}
+        return {str(key): plain_texts(inner_node) for key, inner_node in node.items()}
     if isinstance(node, Items):
-        return [plain_texts(below) for below in node]
+        return [plain_texts(inner_node) for inner_node in node]
     return " ".join(str(node).split())
 
 
@@ -78,23 +81,26 @@ def apply_settings(
 ) -> Varied:
     """Apply values of `--set`: they replace the file's values of these parameters, fixed or varied.
 
-    Parameters that vary together with them, in a zip or a draw, are not changed.
+    Parameters that vary together with them, in a zip or a draw, are not changed. An axis that loses parameters is
+    returned in `Varied.left_out` with these alone; an axis or draw without any other parameter vanishes.
     """
-    given = {short_name(name) for name in settings}
-    own = tree_of({f"--set {name}": value for name, value in settings.items()})
-    found = {key: value for key, value in fixed.items() if short_name(key) not in given}
-    found |= {Text.make(key.removeprefix("--set "), key.where): value for key, value in own.items()}
-    split = [
-        (axis, {key: numbers for key, numbers in axis.columns.items() if short_name(key) in given}) for axis in axes
+    set_names = {short_name(name) for name in settings}
+    set_values = tree_of({f"--set {name}": value for name, value in settings.items()})
+    fixed_values = {key: value for key, value in fixed.items() if short_name(key) not in set_names}
+    fixed_values |= {Text.make(key.removeprefix("--set "), key.where): value for key, value in set_values.items()}
+    axes_with_removed_columns = [
+        (axis, {key: numbers for key, numbers in axis.columns.items() if short_name(key) in set_names}) for axis in axes
     ]
-    kept = (
+    remaining_axes = (
         replace(axis, columns={key: numbers for key, numbers in axis.columns.items() if key not in removed})
-        for axis, removed in split
+        for axis, removed in axes_with_removed_columns
     )
-    left_out = [replace(axis, columns=removed) for axis, removed in split if removed]
-    if draw is not None and (drawn := {key: one for key, one in draw.numbers.items() if short_name(key) in given}):
+    removed_axes = [replace(axis, columns=removed) for axis, removed in axes_with_removed_columns if removed]
+    if draw is not None and (
+        drawn := {key: spread for key, spread in draw.numbers.items() if short_name(key) in set_names}
+    ):
         columns = {key: Numbers(spread.ends, draw.count) for key, spread in drawn.items()}
-        left_out.append(Axis(DRAW, next(iter(drawn)).where, columns, grouped=True))
+        removed_axes.append(Axis(DRAW, next(iter(drawn)).where, columns, grouped=True))
         others = {key: spread for key, spread in draw.numbers.items() if key not in drawn}
         draw = replace(draw, numbers=others) if others else None
-    return Varied(found, tuple(axis for axis in kept if axis.columns), draw, tuple(left_out))
+    return Varied(fixed_values, tuple(axis for axis in remaining_axes if axis.columns), draw, tuple(removed_axes))

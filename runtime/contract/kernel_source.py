@@ -230,7 +230,7 @@ class KernelSource:
     @cached_property
     def place(self) -> dict[str, int]:
         """Return the index of each parameter by address. Do not write to it."""
-        return {slot.address: k for k, slot in enumerate(self.slots)}
+        return {parameter.address: k for k, parameter in enumerate(self.slots)}
 
     @property
     def degrees_of_freedom(self) -> int:
@@ -254,16 +254,25 @@ class KernelSource:
 
     @property
     def no_slopes(self) -> str:
-        """Return why there is no Jacobian; "" if there is one."""
+        """Return why there is no Jacobian; "" if there is one.
+
+        There is none if nothing is integrated, or if a contact of rigid surfaces opens and closes.
+        """
         if self.methods == (KINEMATIC,):
             return "without a degree of freedom nothing is integrated"
         return f"the contact in {self.rigid[0]} comes and goes, a constraint (newton_restitution)" if self.rigid else ""
 
     @property
     def methods(self) -> tuple[str, ...]:
-        """Return the methods that fit this scene: integrators, or the kinematic method."""
-        fitting = tuple(x for x in (*INTEGRATORS, *STAGED * self.stages) if not (self.explicit and x in NEED_SLOPES))
-        return fitting if self.degrees_of_freedom or self.clearances or self.frictions else (KINEMATIC,)
+        """Return the names of the methods that fit this scene: integrators, or the kinematic method alone.
+
+        The kinematic method fits scenes without degrees of freedom, play and friction. Methods with coupled stages are
+        included if the library has their matrices; those that use the Jacobian only if contact laws have derivatives.
+        """
+        integrators = tuple(
+            x for x in (*INTEGRATORS, *STAGED * self.stages) if not (self.explicit and x in NEED_SLOPES)
+        )
+        return integrators if self.degrees_of_freedom or self.clearances or self.frictions else (KINEMATIC,)
 
     def to_json(self) -> str:
         """Return readable JSON; the same source gives the same bytes."""
@@ -272,13 +281,13 @@ class KernelSource:
     @cached_property
     def _json(self) -> str:
         """Return the JSON text, computed once."""
-        return as_text(shorten(asdict(self), _defaults()))
+        return as_text(shorten(asdict(self), _find_json_defaults()))
 
     @staticmethod
     def from_json(text: str) -> KernelSource:
-        """Return the source that `to_json` wrote."""
-        data = complete(json.loads(text), _defaults())
-        kinds = {
+        """Return the source that `to_json` wrote; values that were left out are restored."""
+        fields = complete(json.loads(text), _find_json_defaults())
+        classes = {
             "bodies": BodyInfo,
             "points": PointInfo,
             "rows": RowInfo,
@@ -296,17 +305,20 @@ class KernelSource:
             "parts": PartInfo,
             "contours": ContourInfo,
         }
-        data |= {key: tuple(kind(**tuples(item)) for item in data.get(key, ())) for key, kind in kinds.items()}
-        for key, value in data.items():
-            if isinstance(value, list) and key not in kinds:
-                data[key] = tuple(tuple(item) if isinstance(item, list) else item for item in value)
-        return KernelSource(**data | {"story": ReductionLog.from_data(data.get("story", {}))})
+        fields |= {key: tuple(kind(**tuples(item)) for item in fields.get(key, ())) for key, kind in classes.items()}
+        for key, value in fields.items():
+            if isinstance(value, list) and key not in classes:
+                fields[key] = tuple(tuple(item) if isinstance(item, list) else item for item in value)
+        return KernelSource(**fields | {"story": ReductionLog.from_data(fields.get("story", {}))})
 
 
-def _defaults() -> dict[str, Any]:
-    """Return the values that are left out of the JSON text, by name."""
-    usual = {field.name: field.default for field in fields(KernelSource) if field.default is not MISSING}
-    plain = {name: list(value) if isinstance(value, tuple) else value for name, value in usual.items()}
+def _find_json_defaults() -> dict[str, Any]:
+    """Return the values that are left out of the JSON text, by name.
+
+    They are the defaults of fields, empty lists and empty mappings.
+    """
+    defaults = {field.name: field.default for field in fields(KernelSource) if field.default is not MISSING}
+    json_defaults = {name: list(value) if isinstance(value, tuple) else value for name, value in defaults.items()}
     lists = (
         "rows",
         "joints",
@@ -327,14 +339,17 @@ def _defaults() -> dict[str, Any]:
         "notes",
     )
     mappings = ("files", "outputs", "simulate", "reference")
-    nothing: dict[str, Any] = {name: [] for name in lists} | {name: {} for name in mappings}
-    return {"main": MAIN, **nothing, **plain, "story": {}}
+    empty_values: dict[str, Any] = {name: [] for name in lists} | {name: {} for name in mappings}
+    return {"main": MAIN, **empty_values, **json_defaults, "story": {}}
 
 
-def given_parameters(slots: Sequence[Slot], first: int) -> dict[int, float]:
-    """Return a value for every second parameter from `first` on, by index; choices keep their defaults.
+def given_parameters(slots: Sequence[Slot], parity: int) -> dict[int, float]:
+    """Return a value for every second parameter from index `parity` (0 or 1) on, by index; choices keep their defaults.
 
-    With these, a library is compared with values of the NumPy target (model/reference.py).
+    It is GIVEN times the default, GIVEN_ZERO for a default of 0. With these, a library is compared with values of the
+    NumPy target (model/reference.py).
     """
-    own = [(k, slot) for k, slot in enumerate(slots) if k % 2 == first and not slot.words]
-    return {k: GIVEN * slot.default or GIVEN_ZERO for k, slot in own if math.isfinite(slot.default)}
+    varied_slots = [(k, parameter) for k, parameter in enumerate(slots) if k % 2 == parity and not parameter.words]
+    return {
+        k: GIVEN * parameter.default or GIVEN_ZERO for k, parameter in varied_slots if math.isfinite(parameter.default)
+    }

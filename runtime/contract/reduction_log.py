@@ -88,7 +88,7 @@ class ReductionLog:
     groups: tuple[Group, ...] = ()  # in the order in which they are solved; kinematic linkages only
 
     def ledger(self) -> Iterator[tuple[Step, int, int]]:
-        """Yield each step with the numbers of coordinates and equations after it."""
+        """Yield each reduction step with the numbers of coordinates and constraint equations that remain after it."""
         n, m = len(self.coordinates), len(self.rows)
         for step in self.steps:
             n += len(step.come) - len(step.gone)
@@ -98,19 +98,19 @@ class ReductionLog:
     @staticmethod
     def from_data(data: Mapping[str, Any]) -> ReductionLog:
         """Return the record from the lists that `dataclasses.asdict` and JSON made of it."""
-        kinds = {"steps": Step, "tree": TreeBody, "groups": Group}
-        solves = {"before": Solve, "after": Solve}
-        found: dict[str, Any] = {}
+        classes_of_lists = {"steps": Step, "tree": TreeBody, "groups": Group}
+        classes_of_systems = {"before": Solve, "after": Solve}
+        fields: dict[str, Any] = {}
         for name, value in data.items():
-            if name in kinds:
-                found[name] = tuple(_build(kinds[name], item) for item in value)
-            elif name in solves:
-                found[name] = value and Solve(**value)
+            if name in classes_of_lists:
+                fields[name] = tuple(_build_record(classes_of_lists[name], item) for item in value)
+            elif name in classes_of_systems:
+                fields[name] = value and Solve(**value)
             else:
-                found[name] = tuple(value) if isinstance(value, list) else value
-        return ReductionLog(**found)
+                fields[name] = tuple(value) if isinstance(value, list) else value
+        return ReductionLog(**fields)
 
 
-def _build(kind: Any, item: Mapping[str, Any]) -> Any:
-    """Return an object of a class from JSON data, with lists as tuples."""
+def _build_record(kind: Any, item: Mapping[str, Any]) -> Any:
+    """Return an object of the dataclass `kind` from a mapping of JSON data, with lists as tuples."""
     return kind(**{f.name: tuple(v) if isinstance(v := item[f.name], list) else v for f in fields(kind)})

@@ -13,220 +13,246 @@ MOST = 16  # largest number of names that are listed in full
 
 
 def reduction_lines(source: KernelSource) -> Iterator[tuple[int, int, str]]:
-    """Yield for each reduction step the numbers of coordinates and equations that remain, and its description."""
-    story = source.story
-    yield len(story.coordinates), len(story.rows), "every body by x, y and its angle; every joint closed"
-    for step, n, m in story.ledger():
+    """Yield for each reduction step the numbers of coordinates and equations that remain, and its description.
+
+    The first item is that of all bodies before the reduction.
+    """
+    log = source.story
+    yield len(log.coordinates), len(log.rows), "every body by x, y and its angle; every joint closed"
+    for step, n, m in log.ledger():
         yield n, m, _WORDS[step.kind](step)
 
 
 def outcome(source: KernelSource) -> Iterator[tuple[str, str]]:
-    """Yield titles and texts on the tree, the unknowns, the linear systems and the operations."""
-    story, reduced = source.story, source.formulation == "reduced"
-    if story.tree:
-        yield "tree", f"{_tree_text(story)}; {_reason_for_tree(story.costs)}"
+    """Yield titles and texts on the tree, the unknowns, the linear systems and the operations of a scene.
+
+    The tree is left out if there is none, the closures for the full formulation.
+    """
+    log, is_reduced = source.story, source.formulation == "reduced"
+    if log.tree:
+        yield "tree", f"{_format_tree(log)}; {_explain_choice_of_tree(log.costs)}"
     yield (
         "unknowns",
-        "; ".join(_coordinates_by_kind(source.tree)) or "none" if reduced else "all of them: the full formulation",
+        "; ".join(_describe_coordinates(source.tree)) or "none" if is_reduced else "all of them: the full formulation",
     )
-    if reduced:
-        stay = "rows that stay" if len(source.closures) > 1 else "the row that stays"
-        yield "closures", f"{listed(source.closures)}: {stay}" if source.closures else "none: no row stays"
-    yield "solved", _systems_text(story, reduced)
-    yield "operations", _operations_text(source)
+    if is_reduced:
+        noun_phrase = "rows that stay" if len(source.closures) > 1 else "the row that stays"
+        yield "closures", f"{listed(source.closures)}: {noun_phrase}" if source.closures else "none: no row stays"
+    yield "solved", _format_linear_systems(log, is_reduced)
+    yield "operations", _format_operations(source)
 
 
 def listed(names: Sequence[str]) -> str:
-    """Return names as "a, b, c"; a long list is shortened."""
+    """Return names as "a, b, c"; of more than MOST names the first ones, and how many there are in all."""
     if len(names) <= MOST:
         return ", ".join(names)
     return f"{', '.join(names[: MOST - 4])}, … ({len(names)} in all)"
 
 
-def _plural(names: Sequence[str]) -> str:
-    """Return the plural ending of a noun for names."""
+def _plural_ending(names: Sequence[str]) -> str:
+    """Return the plural ending of a noun for names: "s" unless there is exactly one."""
     return "s" * (len(names) != 1)
 
 
-def _verb_s(names: Sequence[str]) -> str:
-    """Return the ending of a verb in the present tense, for names as its subject."""
+def _verb_ending(names: Sequence[str]) -> str:
+    """Return the ending of a verb in the present tense, for names as its subject: "s" for exactly one."""
     return "s" * (len(names) == 1)
 
 
-def _bodies(names: Iterable[str]) -> str:
-    """Return the bodies of coordinates: "L1, L4" for "L1.theta", "L4.theta"."""
+def _list_bodies(names: Iterable[str]) -> str:
+    """Return the bodies of coordinates, each once: "L1, L4" for "L1.theta", "L4.theta"."""
     return listed(tuple(dict.fromkeys(name.rpartition(".")[0] for name in names)))
 
 
-def _play(step: Step) -> str:
+def _describe_play(step: Step) -> str:
     """Describe the step that opens joints with play."""
-    has = "has" if len(step.owners) == 1 else "have"
-    return f"{listed(step.owners)} {has} play: a force law instead of rows, and no joint of the tree"
+    verb = "has" if len(step.owners) == 1 else "have"
+    return f"{listed(step.owners)} {verb} play: a force law instead of rows, and no joint of the tree"
 
 
-def _redundant(step: Step) -> str:
+def _describe_redundant(step: Step) -> str:
     """Describe the step that leaves out redundant equations."""
-    return f"{listed(step.rows_gone)} say{_verb_s(step.rows_gone)} nothing new: left out"
+    return f"{listed(step.rows_gone)} say{_verb_ending(step.rows_gone)} nothing new: left out"
 
 
-def _prescribed(step: Step) -> str:
+def _describe_prescribed(step: Step) -> str:
     """Describe the step in which drives prescribe angles."""
-    angles = f"the angle{_plural(step.gone)} of {_bodies(step.gone)}"
-    return f"{listed(step.owners)} prescribe{_verb_s(step.owners)} {angles}: known at any time, not integrated"
+    angles = f"the angle{_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
+    return f"{listed(step.owners)} prescribe{_verb_ending(step.owners)} {angles}: known at any time, not integrated"
 
 
-def _constant(step: Step) -> str:
+def _describe_constant(step: Step) -> str:
     """Describe the step in which joints keep angles constant."""
-    angles = f"the angle{_plural(step.gone)} of {_bodies(step.gone)}"
-    return f"{listed(step.owners)} keep{_verb_s(step.owners)} {angles} as it is"
+    angles = f"the angle{_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
+    return f"{listed(step.owners)} keep{_verb_ending(step.owners)} {angles} as it is"
 
 
-def _following(step: Step) -> str:
+def _describe_following(step: Step) -> str:
     """Describe the step in which angles follow other angles."""
-    return f"the angle{_plural(step.gone)} of {_bodies(step.gone)} follow{_verb_s(step.gone)} {listed(step.owners)}"
+    angles = f"the angle{_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
+    return f"{angles} follow{_verb_ending(step.gone)} {listed(step.owners)}"
 
 
-def _hub(step: Step) -> str:
-    """Describe the step that replaces equations of joints in one point."""
-    came, went = _bodies(step.rows_come), _bodies(step.rows_gone)
-    return f"{listed(step.owners)} meet in one point: {came} stand{_verb_s(step.rows_come[::2])} in for {went}"
+def _describe_hub(step: Step) -> str:
+    """Describe the step that replaces equations of joints that meet in one point."""
+    added_bodies, removed_bodies = _list_bodies(step.rows_come), _list_bodies(step.rows_gone)
+    verb = f"stand{_verb_ending(step.rows_come[::2])}"
+    return f"{listed(step.owners)} meet in one point: {added_bodies} {verb} in for {removed_bodies}"
 
 
-def _hinges(step: Step) -> str:
+def _describe_hinges(step: Step) -> str:
     """Describe the step in which hinges place bodies."""
     return f"{listed(step.owners)}: each places a body, whose x and y follow from angles"
 
 
-def _slides(step: Step) -> str:
+def _describe_slides(step: Step) -> str:
     """Describe the step in which slides replace x and y of bodies."""
     return f"{listed(step.owners)}: each carries a body, one slide along its axis in place of x and y"
 
 
-def _known(step: Step) -> str:
+def _describe_known_slides(step: Step) -> str:
     """Describe the step in which slides become known."""
-    return f"the slide{_plural(step.gone)} of {_bodies(step.gone)} follow{_verb_s(step.gone)} {listed(step.owners)}"
+    slides = f"the slide{_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
+    return f"{slides} follow{_verb_ending(step.gone)} {listed(step.owners)}"
 
 
-def _chain(step: Step) -> str:
+def _describe_driven_loops(step: Step) -> str:
     """Describe the step that evaluates loops determined by drives."""
-    closes = f"{listed(step.owners)} close{_verb_s(step.owners)} loops that drives alone move"
-    return f"{closes}: what they make of {_bodies(step.gone)} is evaluated, not integrated"
+    clause = f"{listed(step.owners)} close{_verb_ending(step.owners)} loops that drives alone move"
+    return f"{clause}: what they make of {_list_bodies(step.gone)} is evaluated, not integrated"
 
 
 # descriptions by kind of step
 _WORDS: Mapping[str, Callable[[Step], str]] = {
-    message.PLAY: _play,
-    message.REDUNDANT: _redundant,
-    message.PRESCRIBED: _prescribed,
-    message.CONSTANT: _constant,
-    message.FOLLOWING: _following,
-    message.HUB: _hub,
-    message.HINGES: _hinges,
-    message.SLIDES: _slides,
-    message.KNOWN: _known,
-    message.CHAIN: _chain,
+    message.PLAY: _describe_play,
+    message.REDUNDANT: _describe_redundant,
+    message.PRESCRIBED: _describe_prescribed,
+    message.CONSTANT: _describe_constant,
+    message.FOLLOWING: _describe_following,
+    message.HUB: _describe_hub,
+    message.HINGES: _describe_hinges,
+    message.SLIDES: _describe_slides,
+    message.KNOWN: _describe_known_slides,
+    message.CHAIN: _describe_driven_loops,
 }
 
 
-def _tree_text(story: ReductionLog) -> str:
-    """Return the tree as "L1, L6 (L7, L8 (S9))": each body with those it carries; [..]: bodies with own x and y."""
-    carried: dict[str, list[str]] = {}
-    loose = {placed.body for placed in story.tree if not placed.joint}
-    for placed in story.tree:
-        carried.setdefault(placed.parent, []).append(placed.body)
-    if len(story.tree) > 2 * MOST:
-        own = f", {len(loose)} of them with x and y of their own" * bool(loose)
-        return f"{len(story.tree)} bodies, at most {_depth(carried, 'ground')} behind each other{own}"
+def _format_tree(log: ReductionLog) -> str:
+    """Return the tree as "L1, L6 (L7, L8 (S9))": each body with those it carries; [..]: bodies with own x and y.
+
+    A large tree is summarised by its number of bodies and its depth.
+    """
+    children: dict[str, list[str]] = {}
+    bodies_without_joint = {placed.body for placed in log.tree if not placed.joint}
+    for placed in log.tree:
+        children.setdefault(placed.parent, []).append(placed.body)
+    if len(log.tree) > 2 * MOST:
+        remark = f", {len(bodies_without_joint)} of them with x and y of their own" * bool(bodies_without_joint)
+        return f"{len(log.tree)} bodies, at most {_find_depth(children, 'ground')} behind each other{remark}"
 
     def message_of(body: str) -> str:
-        """Return a body with those that it carries, in brackets."""
-        name = f"[{body}]" if body in loose else body
-        return f"{name} ({', '.join(map(message_of, carried[body]))})" if body in carried else name
+        """Return a body with those that it carries, in brackets, as text."""
+        name = f"[{body}]" if body in bodies_without_joint else body
+        return f"{name} ({', '.join(map(message_of, children[body]))})" if body in children else name
 
-    own = "; [keeps its x and y: no joint places it, or that is cheaper]" * bool(loose)
-    return ", ".join(map(message_of, carried["ground"])) + own
+    remark = "; [keeps its x and y: no joint places it, or that is cheaper]" * bool(bodies_without_joint)
+    return ", ".join(map(message_of, children["ground"])) + remark
 
 
-def _depth(carried: Mapping[str, Sequence[str]], body: str) -> int:
-    """Return the number of bodies in the longest chain carried by a body."""
+def _find_depth(children: Mapping[str, Sequence[str]], body: str) -> int:
+    """Return the number of bodies in the longest chain carried by a body.
+
+    `children` maps a body to those that it carries.
+    """
     level, depth = [body], 0
-    while level := [other for one in level for other in carried.get(one, ())]:
+    while level := [child for parent in level for child in children.get(parent, ())]:
         depth += 1
     return depth
 
 
-def _reason_for_tree(costs: Sequence[int]) -> str:
-    """Return a text on why this tree was chosen."""
+def _explain_choice_of_tree(costs: Sequence[int]) -> str:
+    """Return a text on why this tree was chosen.
+
+    Costs: estimated operations of each tree, the first is breadth-first.
+    """
     if len(costs) == 1:
         return "no other was looked at"
-    others = "" if min(costs) == costs[0] else f" where the one breadth first has {costs[0]:,}"
-    return f"of {len(costs)} the one of the fewest operations for M and closures, estimated {min(costs):,}{others}"
+    comparison = "" if min(costs) == costs[0] else f" where the one breadth first has {costs[0]:,}"
+    return f"of {len(costs)} the one of the fewest operations for M and closures, estimated {min(costs):,}{comparison}"
 
 
-def _coordinates_by_kind(tree: Sequence[str]) -> Iterator[str]:
-    """Yield the coordinates of a tree by kind: "angles of L2, L3"."""
+def _describe_coordinates(tree: Sequence[str]) -> Iterator[str]:
+    """Yield the coordinates of a tree by kind: "angles of L2, L3"; kinds without any are left out."""
     angles = [name for name in tree if "." not in name]
     slides = [name.removesuffix(".slide") for name in tree if name.endswith(".slide")]
     positions = [name for name in tree if "." in name and not name.endswith(".slide")]
-    for kind, names, of in (("angle", angles, "of "), ("slide", slides, "of "), ("position", positions, "")):
+    for kind, names, preposition in (("angle", angles, "of "), ("slide", slides, "of "), ("position", positions, "")):
         if names:
-            yield f"{kind}{_plural(names)} {of}{listed(names)}"
+            yield f"{kind}{_plural_ending(names)} {preposition}{listed(names)}"
 
 
-def _matrix_text(solve: Solve) -> str:
+def _format_matrix(solve: Solve) -> str:
     """Return the size and nonzeros of a linear system as text."""
     return f"{solve.size:,} × {solve.size:,} with {solve.entries:,} non-zeros and {solve.factor:,} in its factor"
 
 
-def _systems_text(story: ReductionLog, reduced: bool) -> str:
-    """Return a text on the linear systems before and after the reduction."""
-    before = _matrix_text(story.before) if story.before else ""
-    if story.after:
-        return f"{before} → {_matrix_text(story.after)}" if reduced else _matrix_text(story.after)
-    sizes = sorted((len(group.rows) for group in story.groups), reverse=True)
-    many = ", ".join(f"{sizes.count(n)} of {n}×{n}" for n in dict.fromkeys(sizes))
-    order = listed([" + ".join(group.coordinates) for group in story.groups])
-    return f"{before} → without masses, {many} one after the other: {order}" if sizes else "nothing: all is known"
+def _format_linear_systems(log: ReductionLog, is_reduced: bool) -> str:
+    """Return a text on the linear systems before and after the reduction; of a kinematic linkage, on its groups."""
+    before = _format_matrix(log.before) if log.before else ""
+    if log.after:
+        return f"{before} → {_format_matrix(log.after)}" if is_reduced else _format_matrix(log.after)
+    sizes = sorted((len(group.rows) for group in log.groups), reverse=True)
+    sizes_text = ", ".join(f"{sizes.count(n)} of {n}×{n}" for n in dict.fromkeys(sizes))
+    order = listed([" + ".join(group.coordinates) for group in log.groups])
+    return f"{before} → without masses, {sizes_text} one after the other: {order}" if sizes else "nothing: all is known"
 
 
-def _operations_text(source: KernelSource) -> str:
-    """Return a text on the operations of a right-hand side, or of a sample of a kinematic linkage."""
+def _format_operations(source: KernelSource) -> str:
+    """Return a text on the operations of a right-hand side, or of a sample of a kinematic linkage.
+
+    Numbers before and after the reduction are compared, where there are both.
+    """
     counts = source.operations
-    full = counts["dynamics"]
+    n_full = counts["dynamics"]
     if "arrive" in counts:
-        step, arrive = counts["close_step"], counts["arrive"]
+        step, n_sample = counts["close_step"], counts["arrive"]
         return (
-            f"accelerations {full:,} → {arrive:,} with all positions and velocities, {_ratio_text(full, arrive)}"
+            f"accelerations {n_full:,} → {n_sample:,} with all positions and velocities"
+            + f", {_format_ratio(n_full, n_sample)}"
             + f"; each of Newton's steps {step:,}" * bool(step)
         )
     if KINEMATIC in source.methods:  # a coordinate that no equation gives: all equations are used
-        return f"accelerations {full:,}; each of Newton's steps, in absolute coordinates, {counts['project']:,}"
+        return f"accelerations {n_full:,}; each of Newton's steps, in absolute coordinates, {counts['project']:,}"
     if source.formulation == "full" or "reduced_dynamics" not in counts:
-        return f"accelerations {full:,}{_law_operations_text(source)}"
-    reduced, chains = counts["reduced_dynamics"], ""
+        return f"accelerations {n_full:,}{_format_law_operations(source)}"
+    n_reduced, chains = counts["reduced_dynamics"], ""
     if source.chain:
-        steps, rates = counts["chain_step"], counts["chain_rates"]
-        reduced += steps + rates
-        chains = f" with {rates:,} for the rates of driven chains and {steps:,} for each step that closes them"
-    return f"accelerations {full:,} → {reduced:,}{chains}, {_ratio_text(full, reduced)}{_law_operations_text(source)}"
+        n_steps, n_rates = counts["chain_step"], counts["chain_rates"]
+        n_reduced += n_steps + n_rates
+        chains = f" with {n_rates:,} for the rates of driven chains and {n_steps:,} for each step that closes them"
+    ratio = _format_ratio(n_full, n_reduced)
+    return f"accelerations {n_full:,} → {n_reduced:,}{chains}, {ratio}{_format_law_operations(source)}"
 
 
-def _ratio_text(before: int, after: int) -> str:
-    """Return the ratio of two operation counts as text."""
+def _format_ratio(before: int, after: int) -> str:
+    """Return the ratio of two operation counts as text: "3.2 times fewer"."""
     if before == after:
         return "as many"
     return f"{before / after:.1f} times fewer" if after else "none are left"
 
 
-def _law_operations_text(source: KernelSource) -> str:
-    """Return a text on the operations of force laws, joint by joint."""
-    words: dict[str, list[str]] = {}
+def _format_law_operations(source: KernelSource) -> str:
+    """Return a text on the operations of force laws; joints with equal numbers are listed together. "" without play."""
+    joints_by_text: dict[str, list[str]] = {}
     for joint in source.clearances:
-        found = {k: n for k, n in source.operations.items() if k.endswith(f"_{joint.name}_force")}
-        film = sum(n for k, n in found.items() if k.startswith("film_"))
-        dry = sum(found.values()) - film
-        parts = [f"{film:,} for the film"] * bool(film) + [f"{dry:,} in contact"] * bool(dry)
-        words.setdefault(" and ".join(parts), []).append(joint.name)
+        operations = {
+            function: n for function, n in source.operations.items() if function.endswith(f"_{joint.name}_force")
+        }
+        film = sum(n for function, n in operations.items() if function.startswith("film_"))
+        dry = sum(operations.values()) - film
+        phrases = [f"{film:,} for the film"] * bool(film) + [f"{dry:,} in contact"] * bool(dry)
+        joints_by_text.setdefault(" and ".join(phrases), []).append(joint.name)
     return "".join(
-        f"; {listed(names)}{' each' * (len(names) > 1)} add{_verb_s(names)} {text}" for text, names in words.items()
+        f"; {listed(names)}{' each' * (len(names) > 1)} add{_verb_ending(names)} {text}"
+        for text, names in joints_by_text.items()
     )

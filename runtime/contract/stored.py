@@ -16,56 +16,72 @@ _UNITS = ("kg", "m", "s")
 def base_units(dimension: tuple[float, float, float]) -> str:
     """Return SI base units for exponents of m, kg, s: "kg*m^2/s^2", "kg/m^0.5/s^2"; "" for a pure number."""
     length, mass, time = dimension
-    pairs = list(zip(_UNITS, (mass, length, time), strict=True))
-    above = "*".join(u if n == 1 else f"{u}^{n}" for u, n in pairs if n > 0)
-    below = "".join(f"/{u}" if n == -1 else f"/{u}^{-n}" for u, n in pairs if n < 0)
-    return (above or ("1" if below else "")) + below
+    units_and_exponents = list(zip(_UNITS, (mass, length, time), strict=True))
+    numerator = "*".join(
+        unit if exponent == 1 else f"{unit}^{exponent}" for unit, exponent in units_and_exponents if exponent > 0
+    )
+    denominator = "".join(
+        f"/{unit}" if exponent == -1 else f"/{unit}^{-exponent}"
+        for unit, exponent in units_and_exponents
+        if exponent < 0
+    )
+    return (numerator or ("1" if denominator else "")) + denominator
 
 
 def shorten(data: Data, defaults: Mapping[str, Any]) -> Data:
-    """Return the data without the values that `complete` restores. `data` is changed."""
-    for name, follows in _OF_STORY.items():
-        _drop_if_equal(data["story"], name, follows(data))
-    for name, parts in _OF_PARTS.items():
+    """Return the data without the values that `complete` restores. `data` is changed.
+
+    Left out are values that follow from others, and those that equal `defaults`. Constraint equations that the start
+    has too become their indices.
+    """
+    for name, derive_value in _OF_STORY.items():
+        _drop_if_equal(data["story"], name, derive_value(data))
+    for name, derived_parts in _OF_PARTS.items():
         for item in data[name]:
-            for part, of_item in parts.items():
-                _drop_if_equal(item, part, of_item(data, item))
-    for name, follows in _FOLLOWING.items():
-        _drop_if_equal(data, name, follows(data))
-    data["rows"] = [_index_or_row(data["start_rows"], row) for row in data["rows"]]
-    usual = {name: value for name, value in defaults.items() if name not in _FOLLOWING}
-    return {name: value for name, value in data.items() if name not in usual or _lists_of_tuples(value) != usual[name]}
+            for part_name, derive_part in derived_parts.items():
+                _drop_if_equal(item, part_name, derive_part(data, item))
+    for name, derive_value in _FOLLOWING.items():
+        _drop_if_equal(data, name, derive_value(data))
+    data["rows"] = [_replace_row_by_index(data["start_rows"], row) for row in data["rows"]]
+    other_defaults = {name: value for name, value in defaults.items() if name not in _FOLLOWING}
+    return {
+        name: value
+        for name, value in data.items()
+        if name not in other_defaults or _convert_tuples_to_lists(value) != other_defaults[name]
+    }
 
 
 def complete(data: Data, defaults: Mapping[str, Any]) -> Data:
-    """Return the data with all values that follow from the rest. `data` is changed."""
-    for name, usual in defaults.items():
+    """Return the data with all values that follow from the rest, the inverse of `shorten`. `data` is changed."""
+    for name, default in defaults.items():
         if name not in _FOLLOWING:
-            data.setdefault(name, usual)
+            data.setdefault(name, default)
     data["rows"] = [data["start_rows"][row] if isinstance(row, int) else row for row in data["rows"]]
-    for name, parts in _OF_PARTS.items():
+    for name, derived_parts in _OF_PARTS.items():
         for item in data[name]:
-            for part, of_item in parts.items():
-                if part not in item:
-                    item[part] = of_item(data, item)
-    for name, follows in _FOLLOWING.items():
+            for part_name, derive_part in derived_parts.items():
+                if part_name not in item:
+                    item[part_name] = derive_part(data, item)
+    for name, derive_value in _FOLLOWING.items():
         if name not in data:
-            data[name] = follows(data)
+            data[name] = derive_value(data)
     data["story"] = dict(data["story"])
-    for name, follows in _OF_STORY.items():
-        data["story"].setdefault(name, follows(data))
+    for name, derive_value in _OF_STORY.items():
+        data["story"].setdefault(name, derive_value(data))
     return data
 
 
 def as_text(data: Data) -> str:
-    """Return the data as JSON, one line for each name and each item of a list."""
+    """Return the data as JSON text, one line for each name and each item of a list."""
     return "{\n" + ",\n".join(f" {_dumps(name)}: {_format_value(value)}" for name, value in data.items()) + "\n}"
 
 
 def _format_value(value: Any) -> str:
-    """Return a value as JSON, with lists of objects in one line per item."""
-    of_parts = isinstance(value, (list, tuple)) and any(isinstance(item, (dict, list, tuple)) for item in value)
-    return "[\n" + ",\n".join(f"  {_dumps(item)}" for item in value) + "\n ]" if of_parts else _dumps(value)
+    """Return a value as JSON, with lists of objects or lists in one line per item."""
+    is_list_of_records = isinstance(value, (list, tuple)) and any(
+        isinstance(item, (dict, list, tuple)) for item in value
+    )
+    return "[\n" + ",\n".join(f"  {_dumps(item)}" for item in value) + "\n ]" if is_list_of_records else _dumps(value)
 
 
 def _dumps(value: Any) -> str:
@@ -74,29 +90,29 @@ def _dumps(value: Any) -> str:
 
 
 def _drop_if_equal(data: Data, name: str, value: Any) -> None:
-    """Remove a name whose value equals the one that follows from the rest; lists and tuples are equal here."""
-    if name in data and _lists_of_tuples(data[name]) == _lists_of_tuples(value):
+    """Remove a name from `data` if its value equals `value`; lists and tuples are equal here."""
+    if name in data and _convert_tuples_to_lists(data[name]) == _convert_tuples_to_lists(value):
         del data[name]
 
 
-def _lists_of_tuples(value: Any) -> Any:
-    """Return a value with tuples converted to lists."""
-    return [_lists_of_tuples(item) for item in value] if isinstance(value, (list, tuple)) else value
+def _convert_tuples_to_lists(value: Any) -> Any:
+    """Return a value with tuples converted to lists, recursively; other values are returned as they are."""
+    return [_convert_tuples_to_lists(item) for item in value] if isinstance(value, (list, tuple)) else value
 
 
-def _index_or_row(rows: list[Data], row: Data) -> Any:
+def _replace_row_by_index(rows: list[Data], row: Data) -> Any:
     """Return the index of an equation of the motion among those of the closed linkage; else the equation itself."""
     return rows.index(row) if row in rows else row
 
 
-def _index_of_row(data: Data, name: str) -> int:
-    """Return the index of the equation with this name, or −1."""
+def _find_row_index(data: Data, name: str) -> int:
+    """Return the index of the constraint equation with this name among those of the motion, −1 if there is none."""
     names = [row["name"] for row in data["rows"]]
     return names.index(name) if name in names else -1
 
 
-def _unit_of_row(data: Data, name: str) -> str:
-    """Return the unit of the equation with this name."""
+def _find_row_unit(data: Data, name: str) -> str:
+    """Return the unit of the constraint equation with this name; "" if there is none."""
     return next((row["unit"] for row in data["start_rows"] if row["name"] == name), "")
 
 
@@ -112,8 +128,8 @@ _OF_PARTS: dict[str, dict[str, Callable[[Data, Data], Any]]] = {
         "rows": lambda data, joint: [r for r, row in enumerate(data["rows"]) if row["owner"] == joint["name"]],
     },
     "drives": {
-        "row": lambda data, drive: _index_of_row(data, drive["name"]),
-        "unit": lambda data, drive: _unit_of_row(data, drive["name"]),
+        "row": lambda data, drive: _find_row_index(data, drive["name"]),
+        "unit": lambda data, drive: _find_row_unit(data, drive["name"]),
     },
     "parts": {"options": lambda data, part: {}},
     "slots": {
@@ -130,5 +146,5 @@ _OF_STORY: dict[str, Callable[[Data], Any]] = {
 
 
 def tuples(item: dict[str, Any]) -> dict[str, Any]:
-    """Return JSON data with lists converted to tuples."""
+    """Return a mapping of JSON data with its lists converted to tuples; inner lists stay."""
     return {key: tuple(value) if isinstance(value, list) else value for key, value in item.items()}

@@ -34,18 +34,18 @@ MOST = 2**32  # largest number of entries that are copied
 def pointer(ffi: Any, array: NDArray[Any], kind: str = "double *", written: bool = False) -> Any:
     """Return a C pointer to an array's memory, which keeps the array alive; `written`: C writes there.
 
-    Raises ArrayError for an array that C would read wrongly: of another type or byte order, not contiguous, not
-    aligned, or read-only where C writes.
+    `kind` is the pointer's type in C, a key of _KINDS. Raises ArrayError for an array that C would read wrongly: of
+    another type or byte order, not contiguous, not aligned, or read-only where C writes.
     """
-    name, dtype = _KINDS[kind]
+    type_for_cffi, dtype = _KINDS[kind]
     if array.dtype is dtype or array.dtype == dtype:
         if not array.flags.aligned:
             raise ArrayError(f"an array at an odd address for {kind}")
         try:
-            return ffi.from_buffer(name, array, written)
+            return ffi.from_buffer(type_for_cffi, array, written)
         except (BufferError, ValueError) as error:
-            laid = f"of shape {array.shape} and strides {array.strides}"
-            raise ArrayError(f"an array {laid} for {kind}: {error}") from None
+            layout = f"of shape {array.shape} and strides {array.strides}"
+            raise ArrayError(f"an array {layout} for {kind}: {error}") from None
     raise ArrayError(f"an array of {array.dtype} for {kind}")
 
 
@@ -70,103 +70,119 @@ def as_c_array(
     elif type(values) is np.ndarray and values.dtype is dtype and values.size <= most and not values.flags.c_contiguous:
         array = np.array(values, order="C")  # rows or columns of another one
     else:
-        array = _convert(values, name, shape, dtype, own, most)
-    if shape is not None and array.shape != shape and not _fits(array.shape, shape):
+        array = _convert_to_c_array(values, name, shape, dtype, own, most)
+    if shape is not None and array.shape != shape and not _has_shape(array.shape, shape):
         _check_shape(array, name, shape)
     if finite and not np.isfinite(array).all():
-        at = tuple(np.argwhere(~np.isfinite(array))[0].tolist())
-        raise ArrayError(f"{name}{_index_text(at)} is {array[at]}: expected finite numbers")
+        index = tuple(np.argwhere(~np.isfinite(array))[0].tolist())
+        raise ArrayError(f"{name}{_format_index(index)} is {array[index]}: expected finite numbers")
     return array
 
 
 def address(ffi: Any, array: NDArray[Any], kind: str = "void *") -> int:
-    """Return the memory address of an array for a library of another cffi; the caller keeps the array alive."""
+    """Return the memory address of an array as an integer, for a library of another cffi.
+
+    The caller keeps the array alive, which must be writable. Raises ArrayError as `pointer`.
+    """
     return int(ffi.cast("uintptr_t", pointer(ffi, array, kind, True)))
 
 
-def _fits(have: tuple[int, ...], shape: Shape) -> bool:
-    """Return whether an array's shape agrees with a required shape."""
-    for expected, own in zip(shape, have, strict=False):
-        if expected is not None and expected != own:
+def _has_shape(array_shape: tuple[int, ...], shape: Shape) -> bool:
+    """Return whether an array's shape `array_shape` agrees with a required shape, whose None fits any length."""
+    for required_length, length in zip(shape, array_shape, strict=False):
+        if required_length is not None and required_length != length:
             return False
-    return len(have) == len(shape)
+    return len(array_shape) == len(shape)
 
 
 def _check_shape(array: NDArray[Any], name: str, shape: Shape) -> None:
-    """Raise ArrayError if an array's shape differs from the required one."""
-    if not _fits(array.shape, shape):
-        message = ", ".join("N" if size is None else str(size) for size in shape)
-        raise ArrayError(f"{name} has shape {array.shape}, expected ({message}{',' * (len(shape) == 1)})")
+    """Raise ArrayError if an array's shape differs from the required one; `name` is the array's name in the message."""
+    if not _has_shape(array.shape, shape):
+        lengths = ", ".join("N" if size is None else str(size) for size in shape)
+        raise ArrayError(f"{name} has shape {array.shape}, expected ({lengths}{',' * (len(shape) == 1)})")
 
 
-def _convert(
+def _convert_to_c_array(
     values: ArrayLike, name: str, shape: Shape | None, dtype: np.dtype[Any], own: bool, most: int
 ) -> NDArray[Any]:
-    """Return values converted to a C-contiguous array of `dtype`; see `as_c_array` for the arguments."""
-    _refuse_masked(values, name)
+    """Return values converted to a C-contiguous array of `dtype`; see `as_c_array` for the arguments.
+
+    Raises ArrayError for values that are not real numbers, that do not fit `dtype`, or for another shape.
+    """
+    _check_not_masked(values, name)
     try:
-        given: NDArray[Any] = np.asarray(values)
+        source: NDArray[Any] = np.asarray(values)
     except (TypeError, ValueError, OverflowError, MemoryError) as error:
         raise ArrayError(f"{name}: no array of numbers: {error}") from None
-    if given.size > most:  # before anything of its size is made: a view may stand for any number of entries
-        raise ArrayError(f"{name} has {given.size} entries: expected {most} at most")
-    if given.dtype.kind == "O":
-        given = _floats_of_objects(given, name)
-    if given.dtype.kind not in "biuf":
-        kind = {"U": "text", "S": "bytes"}.get(given.dtype.kind, given.dtype.name)
-        _raise_not_real(name, f"holds {kind if given.ndim else repr(values)[:60]}")
-    if given.dtype.kind == "b" and dtype.kind == "f":
-        _raise_not_real(name, "holds truths" if given.ndim else f"is {given}")
+    if source.size > most:  # before anything of its size is made: a view may stand for any number of entries
+        raise ArrayError(f"{name} has {source.size} entries: expected {most} at most")
+    if source.dtype.kind == "O":
+        source = _convert_objects_to_floats(source, name)
+    if source.dtype.kind not in "biuf":
+        kind = {"U": "text", "S": "bytes"}.get(source.dtype.kind, source.dtype.name)
+        _raise_not_real(name, f"holds {kind if source.ndim else repr(values)[:60]}")
+    if source.dtype.kind == "b" and dtype.kind == "f":
+        _raise_not_real(name, "holds truths" if source.ndim else f"is {source}")
     if shape is not None:
-        _check_shape(given, name, shape)
-    array: NDArray[Any] = np.array(given, dtype, order="C") if own else np.asarray(given, dtype, order="C")
-    if dtype.kind != "f" and not (array == given).all():
-        at = tuple(np.argwhere(array != given)[0].tolist())
-        raise ArrayError(f"{name}{_index_text(at)} is {given[at]}: expected whole numbers that fit {dtype.name}")
+        _check_shape(source, name, shape)
+    array: NDArray[Any] = np.array(source, dtype, order="C") if own else np.asarray(source, dtype, order="C")
+    if dtype.kind != "f" and not (array == source).all():
+        index = tuple(np.argwhere(array != source)[0].tolist())
+        raise ArrayError(
+            f"{name}{_format_index(index)} is {source[index]}: expected whole numbers that fit {dtype.name}"
+        )
     return array if array.flags.carray or (array.flags.c_contiguous and array.flags.aligned) else array.copy(order="C")
 
 
-def _floats_of_objects(given: NDArray[Any], name: str) -> NDArray[Any]:
-    """Return numbers that NumPy stores as objects (large integers, fractions) as floats."""
-    for at, value in np.ndenumerate(given):
+def _convert_objects_to_floats(objects: NDArray[Any], name: str) -> NDArray[Any]:
+    """Return numbers that NumPy stores as objects (large integers, fractions) as floats.
+
+    Raises ArrayError for other objects and for numbers that are too large.
+    """
+    for index, value in np.ndenumerate(objects):
         if not isinstance(value, Real) or isinstance(value, bool):
-            _raise_not_real(f"{name}{_index_text(at)}", f"is {type(value).__name__} {str(value)[:40]!r}")
+            _raise_not_real(f"{name}{_format_index(index)}", f"is {type(value).__name__} {str(value)[:40]!r}")
     try:
-        return given.astype(np.float64)
+        return objects.astype(np.float64)
     except (TypeError, ValueError, OverflowError) as error:
         raise ArrayError(f"{name}: {error}") from None
 
 
-def _refuse_masked(values: Any, name: str) -> None:
-    """Raise ArrayError if an entry is masked; a mask that hides nothing is accepted."""
+def _check_not_masked(values: Any, name: str) -> None:
+    """Raise ArrayError if an entry is masked; a mask that hides nothing is accepted.
+
+    Masked arrays and sequences with `numpy.ma.masked` are recognised. Nothing is checked before numpy.ma is imported.
+    """
     ma = sys.modules.get("numpy.ma")  # NumPy imports it on request: before, no masks exist
     if getattr(ma, "extras", None) is None:  # or another thread is still at it
         return
     assert ma is not None
     if isinstance(values, ma.MaskedArray):
-        hidden = np.argwhere(ma.getmaskarray(values) if values.dtype.names is None else _any_field_masked(ma, values))
+        masked_indices = np.argwhere(
+            ma.getmaskarray(values) if values.dtype.names is None else _find_masked_rows(ma, values)
+        )
     elif isinstance(values, Sequence) and not isinstance(values, str):
-        hidden = np.array([[k] for k, value in enumerate(values) if value is ma.masked])
+        masked_indices = np.array([[k] for k, value in enumerate(values) if value is ma.masked])
     else:
         return
-    if len(hidden):
-        message = f"{name}{_index_text(tuple(hidden[0].tolist()))} is masked: it has no value"
+    if len(masked_indices):
+        message = f"{name}{_format_index(tuple(masked_indices[0].tolist()))} is masked: it has no value"
         raise ArrayError(message, hint="leave masked entries out, or fill them: .compressed(), .filled(…)")
 
 
-def _any_field_masked(ma: Any, values: Any) -> NDArray[np.bool_]:
-    """Return a mask of the rows of a structured array with a masked field."""
+def _find_masked_rows(ma: Any, values: Any) -> NDArray[np.bool_]:
+    """Return a mask of the rows of a structured array with a masked field; `ma` is the module numpy.ma."""
     mask = ma.getmaskarray(values)
     return np.logical_or.reduce([mask[field] for field in mask.dtype.names])
 
 
 def _raise_not_real(name: str, message: str) -> NoReturn:
-    """Raise ArrayError: expected real numbers."""
+    """Raise ArrayError: `name` `message`: expected real numbers."""
     raise ArrayError(
         f"{name} {message}: expected real numbers", hint="an array, a list or a column of floats or integers"
     )
 
 
-def _index_text(at: tuple[int, ...]) -> str:
-    """Return an index as text: "[2, 3]"."""
-    return f"[{', '.join(map(str, at))}]" if at else ""
+def _format_index(index: tuple[int, ...]) -> str:
+    """Return an index as text: "[2, 3]"; "" for the index of a number."""
+    return f"[{', '.join(map(str, index))}]" if index else ""

@@ -25,22 +25,28 @@ Array: TypeAlias = NDArray[Any]
 OTHERWISE = "the scene's is"  # phrase in notes on choices
 
 
-def index_of_word(value: Any, slot: Slot) -> float:
-    """Return the value of a parameter that has words: the index of a word. Raise UnknownNameError, BadValueError."""
+def index_of_word(value: Any, parameter: Slot) -> float:
+    """Return the value of a parameter that has words: the index of a word, without spaces around it, as a float.
+
+    Raises UnknownNameError for another word, BadValueError for a value that is not a text.
+    """
     if not isinstance(value, str):
-        raise BadValueError(f"{slot.address} is {message(value)}: expected one of: {', '.join(slot.words)}")
-    if value.strip() not in slot.words:
-        raise unknown_name(f"choice of {slot.address}", value.strip(), slot.words, None)
-    return float(slot.words.index(value.strip()))
+        raise BadValueError(f"{parameter.address} is {message(value)}: expected one of: {', '.join(parameter.words)}")
+    if value.strip() not in parameter.words:
+        raise unknown_name(f"choice of {parameter.address}", value.strip(), parameter.words, None)
+    return float(parameter.words.index(value.strip()))
 
 
 def explain_law_choice(source: KernelSource, address: str) -> tuple[str, str]:
-    """Return message and hint for the address of a contact's law or its options, which are compiled; else ""."""
+    """Return (message, hint) for the address of a contact's law or its options, which are compiled.
+
+    ("", "") for others.
+    """
     from gudgeon.generator.kinds.laws.law import called  # imports no SymPy
 
-    section, name, role, key = [*address.split("."), "", "", "", ""][:4]
-    contact = f"{section}.{name}."
-    if section != "contacts" or not any(slot.address.startswith(contact) for slot in source.slots):
+    section_name, name, role, key = [*address.split("."), "", "", "", ""][:4]
+    contact = f"{section_name}.{name}."
+    if section_name != "contacts" or not any(parameter.address.startswith(contact) for parameter in source.slots):
         return "", ""
     if key not in ("law", *(option.name for law in called(role).values() for option in law.options)):
         return "", ""
@@ -51,62 +57,83 @@ def explain_law_choice(source: KernelSource, address: str) -> tuple[str, str]:
 
 
 def explain_named_expression(source: KernelSource, address: str) -> tuple[str, str]:
-    """Return message and hint for the address of a named expression of the file, which is compiled; else ""."""
-    whole = f"expressions.{address.removeprefix('expressions.')}"
-    one = next((one for one in source.expressions if one.address == whole), None)
-    if one is None:
+    """Return (message, hint) for the address of a named expression of the file, which is compiled; ("", "") for others.
+
+    The hint names the parameters on which the expression depends.
+    """
+    full_address = f"expressions.{address.removeprefix('expressions.')}"
+    expression = next((expression for expression in source.expressions if expression.address == full_address), None)
+    if expression is None:
         return "", ""
-    used = dict.fromkeys(name.path for name in names(from_json(json.loads(one.tree))))
-    known = {slot.address for slot in source.slots}
-    own = ", ".join(name for name in used if f"parameters.{name}" in known)
-    return f"{whole} is an expression, compiled as it stands: it is no number that can be set", (
-        (f"set what it is made of: {own}; " if own else "")
+    names_in_expression = dict.fromkeys(name.path for name in names(from_json(json.loads(expression.tree))))
+    parameter_addresses = {parameter.address for parameter in source.slots}
+    parameters_in_expression = ", ".join(
+        name for name in names_in_expression if f"parameters.{name}" in parameter_addresses
+    )
+    return f"{full_address} is an expression, compiled as it stands: it is no number that can be set", (
+        (f"set what it is made of: {parameters_in_expression}; " if parameters_in_expression else "")
         + "overrides= of gudgeon.load compiles anew with another expression"
     )
 
 
-def specified(slot: Slot, value: float) -> float | str:
-    """Return a parameter's value as users see it: its word, or the number. Raise ValueError for an invalid index."""
-    if not slot.words:
+def specified(parameter: Slot, value: float) -> float | str:
+    """Return a parameter's value as users see it: its word, or the number. Raises ValueError for an invalid index."""
+    if not parameter.words:
         return float(value)
-    if value not in range(len(slot.words)):
-        raise ValueError(f"{slot.address} is {value!r}, the place of no word")
-    return slot.words[int(value)]
+    if value not in range(len(parameter.words)):
+        raise ValueError(f"{parameter.address} is {value!r}, the place of no word")
+    return parameter.words[int(value)]
 
 
-def of_runs(slot: Slot, values: Array) -> Any:
-    """Return the values of a parameter in n runs, (n,): numbers, or words."""
-    return np.array([specified(slot, x) for x in values.tolist()], dtype=object) if slot.words else values.copy()
+def of_runs(parameter: Slot, values: Array) -> Any:
+    """Return the values (n,) of a parameter in n runs as users see them.
 
-
-def choices(source: KernelSource) -> tuple[int, ...]:
-    """Return the indices of the parameters that are choices."""
-    return tuple(k for k, slot in enumerate(source.slots) if slot.words)
-
-
-def filled_in(
-    source: KernelSource, selected: Iterable[int], given: Array, is_given: Array, p: Array
-) -> tuple[Any, Any]:
-    """Return values and mask (n_slots,) with the values that depend on the `selected` parameters, taken from p."""
-    place = {slot.address: k for k, slot in enumerate(source.slots)}
-    values, mask = given.copy(), is_given.copy()
-    for k in selected:
-        name, start = specified(source.slots[k], float(given[k])), f"{source.slots[k].address}."
-        for address, own in place.items():
-            if address.startswith(start) and not is_given[own]:
-                values[own], mask[own] = p[place[f"materials.{name}.{address.removeprefix(start)}"]], True
-    return values, mask
-
-
-def choice_notes(source: KernelSource, given: Array, is_given: Array) -> tuple[str, ...]:
-    """Return a note for each choice of a run that differs from its scene's."""
-    return tuple(
-        f"{slot.address} is {specified(slot, float(given[k]))} ({OTHERWISE} {specified(slot, slot.default)})"
-        for k, slot in ((k, source.slots[k]) for k in np.flatnonzero(is_given).tolist())
-        if slot.words and given[k] != slot.default
+    They are a copy of the numbers, or an array of words for a choice.
+    """
+    return (
+        np.array([specified(parameter, x) for x in values.tolist()], dtype=object) if parameter.words else values.copy()
     )
 
 
+def choices(source: KernelSource) -> tuple[int, ...]:
+    """Return the indices of the parameters that are choices: those with words."""
+    return tuple(k for k, parameter in enumerate(source.slots) if parameter.words)
+
+
+def filled_in(
+    source: KernelSource, selected: Iterable[int], given_values: Array, is_given: Array, p: Array
+) -> tuple[Any, Any]:
+    """Return copies of values and mask (n_slots,) in which the values that depend on the `selected` choices are set.
+
+    They are those of the chosen materials in p, unless they are given themselves.
+    """
+    index_by_address = {parameter.address: k for k, parameter in enumerate(source.slots)}
+    values, mask = given_values.copy(), is_given.copy()
+    for k in selected:
+        material, prefix = specified(source.slots[k], float(given_values[k])), f"{source.slots[k].address}."
+        for address, k_own in index_by_address.items():
+            if address.startswith(prefix) and not is_given[k_own]:
+                values[k_own], mask[k_own] = (
+                    p[index_by_address[f"materials.{material}.{address.removeprefix(prefix)}"]],
+                    True,
+                )
+    return values, mask
+
+
+def choice_notes(source: KernelSource, given_values: Array, is_given: Array) -> tuple[str, ...]:
+    """Return a note for each choice of a run that differs from its scene's.
+
+    given_values, is_given: values and mask (n_slots,).
+    """
+    notes = []
+    for k in np.flatnonzero(is_given).tolist():
+        parameter = source.slots[k]
+        if parameter.words and given_values[k] != parameter.default:
+            word, scene_word = specified(parameter, float(given_values[k])), specified(parameter, parameter.default)
+            notes.append(f"{parameter.address} is {word} ({OTHERWISE} {scene_word})")
+    return tuple(notes)
+
+
 def is_choice_note(text: str) -> bool:
-    """Return whether a note is about a choice."""
+    """Return whether a note is one of `choice_notes`."""
     return f" ({OTHERWISE} " in text

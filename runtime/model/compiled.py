@@ -33,7 +33,7 @@ MAX_RATIO_OF_POINTS = 1e12  # the same if an inertia is 0: the body's rotation t
 
 
 class CompiledModel:
-    """Evaluate the equations of one scene in C. `p` is what `prepare` returns: parameters, then derived values."""
+    """Evaluate the equations of one scene in C. `p` is what `prepare` returns: parameters, then derived values (SI)."""
 
     def __init__(self, source: KernelSource, library: Library, portable: bool = False, text: str = "") -> None:
         self.source, self.portable = source, portable  # as its library was compiled, and further ones will be
@@ -59,7 +59,7 @@ class CompiledModel:
 
     @cached_property
     def compiler(self) -> str:
-        """Return the first line of the C compiler's version."""
+        """Return the first line of the C compiler's version; the compiler is asked at the first use."""
         from gudgeon.loading.compiler import version
 
         return version()
@@ -81,12 +81,15 @@ class CompiledModel:
 
     @cached_property
     def none(self) -> tuple[tuple[str, Array], ...]:
-        """Return an Evaluation of no samples, as pairs of names and empty arrays."""
+        """Return an Evaluation of no samples, as pairs of names and empty arrays.
+
+        The shapes of the arrays after the first axis are those of the fields.
+        """
         return nothing(self)
 
     @property
     def _library(self) -> Library:
-        """Return the library, from the cache or compiled."""
+        """Return the library, loaded from the cache, or compiled if it is not there."""
         from gudgeon.loading.build import compile_kernels
 
         return compile_kernels(self.source, portable=self.portable)
@@ -100,37 +103,44 @@ class CompiledModel:
         self.__dict__.update(state)
 
     def pointer(self, array: NDArray[Any], kind: str = "double *", written: bool = False) -> Any:
-        """Return a C pointer to an array, which it keeps alive. Raise ArrayError for another type or layout."""
+        """Return a C pointer to an array, which it keeps alive; `written`: C writes there.
+
+        Raises ArrayError for an array of another type than `kind`, or another layout.
+        """
         return pointer(self.ffi, array, kind, written)
 
     def prepare(self, given: ArrayLike, is_given: ArrayLike) -> Array:
-        """Return all values of a run, (n_slots + n_derived,), from given parameters (n_slots,) and a mask."""
+        """Return all values of a run, (n_slots + n_derived,), from given parameters (n_slots,) and a mask.
+
+        If a choice is given, C is called twice: the values that depend on the choice are taken from the first call.
+        Nothing is checked except shapes (ArrayError).
+        """
         shape = (len(self.source.slots),)
         values, mask = as_c_array(given, "given", shape), as_c_array(is_given, "is_given", shape, dtype=FLAG)
-        p, selected = np.full(self.n_p, np.nan), [k for k in self._choices if mask[k]]
-        for last in (False, True) if selected else (True,):  # what is chosen has numbers of this run
+        p, given_choices = np.full(self.n_p, np.nan), [k for k in self._choices if mask[k]]
+        for is_last_call in (False, True) if given_choices else (True,):  # what is chosen has numbers of this run
             self.lib.gudgeon_prepare(
                 self.pointer(values), self.pointer(mask, "unsigned char *"), self._output_pointer(p)
             )
-            values, mask = (values, mask) if last else filled_in(self.source, selected, values, mask, p)
+            values, mask = (values, mask) if is_last_call else filled_in(self.source, given_choices, values, mask, p)
         return p
 
     def prepare_each(self, given: Array, is_given: NDArray[np.generic], zero: Sequence[int] = ()) -> Array:
         """Return the values of n runs, (n, n_slots + n_derived), from parameters and mask (n, n_slots).
 
-        Parameters with an index in `zero` are 0.
+        Parameters with an index in `zero` are 0. Runs are computed AT_ONCE at a time, one by one if a choice is given.
         """
-        slots, p = len(self.source.slots), np.empty((len(given), self.n_p))
-        selected = is_given[:, list(self._choices)].any()
+        n_slots, p = len(self.source.slots), np.empty((len(given), self.n_p))
+        has_choices = is_given[:, list(self._choices)].any()
         for rows in (slice(k, k + AT_ONCE) for k in range(0, len(p), AT_ONCE)):
-            values = np.array(as_c_array(given[rows], "given", (None, slots)))
-            mask = np.array(as_c_array(is_given[rows], "is_given", (None, slots), dtype=FLAG))
+            values = np.array(as_c_array(given[rows], "given", (None, n_slots)))
+            mask = np.array(as_c_array(is_given[rows], "is_given", (None, n_slots), dtype=FLAG))
             values[:, zero], mask[:, zero] = 0.0, True
-            if selected:
+            if has_choices:
                 p[rows] = [self.prepare(*pair) for pair in zip(values, mask, strict=True)]
                 continue
             arguments = self.pointer(values), self.pointer(mask, "unsigned char *"), self._output_pointer(p[rows])
-            self.lib.gudgeon_prepare_runs(len(values), slots, *arguments)
+            self.lib.gudgeon_prepare_runs(len(values), n_slots, *arguments)
         return p
 
     def mass(self, p: ArrayLike) -> Array:
@@ -141,7 +151,7 @@ class CompiledModel:
 
     def closed_phi(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
         """Return Φ of the closed linkage (all joints without play), in the order of source.start_rows."""
-        return self._constraint_values("gudgeon_phi", t, p, q)
+        return self._evaluate_constraint_function("gudgeon_phi", t, p, q)
 
     def closed_phi_q(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
         """Return the Jacobian Φ_q of the closed linkage, (rows, n)."""
@@ -151,7 +161,7 @@ class CompiledModel:
 
     def closed_nu(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
         """Return ν = −Φ_t of the closed linkage."""
-        return self._constraint_values("gudgeon_nu", t, p, q)
+        return self._evaluate_constraint_function("gudgeon_nu", t, p, q)
 
     def phi(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
         """Return the residuals Φ(q, t), (m,), of the constraint equations source.rows."""
@@ -171,17 +181,21 @@ class CompiledModel:
 
     def closed_gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: ArrayLike) -> Array:
         """Return γ of the closed linkage."""
-        return self._constraint_values("gudgeon_gamma", t, p, q, v)
+        return self._evaluate_constraint_function("gudgeon_gamma", t, p, q, v)
 
     def start_values(self, p: ArrayLike) -> tuple[Array, Array, Array]:
-        """Return the values of the file's start: guess, set, rates; the last two end with e and ė of start_apart."""
-        s, apart = self.source, len(self.source.start_apart)
-        sizes = len(s.start_guess), len(s.start_set) + apart, len(s.start_rates) + apart
-        guess, fixed, rates = (np.zeros(max(size, 1)) for size in sizes)
+        """Return the values of the file's start: guess, set, rates; the last two end with e and ė of start_apart.
+
+        Each is an array (number of coordinates,) in the order of source.start_guess, start_set and start_rates.
+        """
+        s, n_held_open = self.source, len(self.source.start_apart)
+        sizes = len(s.start_guess), len(s.start_set) + n_held_open, len(s.start_rates) + n_held_open
+        guess_values, set_values, rate_values = (np.zeros(max(size, 1)) for size in sizes)
         self.lib.gudgeon_start_values(
-            self._parameter_pointer(p), *(self._output_pointer(array) for array in (guess, fixed, rates))
+            self._parameter_pointer(p),
+            *(self._output_pointer(array) for array in (guess_values, set_values, rate_values)),
         )
-        return guess[: sizes[0]], fixed[: sizes[1]], rates[: sizes[2]]
+        return guess_values[: sizes[0]], set_values[: sizes[1]], rate_values[: sizes[2]]
 
     def close(self, t: float, p: ArrayLike, size: float) -> tuple[Array, Array, float] | None:
         """Return the start's q and q̇ (n,) and max |Φ| by Newton's method in C; None if it does not converge.
@@ -189,8 +203,8 @@ class CompiledModel:
         `size` of the mechanism (m) scales lengths against angles. runtime/assembly/start.py treats the other cases.
         """
         q, v, residual = np.empty(self.n), np.empty(self.n), np.empty(1)
-        given = time(t), self._parameter_pointer(p), number_of(size, "size")
-        status = self.lib.gudgeon_start(*given, *(self._output_pointer(array) for array in (q, v, residual)))
+        arguments = time(t), self._parameter_pointer(p), number_of(size, "size")
+        status = self.lib.gudgeon_start(*arguments, *(self._output_pointer(array) for array in (q, v, residual)))
         return None if status else (q, v, float(residual[0]))
 
     def rhs(self, t: float, y: ArrayLike, p: ArrayLike, memory: ArrayLike | None = None) -> Array:
@@ -200,7 +214,7 @@ class CompiledModel:
         modes of frictions. Raises ArrayError for another length.
         """
         out = np.empty(2 * self.n + N_WORK)
-        status = self.lib.gudgeon_rhs(time(t), *self._state_pointers(y, memory, p), self._output_pointer(out))
+        status = self.lib.gudgeon_rhs(time(t), *self._make_state_pointers(y, memory, p), self._output_pointer(out))
         self.check_pivot(status, t, p=p)
         return out
 
@@ -212,12 +226,12 @@ class CompiledModel:
         branches of switching functions and modes of friction are those of this state. Raises SingularError where
         constraint equations depend on each other, ValueError where nothing is integrated.
         """
-        if why := self.source.no_slopes:
-            raise ValueError(f"this scene has no Jacobian: {why}")
+        if reason := self.source.no_slopes:
+            raise ValueError(f"this scene has no Jacobian: {reason}")
         size = 2 * self.n + N_WORK + len(self.source.states)
         J, f_t = np.empty((size, size)), np.empty(size)
         status = self.lib.gudgeon_jacobian(
-            time(t), *self._state_pointers(y, memory, p), self._output_pointer(J), self._output_pointer(f_t)
+            time(t), *self._make_state_pointers(y, memory, p), self._output_pointer(J), self._output_pointer(f_t)
         )
         self.check_node(status, t)
         return J, f_t
@@ -225,20 +239,26 @@ class CompiledModel:
     def newton(
         self, t: float, y: ArrayLike, p: ArrayLike, eta: float, s: float, r: ArrayLike, memory: ArrayLike | None = None
     ) -> Array:
-        """Return u, (2n + 3 + k,), with u/η − J u = r + s f_t: the linear solve of the implicit methods."""
-        if why := self.source.no_slopes:
-            raise ValueError(f"this scene has no Jacobian: {why}")
+        """Return u, (2n + 3 + k,), with u/η − J u = r + s f_t: the linear solve of the implicit methods.
+
+        J and f_t are those of `jacobian` at t, y; eta (s) is the step times the method's coefficient. Raises ValueError
+        for a scene without a Jacobian, SingularError for a singular matrix.
+        """
+        if reason := self.source.no_slopes:
+            raise ValueError(f"this scene has no Jacobian: {reason}")
         u = np.empty(2 * self.n + N_WORK + len(self.source.states))
-        right, eta, s = self.pointer(as_c_array(r, "r", u.shape)), number_of(eta, "eta"), number_of(s, "s")
+        right_hand_side, eta, s = self.pointer(as_c_array(r, "r", u.shape)), number_of(eta, "eta"), number_of(s, "s")
         status = self.lib.gudgeon_newton(
-            time(t), *self._state_pointers(y, memory, p), eta, s, right, self._output_pointer(u)
+            time(t), *self._make_state_pointers(y, memory, p), eta, s, right_hand_side, self._output_pointer(u)
         )
         self.check_node(status, t)
         return u
 
     def check_node(self, status: int, t: float) -> None:
-        """Raise SingularError for a failed linearization: −k is the k-th coordinate, constraint equation or
-        friction.
+        """Raise SingularError for a nonzero status of a linearization; return for status 0.
+
+        −k names the k-th of coordinates, constraint equations, frictions and inner states; a positive status is that of
+        `check_pivot`.
         """
         s = self.source
         self.check_pivot(status, t)
@@ -267,6 +287,7 @@ class CompiledModel:
         """Return the discrete states (n_memory,): δ̇⁻ per joint with play, mode per friction. Do not write to it.
 
         None: all joints free, modes unknown. In a scene without discrete states, an array of one number is accepted.
+        Raises ArrayError for another length.
         """
         if memory is None:
             return self._free
@@ -276,14 +297,15 @@ class CompiledModel:
     def check_pivot(
         self, status: int, t: float, pivots: tuple[str, ...] | None = None, p: ArrayLike | None = None
     ) -> None:
-        """Raise SingularError for a status k > 0, with the constraint equation of the pivot.
+        """Raise SingularError for a status k > 0, with the constraint equation of the pivot; return for other values.
 
-        `p`: parameter values, to name masses that are too far apart.
+        `pivots`: names to which k refers, those of the source by default. `p`: parameter values, to name masses whose
+        ratio is too large.
         """
         if status > 0:
             row = (pivots or self.source.pivots)[status - 1]
-            of = f"constraint row {row} vanished" if row not in self.source.coordinates else f"{row} is too small"
-            message = f"singular or non-finite at t = {t:.9g} s: the pivot of {of}\n"
+            fault = f"constraint row {row} vanished" if row not in self.source.coordinates else f"{row} is too small"
+            message = f"singular or non-finite at t = {t:.9g} s: the pivot of {fault}\n"
             if p is not None and (masses := mass_ratio_message(self.source, self.mass(p))):
                 raise SingularError(f"{message}  {masses}", t, row)
             raise SingularError(
@@ -293,15 +315,21 @@ class CompiledModel:
                 row,
             )
 
-    def _constraint_values(self, function: str, t: float, p: ArrayLike, *states: ArrayLike) -> Array:
-        """Return the constraint equations or their terms by a C function of t, p and states."""
+    def _evaluate_constraint_function(self, function: str, t: float, p: ArrayLike, *states: ArrayLike) -> Array:
+        """Return an array of all rows of the closed linkage, computed by the C function named `function`.
+
+        It is Φ, ν or γ. `states` are q, or q and v, (n,) each.
+        """
         out = np.full(len(self.source.start_rows), np.nan)
         pointers = [self._state(state, name) for name, state in zip("qv", states, strict=False)]
         getattr(self.lib, function)(time(t), *pointers, self._parameter_pointer(p), self._output_pointer(out))
         return out
 
-    def _state_pointers(self, y: ArrayLike, memory: ArrayLike | None, p: ArrayLike) -> tuple[Any, Any, Any]:
-        """Return pointers to the arguments that every right-hand side takes."""
+    def _make_state_pointers(self, y: ArrayLike, memory: ArrayLike | None, p: ArrayLike) -> tuple[Any, Any, Any]:
+        """Return C pointers to y, the discrete states and p, the arguments that every right-hand side takes.
+
+        y: (2n,), or (2n + 3,) with the works. Raises ArrayError for another shape.
+        """
         state = as_c_array(y, "y")
         if state.shape not in ((2 * self.n,), (2 * self.n + N_WORK,)):
             as_c_array(state, "y", (2 * self.n,))  # says so
@@ -321,26 +349,31 @@ class CompiledModel:
 
 
 def _index(source: KernelSource, row: str) -> int:
-    """Return the index of a constraint equation in source.start_rows."""
+    """Return the index of a constraint equation, by its name, in source.start_rows.
+
+    Raises StopIteration for another name.
+    """
     return next(k for k, info in enumerate(source.start_rows) if info.name == row)
 
 
 def mass_ratio_message(source: KernelSource, mass: NDArray[Any]) -> str:
     """Return a text on masses or inertias whose ratio is too large for doubles; "" if there are none.
 
-    mass (n,): the diagonal of M in kg and kg·m². Inertias of 0 are allowed and not compared.
+    mass (n,): the diagonal of M in kg and kg·m². Inertias of 0 are allowed and not compared; the limit of masses is
+    then lower.
     """
-    points = any(mass[body.index + 2] == 0.0 for body in source.bodies)
-    for what, unit, row, limit in (
-        ("masses", "kg", 0, MAX_RATIO_OF_POINTS if points else MOST_APART),
+    has_zero_inertia = any(mass[body.index + 2] == 0.0 for body in source.bodies)
+    for quantity, unit, row, limit in (
+        ("masses", "kg", 0, MAX_RATIO_OF_POINTS if has_zero_inertia else MOST_APART),
         ("inertias", "kg*m^2", 2, MOST_APART),
     ):
-        of = {body.name: float(x) for body in source.bodies if (x := mass[body.index + row]) > 0.0}
-        if not of:
+        values = {body.name: float(x) for body in source.bodies if (x := mass[body.index + row]) > 0.0}
+        if not values:
             continue
-        least, most = min(of, key=of.__getitem__), max(of, key=of.__getitem__)
-        if of[most] >= limit * of[least]:
-            message = f"the {what} of {most} ({of[most]:g} {unit}) and {least} ({of[least]:g} {unit}) are too far apart"
-            beside = " where a body has an inertia of 0" if limit < MOST_APART else ""
-            return f"{message} for doubles\n  expected none {limit:g} times another one{beside}; check their units"
+        lightest, heaviest = min(values, key=values.__getitem__), max(values, key=values.__getitem__)
+        if values[heaviest] >= limit * values[lightest]:
+            message = f"the {quantity} of {heaviest} ({values[heaviest]:g} {unit})"
+            message += f" and {lightest} ({values[lightest]:g} {unit}) are too far apart"
+            condition = " where a body has an inertia of 0" if limit < MOST_APART else ""
+            return f"{message} for doubles\n  expected none {limit:g} times another one{condition}; check their units"
     return ""

@@ -29,120 +29,140 @@ _DEPTH, _RATE = (CLEARANCE_COLUMNS.index(name) for name in ("delta", "deltadot")
 
 
 def read_contours(source: KernelSource, contour: Any, runs: bool = False) -> dict[str, Array]:
-    """Return the checked depths of the given joints, (n,) each as in the file; with `runs` also (N, n).
+    """Return the checked depths of the given joints, (n,) each as in the file; with `runs` also (N, n) for N runs.
 
-    Raises UnknownNameError for a joint without a contour, ArrayError for another number of depths, BadValueError for
-    different numbers of runs.
+    Raises UnknownNameError for a joint without a contour, ArrayError for another number of depths or values that are
+    not finite, BadValueError for different numbers of runs.
     """
-    known, found = {one.joint: one for one in source.contours}, dict[str, Array]()
+    contours_by_joint, depths_by_joint = {info.joint: info for info in source.contours}, dict[str, Array]()
     for joint, depths in mapping(contour, "contour", _WANTED).items():
-        if joint not in known:
-            hint = f"joints with a contour: {', '.join(known)}" if known else "contour: 128 in the play of a joint"
+        if joint not in contours_by_joint:
+            hint = (
+                f"joints with a contour: {', '.join(contours_by_joint)}"
+                if contours_by_joint
+                else "contour: 128 in the play of a joint"
+            )
             raise UnknownNameError(f"contour: no contour at {message(joint)}", hint=hint)
-        many = runs and np.ndim(depths) == 2
-        shape = (None, known[joint].count) if many else (known[joint].count,)
-        found[joint] = as_c_array(depths, f"contour[{joint!r}]", shape, finite=True)
-    rows = {joint: len(own) for joint, own in found.items() if own.ndim == 2}
-    if len(set(rows.values())) > 1 or 0 in rows.values():
-        several = ", ".join(f"{joint} has {count}" for joint, count in rows.items())
-        raise BadValueError(f"contour: rows of runs: {several}", hint="one contour, or one for every run")
-    return found
+        is_for_each_run = runs and np.ndim(depths) == 2
+        shape = (None, contours_by_joint[joint].count) if is_for_each_run else (contours_by_joint[joint].count,)
+        depths_by_joint[joint] = as_c_array(depths, f"contour[{joint!r}]", shape, finite=True)
+    n_runs_by_joint = {
+        joint: len(depths_of_joint) for joint, depths_of_joint in depths_by_joint.items() if depths_of_joint.ndim == 2
+    }
+    if len(set(n_runs_by_joint.values())) > 1 or 0 in n_runs_by_joint.values():
+        text = ", ".join(f"{joint} has {count}" for joint, count in n_runs_by_joint.items())
+        raise BadValueError(f"contour: rows of runs: {text}", hint="one contour, or one for every run")
+    return depths_by_joint
 
 
 def of_run(contours: Mapping[str, Array], i: int) -> dict[str, Array]:
-    """Return the contours of run i."""
-    return {joint: own[i] if own.ndim == 2 else own for joint, own in contours.items()}
+    """Return the contours (n,) of run i by joint; a contour for all runs is returned as it is."""
+    return {joint: depths[i] if depths.ndim == 2 else depths for joint, depths in contours.items()}
 
 
-def put(source: KernelSource, contour: Mapping[str, Array], given: Array, is_given: NDArray[Any]) -> None:
-    """Write the depths (n,) by joint into values and mask (n_slots,). Raise BadValueError for depths given twice."""
-    for one in source.contours:
-        if one.joint in contour:
-            own = slice(one.first, one.first + one.count)
-            if is_given[own].any():
-                raise BadValueError(f"the contour of {one.joint} is given twice: by addresses too", hint="give it once")
-            given[own], is_given[own] = contour[one.joint], True
+def put(source: KernelSource, contour: Mapping[str, Array], values: Array, is_given: NDArray[Any]) -> None:
+    """Write the depths (n,) by joint into values and mask (n_slots,), which are changed.
+
+    Raises BadValueError for depths given twice.
+    """
+    for info in source.contours:
+        if info.joint in contour:
+            slots_of_contour = slice(info.first, info.first + info.count)
+            if is_given[slots_of_contour].any():
+                raise BadValueError(
+                    f"the contour of {info.joint} is given twice: by addresses too", hint="give it once"
+                )
+            values[slots_of_contour], is_given[slots_of_contour] = contour[info.joint], True
 
 
 def contour_of(source: KernelSource, p: Array, joint: str) -> Array | None:
     """Return the depths (..., n) of a joint from p (..., n_slots + n_derived); None if its bearing is a circle."""
-    for one in source.contours:
-        if one.joint == joint:
-            return np.asarray(p[..., one.first : one.first + one.count])
+    for info in source.contours:
+        if info.joint == joint:
+            return np.asarray(p[..., info.first : info.first + info.count])
     return None
 
 
 def widest(source: KernelSource, p: Array, joint: ClearanceInfo) -> float:
-    """Return the radial clearance (m) of a joint with play, at the deepest point of its contour."""
+    """Return the radial clearance (m) of a joint with play, at the deepest point of its contour. p: (n_slots +
+    n_derived,).
+    """
     depths, c = contour_of(source, p, joint.name), float(p[joint.clearance])
     return c if depths is None else c + float(depths.max())
 
 
 def depth_at(depths: ArrayLike, angle: ArrayLike, order: int = 0) -> Any:
-    """Return the contour depth (m) or its first or second derivative at angles (rad) in the bearing's frame.
+    """Return the contour depth (m) or its derivative of the given order (1 or 2) at angles (rad) in the bearing's
+    frame.
 
-    The contour passes through depths (n,). As in engine/scene/contour.h, it consists of polynomials of degree five,
-    with slopes and second derivatives at their ends by central differences.
+    The contour passes through depths (n,) at equal angles from 0 on. As in engine/scene/contour.h, it consists of
+    polynomials of degree five, with slopes and second derivatives at their ends by central differences. The shape is
+    that of `angle`.
     """
-    w, count = np.asarray(depths, float), len(np.asarray(depths))
+    w, n_depths = np.asarray(depths, float), len(np.asarray(depths))
     turns = np.asarray(angle, float) / (2.0 * np.pi)
-    x = count * (turns - np.floor(turns))
-    k = np.minimum(x.astype(int), count - 1)
-    a, b, c, d = (w[(k + shift) % count] for shift in (-1, 0, 1, 2))
-    s, slope, bend, rest = x - k, 0.5 * (c - a), (a - b) + (c - b), 3.0 * (c - b) + (a - d)
-    per_angle = count / (2.0 * np.pi)
+    x = n_depths * (turns - np.floor(turns))
+    k = np.minimum(x.astype(int), n_depths - 1)
+    a, b, c, d = (w[(k + shift) % n_depths] for shift in (-1, 0, 1, 2))
+    s, slope, curvature, difference = x - k, 0.5 * (c - a), (a - b) + (c - b), 3.0 * (c - b) + (a - d)
+    per_angle = n_depths / (2.0 * np.pi)
     if order == 0:
-        return b + s * (slope + s * (0.5 * bend + s * rest * (1.5 + s * (s - 2.5))))
+        return b + s * (slope + s * (0.5 * curvature + s * difference * (1.5 + s * (s - 2.5))))
     if order == 1:
-        return per_angle * (slope + s * (bend + s * rest * (4.5 + s * (5.0 * s - 10.0))))
-    return per_angle**2 * (bend + s * rest * (9.0 + s * (20.0 * s - 30.0)))
+        return per_angle * (slope + s * (curvature + s * difference * (4.5 + s * (5.0 * s - 10.0))))
+    return per_angle**2 * (curvature + s * difference * (9.0 + s * (20.0 * s - 30.0)))
 
 
 def narrowest_clearances(source: KernelSource, p: Array) -> Array:
     """Return the radial clearances (m), at the shallowest point of contours: (..., n_clearances) of p."""
-    own = p[..., [joint.clearance for joint in source.clearances]]
-    for one in source.contours:
-        place = next(k for k, joint in enumerate(source.clearances) if joint.name == one.joint)
-        own[..., place] += p[..., one.first : one.first + one.count].min(axis=-1)
-    return own
+    clearances = p[..., [joint.clearance for joint in source.clearances]]
+    for info in source.contours:
+        index = next(k for k, joint in enumerate(source.clearances) if joint.name == info.joint)
+        clearances[..., index] += p[..., info.first : info.first + info.count].min(axis=-1)
+    return clearances
 
 
 def contour_parameters(source: KernelSource) -> frozenset[int]:
     """Return the indices of the parameters that are contour depths; a run sets them together."""
-    return frozenset(k for one in source.contours for k in range(one.first, one.first + one.count))
+    return frozenset(k for info in source.contours for k in range(info.first, info.first + info.count))
 
 
-def corner_gap(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, number: int) -> tuple[float, float]:
-    """Return penetration δ (m) and δ̇ (m/s) of the slider corner that is joint `number`, at q, v (n,).
+def corner_gap(
+    compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, clearance_index: int
+) -> tuple[float, float]:
+    """Return penetration δ (m) and δ̇ (m/s) of the slider corner that is joint `clearance_index`, at q, v (n,).
 
-    They are NaN where the equations of motion have no solution.
+    All contacts are open there. They are NaN where the equations of motion have no solution.
     """
     memory = np.zeros(compiled.n_memory)
     memory[: len(compiled.source.clearances)] = math.nan
     try:
-        found = compiled.evaluate([t], [q], [v], [memory], p, parts=("clearance",)).clearance[0, number]
+        columns = compiled.evaluate([t], [q], [v], [memory], p, parts=("clearance",)).clearance[0, clearance_index]
     except SingularError:
         return math.nan, math.nan
-    return float(found[_DEPTH]), float(found[_RATE])
+    return float(columns[_DEPTH]), float(columns[_RATE])
 
 
 def corner_approach(source: KernelSource, p: Array, joint: ClearanceInfo, offset: Number, tilt: Number) -> Number:
     """Return how much nearer to its wall a corner is than in the middle of the guide, m; for one or many positions.
 
     With the slider's offset o across the guide (m), its tilt φ (rad), half length a, half height b and corner radius r
-    it is ±(o ± (a − r) sin φ) + (b − r) (cos φ − 1).
+    it is ±(o ± (a − r) sin φ) + (b − r) (cos φ − 1). The signs follow from the corner's name: upper, front.
     """
     _, a, b, radius = slider_of(source, p, joint)
-    front, upper = (1.0 if word in joint.name.rpartition(".")[2] else -1.0 for word in ("front", "upper"))
-    across = offset + front * (a - radius) * np.sin(tilt)
-    return upper * across + (b - radius) * (np.cos(tilt) - 1.0)
+    front_sign, upper_sign = (1.0 if word in joint.name.rpartition(".")[2] else -1.0 for word in ("front", "upper"))
+    offset_of_corner = offset + front_sign * (a - radius) * np.sin(tilt)
+    return upper_sign * offset_of_corner + (b - radius) * (np.cos(tilt) - 1.0)
 
 
 def slider_of(source: KernelSource, p: Array, joint: ClearanceInfo) -> tuple[str, float, float, float]:
-    """Return a guide's address, half length and half height of the slider, and the radius of its corners, m."""
+    """Return a guide's address, half length and half height of the slider, and the radius of its corners, m.
+
+    Values that the file does not give are 0.
+    """
     guide = source.slots[joint.clearance].address.rpartition(".")[0]
     a, b, radius = (
-        float(p[source.place[address]]) if (address := f"{guide}.{what}") in source.place else 0.0
-        for what in ("half_length", "half_height", "corner_radius")
+        float(p[source.place[address]]) if (address := f"{guide}.{key}") in source.place else 0.0
+        for key in ("half_length", "half_height", "corner_radius")
     )
     return guide, a, b, radius

@@ -25,63 +25,73 @@ CONTACT = 1.0 / 50.0  # of the duration of a contact: largest step
 IMPACT_SPEED = 0.1  # m/s, assumed for the duration of a contact
 
 
-def scene_number(source: KernelSource, name: str, p: Array, otherwise: float) -> float:
-    """Return the scene's t_end, output or step for the parameter values p; `otherwise` if it gives none.
+def scene_number(source: KernelSource, name: str, p: Array, default: float) -> float:
+    """Return the scene's t_end, output or step for the parameter values p; `default` if it gives none.
 
-    Raises BadValueError, with the line, for an expression that has no valid value.
+    An expression of parameters is evaluated; a number is returned as the file has it. Raises BadValueError, with the
+    line, for an expression that has no valid value.
     """
-    written = next((one for one in source.simulate_written if one.address.rpartition(".")[2] == name), None)
-    if written is None:
-        return float(source.simulate.get(name, otherwise))
-    values = {slot.address: float(number) for slot, number in zip(source.slots, p, strict=False)}
-    found = float(evaluate(from_json(json.loads(written.tree)), lambda path: values[f"parameters.{path}"]))
-    whole = name == "output"
-    if not (math.isfinite(found) and (found >= 1.0 and found == round(found) if whole else found > 0.0)):
-        expected = "a whole number, 1 or more" if whole else "a positive time (s)"
-        where = f"{written.address} (line {written.line}, column {written.column})"
-        raise BadValueError(f"{where} is {found:g} with this run's numbers: expected {expected}")
-    return found
+    expression = next((info for info in source.simulate_written if info.address.rpartition(".")[2] == name), None)
+    if expression is None:
+        return float(source.simulate.get(name, default))
+    values = {parameter.address: float(number) for parameter, number in zip(source.slots, p, strict=False)}
+    value = float(evaluate(from_json(json.loads(expression.tree)), lambda path: values[f"parameters.{path}"]))
+    is_count = name == "output"
+    if not (math.isfinite(value) and (value >= 1.0 and value == round(value) if is_count else value > 0.0)):
+        expected = "a whole number, 1 or more" if is_count else "a positive time (s)"
+        location = f"{expression.address} (line {expression.line}, column {expression.column})"
+        raise BadValueError(f"{location} is {value:g} with this run's numbers: expected {expected}")
+    return value
 
 
 def scene_end(source: KernelSource, p: Array) -> float:
-    """Return the end (s) of a scene's run with parameter values p: as the file says, or T_END."""
+    """Return the end (s) of a scene's run with parameter values p: as the file says, or T_END. Raises BadValueError."""
     return scene_number(source, "t_end", p, T_END)
 
 
 def plain_end(compiled: CompiledModel, parameters: Mapping[str, float | str] | None) -> float:
-    """Return the end (s) of a scene's run with these parameters, given as in `simulate`."""
+    """Return the end (s) of a scene's run with these parameters, given as in `simulate`.
+
+    Raises an InputError for wrong ones.
+    """
     return scene_end(compiled.source, prepare(compiled, parameters)[0])
 
 
 def scene_step(compiled: CompiledModel, p: Array, duration: float) -> float:
-    """Return the step (s) of a scene's run with rk4: the file's, or the default."""
-    own = scene_number(compiled.source, "step", p, 0.0)
-    return own or default_step(compiled, p, duration if duration > 0.0 else T_END)
+    """Return the step (s) of a scene's run with rk4: the file's, or the default. Raises BadValueError.
+
+    duration: of the run (s); 0 or less stands for T_END.
+    """
+    step = scene_number(compiled.source, "step", p, 0.0)
+    return step or default_step(compiled, p, duration if duration > 0.0 else T_END)
 
 
 def default_step(compiled: CompiledModel, p: Array, t_end: float) -> float:
-    """Return the largest step (s) that all three time scales allow."""
+    """Return the largest step (s) that all three time scales allow: of the motion, of films and of dry contacts.
+
+    t_end: length of the run (s). It is at most 1e-3 s.
+    """
     bounds = [SMOOTH * t_end, 1e-3]
     mass = metric(compiled.source, p, compiled.mass(p))
     for joint in compiled.source.clearances:
         bodies = [compiled.source.bodies[b].index for b in (joint.first, joint.second) if b >= 0]
-        inverse = sum(1.0 / mass[k] + 0.25 * _longest_arm(compiled, p, k) ** 2 / mass[k + 2] for k in bodies)
-        numbers = {name: float(p[k]) for name, k in joint.constants.items()}
-        if joint.film and "S" in numbers:
-            bounds.append(FILM / (math.pi * numbers["S"] / numbers["c"] * inverse))
-        if joint.dry and "K" in numbers:
+        inverse_mass = sum(1.0 / mass[k] + 0.25 * _find_longest_arm(compiled, p, k) ** 2 / mass[k + 2] for k in bodies)
+        constants = {name: float(p[k]) for name, k in joint.constants.items()}
+        if joint.film and "S" in constants:
+            bounds.append(FILM / (math.pi * constants["S"] / constants["c"] * inverse_mass))
+        if joint.dry and "K" in constants:
             # Hertz: δ_max = (5 m v²/(4K))^(2/5), contact time 2.943 δ_max/v
-            deepest = (1.25 * IMPACT_SPEED**2 / (inverse * numbers["K"])) ** 0.4
-            bounds.append(CONTACT * 2.943 * deepest / IMPACT_SPEED)
-        if joint.dry and "spring" in numbers:
-            bounds.append(CONTACT * math.pi / math.sqrt(inverse * numbers["spring"]))
-        if joint.dry and "damper" in numbers:
-            bounds.append(FILM / (inverse * numbers["damper"]))
+            max_penetration = (1.25 * IMPACT_SPEED**2 / (inverse_mass * constants["K"])) ** 0.4
+            bounds.append(CONTACT * 2.943 * max_penetration / IMPACT_SPEED)
+        if joint.dry and "spring" in constants:
+            bounds.append(CONTACT * math.pi / math.sqrt(inverse_mass * constants["spring"]))
+        if joint.dry and "damper" in constants:
+            bounds.append(FILM / (inverse_mass * constants["damper"]))
     return min(bounds)
 
 
-def _longest_arm(compiled: CompiledModel, p: Array, index: int) -> float:
-    """Return the longest distance (m) of a body's points from its centre of mass."""
+def _find_longest_arm(compiled: CompiledModel, p: Array, index: int) -> float:
+    """Return the longest distance (m) of a body's points from its centre of mass; index: that of its x in q."""
     body = next(k for k, info in enumerate(compiled.source.bodies) if info.index == index)
     points = [point for point in compiled.source.points if point.body == body]
     lengths = [math.hypot(*(float(p[k]) if k >= 0 else 0.0 for k in (point.x, point.y))) for point in points]

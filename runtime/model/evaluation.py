@@ -65,35 +65,46 @@ def evaluate(
     take: Callable[[], object],
     parts: Collection[str],
 ) -> Evaluation:
-    """Return the quantities at N samples of one run; arguments as in CompiledModel.evaluate."""
+    """Return the quantities at N samples of one run; arguments as in CompiledModel.evaluate.
+
+    C is called for chunks of samples, so that `take` is called every few milliseconds. Raises ArrayError for arrays of
+    other shapes, MemoryError if the result does not fit, SingularError for a sample without accelerations.
+    """
     time = as_c_array(t, "t", (None,))
     if compiled.beyond:  # velocities are those after a switching point; rounding hides the side of t
         time = np.asarray(time + around(time))
     N = len(time)
-    latched = _check_table(memory, "memory", N, None)
-    if compiled.n_memory or latched.shape[1] > 1:  # in a scene that remembers nothing one number stands for none
-        _check_table(latched, "memory", N, compiled.n_memory)
+    discrete_states = _check_matrix(memory, "memory", N, None)
+    if (
+        compiled.n_memory or discrete_states.shape[1] > 1
+    ):  # in a scene that remembers nothing one number stands for none
+        _check_matrix(discrete_states, "memory", N, compiled.n_memory)
     inputs = (
-        ("q", _check_table(q, "q", N, compiled.n)),
-        ("v", _check_table(v, "v", N, compiled.n)),
-        ("memory", latched),
+        ("q", _check_matrix(q, "q", N, compiled.n)),
+        ("v", _check_matrix(v, "v", N, compiled.n)),
+        ("memory", discrete_states),
     )
-    out = _allocate(compiled, N, parts)
-    failed, first, chunk, none = compiled.ffi.new("long *"), 0, FIRST, compiled.ffi.NULL
-    results, numbers = tuple(vars(out).values()), compiled.pointer(as_c_array(p, "p", (compiled.n_p,)))  # in C's order
+    evaluation = _allocate_evaluation(compiled, N, parts)
+    failed_index, first, chunk_size, null_pointer = compiled.ffi.new("long *"), 0, FIRST, compiled.ffi.NULL
+    result_arrays, parameter_pointer = (
+        tuple(vars(evaluation).values()),
+        compiled.pointer(as_c_array(p, "p", (compiled.n_p,))),
+    )  # in C's order
     while first < N:
-        before, count = perf_counter(), min(chunk, N - first)
-        rows = slice(first, first + count)
-        given = [compiled.pointer(as_c_array(values[rows], name, (count, None))) for name, values in inputs]
-        filled = [compiled.pointer(x[first:], written=True) if len(x) else none for x in results]
-        status = compiled.lib.gudgeon_evaluate(count, compiled.pointer(time[rows]), *given, numbers, *filled, failed)
+        start_time, count = perf_counter(), min(chunk_size, N - first)
+        chunk = slice(first, first + count)
+        input_pointers = [compiled.pointer(as_c_array(values[chunk], name, (count, None))) for name, values in inputs]
+        output_pointers = [compiled.pointer(x[first:], written=True) if len(x) else null_pointer for x in result_arrays]
+        status = compiled.lib.gudgeon_evaluate(
+            count, compiled.pointer(time[chunk]), *input_pointers, parameter_pointer, *output_pointers, failed_index
+        )
         if status:
-            compiled.check_pivot(status, float(time[first + failed[0]]), p=p)
+            compiled.check_pivot(status, float(time[first + failed_index[0]]), p=p)
         first += count
-        chunk = 4 * count if perf_counter() - before < SOON else max(1, count // 4)
+        chunk_size = 4 * count if perf_counter() - start_time < SOON else max(1, count // 4)
         take()
-    _mark_indeterminate(compiled, out)
-    return out
+    _mark_indeterminate(compiled, evaluation)
+    return evaluation
 
 
 def evaluate_runs(
@@ -108,43 +119,56 @@ def evaluate_runs(
 ) -> Evaluation:
     """Return the quantities at few samples of several runs: counts[i] samples of run i with values p[i].
 
-    The samples of the runs follow each other.
+    The samples of the runs follow each other: t (N,), q and v (N, n), memory (N, n_memory), N = sum(counts). `parts`:
+    the requested fields. Raises ArrayError, SingularError.
     """
     N, time = sum(counts), t + around(t) if compiled.beyond else t
     shapes = (("t", time, (N,)), ("q", q, (N, compiled.n)), ("v", v, (N, compiled.n)))
-    given = [compiled.pointer(as_c_array(values, name, shape)) for name, values, shape in shapes]
-    given.append(compiled.pointer(as_c_array(memory, "memory", (N, compiled.n_memory))))
-    numbers = compiled.pointer(as_c_array(p, "p", (len(counts), compiled.n_p)))
-    out, failed = _allocate(compiled, N, parts), compiled.ffi.new("long *")
-    filled = [compiled.pointer(x, written=True) if len(x) else compiled.ffi.NULL for x in vars(out).values()]
-    of_each = compiled.ffi.new("long[]", counts)
-    status = compiled.lib.gudgeon_evaluate_runs(len(counts), of_each, *given, numbers, compiled.n_p, *filled, failed)
+    input_pointers = [compiled.pointer(as_c_array(values, name, shape)) for name, values, shape in shapes]
+    input_pointers.append(compiled.pointer(as_c_array(memory, "memory", (N, compiled.n_memory))))
+    parameter_pointer = compiled.pointer(as_c_array(p, "p", (len(counts), compiled.n_p)))
+    evaluation, failed_index = _allocate_evaluation(compiled, N, parts), compiled.ffi.new("long *")
+    output_pointers = [
+        compiled.pointer(x, written=True) if len(x) else compiled.ffi.NULL for x in vars(evaluation).values()
+    ]
+    sample_counts = compiled.ffi.new("long[]", counts)
+    status = compiled.lib.gudgeon_evaluate_runs(
+        len(counts), sample_counts, *input_pointers, parameter_pointer, compiled.n_p, *output_pointers, failed_index
+    )
     compiled.check_pivot(status, math.nan)
-    _mark_indeterminate(compiled, out)
-    return out
+    _mark_indeterminate(compiled, evaluation)
+    return evaluation
 
 
 def around(t: Array) -> Array:
-    """Return the distance (s) from times t within which rounding may hide on which side of a switching point t is."""
+    """Return the distance (s) from times t within which rounding may hide on which side of a switching point t is.
+
+    It is 32 roundings of t, at least 1e-100 s.
+    """
     return np.asarray(np.maximum(32.0 * np.finfo(float).eps * np.abs(t), 1e-100))
 
 
 def evaluated_bytes(compiled: CompiledModel, parts: Collection[str] | None = None) -> int:
-    """Return the bytes of an evaluation per sample; `parts` None: of all fields."""
-    return 8 * sum(math.prod(none.shape[1:]) for name, none in compiled.none if parts is None or name in parts)
+    """Return the bytes of an evaluation per sample; `parts`: the requested fields, None for all."""
+    return 8 * sum(
+        math.prod(empty_array.shape[1:]) for name, empty_array in compiled.none if parts is None or name in parts
+    )
 
 
-def _allocate(compiled: CompiledModel, N: int, parts: Collection[str]) -> Evaluation:
-    """Return an Evaluation for C to fill, NaN until then; fields that are not requested have no rows."""
-    expected = {*parts, *OUTPUTS} if not OUTPUTS.isdisjoint(parts) else parts
+def _allocate_evaluation(compiled: CompiledModel, N: int, parts: Collection[str]) -> Evaluation:
+    """Return an Evaluation of N samples for C to fill, NaN until then; fields that are not requested have no rows.
+
+    Fields that C computes together are allocated together. Raises MemoryError for many samples without enough memory.
+    """
+    requested_fields = {*parts, *OUTPUTS} if not OUTPUTS.isdisjoint(parts) else parts
     if N > MANY:
-        check_memory(float(N) * evaluated_bytes(compiled, expected), f"what follows from {N} samples")
-    rows = [(N if name in expected else 0, *none.shape[1:]) for name, none in compiled.none]
-    return Evaluation(*(np.full(shape, np.nan) for shape in rows))
+        check_memory(float(N) * evaluated_bytes(compiled, requested_fields), f"what follows from {N} samples")
+    shapes = [(N if name in requested_fields else 0, *empty_array.shape[1:]) for name, empty_array in compiled.none]
+    return Evaluation(*(np.full(shape, np.nan) for shape in shapes))
 
 
 def nothing(compiled: CompiledModel) -> tuple[tuple[str, Array], ...]:
-    """Return the names of all fields of an Evaluation, with empty arrays of their shapes."""
+    """Return the names of all fields of an Evaluation in their order, each with an empty array (0, …) of its shape."""
     s = compiled.source
     widths: dict[str, tuple[int, ...]] = {
         "a": (compiled.n,),
@@ -161,19 +185,29 @@ def nothing(compiled: CompiledModel) -> tuple[tuple[str, Array], ...]:
     return tuple((name, np.empty((0, *widths[name]))) for name in (field.name for field in fields(Evaluation)))
 
 
-def _mark_indeterminate(compiled: CompiledModel, out: Evaluation) -> None:
-    """Set forces to NaN that redundant constraints leave undetermined, or all if masses are missing."""
+def _mark_indeterminate(compiled: CompiledModel, evaluation: Evaluation) -> None:
+    """Set forces in an Evaluation to NaN that redundant constraints leave undetermined.
+
+    If masses are missing, all forces, energies and powers become NaN.
+    """
     s = compiled.source
-    for unknown in (out.multipliers, out.reactions, out.torques, out.energy, out.power) if s.massless else ():
-        unknown[:] = np.nan
+    for field_values in (
+        (evaluation.multipliers, evaluation.reactions, evaluation.torques, evaluation.energy, evaluation.power)
+        if s.massless
+        else ()
+    ):
+        field_values[:] = np.nan
     for owner in s.indeterminate:
-        out.multipliers[:, [k for k, row in enumerate(s.rows) if row.owner == owner]] = np.nan
-        out.reactions[:, [k for k, joint in enumerate(s.joints) if joint.name == owner]] = np.nan
-        out.torques[:, [k for k, drive in enumerate(s.drives) if drive.name == owner]] = np.nan
+        evaluation.multipliers[:, [k for k, row in enumerate(s.rows) if row.owner == owner]] = np.nan
+        evaluation.reactions[:, [k for k, joint in enumerate(s.joints) if joint.name == owner]] = np.nan
+        evaluation.torques[:, [k for k, drive in enumerate(s.drives) if drive.name == owner]] = np.nan
 
 
-def _check_table(values: ArrayLike, name: str, rows: int, columns: int | None) -> Array:
-    """Return checked values (rows, columns); arrays of doubles of any layout are not copied."""
+def _check_matrix(values: ArrayLike, name: str, rows: int, columns: int | None) -> Array:
+    """Return checked values (rows, columns); arrays of doubles of any layout are not copied.
+
+    columns: None for any number. Raises ArrayError for another shape or other values.
+    """
     if type(values) is not np.ndarray or values.dtype != np.float64:
         return as_c_array(values, name, (rows, columns))
     as_c_array(values[:0] if values.ndim else values, name, (0, columns))
@@ -181,30 +215,33 @@ def _check_table(values: ArrayLike, name: str, rows: int, columns: int | None) -
 
 
 def sample_bytes(compiled: CompiledModel) -> int:
-    """Return the bytes of a sample as methods store it: time, motion, works, discrete states and codes."""
-    orders = 2 if compiled.source.degrees_of_freedom else 3
-    numbers = 1 + orders * compiled.n + N_WORK + max(compiled.n_memory, 1)
-    return 8 * numbers + max(len(compiled.source.clearances), 1)
+    """Return the bytes of a sample as methods store it: time, motion, works, discrete states and codes.
+
+    Accelerations are stored for linkages without degrees of freedom only.
+    """
+    n_derivatives = 2 if compiled.source.degrees_of_freedom else 3
+    n_doubles = 1 + n_derivatives * compiled.n + N_WORK + max(compiled.n_memory, 1)
+    return 8 * n_doubles + max(len(compiled.source.clearances), 1)
 
 
 def check_room(
     compiled: CompiledModel,
     samples: float,
     runs: int = 1,
-    kept: Collection[str] | None = None,
+    stored_series: Collection[str] | None = None,
     parts: Collection[str] = (),
     at_once: int = 1,
 ) -> None:
     """Raise MemoryError if the samples of so many runs do not fit into memory.
 
-    kept: names of series that are stored in place of the states. The states then exist for `at_once` runs at a time,
-    with the `parts` that the series need.
+    samples: of each run; stored_series: names of series that are stored in place of the states, None for the states.
+    The states then exist for `at_once` runs at a time, with the `parts` that the series need.
     """
-    if kept is None:
-        size = float(samples) * sample_bytes(compiled) * runs
+    if stored_series is None:
+        n_bytes = float(samples) * sample_bytes(compiled) * runs
     else:
-        size = float(samples) * (sample_bytes(compiled) + evaluated_bytes(compiled, parts)) * min(runs, at_once)
-        size += float(samples) * 8 * (len(kept) + 1) * runs
-    size += runs * (OF_A_RUN + 16 * compiled.n_p) if runs > 1 else 0
-    several = f"{runs} runs of {samples:.0f} samples each" if runs > 1 else f"{samples:.0f} samples"
-    check_memory(size, several)
+        n_bytes = float(samples) * (sample_bytes(compiled) + evaluated_bytes(compiled, parts)) * min(runs, at_once)
+        n_bytes += float(samples) * 8 * (len(stored_series) + 1) * runs
+    n_bytes += runs * (OF_A_RUN + 16 * compiled.n_p) if runs > 1 else 0
+    text_of_samples = f"{runs} runs of {samples:.0f} samples each" if runs > 1 else f"{samples:.0f} samples"
+    check_memory(n_bytes, text_of_samples)

@@ -26,7 +26,10 @@ STEEPEST = 1e3  # a smooth change of ν between both sides may be so many times 
 
 
 def may_switch(compiled: CompiledModel) -> bool:
-    """Return whether the acceleration that a drive prescribes may jump at some time."""
+    """Return whether the acceleration that a drive prescribes may jump at some time.
+
+    That is so if any drive's expression contains a piecewise function or a curve.
+    """
     return any(
         call.function in PIECEWISE or isinstance(call, CurveCall)
         for _, tree in trees(compiled.source, ("drives",))
@@ -37,25 +40,28 @@ def may_switch(compiled: CompiledModel) -> bool:
 def evaluation_times(compiled: CompiledModel, t: Array, q: Array, v: Array, p: Array, begin: float = np.inf) -> Array:
     """Return the times (N,) at which the samples of one run are evaluated; the last may be just before t[-1].
 
-    `begin` (s): the start of the run, for a single sample after it.
+    That is so if the accelerations of drives jump at t[-1] and their rates do not. `begin` (s): the start of the run,
+    for a single sample after it. q, v: (N, n).
     """
-    previous = float(t[-2]) if len(t) > 1 else begin
-    if not len(t) or not previous < t[-1] or not compiled.may_switch:
+    previous_time = float(t[-2]) if len(t) > 1 else begin
+    if not len(t) or not previous_time < t[-1] or not compiled.may_switch:
         return t
-    before, after = (float(t[-1] + side * around(t[-1])) for side in (-2.0, 2.0))
+    before, after = (float(t[-1] + sign * around(t[-1])) for sign in (-2.0, 2.0))
     gamma = [compiled.closed_gamma(time, q[-1], v[-1], p) for time in (before, after)]
     nu = [compiled.closed_nu(time, q[-1], p) for time in (before, after)]
-    smooth = STEEPEST * float(np.abs(gamma).max(initial=0.0)) * (after - before)
-    switches = _has_jump(*gamma).any() and not (_has_jump(*nu) & (np.abs(nu[1] - nu[0]) > smooth)).any()
-    return np.append(t[:-1], before) if switches and before > previous else t
+    max_smooth_change = STEEPEST * float(np.abs(gamma).max(initial=0.0)) * (after - before)
+    is_switching_point = (
+        _has_jump(*gamma).any() and not (_has_jump(*nu) & (np.abs(nu[1] - nu[0]) > max_smooth_change)).any()
+    )
+    return np.append(t[:-1], before) if is_switching_point and before > previous_time else t
 
 
 def evaluation_times_of(run: Result, compiled: CompiledModel) -> Array:
-    """Return the times (N,) at which the samples of a result are evaluated."""
+    """Return the times (N,) at which the samples of a result are evaluated, as `evaluation_times`."""
     begin = np.inf if run.start_row is None else float(run.start_row.t[0])
     return evaluation_times(compiled, run.t, run.q, run.v, run.p, begin)
 
 
-def _has_jump(one: Array, other: Array) -> NDArray[np.bool_]:
-    """Return a mask of the values that differ by more than JUMP_TOL."""
-    return np.asarray(np.abs(one - other) > JUMP_TOL * (np.abs(one) + np.abs(other)))
+def _has_jump(before: Array, after: Array) -> NDArray[np.bool_]:
+    """Return a mask of the values that differ by more than JUMP_TOL, relative to the sum of their magnitudes."""
+    return np.asarray(np.abs(before - after) > JUMP_TOL * (np.abs(before) + np.abs(after)))

@@ -28,7 +28,7 @@ Mask: TypeAlias = NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class Same:
-    """Hold a column with one value for all runs."""
+    """Hold a column of parameters with one value for all runs."""
 
     value: Any
 
@@ -48,37 +48,44 @@ class Columns(Sequence[Mapping[str, Any]]):
         return self.n
 
     def __getitem__(self, key: Any) -> Any:
-        """Return the mapping of one run, or the list of those of a slice."""
-        at = range(self.n)[key]
-        if isinstance(at, range):
-            return [self[i] for i in at]
-        out = self.left_out.get(at, ())
-        return {name: _value_of_run(one, at) for name, one in self.columns.items() if name not in out}
+        """Return the mapping of one run, or the list of those of a slice; negative indices count from the end."""
+        run_index = range(self.n)[key]
+        if isinstance(run_index, range):
+            return [self[i] for i in run_index]
+        omitted_names = self.left_out.get(run_index, ())
+        return {
+            name: _get_value_of_run(column, run_index)
+            for name, column in self.columns.items()
+            if name not in omitted_names
+        }
 
     def leave_out(self) -> dict[int, BadValueError]:
-        """Leave out values that are NaN or infinite; return an error for each run that has any, by index."""
-        bad: dict[int, BadValueError] = {}
-        for name, one in self.columns.items():
-            for i in _not_finite_in(one, self.n):
+        """Leave out values that are NaN or infinite.
+
+        Return an error for each run that has any, by index in rising order. Their names are stored in `left_out`.
+        """
+        errors: dict[int, BadValueError] = {}
+        for name, column in self.columns.items():
+            for i in _find_nonfinite_runs(column, self.n):
                 self.left_out.setdefault(i, []).append(name)
-                bad.setdefault(i, BadValueError(f"{name}: {_value_of_run(one, i)} is not a finite number"))
-        return dict(sorted(bad.items()))
+                errors.setdefault(i, BadValueError(f"{name}: {_get_value_of_run(column, i)} is not a finite number"))
+        return dict(sorted(errors.items()))
 
 
-def _value_of_run(one: Column, i: int) -> Any:
-    """Return the value of a column for run i."""
-    if isinstance(one, Same):
-        return one.value
-    return one.item(i) if isinstance(one, np.ndarray) else one[i]
+def _get_value_of_run(column: Column, i: int) -> Any:
+    """Return the value of a column for run i; a NumPy number becomes a Python number."""
+    if isinstance(column, Same):
+        return column.value
+    return column.item(i) if isinstance(column, np.ndarray) else column[i]
 
 
-def _not_finite_in(one: Column, n: int) -> Iterable[int]:
-    """Return the indices of the runs whose value in a column is NaN or infinite."""
-    if isinstance(one, Same):
-        return range(n if _is_not_finite(one.value) else 0)
-    if isinstance(one, np.ndarray):
-        return list[int](np.flatnonzero(~np.isfinite(one)).tolist())
-    return [i for i, x in enumerate(one) if _is_not_finite(x)]
+def _find_nonfinite_runs(column: Column, n: int) -> Iterable[int]:
+    """Return the indices of the runs, of n, whose value in a column is NaN or infinite."""
+    if isinstance(column, Same):
+        return range(n if _is_not_finite(column.value) else 0)
+    if isinstance(column, np.ndarray):
+        return list[int](np.flatnonzero(~np.isfinite(column)).tolist())
+    return [i for i, x in enumerate(column) if _is_not_finite(x)]
 
 
 def _is_not_finite(x: Any) -> bool:
@@ -89,86 +96,110 @@ def _is_not_finite(x: Any) -> bool:
 def rows_of(parameters: ParameterSets) -> tuple[Sequence[Mapping[str, Any]], dict[int, BadValueError]]:
     """Return a parameter mapping for each run, and errors of runs with NaN or infinite values, by index.
 
-    `parameters`: a mapping for every run; or {address: one value, or one for every run}, also as a structured array.
-    Raises BadValueError.
+    `parameters`: a mapping for every run; or {address: one value, or one for every run}, also as a structured array or
+    a pandas table. Values that are not finite are left out of the mappings. A single run is not tested. Raises
+    BadValueError if there are no runs or all have such values.
     """
-    rows, bad = _read_rows(parameters), dict[int, BadValueError]()
+    rows, errors = _read_parameter_sets(parameters), dict[int, BadValueError]()
     if not rows:
         raise BadValueError("parameters: no run is asked for", hint="a mapping for every run, or {address: values}")
     if isinstance(rows, Columns):
-        bad = rows.leave_out()
+        errors = rows.leave_out()
     elif len(rows) > 1:
         floats = [x for row in rows for x in row.values() if isinstance(x, FLOATS)]
         for i, row in enumerate(() if all(map(math.isfinite, floats)) else rows):
-            if odd := [name for name, x in row.items() if _is_not_finite(x)]:
-                bad[i] = BadValueError(f"{odd[0]}: {row[odd[0]]} is not a finite number")
-                rows[i] = {name: value for name, value in row.items() if name not in odd}
-    if len(bad) == len(rows):
-        raise BadValueError(f"parameters: {bad[0]}")
-    return rows, bad
+            if nonfinite_names := [name for name, x in row.items() if _is_not_finite(x)]:
+                errors[i] = BadValueError(f"{nonfinite_names[0]}: {row[nonfinite_names[0]]} is not a finite number")
+                rows[i] = {name: value for name, value in row.items() if name not in nonfinite_names}
+    if len(errors) == len(rows):
+        raise BadValueError(f"parameters: {errors[0]}")
+    return rows, errors
 
 
 def given_each(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple[Array, Mask]:
-    """Return values and mask (n_runs, n_slots) of the given parameters; raises as `given_slots`."""
-    plain = read_uniform_rows(source, rows)
-    found: tuple[Array, Mask] = each_of(rows, lambda _, row: given_slots(source, row)) if plain is None else plain
-    return found
+    """Return values and mask (n_runs, n_slots) of the given parameters; raises as `given_slots`.
+
+    Runs that give the same parameters as floats are read at once.
+    """
+    uniform = read_uniform_rows(source, rows)
+    result: tuple[Array, Mask] = each_of(rows, lambda _, row: given_slots(source, row)) if uniform is None else uniform
+    return result
 
 
 def read_uniform_rows(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple[Array, Mask] | None:
     """Return values and mask (n_runs, n_slots) if all runs give the same parameters as floats; else None.
 
     This is fast: it avoids reading each run by itself. A column with one value for all runs may hold any text of a
-    number.
+    number. None also for choices, unknown names and parameters given twice.
     """
-    first, place = rows[0].keys(), source.place
+    names_of_first_run, index_by_address = rows[0].keys(), source.place
     if not isinstance(rows, Columns):
-        if not all(row.keys() == first for row in rows):
+        if not all(row.keys() == names_of_first_run for row in rows):
             return None
-        rows = Columns({name: [row[name] for row in rows] for name in first}, len(rows))
-    at = [place.get(name, place.get(f"parameters.{name}", -1)) for name in rows.columns if isinstance(name, str)]
-    if len(at) < len(rows.columns) or len({*at, -1}) <= len(at) or any(source.slots[k].words for k in at):
+        rows = Columns({name: [row[name] for row in rows] for name in names_of_first_run}, len(rows))
+    slot_indices = [
+        index_by_address.get(name, index_by_address.get(f"parameters.{name}", -1))
+        for name in rows.columns
+        if isinstance(name, str)
+    ]
+    if (
+        len(slot_indices) < len(rows.columns)
+        or len({*slot_indices, -1}) <= len(slot_indices)
+        or any(source.slots[k].words for k in slot_indices)
+    ):
         return None
-    shape = (len(place), len(rows))  # memory of parameters that no run gives is never touched
-    given, mask = np.zeros(shape).T, np.zeros(shape, dtype=bool).T
-    for k, one in zip(at, rows.columns.values(), strict=True):
-        numbers = _read_floats(one, source.slots[k])
+    shape = (len(index_by_address), len(rows))  # memory of parameters that no run gives is never touched
+    given_values, mask = np.zeros(shape).T, np.zeros(shape, dtype=bool).T
+    for k, column in zip(slot_indices, rows.columns.values(), strict=True):
+        numbers = _read_floats(column, source.slots[k])
         if numbers is None:
             return None
-        given[:, k], mask[:, k] = numbers, True
+        given_values[:, k], mask[:, k] = numbers, True
     for i, names in rows.left_out.items():
-        out = [k for k, name in zip(at, rows.columns, strict=True) if name in names]
-        given[i, out], mask[i, out] = 0.0, False
-    return (given, mask) if np.isfinite(given[:, at]).all() else None
+        omitted_indices = [k for k, name in zip(slot_indices, rows.columns, strict=True) if name in names]
+        given_values[i, omitted_indices], mask[i, omitted_indices] = 0.0, False
+    return (given_values, mask) if np.isfinite(given_values[:, slot_indices]).all() else None
 
 
-def _read_floats(one: Column, slot: Slot) -> Array | float | None:
-    """Return the numbers of a column, including NaN; None if they must be read one by one."""
-    if isinstance(one, Same):
+def _read_floats(column: Column, parameter: Slot) -> Array | float | None:
+    """Return the numbers of a column, including NaN; None if they must be read one by one.
+
+    That is so for other types than floats and for subnormal numbers. A column with one value gives one float.
+    """
+    if isinstance(column, Same):
         try:
-            return number(one.value, slot)
+            return number(column.value, parameter)
         except InputError:
             return None
-    if isinstance(one, list) and not {*map(type, one)} <= {float, np.float64}:
+    if isinstance(column, list) and not {*map(type, column)} <= {float, np.float64}:
         return None
-    numbers = np.asarray(one, dtype=float)
-    size = np.abs(numbers)
-    return None if ((size > 0.0) & (size < sys.float_info.min)).any() else numbers
+    numbers = np.asarray(column, dtype=float)
+    magnitudes = np.abs(numbers)
+    return None if ((magnitudes > 0.0) & (magnitudes < sys.float_info.min)).any() else numbers
 
 
-def each_of(rows: Sequence[Mapping[str, Any]], slots: Callable[[int, Mapping[str, Any]], tuple[Array, Array]]) -> Any:
-    """Return values and mask (n_runs, n_slots) by calling `slots` for each run. BadValueError names the run."""
+def each_of(
+    rows: Sequence[Mapping[str, Any]], read_run: Callable[[int, Mapping[str, Any]], tuple[Array, Array]]
+) -> Any:
+    """Return values and mask (n_runs, n_slots) by calling `read_run`(i, mapping of run i) for each run.
+
+    Raises BadValueError, which names the run.
+    """
     pairs = []
     for i, row in enumerate(rows):
         try:
-            pairs.append(slots(i, row))
+            pairs.append(read_run(i, row))
         except BadValueError as error:
             raise BadValueError(f"run {i}: {error}") from None
-    return np.array([given for given, _ in pairs]), np.array([mask for _, mask in pairs])
+    return np.array([given_values for given_values, _ in pairs]), np.array([mask for _, mask in pairs])
 
 
-def _read_rows(parameters: ParameterSets) -> list[Mapping[str, Any]] | Columns:
-    """Return the parameters as a list of mappings or as Columns. Raise BadValueError."""
+def _read_parameter_sets(parameters: ParameterSets) -> list[Mapping[str, Any]] | Columns:
+    """Return the parameters as a list of mappings or as Columns.
+
+    Accepted are those of `rows_of`. Columns of a single run become a list. Raises BadValueError for other types and for
+    columns of different lengths.
+    """
     if isinstance(parameters, np.ndarray) and parameters.dtype.names is not None:
         table: NDArray[Any] = np.atleast_1d(parameters)
         parameters = {name: table[name] for name in parameters.dtype.names}
@@ -188,18 +219,30 @@ def _read_rows(parameters: ParameterSets) -> list[Mapping[str, Any]] | Columns:
         raise BadValueError(
             f"parameters: columns of different lengths: {message}", hint="one value, or one for every run"
         )
-    found = Columns(columns, next(iter(lengths.values()), 1))
-    return list(found) if len(found) == 1 else found
+    columns_of_runs = Columns(columns, next(iter(lengths.values()), 1))
+    return list(columns_of_runs) if len(columns_of_runs) == 1 else columns_of_runs
 
 
 def column(name: str, values: Any) -> list[Any] | None:
-    """Return the values of every run, or None if one holds for all. Raise BadValueError, which begins with `name`."""
-    found = _read_column(name, values)
-    return None if isinstance(found, Same) else found.tolist() if isinstance(found, np.ndarray) else found
+    """Return the values of every run as a list, or None if one holds for all.
+
+    Raises BadValueError, which begins with `name`.
+    """
+    read_values = _read_column(name, values)
+    return (
+        None
+        if isinstance(read_values, Same)
+        else read_values.tolist()
+        if isinstance(read_values, np.ndarray)
+        else read_values
+    )
 
 
 def _read_column(name: str, values: Any) -> Column:
-    """Return the values of one name as a column. Raise BadValueError."""
+    """Return the values of one name as a column: one value for all runs, an array, or a list. Raises BadValueError.
+
+    Texts, mappings and scalars are one value; arrays of numbers become arrays, other arrays lists.
+    """
     try:
         shape = () if isinstance(values, (str, bytes, Mapping, type)) else np.shape(values)
     except ValueError:  # rows of different lengths
@@ -214,32 +257,36 @@ def _read_column(name: str, values: Any) -> Column:
 
 
 def prepare_sets(
-    compiled: CompiledModel, given: Array, is_given: Mask, free: bool
+    compiled: CompiledModel, given_values: Array, is_given: Mask, free: bool
 ) -> tuple[Array, Array, dict[int, BadValueError]]:
-    """Return the values of all runs, (n_runs, n_slots + n_derived), those for the motion, and invalid runs.
+    """Return the values of all runs, those for the motion, and the errors of invalid runs by index.
 
-    With `free`, the values for the motion have no Baumgarte gains. Runs are invalid if their parameters break a
-    condition of the file; their errors are returned by index.
+    Both arrays are (n_runs, n_slots + n_derived). With `free`, the values for the motion have no Baumgarte gains; else
+    they are the same array. Runs are invalid if their parameters violate a condition of `parameters.check`.
     """
-    p = compiled.prepare_each(given, is_given)
-    motion = without_baumgarte(compiled, given, is_given) if free else p
-    bad = {}
+    p = compiled.prepare_each(given_values, is_given)
+    motion_values = without_baumgarte(compiled, given_values, is_given) if free else p
+    errors = {}
     parts = [slice(k, k + AT_ONCE) for k in range(0, len(p), AT_ONCE)]
     valid = [_satisfies_conditions(compiled.source, p[part], is_given[part]) for part in parts]
     for i in np.flatnonzero(~np.concatenate(valid)).tolist():
         try:
             check(compiled.source, p[i], is_given[i])
         except BadValueError as error:
-            bad[i] = error
-    return p, motion, bad
+            errors[i] = error
+    return p, motion_values, errors
 
 
 def _satisfies_conditions(source: KernelSource, p: Array, is_given: Mask) -> Mask:
-    """Return a mask (n_runs,) of the runs that satisfy the conditions of parameters.check."""
-    place = source.place
+    """Return a mask (n_runs,) of the runs that satisfy the conditions of parameters.check.
+
+    p: (n_runs, n_slots + n_derived); is_given: (n_runs, n_slots). Runs with undefined expressions may be marked
+    wrongly; `check` decides.
+    """
+    index_by_address = source.place
     valid = np.asarray(np.isfinite(p).all(axis=1))
     for condition in conditions(source):
-        several = [place[address] for address in condition.addresses]
-        bound = p[:, several].sum(axis=1) if several else float(condition.bound)
-        valid &= RELATIONS[condition.relation](p[:, place[condition.address]], bound)
+        bound_indices = [index_by_address[address] for address in condition.addresses]
+        bound = p[:, bound_indices].sum(axis=1) if bound_indices else float(condition.bound)
+        valid &= RELATIONS[condition.relation](p[:, index_by_address[condition.address]], bound)
     return valid & ~unresolved_clearances(source, p).any(axis=1) & ~undefined_rows(source, p, is_given)

@@ -24,64 +24,89 @@ EVALUATED = ("a", "multipliers", "reactions", "torques", "series", "energy", "po
 
 
 def check_reference(compiled: CompiledModel) -> None:
-    """Compare the library's functions with the stored values. AuditError names the function that differs."""
+    """Compare the library's functions with the stored values. AuditError names the function that differs.
+
+    Compared are parameter values, also for two sets of given parameters, and the functions of t, q and v at stored
+    states. Nothing is compared if the source has no reference values.
+    """
     reference = compiled.source.reference
     if not reference:
         return
-    p = _parameters(compiled, {})
-    _compare_each(compiled, reference["p"], p)
-    for first, stored in enumerate(reference["given"]):
-        _compare_each(compiled, stored, _parameters(compiled, given_parameters(compiled.source.slots, first)))
+    p = _compute_parameter_values(compiled, {})
+    _compare_parameter_values(compiled, reference["p"], p)
+    for parity, stored_values in enumerate(reference["given"]):
+        _compare_parameter_values(
+            compiled,
+            stored_values,
+            _compute_parameter_values(compiled, given_parameters(compiled.source.slots, parity)),
+        )
     for state in reference["states"]:
         values = state["values"]
-        for name, found in _library_values(compiled, state, p).items():
-            own = np.ravel(found)[: len(values[name])]  # guides with play follow, with the sums of their corners
-            _compare(compiled, name, values[name], own, float(state["t"]))
+        for name, values_of_function in _evaluate_library(compiled, state, p).items():
+            library_values = np.ravel(values_of_function)[
+                : len(values[name])
+            ]  # guides with play follow, with the sums of their corners
+            _compare_values(compiled, name, values[name], library_values, float(state["t"]))
 
 
-def _parameters(compiled: CompiledModel, given: Mapping[int, float]) -> Array:
-    """Return the parameter values by C's `prepare` for given parameters, by index."""
+def _compute_parameter_values(compiled: CompiledModel, values_by_index: Mapping[int, float]) -> Array:
+    """Return the parameter values p, computed by C's `prepare` from given parameters.
+
+    `values_by_index` maps indices to values (SI).
+    """
     values, is_given = np.zeros(len(compiled.source.slots)), np.zeros(len(compiled.source.slots), dtype=np.uint8)
-    for k, value in given.items():
+    for k, value in values_by_index.items():
         values[k], is_given[k] = value, 1
     return compiled.prepare(values, is_given)
 
 
-def _compare_each(compiled: CompiledModel, stored: Sequence[float | None], p: Array) -> None:
-    """Compare parameter values, each relative to its own size. Raise AuditError."""
-    expected = np.array(stored, dtype=float)
-    known = np.isfinite(expected)
-    if not (np.abs(p - expected)[known] <= SHARE * np.abs(expected[known]) + 1e-300).all():
-        for k in np.flatnonzero(known).tolist():
-            _compare(compiled, f"parameter {k}", [stored[k]], p[k : k + 1], 0.0)
+def _compare_parameter_values(compiled: CompiledModel, stored_values: Sequence[float | None], p: Array) -> None:
+    """Compare parameter values with stored ones, each relative to its own size; unknown ones (None) are skipped.
+
+    Raises AuditError, which names the parameter's index.
+    """
+    expected = np.array(stored_values, dtype=float)
+    is_known = np.isfinite(expected)
+    if not (np.abs(p - expected)[is_known] <= SHARE * np.abs(expected[is_known]) + 1e-300).all():
+        for k in np.flatnonzero(is_known).tolist():
+            _compare_values(compiled, f"parameter {k}", [stored_values[k]], p[k : k + 1], 0.0)
 
 
-def _library_values(compiled: CompiledModel, state: dict[str, Any], p: Array) -> dict[str, Array]:
-    """Return the values of the library's functions at a stored state, by name."""
+def _evaluate_library(compiled: CompiledModel, state: dict[str, Any], p: Array) -> dict[str, Array]:
+    """Return the values of the library's functions at a stored state by name: Evaluation fields, Φ, ν, γ and M.
+
+    state: {"t", "q", "v", "memory"}; p: parameter values.
+    """
     t, q, v = float(state["t"]), np.array(state["q"]), np.array(state["v"])
     memory = np.array([np.nan if x is None else x for x in state["memory"]], dtype=float)
-    row = compiled.evaluate([t], [q], [v], memory[None, :], p, lambda: None)
-    found = {name: getattr(row, name) for name in EVALUATED}
-    found["clearance"] = row.clearance[:, :, :2]
-    found["phi"], found["nu"] = compiled.closed_phi(t, q, p), compiled.closed_nu(t, q, p)
-    found["gamma"], found["mass"] = compiled.closed_gamma(t, q, v, p), compiled.mass(p)
-    return found
+    evaluation = compiled.evaluate([t], [q], [v], memory[None, :], p, lambda: None)
+    values = {name: getattr(evaluation, name) for name in EVALUATED}
+    values["clearance"] = evaluation.clearance[:, :, :2]
+    values["phi"], values["nu"] = compiled.closed_phi(t, q, p), compiled.closed_nu(t, q, p)
+    values["gamma"], values["mass"] = compiled.closed_gamma(t, q, v, p), compiled.mass(p)
+    return values
 
 
-def _compare(compiled: CompiledModel, name: str, stored: Sequence[float | None], found: Array, t: float) -> None:
-    """Raise AuditError if values differ by more than their stored digits; unknown values are not compared."""
-    expected = np.array(stored, dtype=float)  # None is NaN
-    known = np.isfinite(expected) & (
-        np.isfinite(found) if compiled.source.massless or compiled.source.indeterminate else True
+def _compare_values(
+    compiled: CompiledModel, name: str, stored_values: Sequence[float | None], values: Array, t: float
+) -> None:
+    """Raise AuditError if values differ by more than their stored digits; unknown values are not compared.
+
+    The difference is relative to the largest stored value. NaN of C is accepted where masses are missing or forces are
+    indeterminate.
+    """
+    expected = np.array(stored_values, dtype=float)  # None is NaN
+    is_known = np.isfinite(expected) & (
+        np.isfinite(values) if compiled.source.massless or compiled.source.indeterminate else True
     )
-    scale = np.abs(expected[known]).max(initial=0.0)
-    off = np.abs(found[known] - expected[known])
-    if (off <= SHARE * scale + 1e-300).all():
+    scale = np.abs(expected[is_known]).max(initial=0.0)
+    differences = np.abs(values[is_known] - expected[is_known])
+    if (differences <= SHARE * scale + 1e-300).all():
         return
-    k = int(np.flatnonzero(known)[np.nan_to_num(off, nan=np.inf).argmax()])
+    k = int(np.flatnonzero(is_known)[np.nan_to_num(differences, nan=np.inf).argmax()])
     mechanism, scene = compiled.source.mechanism, compiled.source.scene
     raise AuditError(
-        f"the compiled library of {mechanism}/{scene} is wrong: {name}[{k}] is {found[k]:.7g}, expected"
+        f"the compiled library of {mechanism}/{scene} is wrong: {name}[{k}] is {values[k]:.7g}, expected"
         f" {expected[k]:.7g}\n  gudgeon.load(…, regenerate=True) or --regenerate compiles it anew",
         t,
     )

@@ -21,46 +21,57 @@ _SO = ("it", "its rate", "its acceleration")  # quantities of the drive
 
 
 def curve_seam_notes(source: KernelSource, p: Array, t0: float = 0.0, t1: float = math.inf) -> Iterator[str]:
-    """Yield a note on each drive whose value, rate or acceleration jumps where `mod` restarts in t0 < t < t1."""
+    """Yield a note on each drive whose value, rate or acceleration jumps where `mod` restarts in t0 < t < t1.
+
+    p: parameter values of the run; t0, t1: begin and end of the run (s). The period must not depend on time.
+    """
     for info in source.written:
         if not (info.address.startswith("drives.") and '"curve"' in info.tree and '"mod"' in info.tree):
             continue
         for call in curve_calls(from_json(json.loads(info.tree))):
-            inner = call.arguments[0]
-            if isinstance(inner, Call) and inner.function == "mod" and _restarts_within(source, p, inner, t0, t1):
-                period = float(values_of_time(source, p, inner.arguments[1], np.array([t0]))[0])
-                yield from _note_jump(call, period, info.address.split(".")[1])
+            mod_call = call.arguments[0]
+            if isinstance(mod_call, Call) and mod_call.function == "mod" and _has_restart(source, p, mod_call, t0, t1):
+                period = float(values_of_time(source, p, mod_call.arguments[1], np.array([t0]))[0])
+                yield from _describe_jump(call, period, info.address.split(".")[1])
 
 
-def _restarts_within(source: KernelSource, p: Array, inner: Call, t0: float, t1: float) -> bool:
-    """Return whether mod restarts within a run, with a constant period."""
-    of, period = inner.arguments
+def _has_restart(source: KernelSource, p: Array, mod_call: Call, t0: float, t1: float) -> bool:
+    """Return whether mod restarts at a time t0 < t < t1, for a period that does not depend on time.
+
+    Without an end (t1 = ∞) it is assumed to restart. The run is sampled at SAMPLES times.
+    """
+    dividend, period = mod_call.arguments
     if any(name.path == "t" for name in names(period)):
         return False
     with np.errstate(all="ignore"):
         times = np.linspace(t0, t1, SAMPLES)[1:-1] if math.isfinite(t1) else np.zeros(0)
-        turns = np.floor(values_of_time(source, p, of, times) / values_of_time(source, p, period, times))
-    return not math.isfinite(t1) or bool(np.ptp(turns) != 0.0)
+        quotients = np.floor(values_of_time(source, p, dividend, times) / values_of_time(source, p, period, times))
+    return not math.isfinite(t1) or bool(np.ptp(quotients) != 0.0)
 
 
-def _note_jump(call: CurveCall, period: float, drive: str) -> Iterator[str]:
-    """Yield a note on the first derivative of the curve that jumps from the period's end to 0."""
+def _describe_jump(call: CurveCall, period: float, drive: str) -> Iterator[str]:
+    """Yield a note on the first derivative of the curve that jumps from the period's end to 0; nothing if none jumps.
+
+    period: of `mod`, in the unit (SI) of the curve's argument; drive: the drive's name.
+    """
     curve: Curve = call.curve
-    for order, (what, so) in enumerate(zip(_ORDERS, _SO, strict=True)):
+    for order, (derivative_name, drive_quantity) in enumerate(zip(_ORDERS, _SO, strict=True)):
         end, begin = float(curve.at(period, order)), float(curve.at(0.0, order))
-        most = float(np.abs(curve.at(np.array(curve.x), order)).max())
-        if not abs(end - begin) <= SAME * most and math.isfinite(end + begin):
+        largest_value = float(np.abs(curve.at(np.array(curve.x), order)).max())
+        if not abs(end - begin) <= SAME * largest_value and math.isfinite(end + begin):
             yield (
-                f"drive {drive}: where mod begins curve {curve.name} anew its {what} jumps from {end:.4g} to"
-                f" {begin:.4g} (SI), and so does {so}: {_remedy(curve, period, order)}"
+                f"drive {drive}: where mod begins curve {curve.name} anew its {derivative_name} jumps from {end:.4g} to"
+                f" {begin:.4g} (SI), and so does {drive_quantity}: {_format_remedy(curve, period, order)}"
             )
             return
 
 
-def _remedy(curve: Curve, period: float, order: int) -> str:
-    """Return the remedy for a jump of the derivative of the given order."""
-    whole = abs(period - (curve.x[-1] - curve.x[0])) <= SAME * abs(period) and abs(curve.x[0]) <= SAME * abs(period)
-    if not whole:
+def _format_remedy(curve: Curve, period: float, order: int) -> str:
+    """Return the remedy, as text, for a jump of the curve's derivative of the given order (0: of its value)."""
+    is_curve_length = abs(period - (curve.x[-1] - curve.x[0])) <= SAME * abs(period) and abs(curve.x[0]) <= SAME * abs(
+        period
+    )
+    if not is_curve_length:
         return f"mod's period is {period:.6g}, and the curve goes {curve.range_text}"
     if not order:
         return "give it a last point whose y is that of the first, and ends: periodic"

@@ -21,7 +21,10 @@ from gudgeon.language.units import DIMENSIONLESS, FORCE, VELOCITY
 
 
 def build(targets: Any, fields: Any) -> Loads:
-    """Return the slip; the force follows from it and from whether it sticks."""
+    """Return the loads of dry friction: a Slip, from which the solver of a step finds the force, stick or slip.
+
+    targets: frames of both points (PointFrame); fields: the element's values. The first body may be the ground.
+    """
     import sympy as sp
 
     first, second = targets
@@ -31,8 +34,8 @@ def build(targets: Any, fields: Any) -> Loads:
         vx -= first.body.vx - (second.y - first.body.y) * first.body.omega
         vy -= first.body.vy + (second.x - first.body.x) * first.body.omega
     speed = fields.quantity("speed")
-    static, kinetic, falls = (fields.quantity(name) for name in ("static", "kinetic", "stribeck_velocity"))
-    slip = Slip(u_x * vx + u_y * vy - speed, speed, static, kinetic, falls)
+    static, kinetic, stribeck_velocity = (fields.quantity(name) for name in ("static", "kinetic", "stribeck_velocity"))
+    slip = Slip(u_x * vx + u_y * vy - speed, speed, static, kinetic, stribeck_velocity)
     return Loads((), sp.Integer(0), sp.Integer(0), {}, slip)
 
 

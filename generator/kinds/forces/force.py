@@ -14,7 +14,11 @@ from gudgeon.language.units import FORCE
 
 
 def build(targets: Any, fields: Any) -> Loads:
-    """Return the force and its power F · ṙ."""
+    """Return the loads of a force at a point: its components in ground axes, its power F · ṙ and its series.
+
+    targets: the frame of the point (PointFrame); fields: the element's values. A force in body axes turns with the
+    body.
+    """
     import sympy as sp
 
     (point,) = targets

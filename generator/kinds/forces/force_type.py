@@ -40,7 +40,10 @@ class Slip:
     falls: Any = 0
 
     def kinetic_at(self, v: Any) -> Any:
-        """Return the friction force (N) at a slip v of either sign."""
+        """Return the friction force (N) at a slip v (m/s) of either sign, which is positive.
+
+        It falls from static to kinetic with the slip; it is constant if `falls` is 0.
+        """
         import sympy as sp
 
         if self.falls == 0:

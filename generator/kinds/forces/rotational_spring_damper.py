@@ -13,7 +13,10 @@ from gudgeon.language.units import DIMENSIONLESS, TORQUE, dimension
 
 
 def build(targets: Any, fields: Any) -> Loads:
-    """Return the pair of moments, ½ k (θ − θ_0)² and −d ω²."""
+    """Return the loads of the spring and damper: opposite moments, the potential ½ k (θ − θ_0)² and the power −d ω².
+
+    targets: frames of both bodies' centres of mass (PointFrame); fields: the element's values.
+    """
     import sympy as sp
 
     first, second = targets

@@ -16,7 +16,10 @@ from gudgeon.language.units import DAMPING, FORCE, LENGTH, STIFFNESS
 
 
 def build(targets: Any, fields: Any) -> Loads:
-    """Return the pair of forces, ½ k (l − l_0)² and −d l̇²."""
+    """Return the loads of the spring and damper: opposite forces, the potential ½ k (l − l_0)² and the power −d l̇².
+
+    targets: frames of both points (PointFrame); fields: the element's values. With l_0 = d = 0 no direction is used.
+    """
     import sympy as sp
 
     P, Q = targets
@@ -25,19 +28,22 @@ def build(targets: Any, fields: Any) -> Loads:
         fields.named_vector("span", (Q.x - P.x, Q.y - P.y)),
         fields.named_vector("span_rate", tuple(b - a for a, b in zip(P.velocity, Q.velocity, strict=True))),
     )
-    squared = x**2 + y**2
+    squared_length = x**2 + y**2
     if l_0 == 0 and d == 0:
-        pull, potential, series = k, k * squared / 2, {"length": (sp.sqrt(squared), "m")}
-        force = k * sp.sqrt(squared)
+        force_per_length, potential, series = k, k * squared_length / 2, {"length": (sp.sqrt(squared_length), "m")}
+        force = k * sp.sqrt(squared_length)
         power = sp.Integer(0)
     else:
-        length = fields.named("length", sp.sqrt(squared))
+        length = fields.named("length", sp.sqrt(squared_length))
         rate = fields.named("length_rate", (x * vx + y * vy) / length)
         force = fields.named("force", k * (length - l_0) + d * rate)
-        pull = fields.named("pull", force / length)
+        force_per_length = fields.named("pull", force / length)
         potential, power = k * (length - l_0) ** 2 / 2, -d * rate**2
         series = {"length": (length, "m")}
-    loads = (Load(0, pull * x, pull * y, sp.Integer(0)), Load(1, -pull * x, -pull * y, sp.Integer(0)))
+    loads = (
+        Load(0, force_per_length * x, force_per_length * y, sp.Integer(0)),
+        Load(1, -force_per_length * x, -force_per_length * y, sp.Integer(0)),
+    )
     return Loads(loads, potential, power, {"F": (force, "N"), **series})
 
 

@@ -14,7 +14,10 @@ from gudgeon.language.units import TORQUE
 
 
 def build(targets: Any, fields: Any) -> Loads:
-    """Return the torque and its power."""
+    """Return the loads of a torque on the first body, its opposite on a second one, and their power.
+
+    targets: one or two frames of centres of mass (PointFrame); fields: the element's values.
+    """
     import sympy as sp
 
     zero = sp.Integer(0)

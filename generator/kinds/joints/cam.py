@@ -21,15 +21,21 @@ from gudgeon.language.units import DIMENSIONLESS, LENGTH
 
 
 def rows(first: Any, second: Any, fields: Any) -> list[Any]:
-    """Return one row: how far the follower's point is from its profile, along the axis (m)."""
+    """Return one constraint equation: how far the follower's point is from its profile, along the axis (m).
+
+    first, second: frames of the cam's and the follower's point (PointFrame); fields: the joint's values (JointFields).
+    """
     u_x, u_y = fields.direction_on("axis", "carrier")
     along = u_x * (second.x - first.x) + u_y * (second.y - first.y)
     return [along - fields.profile("profile", first.theta, fields.body_angle("carrier"))]
 
 
-def gap(at: Any, left: Any) -> Any:
-    """Return the follower's point, and where the profile wants it."""
-    return at.second, at.second - left[0] * at.direction("axis", at.option("carrier"))
+def gap(joint: Any, residuals: Any) -> Any:
+    """Return the follower's point and the point where the profile requires it, (2,) each in ground axes (m).
+
+    joint: the joint at a posture; residuals: the values of its rows (m).
+    """
+    return joint.second, joint.second - residuals[0] * joint.direction("axis", joint.option("carrier"))
 
 
 JOINT = JointType(

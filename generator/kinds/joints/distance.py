@@ -16,27 +16,33 @@ from gudgeon.language.units import LENGTH
 
 
 def rows(first: Any, second: Any, fields: Any) -> list[Any]:
-    """Return one row (m): zero where the distance is `length`, and growing with it at the same rate."""
+    """Return one constraint equation (m): zero where the distance is `length`, and growing with it at the same rate.
+
+    first, second: frames of both points (PointFrame); fields: the joint's values (JointFields).
+    """
     x, y, length = second.x - first.x, second.y - first.y, fields.quantity("length", 0)
     return [(x**2 + y**2) * fields.derive("half_inverse_length", 1 / (2 * length)) - length / 2]
 
 
 def draw(pen: Any) -> None:
-    """Draw the rod between two pins."""
+    """Draw the rod between two pins, with a stand at a point of the ground."""
     pen.stand()
     pen.line("rod", [pen.first, pen.second])
-    for place in (pen.first, pen.second):
-        pen.pin(place, 0.8)
+    for point in (pen.first, pen.second):
+        pen.pin(point, 0.8)
 
 
-def middle(at: Any) -> Any:
-    """Return the middle of the rod."""
-    return 0.5 * (at.first + at.second)
+def find_middle(joint: Any) -> Any:
+    """Return the middle of the rod, where its name stands."""
+    return 0.5 * (joint.first + joint.second)
 
 
-def gap(at: Any, left: Any) -> Any:
-    """Return the end of a rod of this length from the first point, and the second."""
-    return at.first + at.number("length") * at.unit_vector(at.second - at.first), at.second
+def gap(joint: Any, residuals: Any) -> Any:
+    """Return the end of a rod of this length from the first point, and the second point.
+
+    joint: the joint at a posture; the residuals are not used.
+    """
+    return joint.first + joint.number("length") * joint.unit_vector(joint.second - joint.first), joint.second
 
 
 JOINT = JointType(
@@ -48,6 +54,6 @@ JOINT = JointType(
     ("m",),
     rows,
     __doc__,
-    Symbol(draw, middle, 0.5, gap),
+    Symbol(draw, find_middle, 0.5, gap),
     also=("link", "rod", "massless_rod", "coupler"),
 )

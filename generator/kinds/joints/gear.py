@@ -18,44 +18,53 @@ from gudgeon.language.units import LENGTH
 
 
 def rows(first: Any, second: Any, fields: Any) -> list[Any]:
-    """Return one row: the arc by which the wheels have slipped (m)."""
+    """Return one constraint equation: the arc by which the wheels have slipped since the start (m).
+
+    first, second: frames of the wheels (PointFrame); fields: the joint's values (JointFields).
+    """
     radius_1, radius_2 = fields.vector("radii")
     sign = -1 if fields.option("internal") == "true" else 1
     carrier = fields.body_angle("carrier")
-    meshed = radius_1 * (first.theta - carrier) + sign * radius_2 * (second.theta - carrier)
-    return [meshed - fields.at_guess("mesh", meshed)]
+    arc = radius_1 * (first.theta - carrier) + sign * radius_2 * (second.theta - carrier)
+    return [arc - fields.at_guess("mesh", arc)]
 
 
-def wheels(at: Any) -> list[tuple[Any, float]]:
-    """Return of both wheels where they turn on the carrier, and their pitch radii (m)."""
-    return [(at.centre(k, at.option("carrier")), radius) for k, radius in enumerate(radii(at))]
+def find_wheels(joint: Any) -> list[tuple[Any, float]]:
+    """Return for each wheel where it turns on the carrier (2,) and its pitch radius (m)."""
+    return [(joint.centre(k, joint.option("carrier")), radius) for k, radius in enumerate(find_radii(joint))]
 
 
-def radii(at: Any) -> tuple[float, float]:
+def find_radii(joint: Any) -> tuple[float, float]:
     """Return both pitch radii (m)."""
-    return at.number("radii.x"), at.number("radii.y")
+    return joint.number("radii.x"), joint.number("radii.y")
 
 
-def pitch_point(at: Any) -> Any:
-    """Return the place at which the wheels touch."""
-    (one, r_1), (other, r_2) = wheels(at)
-    inside = at.option("internal") == "true"
-    outer, ring = (other, r_2) if r_2 > r_1 or not inside else (one, r_1)
-    return outer + ring * at.unit_vector((one if outer is other else other) - outer)
+def find_pitch_point(joint: Any) -> Any:
+    """Return the point at which the wheels touch, (2,) in ground axes (m).
+
+    Inside a ring, the wheels touch at the ring's pitch circle beyond the smaller wheel.
+    """
+    (centre_1, r_1), (centre_2, r_2) = find_wheels(joint)
+    is_internal = joint.option("internal") == "true"
+    centre, radius = (centre_2, r_2) if r_2 > r_1 or not is_internal else (centre_1, r_1)
+    return centre + radius * joint.unit_vector((centre_1 if centre is centre_2 else centre_2) - centre)
 
 
 def draw(pen: Any) -> None:
-    """Draw pitch circles, a spoke fixed in each wheel, a ring with its rim, the point of contact."""
-    for k, (centre, radius) in enumerate(wheels(pen)):
+    """Draw pitch circles, a spoke fixed in each wheel, a ring with its rim, and the point of contact."""
+    for k, (centre, radius) in enumerate(find_wheels(pen)):
         pen.wheel(k, centre, radius, is_ring=k == 1 and pen.option("internal") == "true")
-    pen.disc("mark", pitch_point(pen), 0.25 * pen.unit)
+    pen.disc("mark", find_pitch_point(pen), 0.25 * pen.unit)
 
 
-def gap(at: Any, left: Any) -> Any:
-    """Return the ends of the arc by which the wheels have slipped, as a line across that of their centres."""
-    (one, _), (other, _) = wheels(at)
-    middle = 0.5 * (one + other)
-    return middle, middle + left[0] * at.turned(at.unit_vector(other - one))
+def gap(joint: Any, residuals: Any) -> Any:
+    """Return the ends of the arc by which the wheels have slipped, as a line across that of their centres.
+
+    joint: the joint at a posture; residuals: the arc (m).
+    """
+    (centre_1, _), (centre_2, _) = find_wheels(joint)
+    midpoint = 0.5 * (centre_1 + centre_2)
+    return midpoint, midpoint + residuals[0] * joint.turned(joint.unit_vector(centre_2 - centre_1))
 
 
 JOINT = JointType(
@@ -71,7 +80,7 @@ JOINT = JointType(
     ("m",),
     rows,
     __doc__,
-    Symbol(draw, pitch_point, 0.3, gap, radii),
+    Symbol(draw, find_pitch_point, 0.3, gap, find_radii),
     joins="bodies",
     also=("gears", "gear_pair", "spur", "rolling", "mesh"),
 )

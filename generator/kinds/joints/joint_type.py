@@ -23,29 +23,29 @@ CORNERS: Mapping[str, tuple[int, int]] = {
 
 
 def draw_squares(pen: Any) -> None:
-    """Draw a small square at each point: the symbol of a joint that declares no other one."""
-    for place in (pen.first, pen.second):
-        pen.box("block", place, pen.horizontal, 0.5, 0.5)
+    """Draw a small square at each point: the symbol of a joint type that declares no other one."""
+    for point in (pen.first, pen.second):
+        pen.box("block", point, pen.horizontal, 0.5, 0.5)
 
 
-def place_at_second(at: Any) -> Any:
+def place_at_second(joint: Any) -> Any:
     """Return the second body's point, where a joint's name stands in drawings."""
-    return at.second
+    return joint.second
 
 
-def place_at_slider(at: Any) -> Any:
-    """Return the sliding point of a joint that declares `slides`."""
-    return at.slider
+def place_at_slider(joint: Any) -> Any:
+    """Return the sliding point of a joint that declares `slides`, where its name stands in drawings."""
+    return joint.slider
 
 
-def gap_between_points(at: Any, left: Any) -> Any:
+def gap_between_points(joint: Any, residuals: Any) -> Any:
     """Return the two points of a joint that holds them together, as the ends of its gap."""
-    return at.first, at.second
+    return joint.first, joint.second
 
 
-def gap_to_line(at: Any, left: Any) -> Any:
+def gap_to_line(joint: Any, residuals: Any) -> Any:
     """Return the sliding point and the nearest point of its line, as the ends of a joint's gap."""
-    return at.slider, at.on_line + float((at.slider - at.on_line) @ at.along) * at.along
+    return joint.slider, joint.on_line + float((joint.slider - joint.on_line) @ joint.along) * joint.along
 
 
 @dataclass(frozen=True)
@@ -59,8 +59,8 @@ class Symbol:
     draw: Callable[[Any], None] = draw_squares
     place: Callable[[Any], Any] = place_at_second  # where the joint's name stands
     clear: float = 0.8  # how far from there its name keeps, in units of half a bar's width
-    # gap(at, left): between which two places it is open where a start does not close, `left` (m) in its rows; their
-    # distance is the number beside it. None: no line shows the gap, and the numbers beside it are those of the rows
+    # gap(joint, residuals): the two points between which it is open where a start does not close; their
+    # distance is the number next to it. None: no line shows the gap, and the numbers are the residuals of its rows
     gap: Callable[[Any, Any], Any] | None = None
     reach: Callable[[Any], tuple[float, float]] | None = None  # radii (m) about both points that are drawn
 

@@ -15,7 +15,10 @@ from gudgeon.language.units import DIMENSIONLESS
 
 
 def rows(first: Any, second: Any, fields: Any) -> list[Any]:
-    """Return one row: the distance of the point from the line (m)."""
+    """Return one constraint equation: the distance of the point from the line (m), with its sign.
+
+    first, second: frames of the point and of the line's point (PointFrame); fields: the joint's values (JointFields).
+    """
     u_x, u_y = second.direction(fields.direction("direction"))
     return [u_x * (first.y - second.y) - u_y * (first.x - second.x)]
 

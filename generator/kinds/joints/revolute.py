@@ -15,7 +15,7 @@ from gudgeon.generator.kinds.joints.joint_type import JointType, Symbol, gap_bet
 
 
 def rows(first: Any, second: Any, fields: Any) -> list[Any]:
-    """Return two rows: the two points' coordinates in ground axes are equal (m)."""
+    """Return two constraint equations (m): the points' coordinates in ground axes are equal."""
     return [first.x - second.x, first.y - second.y]
 
 

@@ -13,9 +13,9 @@ from gudgeon.language.units import DIMENSIONLESS
 
 
 def rows(first: Any, second: Any, fields: Any) -> list[Any]:
-    """Return three rows: the two points' coordinates are equal (m), the angle between the bodies (rad)."""
-    turned = second.theta - first.theta - fields.quantity("angle", 0)
-    return [first.x - second.x, first.y - second.y, turned]
+    """Return three constraint equations: the points' coordinates are equal (m), the angle between the bodies (rad)."""
+    angle_error = second.theta - first.theta - fields.quantity("angle", 0)
+    return [first.x - second.x, first.y - second.y, angle_error]
 
 
 def draw(pen: Any) -> None:

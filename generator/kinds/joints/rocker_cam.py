@@ -17,7 +17,7 @@ from gudgeon.language.units import DIMENSIONLESS
 
 
 def rows(first: Any, second: Any, fields: Any) -> list[Any]:
-    """Return one row: by how much the rocker's angle differs from its profile (rad)."""
+    """Return one constraint equation: by how much the rocker's angle differs from its profile (rad)."""
     carrier = fields.body_angle("carrier")
     return [second.theta - carrier - fields.profile("profile", first.theta, carrier)]
 

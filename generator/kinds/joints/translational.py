@@ -16,7 +16,10 @@ from gudgeon.language.units import DIMENSIONLESS
 
 
 def rows(first: Any, second: Any, fields: Any) -> list[Any]:
-    """Return two rows: the offset from the axis (m), the angle between the bodies (rad)."""
+    """Return two constraint equations: the offset from the axis (m), the angle between the bodies (rad).
+
+    first, second: frames of both points (PointFrame); fields: the joint's values (JointFields).
+    """
     axis = fields.direction("axis")
     axis_x, axis_y = first.direction(axis)
     offset = axis_x * (second.y - first.y) - axis_y * (second.x - first.x)

@@ -18,17 +18,17 @@ from gudgeon.language.units import VELOCITY
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """Return the friction force F_t (N) on the journal along t."""
+    """Return the friction force F_t (N) on the journal along t; it rises to mu_s at the slip v0, then decays to mu."""
     import sympy as sp
 
     mu, mu_s, v0, decay = (s.parameters[name] for name in ("mu", "mu_s", "v0", "decay"))
 
-    def forward(u: Any) -> Any:
-        """Return the friction coefficient for a positive slip u."""
+    def compute_coefficient(u: Any) -> Any:
+        """Return the friction coefficient for a slip u ≥ 0 (m/s)."""
         rising = mu_s * (1 - sp.Min(u / v0 - 1, 0) ** 2)
         return rising - (mu_s - mu) * (1 - sp.exp(-sp.Max(u - v0, 0) / decay))
 
-    return friction(s, both_ways(s.variables["v_t"], forward))
+    return friction(s, both_ways(s.variables["v_t"], compute_coefficient))
 
 
 LAW = Law(

@@ -36,25 +36,40 @@ class Probe:
 
 
 def build(law: Law, inputs: LawInputs) -> dict[str, Any]:
-    """Return a law's abbreviations and results in SymPy, in order. Raises LawError for names or symbols not allowed."""
+    """Return a law's abbreviations and results in SymPy, in order, after checks of what `law.build` returns.
+
+    Prints of the law go to stderr. Raises LawError for an exception in the law, names or symbols that are not allowed,
+    functions that C does not have, and missing results.
+    """
     import sympy as sp
 
-    for name in (*(own.name for own in law.parameters), *(state.name for state in law.states)):
-        _need_name(law, name)
-    given = {symbol for x in (*inputs.parameters.values(), *vars(inputs.pair).values()) for symbol in _symbols(x)}
-    given -= {*inputs.variables.values()}
-    written = frozenset(type(part) for x in inputs.parameters.values() for part in _parts(x))  # in the file: C has them
+    for name in (*(field_of_law.name for field_of_law in law.parameters), *(state.name for state in law.states)):
+        _check_unreserved(law, name)
+    constants = {
+        symbol for x in (*inputs.parameters.values(), *vars(inputs.pair).values()) for symbol in _find_symbols(x)
+    }
+    constants -= {*inputs.variables.values()}
+    types_from_file = frozenset(
+        type(part) for x in inputs.parameters.values() for part in _iterate_parts(x)
+    )  # in the file: C has them
 
     def derive(name: Any, expression: Any, meaning: Any) -> Any:
-        """Check a derived constant and return its symbol."""
+        """Check a derived constant and return its symbol, which later expressions may use. Raises LawError."""
         if not isinstance(name, str) or not isinstance(meaning, str):
-            raise _error(law, f"derive({name!r}, …) wants a name, an expression and its meaning")
-        _need_name(law, name)
-        value = _value(law, f"derive({name!r}, …)", expression)
-        _check(law, f"derive({name!r}, …)", value, given, "its parameters and the pair's numbers alone", written)
-        made = inputs.derive(name, value, meaning)
-        given.update(_symbols(made))
-        return made
+            raise _make_law_error(law, f"derive({name!r}, …) wants a name, an expression and its meaning")
+        _check_unreserved(law, name)
+        value = _convert_to_sympy(law, f"derive({name!r}, …)", expression)
+        _check_expression(
+            law,
+            f"derive({name!r}, …)",
+            value,
+            constants,
+            "its parameters and the pair's numbers alone",
+            types_from_file,
+        )
+        symbol = inputs.derive(name, value, meaning)
+        constants.update(_find_symbols(symbol))
+        return symbol
 
     try:
         with redirect_stdout(sys.stderr):
@@ -62,25 +77,38 @@ def build(law: Law, inputs: LawInputs) -> dict[str, Any]:
     except (LawError, KeyboardInterrupt):
         raise
     except BaseException as error:
-        place = place_in(error, ORIGINS[law.name].typed) if law.name in ORIGINS else None
-        hint = f"it is given {_offered(law)}" if isinstance(error, KeyError) else ""
-        raise _error(law, f"build raised {message(error)}", hint, place) from error
-    results = _checked_names(law, steps)
-    found, known = {}, given | {symbol for x in inputs.variables.values() for symbol in _symbols(x)}
-    used = {*law.variables, *(own.name for own in law.parameters)}
+        location = place_in(error, ORIGINS[law.name].typed) if law.name in ORIGINS else None
+        hint = f"it is given {_list_inputs_of_law(law)}" if isinstance(error, KeyError) else ""
+        raise _make_law_error(law, f"build raised {message(error)}", hint, location) from error
+    results = _check_results(law, steps)
+    expressions, known_symbols = (
+        {},
+        constants | {symbol for x in inputs.variables.values() for symbol in _find_symbols(x)},
+    )
+    reserved_names = {*law.variables, *(field_of_law.name for field_of_law in law.parameters)}
     for name, step in steps.items():
-        _need_name(law, name)
-        if name in used:
-            raise _error(law, f"build returns {name!r}, which it is given", "call the abbreviation otherwise")
-        found[name] = value = _value(law, name, step)
-        _check(law, name, value, known, f"{_offered(law)}, and abbreviations returned before", written)
+        _check_unreserved(law, name)
+        if name in reserved_names:
+            raise _make_law_error(law, f"build returns {name!r}, which it is given", "call the abbreviation otherwise")
+        expressions[name] = value = _convert_to_sympy(law, name, step)
+        _check_expression(
+            law,
+            name,
+            value,
+            known_symbols,
+            f"{_list_inputs_of_law(law)}, and abbreviations returned before",
+            types_from_file,
+        )
         if name not in results:
-            known.add(sp.Symbol(name, real=True))
-    return found
+            known_symbols.add(sp.Symbol(name, real=True))
+    return expressions
 
 
 def probe(law: Law, options: Mapping[str, str | bool], numbers: Iterable[str]) -> Probe:
-    """Build a law by itself, to find the names that it uses and to compute its key."""
+    """Build a law by itself, to find the names that it uses and to compute its key.
+
+    `numbers` are the keys of the parameters that get a symbol. Raises LawError.
+    """
     import sympy as sp
 
     derived: dict[str, Any] = {}
@@ -88,12 +116,12 @@ def probe(law: Law, options: Mapping[str, str | bool], numbers: Iterable[str]) -
     def derive(name: str, expression: Any, meaning: str) -> Any:
         """Record a derived constant and return its symbol."""
         derived[name] = expression
-        return _real(f"probe_{name}")
+        return _make_real_symbol(f"probe_{name}")
 
     inputs = LawInputs(
-        {name: _real(f"probe_{name}") for name in numbers},
+        {name: _make_real_symbol(f"probe_{name}") for name in numbers},
         options,
-        PairSymbols(**{name: _real(f"probe_{name}") for name in PAIR}),
+        PairSymbols(**{name: _make_real_symbol(f"probe_{name}") for name in PAIR}),
         {name: sp.Symbol(name, real=True) for name in law.variables},
         derive,
     )
@@ -101,112 +129,149 @@ def probe(law: Law, options: Mapping[str, str | bool], numbers: Iterable[str]) -
 
 
 def key_of_law(law: Law) -> str:
-    """Return the key of a law without a file: its declaration and its equations for every choice of its options.
+    """Return the key of a law without a file, from its declaration and its equations for every choice of its options.
 
-    The key differs in each process if there are too many choices or one of them fails: nothing is then cached.
+    It is a SHA-256 in hexadecimal digits; of a choice that fails, the message counts. The key differs in each process
+    if there are too many choices: nothing is then cached.
     """
     import sympy as sp
 
-    declared = (law.name, law.role, law.title, law.source, law.validity, law.fields, law.states, law.also, law.instead)
-    digest = hashlib.sha256(repr(declared).encode())
-    choices = list(itertools.islice(_choices(law), _CHOICES + 1))
+    declaration = (
+        law.name,
+        law.role,
+        law.title,
+        law.source,
+        law.validity,
+        law.fields,
+        law.states,
+        law.also,
+        law.instead,
+    )
+    digest = hashlib.sha256(repr(declaration).encode())
+    choices = list(itertools.islice(_iterate_choices(law), _CHOICES + 1))
     if len(choices) > _CHOICES:
         return f"{os.getpid()} {uuid.uuid4()}"
     for options, numbers in choices:
         try:
-            made = probe(law, options, numbers)
+            probed_law = probe(law, options, numbers)
         except LawError as error:
             digest.update(str(error).encode())
             continue
-        for name, value in (*made.derived.items(), *made.steps.items()):
+        for name, value in (*probed_law.derived.items(), *probed_law.steps.items()):
             digest.update(f"{name} = {sp.srepr(value)}\n".encode())
     return digest.hexdigest()
 
 
-def _choices(law: Law) -> Iterator[tuple[dict[str, str | bool], tuple[str, ...]]]:
-    """Yield every combination of a law's options and of its optional numbers."""
-    needed = [own.name for own in law.parameters if own.required or own.default is not None]
-    free = [own.name for own in law.parameters if own.name not in needed]
-    names = [own.name for own in law.options]
-    for values in itertools.product(*(own.values for own in law.options)):
-        for some in itertools.product((True, False), repeat=len(free)):
-            left = [name for name, there in zip(free, some, strict=True) if there]
-            yield dict(zip(names, values, strict=True)), (*needed, *left)
+def _iterate_choices(law: Law) -> Iterator[tuple[dict[str, str | bool], tuple[str, ...]]]:
+    """Yield every combination of a law's options (by name) and of its optional numbers (names of the given ones)."""
+    required_numbers = [
+        field_of_law.name
+        for field_of_law in law.parameters
+        if field_of_law.required or field_of_law.default is not None
+    ]
+    optional_numbers = [
+        field_of_law.name for field_of_law in law.parameters if field_of_law.name not in required_numbers
+    ]
+    names = [field_of_law.name for field_of_law in law.options]
+    for values in itertools.product(*(field_of_law.values for field_of_law in law.options)):
+        for is_given in itertools.product((True, False), repeat=len(optional_numbers)):
+            given_numbers = [
+                name for name, is_in_choice in zip(optional_numbers, is_given, strict=True) if is_in_choice
+            ]
+            yield dict(zip(names, values, strict=True)), (*required_numbers, *given_numbers)
 
 
-def _checked_names(law: Law, steps: Any) -> frozenset[str]:
-    """Return the results by name. Raises LawError if one of the role's results is missing."""
+def _check_results(law: Law, steps: Any) -> frozenset[str]:
+    """Return the names of the law's results. Raises LawError if `steps` is no mapping by name, or lacks a result."""
     results = law.results
     expected = f"expected {{{', '.join(f'{name!r}: …' for name in results)}}}"
     if not isinstance(steps, Mapping) or not all(isinstance(name, str) for name in steps):
-        raise _error(law, f"build returns {type(steps).__name__}, not forces by name", expected)
-    if missing := [name for name in results if name not in steps]:
-        raise _error(law, f"build returns no {', '.join(missing)}", expected)
+        raise _make_law_error(law, f"build returns {type(steps).__name__}, not forces by name", expected)
+    if missing_results := [name for name in results if name not in steps]:
+        raise _make_law_error(law, f"build returns no {', '.join(missing_results)}", expected)
     return frozenset(results)
 
 
-def _need_name(law: Law, name: str) -> None:
-    """Raise LawError for a name that only the generator may use (symbols.py)."""
+def _check_unreserved(law: Law, name: str) -> None:
+    """Raise LawError for a name that ends in '_', which only the generator may use (symbols.py)."""
     if name.endswith("_"):
         hint = f"write {name.rstrip('_') or 'x'}; a number's `symbol` may be any letter"
-        raise _error(law, f"{name!r} ends in '_', as names of emitted code do", hint)
+        raise _make_law_error(law, f"{name!r} ends in '_', as names of emitted code do", hint)
 
 
-def _value(law: Law, what: str, value: Any) -> Any:
-    """Return a value as a SymPy expression. Raises LawError for other types."""
+def _convert_to_sympy(law: Law, label: str, value: Any) -> Any:
+    """Return a value as a SymPy expression; `label` names it in messages. Raises LawError for other types."""
     import sympy as sp
 
     if isinstance(value, (bool, str)) or not isinstance(value, (sp.Expr, int, float)):
-        raise _error(law, f"{what} is of type {type(value).__name__}", "expected a SymPy expression or a number")
+        raise _make_law_error(
+            law, f"{label} is of type {type(value).__name__}", "expected a SymPy expression or a number"
+        )
     return sp.sympify(value)
 
 
-def _check(law: Law, what: str, value: Any, known: set[Any], may: str, written: Set[type]) -> None:
-    """Raise LawError for an unknown symbol, a function that C does not have, or a value not finite or not real."""
+def _check_expression(
+    law: Law, label: str, value: Any, known_symbols: set[Any], allowed_text: str, types_from_file: Set[type]
+) -> None:
+    """Raise LawError for an unknown symbol, a function that C does not have, or a value not finite or not real.
+
+    known_symbols: symbols that may occur, which `allowed_text` lists in messages; types_from_file: types of the file's
+    expressions, which C has; label: the value's name in messages.
+    """
     import sympy as sp
 
-    if strange := sorted(str(symbol) for symbol in value.free_symbols - known):
-        named = strange[0] in {str(symbol) for symbol in known}
-        hint = "an abbreviation is sp.Symbol(name, real=True)" if named else f"it may use {may}"
-        raise _error(law, f"{what} uses the symbol {strange[0]}", hint)
+    if unknown_symbols := sorted(str(symbol) for symbol in value.free_symbols - known_symbols):
+        is_known_name = unknown_symbols[0] in {str(symbol) for symbol in known_symbols}
+        hint = "an abbreviation is sp.Symbol(name, real=True)" if is_known_name else f"it may use {allowed_text}"
+        raise _make_law_error(law, f"{label} uses the symbol {unknown_symbols[0]}", hint)
     functions = tuple(getattr(sp, name) for name in IN_SYMPY)
     for part in sp.preorder_traversal(value):
         if part in (sp.nan, sp.zoo, sp.oo, -sp.oo, sp.I):
-            why = "is not real" if part == sp.I else "is not finite"
-            raise _error(law, f"{what} {why}: {sp.sstr(value)[:80]}", "expected a real number for every δ > 0")
-        plain = part.is_Number or part.is_NumberSymbol or part.is_Symbol or part.is_Add or part.is_Mul or part.is_Pow
-        together = type(part).__name__ == "Whole"  # what `whole` makes, in a room above
-        if not plain and not together and not isinstance(part, functions) and type(part) not in written:
+            fault = "is not real" if part == sp.I else "is not finite"
+            raise _make_law_error(
+                law, f"{label} {fault}: {sp.sstr(value)[:80]}", "expected a real number for every δ > 0"
+            )
+        is_basic = part.is_Number or part.is_NumberSymbol or part.is_Symbol or part.is_Add or part.is_Mul or part.is_Pow
+        is_unevaluated = type(part).__name__ == "Whole"  # what `whole` makes, in a room above
+        if (
+            not is_basic
+            and not is_unevaluated
+            and not isinstance(part, functions)
+            and type(part) not in types_from_file
+        ):
             hint = f"expected + - * / **, sqrt, {', '.join(IN_SYMPY)}"
-            raise _error(law, f"{what} uses {type(part).__name__}, which C is not given", hint)
+            raise _make_law_error(law, f"{label} uses {type(part).__name__}, which C is not given", hint)
 
 
-def _offered(law: Law) -> str:
-    """Return a phrase that lists what `build` may use."""
-    numbers = ", ".join(own.name for own in law.parameters) or "none"
+def _list_inputs_of_law(law: Law) -> str:
+    """Return a phrase that lists what `build` may use: variables, parameters and the pair."""
+    numbers = ", ".join(field_of_law.name for field_of_law in law.parameters) or "none"
     return f"variables: {', '.join(law.variables)}; parameters: {numbers}; pair: {', '.join(PAIR)}"
 
 
-def _error(law: Law, message: str, hint: str = "", place: Any = None) -> LawError:
-    """Return the LawError about a law, with its file and name."""
-    named = prefix(law.name, None if place else ORIGINS.get(law.name))
-    return LawError(f"{named}{message}", place, hint)
+def _make_law_error(law: Law, message: str, hint: str = "", location: Any = None) -> LawError:
+    """Return the LawError about a law, with its file and name before the message.
+
+    `location` is a location in the file or None.
+    """
+    prefix_of_message = prefix(law.name, None if location else ORIGINS.get(law.name))
+    return LawError(f"{prefix_of_message}{message}", location, hint)
 
 
-def _symbols(value: Any) -> set[Any]:
-    """Return the free symbols of a value."""
+def _find_symbols(value: Any) -> set[Any]:
+    """Return the free symbols of a value; the empty set for a number."""
     return set(getattr(value, "free_symbols", ()))
 
 
-def _parts(value: Any) -> Iterable[Any]:
+def _iterate_parts(value: Any) -> Iterable[Any]:
     """Return the parts of an expression that the file gives; nothing for a number."""
     import sympy as sp
 
     return sp.preorder_traversal(value) if isinstance(value, sp.Expr) else ()
 
 
-def _real(name: str) -> Any:
-    """Return a real symbol."""
+def _make_real_symbol(name: str) -> Any:
+    """Return a real SymPy symbol."""
     import sympy as sp
 
     return sp.Symbol(name, real=True)
@@ -228,29 +293,29 @@ def alone(
     import sympy as sp
 
     symbols = {name: sp.Symbol(name, real=True) for name in law.variables}
-    given = LawInputs(
+    inputs = LawInputs(
         {name: x if isinstance(x, sp.Expr) else sp.Float(x) for name, x in numbers.items()},
         options,
         PairSymbols(**{name: sp.Float(x) for name, x in pair.items()}),
         symbols,
         lambda _, expression, __: expression,
     )
-    known, functions = list(symbols.values()), []
-    for name, step in build(law, given).items():
-        functions.append((name, sp.lambdify(known, step, "numpy")))
-        known.append(sp.Symbol(name, real=True))
+    arguments, functions = list(symbols.values()), []
+    for name, step in build(law, inputs).items():
+        functions.append((name, sp.lambdify(arguments, step, "numpy")))
+        arguments.append(sp.Symbol(name, real=True))
 
     def results(*state: ArrayLike) -> Results:
-        """Return the law's results for arrays of its variables."""
+        """Return the law's results by name for arrays of its variables, which are broadcast. Raises LawError."""
         arrays = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in state))
-        values, found = list(arrays), dict[str, Any]()
+        values, results_by_name = list(arrays), dict[str, Any]()
         for name, function in functions:
             try:
-                found[name] = function(*values) + 0.0 * arrays[0]
+                results_by_name[name] = function(*values) + 0.0 * arrays[0]
             except (NameError, TypeError) as error:
                 raise LawError(f"{law.role} law {law.name}: {name} cannot be computed here: {error}") from error
-            values.append(found[name])
-        return {name: found[name] for name in law.results}
+            values.append(results_by_name[name])
+        return {name: results_by_name[name] for name in law.results}
 
     return results
 

@@ -19,7 +19,7 @@ from gudgeon.generator.kinds.laws.roles import ROUGHNESS, overlap
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """Return the fraction of the load that the dry contact carries, for δ > 0."""
+    """Return the fraction (0 to 1) of the load that the dry contact carries, for δ > 0, as steps by name."""
     import sympy as sp
 
     gone, left = sp.symbols("gone left", real=True)

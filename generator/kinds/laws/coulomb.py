@@ -14,7 +14,7 @@ from gudgeon.generator.kinds.laws.roles import MU, friction, slip_of
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """Return the friction force F_t (N) on the journal along t."""
+    """Return the friction force F_t (N) on the journal along t: −c_f F_n tanh(v_t/v_0)."""
     import sympy as sp
 
     return friction(s, s.parameters["mu"] * sp.tanh(s.variables["v_t"] / s.parameters["v0"]))

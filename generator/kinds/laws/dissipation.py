@@ -70,18 +70,18 @@ DISSIPATION = word("dissipation", "whose hysteresis damping factor", (*FACTORS, 
 
 
 def hysteresis(s: LawInputs, factor: str) -> Any:
-    """Return the hysteresis factor 1 + a δ̇/δ̇⁻ for a restitution; it is not negative unless the law `pulls`.
+    """Return the hysteresis factor 1 + a δ̇/δ̇⁻ for a restitution.
 
-    Where nothing drives the surfaces apart it stays above 0 by itself, for a e < 1. The corner is that of this factor
-    alone: with the elastic force in it, it would be one at every separation.
+    It is not negative unless the law has the option `pulls`. `factor` names the formula of a, a key of FACTORS or
+    EXACT. With a e < 1 the factor stays positive unless something drives the surfaces apart.
     """
     import sympy as sp
 
     c_e = s.parameters["restitution"]
-    a = _solved(s, c_e) if factor == EXACT else FACTORS[factor](c_e)
+    a = _solve_exact_factor(s, c_e) if factor == EXACT else FACTORS[factor](c_e)
     a = s.derive("hysteresis", a, "hysteresis damping factor a")
-    factor_now = 1 + a * s.variables["ratio"]
-    return factor_now if s.options.get("pulls") else sp.Max(factor_now, 0)
+    factor_at_state = 1 + a * s.variables["ratio"]
+    return factor_at_state if s.options.get("pulls") else sp.Max(factor_at_state, 0)
 
 
 def normal_force(s: LawInputs, K: Any, factor: str) -> Any:
@@ -90,20 +90,24 @@ def normal_force(s: LawInputs, K: Any, factor: str) -> Any:
 
 
 def delivered(a: float) -> float:
-    """Return the restitution e of a free impact: a (1 + e) = ln[(1 + a)/(1 − a e)], a ≥ 0."""
+    """Return the restitution e of a free impact from the factor a ≥ 0 by root finding; 1 for a = 0.
+
+    e solves a (1 + e) = ln[(1 + a)/(1 − a e)].
+    """
     from scipy.optimize import brentq
 
     if a == 0.0:
         return 1.0
-    whole = min(1.0, (1.0 - 1e-15) / a)
-    return float(brentq(lambda e: a * (1.0 + e) - math.log1p(a) + math.log1p(-a * e), 1e-12, whole, xtol=1e-15))
+    upper_limit = min(1.0, (1.0 - 1e-15) / a)
+    return float(brentq(lambda e: a * (1.0 + e) - math.log1p(a) + math.log1p(-a * e), 1e-12, upper_limit, xtol=1e-15))
 
 
-def _solved(s: LawInputs, c_e: Any) -> Any:
-    """Solve 1 − a c_e = (1 + a) e^{−a(1 + c_e)}, the identity above with e = c_e, for a by Newton's method.
+def _solve_exact_factor(s: LawInputs, c_e: Any) -> Any:
+    """Return the factor a that solves 1 − a c_e = (1 + a) e^{−a(1 + c_e)}, by four steps of Newton's method.
 
-    Hu and Guo's factor lies above it by half at most, and 1e-5 of it at c_e = .99; from above the steps go one way, and
-    four of them leave rounding. Where a is so small that rounding is all there is, a third of it is the longest step.
+    This is the identity above with e = c_e. The start is Hu and Guo's factor, which exceeds a by half at most, so that
+    the steps approach a from above. Each step is at most a third of a, since rounding dominates where a is small. All
+    steps are derived constants of the law.
     """
     import sympy as sp
 

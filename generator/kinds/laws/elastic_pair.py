@@ -35,28 +35,34 @@ GEOMETRY = word(
 
 
 def pair_stiffness(s: LawInputs) -> Any:
-    """Return the contact stiffness K (N/m^1.5) of Hertz, for the law's option `geometry`."""
+    """Return the contact stiffness K (N/m^1.5) of Hertz as a derived constant, for the law's option `geometry`.
+
+    A corner on a wall (R_i = ∞) has the radius R_j. Equal materials give a shorter formula.
+    """
     import sympy as sp
 
     pair = s.pair
-    other = pair.R_j if s.options["geometry"] == "external" else -pair.R_j
-    flat = pair.R_i == sp.oo  # a corner on a wall: R_i R_j/(R_i ± R_j) = R_j
-    radius = sp.sqrt(pair.R_j) if flat else sp.sqrt(pair.R_i * pair.R_j / (pair.R_i + other))
+    signed_radius = pair.R_j if s.options["geometry"] == "external" else -pair.R_j
+    is_flat = pair.R_i == sp.oo  # a corner on a wall: R_i R_j/(R_i ± R_j) = R_j
+    radius = sp.sqrt(pair.R_j) if is_flat else sp.sqrt(pair.R_i * pair.R_j / (pair.R_i + signed_radius))
     if (pair.E_i, pair.nu_i) == (pair.E_j, pair.nu_j):
         K = sp.Rational(2, 3) * pair.E_i * radius / (1 - pair.nu_i**2)
     else:  # σ_i + σ_j times E_i, in wholes: two that hold the numbers of one material give its bits
-        soft_i, soft_j = (s.whole(1 - nu**2) for nu in (pair.nu_i, pair.nu_j))
-        K = sp.Rational(4, 3) * pair.E_i * radius / (soft_i + soft_j * s.whole(pair.E_i / pair.E_j))
+        compliance_i, compliance_j = (s.whole(1 - nu**2) for nu in (pair.nu_i, pair.nu_j))
+        K = sp.Rational(4, 3) * pair.E_i * radius / (compliance_i + compliance_j * s.whole(pair.E_i / pair.E_j))
     return s.derive("K", K, "contact stiffness")
 
 
 def contact_modulus(s: LawInputs) -> Any:
-    """Return the contact modulus E* (Pa): 1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j."""
+    """Return the contact modulus E* (Pa): 1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j.
+
+    Equal materials give a shorter formula.
+    """
     pair = s.pair
     if (pair.E_i, pair.nu_i) == (pair.E_j, pair.nu_j):
         return pair.E_i / (2 * (1 - pair.nu_i**2))
-    soft_i, soft_j = (s.whole(1 - nu**2) for nu in (pair.nu_i, pair.nu_j))
-    return pair.E_i / (soft_i + soft_j * s.whole(pair.E_i / pair.E_j))
+    compliance_i, compliance_j = (s.whole(1 - nu**2) for nu in (pair.nu_i, pair.nu_j))
+    return pair.E_i / (compliance_i + compliance_j * s.whole(pair.E_i / pair.E_j))
 
 
 CYLINDER_FIELDS: tuple[Field, ...] = (RESTITUTION, DISSIPATION, PULLS)
@@ -85,6 +91,6 @@ def cylinder_force(s: LawInputs, k: int, deepest: Any) -> dict[str, Any]:
         "root_far": sp.sqrt(2 * far),
         "p_0": 1 + root + far * (1 + sp.Float(0.3) * root) / (sp.Float(1.5) + sp.Float(0.3) * root),
     }
-    for one, following in zip(p, p[1:], strict=False):
-        steps[following.name] = one * (far + sp.log(one)) / (one - 1)
+    for iterate, next_iterate in zip(p, p[1:], strict=False):
+        steps[next_iterate.name] = iterate * (far + sp.log(iterate)) / (iterate - 1)
     return {**steps, "F_n": K * delta / p[-1] * hysteresis(s, str(s.options["dissipation"]))}

@@ -21,7 +21,7 @@ POWER = 6.804
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """Return the fraction of the load that the dry contact carries, for δ > 0."""
+    """Return the fraction (0 to 1) of the load that the dry contact carries, for δ > 0, as steps by name."""
     import sympy as sp
 
     part = sp.Symbol("part", real=True)

@@ -19,9 +19,9 @@ from gudgeon.language.units import DIMENSIONLESS
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """Return the compressive normal force F_n (N) for δ > 0."""
-    given = s.parameters.get("stiffness")
-    K = pair_stiffness(s) if given is None else s.derive("K", given, "contact stiffness")
+    """Return the compressive normal force F_n (N) for δ > 0, from the stiffness that is given, or that of the pair."""
+    stiffness = s.parameters.get("stiffness")
+    K = pair_stiffness(s) if stiffness is None else s.derive("K", stiffness, "contact stiffness")
     return {"F_n": normal_force(s, K, str(s.options["dissipation"]))}
 
 

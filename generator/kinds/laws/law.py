@@ -150,25 +150,29 @@ class Law:
         return tuple(own for own in self.fields if own.kind != NUMBER)
 
     def check(self, numbers: Mapping[str, float]) -> None:
-        """Raise BadValueError for a number that violates the law's bounds; `numbers` is by key."""
-        for own in self.fields:
-            for bound in own.bounds if own.name in numbers else ():
-                value, limit = numbers[own.name], numbers.get(bound.limit, bound.limit)  # type: ignore[arg-type]
+        """Raise BadValueError for a number that violates the law's bounds; `numbers` maps keys of the law to values.
+
+        Bounds whose other key is missing are not checked.
+        """
+        for field_of_law in self.fields:
+            for bound in field_of_law.bounds if field_of_law.name in numbers else ():
+                value, limit = numbers[field_of_law.name], numbers.get(bound.limit, bound.limit)  # type: ignore[arg-type]
                 if not isinstance(limit, str) and not RELATIONS[bound.relation](value, limit):
-                    expected = f"expected {bound.relation} {bound.limit} ({own.meaning})"
-                    raise BadValueError(f"{own.name} is {value:g}: {expected}")
+                    expected = f"expected {bound.relation} {bound.limit} ({field_of_law.meaning})"
+                    raise BadValueError(f"{field_of_law.name} is {value:g}: {expected}")
 
     def fields_as(self, name: str) -> tuple[Field, ...]:
         """Return the keys of the law under one of its names.
 
-        Another name fixes some options and requires the restitution.
+        Another name fixes some options, which are left out, and requires the restitution. Raises KeyError for an
+        unknown name.
         """
         if name == self.name:
             return self.fields
         return tuple(
-            replace(own, default=None, required=True) if own.name == "restitution" else own
-            for own in self.fields
-            if own.name not in self.also[name]
+            replace(field_of_law, default=None, required=True) if field_of_law.name == "restitution" else field_of_law
+            for field_of_law in self.fields
+            if field_of_law.name not in self.also[name]
         )
 
 
@@ -177,7 +181,7 @@ USER_LAWS: dict[str, Law] = {}  # user-defined laws (registered.py)
 
 @cache
 def bundled_laws() -> Mapping[str, Law]:
-    """Return the laws in this folder by name."""
+    """Return the laws in this folder by name; the files are imported once."""
     return {law.name: law for law in declared("gudgeon.generator.kinds.laws", "LAW", Law)}
 
 
@@ -188,8 +192,8 @@ def laws() -> Mapping[str, Law]:
 
 def called(role: str) -> Mapping[str, Law]:
     """Return the laws of a role by each of their names: those of this folder first, user-defined ones last."""
-    found: dict[str, Law] = {}
-    for some in (bundled_laws(), USER_LAWS):
-        fitting = {law.name: law for law in some.values() if law.role == role}
-        found |= fitting | {name: law for law in fitting.values() for name in law.also}
-    return found
+    laws_by_name: dict[str, Law] = {}
+    for laws_of_source in (bundled_laws(), USER_LAWS):
+        laws_of_role = {law.name: law for law in laws_of_source.values() if law.role == role}
+        laws_by_name |= laws_of_role | {name: law for law in laws_of_role.values() for name in law.also}
+    return laws_by_name

@@ -20,15 +20,15 @@ from gudgeon.language.units import VELOCITY
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """Return the friction force F_t (N) on the journal along t."""
+    """Return the friction force F_t (N) on the journal along t; it rises linearly between the slips v0 and v1."""
     v0, v1, v_t = s.parameters["v0"], s.parameters["v1"], s.variables["v_t"]
     slope = s.derive("friction_slope", 1 / (v1 - v0), "1/(v1 - v0)")
-    forward, backward = (_share((v - v0) * slope) for v in (v_t, -v_t))
+    forward, backward = (_limit_to_unit_range((v - v0) * slope) for v in (v_t, -v_t))
     return {"F_t": -s.parameters["mu"] * (forward - backward) * s.variables["F_n"]}
 
 
 @lru_cache(64)
-def _share(x: Any) -> Any:
+def _limit_to_unit_range(x: Any) -> Any:
     """Return x limited to the range from 0 to 1; cached, since SymPy's comparisons are slow."""
     import sympy as sp
 

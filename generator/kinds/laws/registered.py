@@ -53,27 +53,30 @@ def register(law: str | os.PathLike[str] | Law) -> Law:
     Raises LawError, an InputError, for a file that cannot be read, fails or has no LAW, a name that another law has,
     and a wrong declaration; the results of `build` are checked when a scene uses it.
     """
-    own, origin = (law, Origin("", "", "")) if isinstance(law, Law) else _load_file(path(law, "law"))
+    registered_law, origin = (law, Origin("", "", "")) if isinstance(law, Law) else _load_law_file(path(law, "law"))
     try:
-        _check_declaration(own, origin)
+        _check_declaration(registered_law, origin)
     except LawError as error:
-        raise LawError(f"{prefix(own.name, origin)}{error.message}", hint=error.hint) from None
+        raise LawError(f"{prefix(registered_law.name, origin)}{error.message}", hint=error.hint) from None
     except Exception as error:  # a field of a type that nobody thought of
         hint = f"what each of its fields may be: {WHOLE}"
-        name = getattr(own, "name", None)
+        name = getattr(registered_law, "name", None)
         raise LawError(f"{prefix(name, origin)}its declaration is none: {message(error)}", hint=hint) from error
-    USER_LAWS[own.name], ORIGINS[own.name] = own, origin
-    return own
+    USER_LAWS[registered_law.name], ORIGINS[registered_law.name] = registered_law, origin
+    return registered_law
 
 
 def prefix(name: object, origin: Origin | None) -> str:
-    """Return the beginning of an error about a law: its file and name."""
+    """Return the beginning of an error about a law: its file and name, each if it is known."""
     file = f"{origin.typed}: " if origin is not None and origin.typed else ""
     return f"{file}law {name}: " if isinstance(name, str) else file
 
 
 def key_of(name: str) -> str:
-    """Return the key of a user-defined law, a SHA-256 of its content; "" if there is none of that name."""
+    """Return the key of a user-defined law, a SHA-256 of its content; "" if there is none of that name.
+
+    The key of a law without a file is computed at the first call and stored.
+    """
     if name not in USER_LAWS:
         return ""
     if not ORIGINS[name].key:
@@ -84,46 +87,53 @@ def key_of(name: str) -> str:
 
 
 def place_in(error: BaseException, file: str) -> Location | None:
-    """Return the location in a file at which an error arose; None if it arose elsewhere."""
+    """Return the location in a file at which an error arose; None if it arose elsewhere.
+
+    That is the last line of the traceback in the file, or the location of a SyntaxError.
+    """
     if isinstance(error, SyntaxError) and error.filename == file:
         return Location(file, error.lineno or 1, error.offset or 1)
     lines = [line for frame, line in traceback.walk_tb(error.__traceback__) if frame.f_code.co_filename == file]
     return Location(file, lines[-1], 1) if lines else None
 
 
-def _load_file(typed: str | os.PathLike[str]) -> tuple[Law, Origin]:
-    """Run a law's file and return its law. Raises LawError."""
-    shown, hint = shortened(typed), f"expected a Python file that exports LAW; {WHOLE}"
-    if not os.fspath(typed):
+def _load_law_file(path_as_given: str | os.PathLike[str]) -> tuple[Law, Origin]:
+    """Run a law's file as Python and return its law and origin. Raises LawError.
+
+    The module stays in sys.modules, unless it fails. Its prints go to stderr. The key covers modules next to it that it
+    imports.
+    """
+    display_path, hint = shortened(path_as_given), f"expected a Python file that exports LAW; {WHOLE}"
+    if not os.fspath(path_as_given):
         raise LawError("a law's file has no name: ''", hint=hint)
     try:
-        data = read_named(typed, MAX_BYTES, "the law", hint)
+        data = read_named(path_as_given, MAX_BYTES, "the law", hint)
     except InputError as error:
         raise LawError(error.message, error.where, error.hint) from error
     digest = hashlib.sha256(data)
     module = ModuleType(f"gudgeon_law_{digest.hexdigest()[:16]}")
-    module.__file__ = os.path.abspath(typed)
+    module.__file__ = os.path.abspath(path_as_given)
     sys.modules[module.__name__] = module  # a dataclass looks for its own module
     try:
         with redirect_stdout(sys.stderr):  # what it prints is no part of what a command prints
-            exec(compile(data, shown, "exec"), module.__dict__)
+            exec(compile(data, display_path, "exec"), module.__dict__)
     except KeyboardInterrupt:
         raise
     except BaseException as error:
         sys.modules.pop(module.__name__, None)
-        place = place_in(error, shown) or Location(shown, 1, 1)
-        raise LawError(f"the law cannot be read: {message(error)}", place) from error
+        location = place_in(error, display_path) or Location(display_path, 1, 1)
+        raise LawError(f"the law cannot be read: {message(error)}", location) from error
     law = getattr(module, "LAW", None)
     if not isinstance(law, Law):
-        what = "no LAW" if law is None else f"a LAW of type {type(law).__name__}"
-        raise LawError(f"{shown} has {what}", hint=f"expected LAW = Law(name=…, role=…, build=build); {WHOLE}")
-    for other in _imported_modules(module, {module}):
-        digest.update(Path(str(other.__file__)).read_bytes())
-    return law, Origin(shown, str(module.__file__), digest.hexdigest())
+        fault = "no LAW" if law is None else f"a LAW of type {type(law).__name__}"
+        raise LawError(f"{display_path} has {fault}", hint=f"expected LAW = Law(name=…, role=…, build=build); {WHOLE}")
+    for imported in _iterate_imported_modules(module, {module}):
+        digest.update(Path(str(imported.__file__)).read_bytes())
+    return law, Origin(display_path, str(module.__file__), digest.hexdigest())
 
 
 def message(error: BaseException) -> str:
-    """Return a Python error as one line."""
+    """Return a Python error as one line: its type and, if there is one, its text."""
     try:
         text = " ".join(str(error.msg if isinstance(error, SyntaxError) else error).split())
     except Exception:  # its own words fail
@@ -131,93 +141,133 @@ def message(error: BaseException) -> str:
     return f"{type(error).__name__}{': ' if text else ''}{text}"
 
 
-def _imported_modules(module: ModuleType, seen: set[ModuleType]) -> Iterator[ModuleType]:
-    """Yield the user's modules that a law's file imports: not Python's, installed or gudgeon's."""
+def _iterate_imported_modules(module: ModuleType, visited: set[ModuleType]) -> Iterator[ModuleType]:
+    """Yield the user's modules that a law's file imports, directly or through others.
+
+    Modules of Python, installed ones and gudgeon's are left out. `seen` contains the modules that are skipped, and gets
+    those that were found.
+    """
     installed = tuple(sysconfig.get_paths()[name] for name in ("stdlib", "platstdlib", "purelib", "platlib"))
     for value in list(vars(module).values()):
-        other = value if isinstance(value, ModuleType) else sys.modules.get(getattr(value, "__module__", None) or "")
-        if other is None or other in seen:
+        imported = value if isinstance(value, ModuleType) else sys.modules.get(getattr(value, "__module__", None) or "")
+        if imported is None or imported in visited:
             continue
-        seen.add(other)
-        file = getattr(other, "__file__", None)
-        if file and not other.__name__.startswith("gudgeon") and not os.path.abspath(file).startswith(installed):
-            yield other
-            yield from _imported_modules(other, seen)
+        visited.add(imported)
+        file = getattr(imported, "__file__", None)
+        if file and not imported.__name__.startswith("gudgeon") and not os.path.abspath(file).startswith(installed):
+            yield imported
+            yield from _iterate_imported_modules(imported, visited)
 
 
 def _check_declaration(law: Law, origin: Origin) -> None:
-    """Raise LawError for a wrong declaration, or a name that another law has."""
+    """Raise LawError for a wrong declaration, or a name that another law has.
+
+    A registered law of the same name and origin may be replaced.
+    """
     for name in ("name", "title", "source", "validity"):
-        _need(isinstance(getattr(law, name), str), f"its {name} is no text")
+        _require(isinstance(getattr(law, name), str), f"its {name} is no text")
     check_name(law.name, "law")
-    for what in (law.name, *law.also):
-        used = {name for other in bundled_laws().values() for name in (other.name, *other.also)}
-        _need(what not in used, f"{what} is a law of gudgeon's", "give yours another name")
-        others = [other for other in USER_LAWS.values() if other.name != law.name]
-        _need(all(what not in (o.name, *o.also) for o in others), f"{what} is another registered law's name")
-    known = ORIGINS.get(law.name)
-    if known is not None and known.file != origin.file:
-        whose = f"that of {known.typed}" if known.typed else "one made in Python"
-        raise LawError(f"another law of this name is registered, {whose}", hint="give one of them another name")
-    _need(law.role in RESULTS, f"unknown role {law.role!r}", known_hint(str(law.role), RESULTS))
-    _need(callable(law.build), "its build is no function", "expected build(inputs), which returns its forces by name")
-    _check_keys(law)
+    for law_name in (law.name, *law.also):
+        bundled_names = {name for other in bundled_laws().values() for name in (other.name, *other.also)}
+        _require(law_name not in bundled_names, f"{law_name} is a law of gudgeon's", "give yours another name")
+        other_user_laws = [other for other in USER_LAWS.values() if other.name != law.name]
+        _require(
+            all(law_name not in (other.name, *other.also) for other in other_user_laws),
+            f"{law_name} is another registered law's name",
+        )
+    known_origin = ORIGINS.get(law.name)
+    if known_origin is not None and known_origin.file != origin.file:
+        origin_text = f"that of {known_origin.typed}" if known_origin.typed else "one made in Python"
+        raise LawError(f"another law of this name is registered, {origin_text}", hint="give one of them another name")
+    _require(law.role in RESULTS, f"unknown role {law.role!r}", known_hint(str(law.role), RESULTS))
+    _require(
+        callable(law.build), "its build is no function", "expected build(inputs), which returns its forces by name"
+    )
+    _check_keys_of_law(law)
 
 
-def _check_keys(law: Law) -> None:
-    """Raise LawError for wrong fields, states or options of a law."""
-    _need(all(isinstance(own, Field) for own in law.fields), "a field is none", "expected number(…), word(…), flag(…)")
-    kinds = {own.name: own.kind for own in law.fields}
-    names = [*(own.name for own in law.fields), *(state.name for state in law.states if isinstance(state, State))]
+def _check_keys_of_law(law: Law) -> None:
+    """Raise LawError for wrong fields, states or options of a law; names must be unique."""
+    _require(
+        all(isinstance(field_of_law, Field) for field_of_law in law.fields),
+        "a field is none",
+        "expected number(…), word(…), flag(…)",
+    )
+    kinds = {field_of_law.name: field_of_law.kind for field_of_law in law.fields}
+    names = [
+        *(field_of_law.name for field_of_law in law.fields),
+        *(state.name for state in law.states if isinstance(state, State)),
+    ]
     for name in names:
         check_name(name, "number or option")
-        _need(name != "law" and names.count(name) == 1, f"{name!r} names two keys")
-    for own in law.fields:
-        usable = own.kind in (NUMBER, WORD, FLAG) and not own.varies
-        _need(usable, f"{own.name} is no key of a law", "expected number(…) without `varies`, word(…) or flag(…)")
-        _check_field(own, kinds)
-    _need(all(isinstance(state, State) for state in law.states), "a state is none", "expected State(name, meaning)")
-    _need(not law.rigid, "it is rigid", "velocities jump by gudgeon's newton_restitution alone")
-    _need(law.role == "friction" or not law.states, "it has inner states", "only laws of friction have them so far")
-    known = {own.name for own in law.options}
-    _need({key for choices in law.also.values() for key in choices} <= known, "`also` chooses what is no option")
-    _need({*law.instead} <= known and {*law.instead.values()} <= {*kinds}, "`instead` names no key of the law")
+        _require(name != "law" and names.count(name) == 1, f"{name!r} names two keys")
+    for field_of_law in law.fields:
+        is_usable = field_of_law.kind in (NUMBER, WORD, FLAG) and not field_of_law.varies
+        _require(
+            is_usable,
+            f"{field_of_law.name} is no key of a law",
+            "expected number(…) without `varies`, word(…) or flag(…)",
+        )
+        _check_declared_field(field_of_law, kinds)
+    _require(all(isinstance(state, State) for state in law.states), "a state is none", "expected State(name, meaning)")
+    _require(not law.rigid, "it is rigid", "velocities jump by gudgeon's newton_restitution alone")
+    _require(law.role == "friction" or not law.states, "it has inner states", "only laws of friction have them so far")
+    option_names = {field_of_law.name for field_of_law in law.options}
+    _require(
+        {key for choices in law.also.values() for key in choices} <= option_names, "`also` chooses what is no option"
+    )
+    _require(
+        {*law.instead} <= option_names and {*law.instead.values()} <= {*kinds}, "`instead` names no key of the law"
+    )
 
 
-def _check_field(own: Field, kinds: Mapping[str, str]) -> None:
-    """Raise LawError for a wrong declaration of a key; defaults that name other keys are checked with the file."""
-    for what in ("meaning", "symbol", "otherwise"):
-        _need(isinstance(getattr(own, what), str), f"the {what} of {own.name} is no text")
-    if own.kind != NUMBER:
-        words = own.values
-        _need(
-            isinstance(words, tuple) and len(words) > 0 and all(isinstance(x, (str, bool)) for x in words),
-            f"the words of {own.name} are none",
+def _check_declared_field(declaration: Field, kinds: Mapping[str, str]) -> None:
+    """Raise LawError for a wrong declaration of a key; defaults that name other keys are checked with the file.
+
+    `kinds` maps all keys of the law to their kinds.
+    """
+    for attribute in ("meaning", "symbol", "otherwise"):
+        _require(isinstance(getattr(declaration, attribute), str), f"the {attribute} of {declaration.name} is no text")
+    if declaration.kind != NUMBER:
+        allowed_words = declaration.values
+        _require(
+            isinstance(allowed_words, tuple)
+            and len(allowed_words) > 0
+            and all(isinstance(x, (str, bool)) for x in allowed_words),
+            f"the words of {declaration.name} are none",
             "expected word(name, meaning, (words, …), default)",
         )
-        fits = own.default in words and isinstance(own.default, (str, bool))
-        _need(fits, f"the default of {own.name} is {own.default!r}", known_hint(str(own.default), map(str, words)))
+        is_allowed = declaration.default in allowed_words and isinstance(declaration.default, (str, bool))
+        _require(
+            is_allowed,
+            f"the default of {declaration.name} is {declaration.default!r}",
+            known_hint(str(declaration.default), map(str, allowed_words)),
+        )
         return
-    message = f"the dimension of {own.name} is {own.dimension!r}"
+    message = f"the dimension of {declaration.name} is {declaration.dimension!r}"
     hint = "expected one of gudgeon.language.units: FORCE, STIFFNESS, …, dimension(mass=1, time=-2); None is any"
-    _need(own.dimension is None or isinstance(own.dimension, Dimension), message, hint)
-    some = isinstance(own.bounds, tuple) and all(isinstance(bound, Bound) for bound in own.bounds)
-    _need(some, f"the bounds of {own.name} are none", 'expected bounds=POSITIVE, or (Bound(">=", 1.0), …)')
-    default = own.default
+    _require(declaration.dimension is None or isinstance(declaration.dimension, Dimension), message, hint)
+    has_bounds = isinstance(declaration.bounds, tuple) and all(isinstance(bound, Bound) for bound in declaration.bounds)
+    _require(
+        has_bounds, f"the bounds of {declaration.name} are none", 'expected bounds=POSITIVE, or (Bound(">=", 1.0), …)'
+    )
+    default = declaration.default
     expected = "expected a number in SI units, or none: required=True"
-    _need(default is None or _is_number(default), f"the default of {own.name} is {default!r}", expected)
-    for bound in own.bounds:
+    _require(default is None or _is_number(default), f"the default of {declaration.name} is {default!r}", expected)
+    for bound in declaration.bounds:
         limit = bound.limit
         if isinstance(limit, str):
-            _need(limit in kinds, f"a bound of {own.name} names no key of the law")
-        _need(
+            _require(limit in kinds, f"a bound of {declaration.name} names no key of the law")
+        _require(
             bound.relation in RELATIONS and (isinstance(limit, str) or _is_number(limit)),
-            f"a bound of {own.name} is none: {bound.relation!r} {limit!r}",
+            f"a bound of {declaration.name} is none: {bound.relation!r} {limit!r}",
             f"expected Bound(relation, limit), with {' '.join(RELATIONS)} and a number or a key",
         )
         if _is_number(default) and not isinstance(limit, str):
-            met = RELATIONS[bound.relation](default, limit)
-            _need(met, f"the default of {own.name} is {default!r}, its bound {bound.relation} {limit!r}")
+            is_satisfied = RELATIONS[bound.relation](default, limit)
+            _require(
+                is_satisfied, f"the default of {declaration.name} is {default!r}, its bound {bound.relation} {limit!r}"
+            )
 
 
 def _is_number(value: object) -> TypeGuard[float]:
@@ -225,18 +275,21 @@ def _is_number(value: object) -> TypeGuard[float]:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def check_name(name: Any, what: str) -> None:
-    """Raise LawError unless the name is an identifier that emitted code does not reserve."""
-    _need(isinstance(name, str), f"the name of a {what} is no text")
+def check_name(name: Any, kind: str) -> None:
+    """Raise LawError unless the name is an identifier that emitted code does not reserve.
+
+    `kind` is its kind in messages.
+    """
+    _require(isinstance(name, str), f"the name of a {kind} is no text")
     try:
-        check_label(name, what, None)
+        check_label(name, kind, None)
     except BadNameError as error:
         raise LawError(error.message, hint=error.hint) from None
-    reserved = "__" in name
-    _need(not reserved, f"{name!r} is kept for emitted code", "choose another name")
+    is_reserved = "__" in name
+    _require(not is_reserved, f"{name!r} is kept for emitted code", "choose another name")
 
 
-def _need(fine: bool, message: str, hint: str = "") -> None:
-    """Raise LawError unless a condition holds."""
-    if not fine:
+def _require(condition: bool, message: str, hint: str = "") -> None:
+    """Raise LawError with a message and a hint unless a condition holds."""
+    if not condition:
         raise LawError(message, hint=hint)

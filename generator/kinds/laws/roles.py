@@ -29,7 +29,7 @@ MU_S = number(
 
 
 def slip_of(name: str, meaning: str, symbol: str) -> Field:
-    """Declare a positive slip velocity (m/s) of a law."""
+    """Declare a positive slip velocity (m/s) of a law, a required number."""
     return number(name, meaning, VELOCITY, symbol=symbol, required=True, bounds=(Bound(">", 0.0),))
 
 
@@ -82,13 +82,14 @@ def film_clearance(s: LawInputs) -> Any:
 def shear_torque(s: LawInputs, c: Any, root: Any) -> Any:
     """Return the shear torque of a full gap per unit ω_j − ω_i (N·m·s), 0 without the option `shear`.
 
-    T0 = 2π μ R_j³ L/(c √(1 − ε²))"""
+    c: clearance of the film (m); root: √(1 − ε²). T0 = 2π μ R_j³ L/(c √(1 − ε²))
+    """
     import sympy as sp
 
     if not s.options["shear"]:
         return sp.Integer(0)
-    still = 2 * sp.pi * s.parameters["viscosity"] * s.pair.R_j**3 * s.pair.L / c
-    return s.derive("shear", still, "2 pi mu R_j^3 L/c") / root
+    torque_at_centre = 2 * sp.pi * s.parameters["viscosity"] * s.pair.R_j**3 * s.pair.L / c
+    return s.derive("shear", torque_at_centre, "2 pi mu R_j^3 L/c") / root
 
 
 ROUGHNESS = number(
@@ -104,11 +105,12 @@ ROUGHNESS = number(
 def overlap(s: LawInputs, first: int, last: int) -> Any:
     """Return δ's fraction of the way from Λ = `first`, where tips touch, to `last`, where all do; at most 1.
 
-    The film's clearance follows from `first`.
+    δ is the penetration, Λ the film thickness ratio. The film's clearance follows from `first`: it becomes the derived
+    constant MEAN_CLEARANCE.
     """
     import sympy as sp
 
     sigma = s.parameters["roughness"]
     s.derive(MEAN_CLEARANCE, s.pair.c + first * sigma, "clearance between the mean surfaces")
-    way = s.derive("overlap", (first - last) * sigma, "from where tips touch to where no film is left")
-    return sp.Min(1, s.variables["delta"] / way)
+    distance = s.derive("overlap", (first - last) * sigma, "from where tips touch to where no film is left")
+    return sp.Min(1, s.variables["delta"] / distance)

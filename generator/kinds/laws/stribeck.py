@@ -15,7 +15,7 @@ from gudgeon.generator.kinds.laws.roles import MU, MU_S, friction, slip_of
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """Return the friction force F_t (N) on the journal along t."""
+    """Return the friction force F_t (N) on the journal along t; its coefficient falls from mu_s to mu with the slip."""
     import sympy as sp
 
     mu, mu_s, v_s, v0 = (s.parameters[name] for name in ("mu", "mu_s", "v_s", "v0"))

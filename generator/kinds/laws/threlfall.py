@@ -15,12 +15,12 @@ from gudgeon.generator.kinds.laws.roles import MU, both_ways, friction, slip_of
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """Return the friction force F_t (N) on the journal along t."""
+    """Return the friction force F_t (N) on the journal along t; it rises exponentially up to the slip v_r."""
     import sympy as sp
 
     v_r = s.parameters["v_r"]
-    risen = both_ways(s.variables["v_t"], lambda u: 1 - sp.exp(-3 * sp.Min(u / v_r, 1)))
-    return friction(s, s.parameters["mu"] * risen)
+    regularised_sign = both_ways(s.variables["v_t"], lambda u: 1 - sp.exp(-3 * sp.Min(u / v_r, 1)))
+    return friction(s, s.parameters["mu"] * regularised_sign)
 
 
 LAW = Law(
