@@ -20,9 +20,13 @@
 /* successive steps on a wrong branch that count; steps after which the magnitude of a function is known */
 enum { AUDIT_WRONG = 3, AUDIT_SETTLED = 20 };
 
-static int is_resolved(Integrator *run, double t, const double *y, const RhsOutputs *rhs, int k, const Parameters *p);
+static int is_resolved(Integrator *run, double t, const double *y, const RhsOutputs *rhs, int k,
+    const Parameters *p);
 
-/* Return a pseudo-random number in (0, 1) from a sequence that is the same in every run. */
+/*
+ * Return a pseudo-random number in (0, 1) and advance the generator in `audit`. The linear congruential sequence is the
+ * same in every run. Used to select the steps and states that are checked inside.
+ */
 static double draw_random(Audit *audit)
 {
     audit->random = audit->random * 1664525u + 1013904223u;
@@ -32,98 +36,119 @@ static double draw_random(Audit *audit)
 /* Return whether the tolerance controls the step length. */
 static int has_tolerance(const Integrator *run) { return run->control.fixed <= 0.0; }
 
-/* Return the relative tolerance to which the audit refers, that of a fixed step being AUDIT_FIXED. */
-static double audit_tolerance(const Integrator *run) { return has_tolerance(run) ? tolerance_of(run) : AUDIT_FIXED; }
+/*
+ * Return the relative tolerance to which the audit refers: that of step-size control, or AUDIT_FIXED for steps of fixed
+ * length. Used for the limits of all checks.
+ */
+static double get_audit_tolerance(const Integrator *run) { return has_tolerance(run) ? tolerance_of(run)
+    : AUDIT_FIXED; }
 
-/* Return the size of the mechanism, m. */
-static double mechanism_size(const Integrator *run) { return run->audit.size; }
+/* Return the size of the mechanism in m, which start_audit() has stored. */
+static double get_mechanism_size(const Integrator *run) { return run->audit.size; }
 
 /*
- * Record a value of a check that exceeds the largest one so far relative to its limit. A multiple above AUDIT_FAILS
- * sets the status AUDITED.
+ * Replace the record of a check by a violation if its multiple value/limit exceeds the recorded one. A NaN counts as
+ * infinite. A multiple of zero is stored without time and index. A multiple above AUDIT_FAILS sets audit->status to
+ * AUDITED. t: time in s; index: as in record_check().
  */
-static void record_larger(Audit *audit, int check, double value, double limit, double t, int where)
+static void record_largest_violation(Audit *audit, int check, double value, double limit, double t, int index)
 {
-    AuditRecord *known = &audit->record[check];
+    AuditRecord *record = &audit->record[check];
     const double multiple = value / max_of(limit, 1e-300);
-    if (!(multiple > known->worst) && multiple == multiple)
+    if (!(multiple > record->worst) && multiple == multiple)
         return;
-    *known = (AuditRecord){multiple == multiple ? multiple : INFINITY, t, where};
+    *record = (AuditRecord){multiple == multiple ? multiple : INFINITY, t, index};
     if (multiple == 0.0) /* one of many zeros: its time is irrelevant */
-        *known = (AuditRecord){0.0, 0.0, -1};
-    if (!(known->worst <= AUDIT_FAILS))
+        *record = (AuditRecord){0.0, 0.0, -1};
+    if (!(record->worst <= AUDIT_FAILS))
         audit->status = AUDITED;
 }
 
 /*
- * Record the value of a check with its limit at time t, if it is the largest so far. where: number of the joint,
- * constraint equation, body coordinate, switching function or event, -1: none.
+ * Record the value of a check (CHECK_...) with its limit at time t (s), if the ratio value/limit is the largest so far.
+ * index: number of the joint, constraint equation, body coordinate, switching function or event; -1: none. A ratio
+ * above AUDIT_FAILS sets the status AUDITED.
  */
-static void record_check(Audit *audit, int check, double value, double limit, double t, int where)
+static void record_check(Audit *audit, int check, double value, double limit, double t, int index)
 {
     if (!(value <= audit->record[check].worst * limit))
-        record_larger(audit, check, value, limit, t, where);
+        record_largest_violation(audit, check, value, limit, t, index);
 }
 
-/* Check the largest constraint residual of all accepted steps so far. A residual of the start does not count. */
-static void check_residuals(Integrator *run)
+/*
+ * Check the largest residual |Phi| of all accepted steps so far against its limit, at the end of a step. A residual
+ * that is not larger than that of the first step counts as zero. Methods without projection (drifts()) are not checked.
+ */
+static void check_constraint_residuals(Integrator *run)
 {
     if (drifts(run))
         return;
-    double limit = max_of(audit_tolerance(run) * run->norm.least[0], AUDIT_ROUNDING * mechanism_size(run));
+    double limit = max_of(get_audit_tolerance(run) * run->norm.least[0], AUDIT_ROUNDING * get_mechanism_size(run));
     if (run->counts.steps <= 1)
         run->audit.phi_start = run->residuals.phi_max;
-    const double off = run->residuals.phi_max > run->audit.phi_start ? run->residuals.phi_max : 0.0;
-    for (int k = 0; k < N_X && !(off < limit); k++)
+    const double residual = run->residuals.phi_max > run->audit.phi_start ? run->residuals.phi_max : 0.0;
+    for (int k = 0; k < N_X && !(residual < limit); k++)
         limit = max_of(limit, is_angle[k] ? 0.0 : AUDIT_ROUNDING * fabs(run->y[k]));
-    record_check(&run->audit, CHECK_position, off, limit, run->t, -1);
+    record_check(&run->audit, CHECK_position, residual, limit, run->t, -1);
 }
 
-/* Check the constraint equations, and with `rates_too` their velocities, at a state `all` of all bodies. */
-static void check_constraints(Integrator *run, double t, const double *all, int rates_too, const Parameters *p)
+/*
+ * Check the constraint equations of all bodies at time t (s), and with `include_velocities` their velocity constraints
+ * Phi_q v = nu. absolute_state (N_S): coordinates, velocities and works of all bodies. Each equation is recorded under
+ * CHECK_position or CHECK_velocity. Methods without projection (drifts()) are not checked. Called at the end of steps
+ * of scenes with driven loops, and at states inside steps.
+ */
+static void check_constraints(Integrator *run, double t, const double *absolute_state, int include_velocities,
+    const Parameters *p)
 {
     Audit *audit = &run->audit;
     if (drifts(run))
         return;
-    double phi[AT_LEAST_ONE(N_ALL_ROWS)], missed[AT_LEAST_ONE(N_ALL_ROWS)], nu[AT_LEAST_ONE(N_ALL_ROWS)];
-    double far[2] = {0.0, 0.0}, speed[2] = {0.0, 0.0};
-    const double rtol = audit_tolerance(run), size = mechanism_size(run);
+    double phi[AT_LEAST_ONE(N_ALL_ROWS)], velocity_residual[AT_LEAST_ONE(N_ALL_ROWS)], nu[AT_LEAST_ONE(N_ALL_ROWS)];
+    double max_coordinate[2] = {0.0, 0.0}, max_speed[2] = {0.0, 0.0};
+    const double rtol = get_audit_tolerance(run), size = get_mechanism_size(run);
     for (int k = 0; k < N_Q; k++) {
-        far[k % 3 == 2] = max_of(far[k % 3 == 2], fabs(all[k]));
-        speed[k % 3 == 2] = max_of(speed[k % 3 == 2], fabs(all[N_Q + k]));
+        max_coordinate[k % 3 == 2] = max_of(max_coordinate[k % 3 == 2], fabs(absolute_state[k]));
+        max_speed[k % 3 == 2] = max_of(max_speed[k % 3 == 2], fabs(absolute_state[N_Q + k]));
     }
-    constraints(t, all, p, phi);
+    constraints(t, absolute_state, p, phi);
     for (int i = 0; i < N_ROWS; i++) {
         const int row = kept_row[i], length = row_is_length[row];
         const double play = length ? run->norm.least[0] : run->norm.least[1];
-        const double limit = max_of(rtol * play, AUDIT_ROUNDING * (length ? size + far[0] : 1.0 + far[1]));
+        const double limit = max_of(rtol * play,
+            AUDIT_ROUNDING * (length ? size + max_coordinate[0] : 1.0 + max_coordinate[1]));
         record_check(audit, CHECK_position, fabs(phi[row]), limit, t, row);
     }
-    if (!rates_too)
+    if (!include_velocities)
         return;
-    const double least = max_of(AUDIT_REST * run->norm.speed_floor[0], 1e-300); /* m/s */
-    const double fast = max_of(max_of(speed[0], size * speed[1]), least), ahead = 1e-5 * size / fast;
-    velocity_residuals(t, all, all + N_Q, ahead, p, missed, nu);
+    const double min_speed = max_of(AUDIT_REST * run->norm.speed_floor[0], 1e-300); /* m/s */
+    const double speed_scale = max_of(max_of(max_speed[0], size * max_speed[1]), min_speed),
+        half_interval = 1e-5 * size / speed_scale;
+    compute_velocity_residuals(t, absolute_state, absolute_state + N_Q, half_interval, p, velocity_residual, nu);
     for (int i = 0; i < N_ROWS; i++) {
         const int row = kept_row[i];
-        const double scale = max_of(row_is_length[row] ? fast : fast / max_of(size, 1e-300), fabs(nu[row]));
-        const double most = row_is_length[row] ? far[0] + size * far[1] : far[1];
-        const double rounding = 4.0 * DBL_EPSILON * most / ahead;
-        record_check(audit, CHECK_velocity, fabs(missed[row]), max_of(rtol, 1e-8) * scale + rounding, t, row);
+        const double scale = max_of(row_is_length[row] ? speed_scale : speed_scale / max_of(size, 1e-300),
+            fabs(nu[row]));
+        const double most = row_is_length[row] ? max_coordinate[0] + size * max_coordinate[1] : max_coordinate[1];
+        const double rounding = 4.0 * DBL_EPSILON * most / half_interval;
+        record_check(audit, CHECK_velocity, fabs(velocity_residual[row]), max_of(rtol, 1e-8) * scale + rounding, t,
+            row);
     }
 }
 
 #if TREE
 /*
- * Compute the states of all bodies h (s) before and after time t, from velocities and accelerations `dy` at t. Return
- * the exact difference of both times in s.
+ * Compute the states of all bodies at t - h and t + h (s) from the state y and its rates dy at t. Coordinates are
+ * extrapolated quadratically and velocities linearly; inner states of laws stay. neighbours[0], neighbours[1]: the
+ * results. Return the exact difference of both times in s, which rounding makes different from 2 h. Used by
+ * check_accelerations() for central differences.
  */
-static double compute_states_near(const Integrator *run, double t, const double *y, const double *dy, double h,
-    const Parameters *p, double (*near)[N_S])
+static double compute_neighbouring_states(const Integrator *run, double t, const double *y, const double *dy, double h,
+    const Parameters *p, double (*neighbours)[N_S])
 {
     const double before = t - h, after = t + h;
-    for (int branch = 0; branch < 2; branch++) {
-        const double offset = branch ? after - t : before - t;
+    for (int side = 0; side < 2; side++) {
+        const double offset = side ? after - t : before - t;
         double state[N_Y];
         for (int k = 0; k < N_X; k++) {
             state[k] = y[k] + offset * (y[N_X + k] + 0.5 * offset * dy[N_X + k]);
@@ -131,94 +156,104 @@ static double compute_states_near(const Integrator *run, double t, const double 
         }
         for (int k = 2 * N_X; k < N_Y; k++)
             state[k] = y[k];
-        to_absolute(branch ? after : before, state, &run->discrete, p, near[branch]);
+        to_absolute(side ? after : before, state, &run->discrete, p, neighbours[side]);
     }
     return after - before;
 }
 
 /*
- * Return whether the accelerations `a` of a state are too sensitive to be compared. Reasons: rates continued past a
- * singular position; changes of positions within rounding that alter `a` by 0.1 `fraction`; driven loops near a dead
- * centre, where changes of time within rounding do the same.
+ * Return whether the accelerations `a` (N_Q) of a state are too sensitive to be compared. Reasons: the motion is
+ * continued past a singular position; random changes of positions within rounding, and of the time where drives
+ * determine loops, change `a` by 0.1 `fraction` of `scale`; the perturbed accelerations cannot be computed. Called only
+ * after a difference of accelerations exceeds its limit.
  */
-static int is_too_sensitive(Integrator *run, double t, const double *y, const double *a, const double *scale,
+static int is_comparison_ill_conditioned(Integrator *run, double t, const double *y, const double *a,
+    const double *scale,
     double fraction, const Parameters *p)
 {
-    double state[N_Y], all[N_S], other[N_Q], rate[N_Y], force;
-    DiscreteState now = run->discrete;
+    double state[N_Y], absolute_state[N_S], a_perturbed[N_Q], rate[N_Y], force;
+    DiscreteState discrete = run->discrete;
     RhsOutputs rhs;
-    if (motion_here(t, y, &now, p, rate, &rhs))
+    if (motion_here(t, y, &discrete, p, rate, &rhs))
         return 1; /* near a singular position rates are continued from both sides */
-    const double size = mechanism_size(run);
+    const double size = get_mechanism_size(run);
     for (int k = 0; k < N_Y; k++)
         state[k] = k < N_X
             ? y[k] + AUDIT_CLOSURE * (is_angle[k] ? 1.0 : size) * (2.0 * draw_random(&run->audit) - 1.0) : y[k];
-    const double near = N_CHAIN ? t * (1.0 - AUDIT_CLOSED * DBL_EPSILON) : t;
-    to_absolute(near, state, &run->discrete, p, all);
-    if (absolute_accelerations(near, all, &run->discrete, p, other, &force))
+    const double t_perturbed = N_CHAIN ? t * (1.0 - AUDIT_CLOSED * DBL_EPSILON) : t;
+    to_absolute(t_perturbed, state, &run->discrete, p, absolute_state);
+    if (compute_absolute_accelerations(t_perturbed, absolute_state, &run->discrete, p, a_perturbed, &force))
         return 1;
     for (int k = 0; k < N_Q; k++)
-        if (!(fabs(other[k] - a[k]) < 0.1 * fraction * scale[k]))
+        if (!(fabs(a_perturbed[k] - a[k]) < 0.1 * fraction * scale[k]))
             return 1;
     return 0;
 }
 #endif
 
 /*
- * Check the accelerations `dy` of the reduced formulation against those from the equations of all bodies. Accelerations
- * of all bodies are differences of velocities, (v(t + h) - v(t - h))/(2 h). If second differences show that h is too
- * long, as near a singular position, h is reduced, or the check is omitted. all: the state of all bodies.
+ * Check the accelerations in the rates dy of the reduced formulation against those from the equations of all bodies.
+ * Reduced accelerations are converted to all bodies by differences of velocities, (v(t + h) - v(t - h))/(2 h). If
+ * second differences show that h is too long, h is reduced. The check is omitted near a singular position, at a jump of
+ * a drive, after very many turns, and in scenes without a reduced formulation. absolute_state (N_S): the state of all
+ * bodies at t. Called at states inside steps that the audit selects.
  */
-static void check_accelerations(Integrator *run, double t, const double *y, const double *dy, const double *all,
-    const Parameters *p)
+static void check_accelerations(Integrator *run, double t, const double *y, const double *dy,
+    const double *absolute_state, const Parameters *p)
 {
 #if TREE
-    const double size = mechanism_size(run);
-    double a[N_Q], m[N_Q], scale[N_Q], near[2][N_S], force, rate = 0.0, most[2] = {0.0, 0.0};
+    const double size = get_mechanism_size(run);
+    double a[N_Q], m[N_Q], scale[N_Q], neighbours[2][N_S], force, rate = 0.0, largest[2] = {0.0, 0.0};
     if (run->discrete.singular_policy != SINGULAR_CONTINUE
-        || absolute_accelerations(t, all, &run->discrete, p, a, &force))
+        || compute_absolute_accelerations(t, absolute_state, &run->discrete, p, a, &force))
         return; /* near a singular position both lose digits */
     for (int k = 0; k < N_Q; k++) {
         const double unit = k % 3 == 2 ? 1.0 : size;
-        rate = max_of(rate, max_of(fabs(all[N_Q + k]) / unit, sqrt(fabs(a[k]) / unit)));
+        rate = max_of(rate, max_of(fabs(absolute_state[N_Q + k]) / unit, sqrt(fabs(a[k]) / unit)));
     }
     for (int k = 2; k < N_Q; k += 3)
-        if (DBL_EPSILON * fabs(all[k]) > 1e-3 * AUDIT_ACCELERATION)
+        if (DBL_EPSILON * fabs(absolute_state[k]) > 1e-3 * AUDIT_ACCELERATION)
             return; /* so large an angle has lost too many digits */
     for (int k = 0; k < N_Q; k++)
-        most[k % 3 == 2] = max_of(most[k % 3 == 2], max_of(fabs(a[k]), rate * fabs(all[N_Q + k])));
+        largest[k % 3 == 2] = max_of(largest[k % 3 == 2], max_of(fabs(a[k]), rate * fabs(absolute_state[N_Q + k])));
     mass_matrix(p, m);
     for (int k = 0; k < N_Q; k++) { /* forces in balance leave accelerations that are rounding */
         const double rounding = m[k] > 0.0 ? AUDIT_BALANCE * force * (k % 3 == 2 ? size : 1.0) / m[k] : 0.0;
-        scale[k] = max_of(max_of(most[k % 3 == 2], rounding), 1e-300);
+        scale[k] = max_of(max_of(largest[k % 3 == 2], rounding), 1e-300);
     }
     for (double fraction = 1e-5; fraction > 1e-8 && rate > 0.0; fraction *= 0.03) {
         const double h = fraction / rate;
-        double worst = 0.0, bend = 0.0;
-        int where = 0;
-        const double between = compute_states_near(run, t, y, dy, h, p, near);
+        double largest_difference = 0.0, second_difference = 0.0;
+        int index = 0;
+        const double interval = compute_neighbouring_states(run, t, y, dy, h, p, neighbours);
         for (int k = 0; k < N_Q; k++) {
-            const double before = near[0][N_Q + k], after = near[1][N_Q + k];
-            const double off = fabs(a[k] - (after - before) / between) / scale[k];
-            bend = max_of(bend, fabs(after - 2.0 * all[N_Q + k] + before) / h / scale[k]);
-            if (!(off <= worst))
-                worst = off, where = k;
+            const double before = neighbours[0][N_Q + k], after = neighbours[1][N_Q + k];
+            const double difference = fabs(a[k] - (after - before) / interval) / scale[k];
+            second_difference = max_of(second_difference,
+                fabs(after - 2.0 * absolute_state[N_Q + k] + before) / h / scale[k]);
+            if (!(difference <= largest_difference))
+                largest_difference = difference, index = k;
         }
-        if (bend < 1e-4) {
+        if (second_difference < 1e-4) {
             /* at a jump of a drive the step holds the old branch, the bodies have the new one */
-            if (worst > AUDIT_ACCELERATION
-                && (drives_jump(t, all, all + N_Q, p) || is_too_sensitive(run, t, y, a, scale, worst, p)))
+            if (largest_difference > AUDIT_ACCELERATION
+                && (drives_jump(t, absolute_state, absolute_state + N_Q, p)
+                    || is_comparison_ill_conditioned(run, t, y, a, scale, largest_difference, p)))
                 return;
-            record_check(&run->audit, CHECK_acceleration, worst, AUDIT_ACCELERATION, t, where);
+            record_check(&run->audit, CHECK_acceleration, largest_difference, AUDIT_ACCELERATION, t, index);
             return;
         }
     }
 #else
-    (void)run, (void)t, (void)y, (void)dy, (void)all, (void)p;
+    (void)run, (void)t, (void)y, (void)dy, (void)absolute_state, (void)p;
 #endif
 }
 
-/* Check that open joints do not penetrate at a state. */
+/*
+ * Check that joints whose contact is open have no penetration beyond their limit at a state with outputs `rhs`.
+ * Penetrations up to AUDIT_GRAZE count as zero; the limit contains the error of event location. Runs with steps of
+ * fixed length are not checked. Called at the end of each step and at states inside selected steps.
+ */
 static void check_joints(Integrator *run, double t, const RhsOutputs *rhs, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES && has_tolerance(run); i++) {
@@ -229,15 +264,17 @@ static void check_joints(Integrator *run, double t, const RhsOutputs *rhs, const
             record_check(&run->audit, CHECK_gap, 0.0, 1.0, t, i);
             continue;
         }
-        const double located = 4.0 * (run->roots.time_resolution + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
-        const double least = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * mechanism_size(run));
-        const double rounding = max_of(1e-9 * radial_clearance(p, i), least);
-        const double limit = max_of(AUDIT_DEPTH * audit_tolerance(run) * run->norm.least[0], rounding) + located;
+        const double location_error = 4.0 * (run->roots.time_resolution
+            + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
+        const double min_rounding = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * get_mechanism_size(run));
+        const double rounding = max_of(1e-9 * radial_clearance(p, i), min_rounding);
+        const double limit = max_of(AUDIT_DEPTH * get_audit_tolerance(run) * run->norm.least[0], rounding)
+            + location_error;
         record_check(&run->audit, CHECK_gap, max_of(joint->delta, 0.0), limit, t, i);
     }
 }
 
-/* Return the time in s within which an event is located after its zero. */
+/* Return the time in s after its zero within which an event is located: AUDIT_LOCATED event tolerances. */
 static double event_location_tolerance(const Integrator *run)
 {
     return AUDIT_LOCATED * (run->roots.time_resolution + 2.0 * DBL_EPSILON * fabs(run->t));
@@ -248,19 +285,26 @@ static int state_at(
     Integrator *run, const Step *step, double fraction, const Parameters *p, double *y, double *dy, RhsOutputs *rhs);
 
 /*
- * Return whether switching function k has just jumped to the wrong branch at time t in a step: it was on its branch one
- * location tolerance earlier. A jump has its full size at once.
+ * Return whether a switching function has just jumped to the wrong branch at time t (s) in a step. It was then on its
+ * branch, or cannot be evaluated, one location tolerance earlier. A jump has its full size at once, so that its value
+ * is no violation. Computes the dense output of the step. Called only for a function that is on the wrong branch.
  */
-static int has_just_jumped(Integrator *run, Step *step, double t, int k, const Parameters *p)
+static int has_jumped_at(Integrator *run, Step *step, double t, int switch_index, const Parameters *p)
 {
     const double fraction = (t - event_location_tolerance(run) - step->t) / step->h;
     double y[N_Y], dy[N_Y];
     RhsOutputs rhs;
-    return fraction <= 0.0 || compute_dense_output(run, p, step) || state_at(run, step, fraction, p, y, dy, &rhs)
-        || run->discrete.branch[k] * rhs.g[k] >= 0.0;
+    return fraction <= 0.0 || compute_dense_output(run, p, step)
+        || state_at(run, step, fraction, p, y, dy, &rhs)
+        || run->discrete.branch[switch_index] * rhs.g[switch_index] >= 0.0;
 }
 
-/* Check the frozen branches at a state inside a step: how far each switching function is on the wrong branch. */
+/*
+ * Check the frozen branches at a state inside a step: by how much each switching function is on the wrong branch. Also
+ * update the largest magnitudes of the functions in the audit. Not checked: the first AUDIT_SETTLED steps, times just
+ * after the beginning, functions that the step passes or suppresses, functions whose branches meet, values below their
+ * uncertainty, and jumps that have just happened. Called at states inside the steps that the audit selects.
+ */
 static void check_branches(Integrator *run, Step *step, double t, const double *y, const RhsOutputs *rhs,
     const Parameters *p)
 {
@@ -275,16 +319,19 @@ static void check_branches(Integrator *run, Step *step, double t, const double *
         if (!(g < 0.0) || step->passed[k] || k == run->roots.skip || meets[k]
             || !is_resolved(run, t, y, rhs, N_CLEARANCES + k, p))
             continue;
-        const StageValues seen = stage_values(step, N_CLEARANCES + k);
+        const StageValues stages = stage_values(step, N_CLEARANCES + k);
         for (int n = 0; n < step->n_seen; n++) /* at zeros that end steps the magnitude appears only inside */
-            run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(stage_value(seen, n)));
-        if (-g <= 1e-3 * run->audit.switch_scale[k] || !has_just_jumped(run, step, t, k, p))
+            run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(stage_value(stages, n)));
+        if (-g <= 1e-3 * run->audit.switch_scale[k] || !has_jumped_at(run, step, t, k, p))
             record_check(&run->audit, CHECK_branch, -g, 1e-3 * run->audit.switch_scale[k], t, k);
     }
 }
 
-/* Check that open joints carry no force. */
-static void check_open_forces(Integrator *run)
+/*
+ * Check that joints with compliant surfaces, without a film, exert no force while their contact is open. Called at the
+ * end of each step; the limit is a fraction of the largest force so far.
+ */
+static void check_forces_of_open_joints(Integrator *run)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
         if (!run->discrete.contact[i].closed && gives(i) && !has_film(i))

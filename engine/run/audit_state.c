@@ -1,42 +1,47 @@
 /* The audit at the end of each step (run/audit.c), and the functions that start the audit and report its record. */
 
 /*
- * Check user-defined event i at the end of a step before which `listed` events were recorded. Each zero must be
- * recorded, and rounding around zero must not be recorded repeatedly.
+ * Check a user-defined event at the end of a step. Report an infinite violation if a zero in the step is not recorded,
+ * or if rounding around zero is recorded as AUDIT_WRONG successive events. n_before: number of events in the list
+ * before the step. Resets the marks of the step. Called by audit_state() for each user-defined event.
  */
-static void check_event(Integrator *run, int i, int listed)
+static void check_user_event(Integrator *run, int event, int n_before)
 {
     Audit *audit = &run->audit;
-    const double before = audit->event_before[i], now = run->rhs.event[i];
-    const int ended = audit->ended == i && fabs(before) > AUDIT_NOISE * audit->event_scale[i]
-        && fabs(now) < AUDIT_ZERO * fabs(before) && event_direction[i] * before <= 0.0;
-    int found = 0;
-    for (int k = listed; k < run->events.n; k++)
-        found |= run->events.number[k] == i;
-    record_check(audit, CHECK_event, 0.0, 1.0, run->t, i);
-    if ((ended || audit->crossed[i]) && !found)
-        record_check(audit, CHECK_event, INFINITY, 1.0, run->t, i);
-    audit->noise[i] = found && !audit->away[i] ? audit->noise[i] + 1 : found ? 0 : audit->noise[i];
-    if (audit->noise[i] >= AUDIT_WRONG)
-        record_check(audit, CHECK_event, INFINITY, 1.0, run->t, i);
-    audit->away[i] = found ? 0 : audit->away[i];
-    audit->crossed[i] = 0;
+    const double value_before = audit->event_before[event], value_now = run->rhs.event[event];
+    const int is_end_event = audit->ended == event && fabs(value_before) > AUDIT_NOISE * audit->event_scale[event]
+        && fabs(value_now) < AUDIT_ZERO * fabs(value_before) && event_direction[event] * value_before <= 0.0;
+    int is_recorded = 0;
+    for (int k = n_before; k < run->events.n; k++)
+        is_recorded |= run->events.number[k] == event;
+    record_check(audit, CHECK_event, 0.0, 1.0, run->t, event);
+    if ((is_end_event || audit->crossed[event]) && !is_recorded)
+        record_check(audit, CHECK_event, INFINITY, 1.0, run->t, event);
+    audit->noise[event] = is_recorded && !audit->away[event] ? audit->noise[event] + 1 : is_recorded ? 0
+        : audit->noise[event];
+    if (audit->noise[event] >= AUDIT_WRONG)
+        record_check(audit, CHECK_event, INFINITY, 1.0, run->t, event);
+    audit->away[event] = is_recorded ? 0 : audit->away[event];
+    audit->crossed[event] = 0;
 }
 
 /*
- * Check the frozen branches at the end of a step: distance on the wrong branch, and number of successive steps there.
+ * Check the frozen branches at the end of a step, and count the successive steps that each switching function ends on
+ * the wrong branch. A violation is recorded after AUDIT_WRONG such steps, if the value exceeds its uncertainty.
+ * Suppressed functions and functions whose branches meet are not counted. Updates the largest magnitudes of the
+ * functions.
  */
-static void check_branches_at_end(Integrator *run, const Parameters *p)
+static void check_branches_at_step_end(Integrator *run, const Parameters *p)
 {
     Audit *audit = &run->audit;
-    double g[AT_LEAST_ONE(N_SWITCHES)], least = 0.0;
+    double g[AT_LEAST_ONE(N_SWITCHES)], smallest = 0.0;
     for (int k = 0; k < N_SWITCHES; k++)
         g[k] = run->discrete.branch[k] * run->rhs.g[k];
     for (int k = 0; k < N_SWITCHES; k++)
         audit->switch_scale[k] = max_of(audit->switch_scale[k], fabs(g[k]));
     for (int k = 0; k < N_SWITCHES; k++)
-        least = min_of(least, g[k]);
-    if (!(least < 0.0)) {
+        smallest = min_of(smallest, g[k]);
+    if (!(smallest < 0.0)) {
         memset(audit->wrong, 0, sizeof audit->wrong);
         return;
     }
@@ -51,31 +56,38 @@ static void check_branches_at_end(Integrator *run, const Parameters *p)
     }
 }
 
-/* Check the end of an accepted step, before which `listed` events were recorded. Return 0 or AUDITED. */
-static int audit_state(Integrator *run, int listed, const Parameters *p)
+/*
+ * Check the end of an accepted step: residuals, gaps, driven loops, forces of open joints, branches, user-defined
+ * events. n_before: number of events in the list before the step. Return 0, also if the audit is off, or AUDITED if a
+ * check has failed.
+ */
+static int audit_state(Integrator *run, int n_before, const Parameters *p)
 {
     Audit *audit = &run->audit;
     if (!audit->level)
         return 0;
-    check_residuals(run);
+    check_constraint_residuals(run);
     check_joints(run, run->t, &run->rhs, p);
 #if N_CHAIN
-    double all[N_S];
-    to_absolute(run->t, run->y, &run->discrete, p, all);
-    check_constraints(run, run->t, all, 0, p);
+    double absolute_state[N_S];
+    to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
+    check_constraints(run, run->t, absolute_state, 0, p);
 #endif
-    check_open_forces(run);
+    check_forces_of_open_joints(run);
     if (N_SWITCHES > 0 && run->discrete.held) {
         record_check(audit, CHECK_branch, 0.0, 1.0, run->t, -1);
-        check_branches_at_end(run, p);
+        check_branches_at_step_end(run, p);
     }
     for (int i = 0; i < N_USER_EVENTS; i++)
-        check_event(run, i, listed);
+        check_user_event(run, i, n_before);
     audit->ended = -1;
     return audit->status;
 }
 
-/* Start the audit of a run at a level (AUDIT_OFF: none); size: of the mechanism, m. */
+/*
+ * Initialize the audit of a run before its first step: no check has a record, and random numbers restart. level:
+ * AuditLevel, AUDIT_OFF: no audit; size: of the mechanism, m.
+ */
 static void start_audit(Integrator *run, int level, double size)
 {
     run->audit = (Audit){.level = level, .size = size, .random = 1u, .due = 2};
@@ -83,12 +95,15 @@ static void start_audit(Integrator *run, int level, double size)
         run->audit.record[k] = (AuditRecord){-1.0, 0.0, -1};
 }
 
-/* Report for each check the largest multiple of its limit (< 0: not checked), its time (s) and its place. */
-static void report_audit(const Integrator *run, double *worst, double *t, int *where)
+/*
+ * Copy the record of each check (N_CHECKS) for Python: its largest multiple of the limit (< 0: not checked), the time
+ * (s), and the index of the joint, equation or event there (-1: none). Called when a run of a batch ends.
+ */
+static void report_audit(const Integrator *run, double *multiple, double *t, int *index)
 {
     for (int k = 0; k < N_CHECKS; k++) {
-        worst[k] = run->audit.record[k].worst;
+        multiple[k] = run->audit.record[k].worst;
         t[k] = run->audit.record[k].t;
-        where[k] = run->audit.record[k].where;
+        index[k] = run->audit.record[k].where;
     }
 }

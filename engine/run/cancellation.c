@@ -7,7 +7,7 @@ enum { MAX_POLL_AFTER = 64, MAX_SLOW_CHECKS = 3, MIN_DOUBLED_STEPS = 1 << 18 };
 #define MAX_STEPS_LEFT 1e11  /* steps left at which any run is ended */
 #define MIN_GAIN_RATIO 1e-3     /* of the earlier gain per step: slower steps count as slow */
 
-/* Return the present time of the clock, s. */
+/* Return the present time in s since the epoch, from the clock of the system. */
 double seconds_now(void)
 {
     struct timespec now;
@@ -16,8 +16,10 @@ double seconds_now(void)
 }
 
 /*
- * Ask the caller whether to stop, if the interval has passed, and return whether the computation must stop now. The
- * number of right-hand sides between readings of the clock adapts to their cost.
+ * Call the caller's function if the polling interval has passed, and return whether the computation must stop now. A
+ * deferred stop (defer_stop()) returns 0 until allow_stop(). The number of right-hand sides between two readings of the
+ * clock is doubled or halved according to their cost. Without a function, the clock is never read again. Called by
+ * is_cancelled() after a number of right-hand sides, and within dense solvers.
  */
 int poll_cancellation(Cancellation *token)
 {
@@ -25,13 +27,13 @@ int poll_cancellation(Cancellation *token)
     if (!token->ask)
         token->poll_after = LONG_MAX;
     if (token->ask && !token->stop) {
-        const double now = seconds_now(), since = now - token->last;
-        token->last = now;
-        if (since < 0.1 * token->every)
+        const double time_now = seconds_now(), elapsed = time_now - token->last;
+        token->last = time_now;
+        if (elapsed < 0.1 * token->every)
             token->poll_after = token->poll_after < MAX_POLL_AFTER / 2 ? 2 * token->poll_after + 1 : MAX_POLL_AFTER;
-        else if (since > 0.5 * token->every)
+        else if (elapsed > 0.5 * token->every)
             token->poll_after = (token->poll_after + 1) / 2;
-        if (now >= token->next || since < 0.0) {
+        if (time_now >= token->next || elapsed < 0.0) {
             token->stop = token->ask(token->caller) != 0;
             token->last = seconds_now();
             token->next = token->last + token->every;
@@ -42,27 +44,33 @@ int poll_cancellation(Cancellation *token)
     return token->stop && !token->hold;
 }
 
-/* Start polling `ask(caller)` every `every` seconds; ask NULL: never. */
-void start_polling(Cancellation *token, int (*ask)(void *), void *caller, double every)
+/*
+ * Initialize a cancellation token that calls `ask(caller)` every `interval` seconds. A nonzero return value of `ask`
+ * requests a stop. ask NULL: never.
+ */
+void start_polling(Cancellation *token, int (*ask)(void *), void *caller, double interval)
 {
-    *token = (Cancellation){.ask = ask, .caller = caller, .every = every};
+    *token = (Cancellation){.ask = ask, .caller = caller, .every = interval};
 }
 
-/* Return the number of steps left until t_end at the gain of the last steps. */
+/*
+ * Return the estimated number of steps left until t_end (s), if each MONITOR_STEPS steps gain as much time as the last
+ * ones.
+ */
 static double count_remaining_steps(const ProgressMonitor *monitor, double t, double t_end)
 {
     return (t_end - t) / monitor->gain * MONITOR_STEPS;
 }
 
 /*
- * Return whether steps shrink so fast that the end is never reached, as where a drive grows exponentially: doubling the
- * number of steps gains no more time than a doubling DOUBLINGS ago. The extrapolated number of steps must exceed
- * MAX_STEPS_LEFT.
+ * Return whether the steps shrink so fast that the run never ends, as where a drive grows exponentially. The test runs
+ * when the number of steps has doubled. That doubling gained no more time than the one DOUBLINGS before, and the
+ * extrapolated number of steps exceeds MAX_STEPS_LEFT. Updates the monitor.
  */
 static int is_growing_exponentially(ProgressMonitor *monitor, double t, double t_end)
 {
     Doubling *doubling = &monitor->doubling;
-    const double gain = t - doubling->t, steps = (double)monitor->steps, earlier = doubling->gain[0];
+    const double gain = t - doubling->t, steps = (double)monitor->steps, gain_before = doubling->gain[0];
     if (monitor->steps < doubling->next)
         return 0;
     doubling->t = t;
@@ -72,32 +80,34 @@ static int is_growing_exponentially(ProgressMonitor *monitor, double t, double t
     doubling->next = doubling->next ? 2 * monitor->steps : 1024;
     /* steps have not become longer again */
     const int slows = monitor->gain * steps <= 2.0 * gain * MONITOR_STEPS;
-    return steps >= MIN_DOUBLED_STEPS && gain <= earlier && slows && steps * exp2((t_end - t) / gain) > MAX_STEPS_LEFT;
+    return steps >= MIN_DOUBLED_STEPS && gain <= gain_before && slows
+        && steps * exp2((t_end - t) / gain) > MAX_STEPS_LEFT;
 }
 
 /*
- * Return, once at the end of each step, whether the run no longer advances. Short steps that become longer again are
- * given time: a fast motion may decay.
+ * Count a step that ends at time t (s) and return whether the run no longer advances towards t_end. Gains of time are
+ * compared every MONITOR_STEPS steps; MAX_SLOW_CHECKS successive slow comparisons, or an exponential growth, end the
+ * run. Steps that become longer again reset the count, because a fast motion may decay. Called once per step.
  */
 int has_stalled(ProgressMonitor *monitor, double t, double t_end)
 {
-    const long before_it = monitor->steps++;
+    const long n_before = monitor->steps++;
     if (is_growing_exponentially(monitor, t, t_end)) {
         monitor->crawls = GROWTH_DOUBLINGS;
         return 1;
     }
-    if (before_it % MONITOR_STEPS)
+    if (n_before % MONITOR_STEPS)
         return 0;
-    const double before = monitor->gain;
+    const double gain_before = monitor->gain;
     monitor->gain = monitor->steps > 1 ? t - monitor->t : INFINITY;
     monitor->t = t;
     if (monitor->steps == 1)
         return 0;
-    const double left = count_remaining_steps(monitor, t, t_end);
+    const double steps_left = count_remaining_steps(monitor, t, t_end);
     monitor->crawls =
-        left > MAX_STEPS_LEFT_SLOW && monitor->gain * (double)monitor->good < MIN_GAIN_RATIO * monitor->sum;
-    if (left > MAX_STEPS_LEFT || monitor->crawls) {
-        monitor->slow = monitor->gain > 1.1 * before ? 0 : monitor->slow + 1;
+        steps_left > MAX_STEPS_LEFT_SLOW && monitor->gain * (double)monitor->good < MIN_GAIN_RATIO * monitor->sum;
+    if (steps_left > MAX_STEPS_LEFT || monitor->crawls) {
+        monitor->slow = monitor->gain > 1.1 * gain_before ? 0 : monitor->slow + 1;
     } else {
         monitor->slow = 0;
         monitor->sum += monitor->gain;
@@ -106,7 +116,10 @@ int has_stalled(ProgressMonitor *monitor, double t, double t_end)
     return monitor->slow >= MAX_SLOW_CHECKS;
 }
 
-/* Return how many of the next calls of has_stalled() only count. */
+/*
+ * Return how many of the next calls of has_stalled() only count steps, without a comparison. Used by runs in lanes,
+ * which make these steps without the test.
+ */
 long steps_before_check(const ProgressMonitor *monitor)
 {
     const long to_doubling = monitor->doubling.next - monitor->steps - 1;

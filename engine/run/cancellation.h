@@ -33,7 +33,7 @@ static inline void defer_stop(Cancellation *token) { token->hold = 1; }
 /* Obey requests to stop at once from now on. */
 static inline void allow_stop(Cancellation *token) { token->hold = 0; }
 
-/* Count a right-hand side, poll the caller if due, and return whether the computation must stop. */
+/* Count one right-hand side, poll the caller if polling is due, and return whether the computation must stop. */
 static inline int is_cancelled(Cancellation *token)
 {
     return ++token->count > token->poll_after && poll_cancellation(token);

@@ -5,57 +5,63 @@
 #define ONSET_ORDER 3.5 /* order of the error of a first step in a contact, whose force begins as delta^n */
 
 /*
- * Update the branches of all active switching functions except `crossed` (-1: none), which was just switched, and
- * evaluate the right-hand side.
+ * Update the branches of all active switching functions at the present state and evaluate the right-hand side there.
+ * crossed_switch: function that was just switched and keeps its branch, -1: none. Return 0 or the status of the
+ * right-hand side. Called after events and at the start of a run.
  */
-static int update_branches(Integrator *run, int crossed, const Parameters *p)
+static int update_branches(Integrator *run, int crossed_switch, const Parameters *p)
 {
-    return update_branches_at(run, run->t, run->y, run->dy, &run->rhs, crossed, p);
+    return update_branches_at(run, run->t, run->y, run->dy, &run->rhs, crossed_switch, p);
 }
 
 #if N_USER_EVENTS && N_SWITCHES
 /*
- * Update the branches just after an event, except that of the switching function `crossed`. Functions that jump at one
- * time, as a mod of a mod, have zeros of several switching functions there; between these zeros event functions have
- * values that they never take.
+ * Update the branches of switching functions to those just after an event, at the present state extrapolated by the
+ * location tolerance. crossed_switch keeps its branch, -1: none. Functions that jump at one time, as a mod of a mod,
+ * have zeros of several switching functions there; between these zeros event functions have values that they never
+ * take. If a branch changed, the right-hand side is evaluated again. Return a status.
  */
-static int update_branches_after_event(Integrator *run, int crossed, const Parameters *p)
+static int update_branches_after_event(Integrator *run, int crossed_switch, const Parameters *p)
 {
     const double h = event_location_tolerance(run);
     double branch[N_SWITCHES], y[N_Y], dy[N_Y];
-    RhsOutputs beyond;
+    RhsOutputs rhs_after;
     memcpy(branch, run->discrete.branch, sizeof branch);
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + h * run->dy[k];
-    const int status = update_branches_at(run, run->t + h, y, dy, &beyond, crossed, p);
+    const int status = update_branches_at(run, run->t + h, y, dy, &rhs_after, crossed_switch, p);
     if (status || !memcmp(branch, run->discrete.branch, sizeof branch))
         return status;
     return rates(run, run->t, run->y, p, run->dy, &run->rhs);
 }
 
-/* Return whether event function i keeps its sign at a zero, because branches have changed there since `before`. */
-static int has_unchanged_sign(Integrator *run, int i, const double *before, const Parameters *p)
+/*
+ * Return whether a user-defined event function has the same sign just after its zero as before, because branches have
+ * changed there. branches_before: branches of the switching functions before the event. Return 0 if no branch has
+ * changed or the evaluation fails.
+ */
+static int has_equal_sign_after_event(Integrator *run, int event, const double *branches_before, const Parameters *p)
 {
     double value[N_USER_EVENTS];
-    return memcmp(before, run->discrete.branch, sizeof run->discrete.branch)
+    return memcmp(branches_before, run->discrete.branch, sizeof run->discrete.branch)
         && !evaluate_events_ahead(run, run->t, event_location_tolerance(run), run->y, run->dy, p, value)
-        && run->discrete.event_sign[i] * value[i] > 0.0;
+        && run->discrete.event_sign[event] * value[event] > 0.0;
 }
 #else
-/* Return 0: the scene has no user-defined events with switching functions. */
-static int update_branches_after_event(Integrator *run, int crossed, const Parameters *p)
+/* Return 0: the scene has no user-defined events that depend on switching functions. */
+static int update_branches_after_event(Integrator *run, int crossed_switch, const Parameters *p)
 {
-    return (void)run, (void)crossed, (void)p, 0;
+    return (void)run, (void)crossed_switch, (void)p, 0;
 }
 
-/* Return 0: the scene has no user-defined events with switching functions. */
-static int has_unchanged_sign(Integrator *run, int i, const double *before, const Parameters *p)
+/* Return 0: the scene has no user-defined events that depend on switching functions. */
+static int has_equal_sign_after_event(Integrator *run, int event, const double *branches_before, const Parameters *p)
 {
-    return (void)run, (void)i, (void)before, (void)p, 0;
+    return (void)run, (void)event, (void)branches_before, (void)p, 0;
 }
 #endif
 
-/* Return the number of closed contacts. */
+/* Return the number of joints with play whose contact is closed. */
 static int count_closed(const Integrator *run)
 {
     int count = 0;
@@ -65,38 +71,44 @@ static int count_closed(const Integrator *run)
 }
 
 /*
- * Begin or end the contact of joint i, and select the first step length that follows. floor: smallest approach speed,
- * m/s.
+ * Open the contact of a joint if it is closed, else close it, at the present time. min_speed: smallest stored approach
+ * speed, m/s. Also select the estimated length of the next step, by the number of closed contacts, and discard that of
+ * the stiff method. Called at the zero of the event function of a compliant contact.
  */
-static void cross_contact(Integrator *run, int i, double floor)
+static void toggle_contact(Integrator *run, int joint, double min_speed)
 {
-    const int opens = run->discrete.contact[i].closed;
-    if (opens)
-        open_joint(run, i, run->t);
+    const int was_closed = run->discrete.contact[joint].closed;
+    if (was_closed)
+        open_contact(run, joint, run->t);
     else
-        close_joint(run, i, run->t, run->rhs.clearance[i].deltadot, floor);
-    set_first_length(run, &run->control.after_contact[count_closed(run)][opens], opens ? 0.0 : ONSET_ORDER);
+        close_contact(run, joint, run->t, run->rhs.clearance[joint].deltadot, min_speed);
+    set_first_length(run, &run->control.after_contact[count_closed(run)][was_closed], was_closed ? 0.0
+        : ONSET_ORDER);
     discard_stiff_length(run);
 }
 
 /*
- * Apply the change of event function k that reached zero: the contact of a joint, or the branch of a switching
- * function.
+ * Apply the change of an event function that reached zero: the contact of a joint with compliant surfaces begins or
+ * ends, or a switching function changes its branch. Rigid contacts change in update_contacts(). Functions of friction
+ * and user-defined events change nothing here. Called by apply_event() for each function that has reached zero.
  */
-static void cross_event(Integrator *run, int k, const Parameters *p)
+static void toggle_contact_or_branch(Integrator *run, int event_function, const Parameters *p)
 {
-    if (k < N_CLEARANCES && !gives(k))
+    if (event_function < N_CLEARANCES && !gives(event_function))
         return; /* update_contacts() changes all rigid contacts */
-    if (k < N_CLEARANCES)
-        cross_contact(run, k, min_approach_speed(p, k));
-    else if (k < N_CLEARANCES + N_SWITCHES) {
-        const int switch_index = k - N_CLEARANCES;
+    if (event_function < N_CLEARANCES)
+        toggle_contact(run, event_function, min_approach_speed(p, event_function));
+    else if (event_function < N_CLEARANCES + N_SWITCHES) {
+        const int switch_index = event_function - N_CLEARANCES;
         run->discrete.branch[switch_index] *= -1.0;
         set_first_length(run, &run->control.after_switch[switch_index][run->discrete.branch[switch_index] > 0.0], 0.0);
     }
 }
 
-/* Return the scale of works at the start in J: the kinetic energy plus that of the smallest relevant speeds. */
+/*
+ * Return the scale of works at the start in J: the kinetic energy plus that of all bodies at the smallest relevant
+ * speeds. Called once, when a run begins.
+ */
 static double initial_energy_scale(const Integrator *run, const Parameters *p)
 {
     double m[N_Q], sum = kinetic_energy(run, p);
@@ -108,20 +120,23 @@ static double initial_energy_scale(const Integrator *run, const Parameters *p)
 
 #if DRIVE_IMPULSES
 /*
- * Set the branches of all switching functions to their signs at time `ahead`, just after the present time. The function
- * `crossed`, which was just switched, keeps its branch in the first pass: it changes only if other functions change it.
+ * Set the branches of all switching functions to their signs at time t_after (s), just after the present time, with the
+ * present coordinates. crossed_switch was just switched and keeps its branch in the first pass: it changes only if
+ * other functions change it; -1: none. At most six passes. Return 0 or the status of the right-hand side. Called before
+ * and after the impulse of a drive.
  */
-static int update_branches_just_after(Integrator *run, double ahead, int crossed, const Parameters *p)
+static int update_branches_just_after(Integrator *run, double t_after, int crossed_switch, const Parameters *p)
 {
     double dy[N_Y];
     for (int pass = 0; pass < 6; pass++) {
         int changed = 0;
         RhsOutputs rhs;
-        const int status = rates(run, ahead, run->y, p, dy, &rhs);
+        const int status = rates(run, t_after, run->y, p, dy, &rhs);
         if (status)
             return status;
         for (int k = 0; k < N_SWITCHES; k++)
-            if ((k != crossed || pass > 0) && !isnan(rhs.g[k]) && (run->discrete.branch[k] < 0.0) != (rhs.g[k] < 0.0)) {
+            if ((k != crossed_switch || pass > 0) && !isnan(rhs.g[k])
+                && (run->discrete.branch[k] < 0.0) != (rhs.g[k] < 0.0)) {
                 run->discrete.branch[k] = -run->discrete.branch[k];
                 changed = 1;
             }
@@ -132,65 +147,70 @@ static int update_branches_just_after(Integrator *run, double ahead, int crossed
 }
 
 /*
- * Return whether the second rate of a drive is unbounded next to the present time, as that of (t - t0)^1.5 is at t0.
- * The test: at fixed state, accelerations change far more from here to `distance` (s) than from there to twice as far.
+ * Return whether the second rate of a drive is unbounded next to the present time, as that of (t - t0)^1.5 is at t0. At
+ * fixed coordinates, accelerations then change far more from here to `distance` (s, negative: before) than from there
+ * to twice as far. Return 0 if an evaluation fails. Called at jumps of drives in runs with steps of fixed length.
  */
-static int is_unbounded(Integrator *run, double distance, const Parameters *p)
+static int is_drive_rate_unbounded(Integrator *run, double distance, const Parameters *p)
 {
     const double offset[3] = {1e-5 * distance, distance, 2.0 * distance};
-    DiscreteState free = run->discrete;
+    DiscreteState unfrozen = run->discrete;
     double dy[3][N_Y], largest = 0.0;
     RhsOutputs rhs;
-    int some = 0;
-    free.held = 0;
+    int is_unbounded_rate = 0;
+    unfrozen.held = 0;
     for (int i = 0; i < 3; i++)
-        if (motion(run->t + offset[i], run->y, &free, p, dy[i], &rhs))
+        if (motion(run->t + offset[i], run->y, &unfrozen, p, dy[i], &rhs))
             return 0;
     for (int k = N_X; k < 2 * N_X; k++)
         largest = max_of(largest, fabs(dy[1][k]));
     for (int k = N_X; k < 2 * N_X; k++)
-        some |= !(fabs(dy[0][k] - dy[1][k]) <= 20.0 * fabs(dy[1][k] - dy[2][k]) + 1e-9 * largest);
-    return some;
+        is_unbounded_rate |= !(fabs(dy[0][k] - dy[1][k]) <= 20.0 * fabs(dy[1][k] - dy[2][k]) + 1e-9 * largest);
+    return is_unbounded_rate;
 }
 
 /*
- * Pass the switching point of a drive with all others at the same time: first update branches, then apply the impulse
- * that changes velocities. Return 0, UNBOUNDED or another status.
+ * Apply the jump of a drive at the zero of its switching function: update branches, then add the impulse that changes
+ * velocities. If no velocity changes, only branches are updated; else crossed user-defined events are recorded. With
+ * steps of fixed length, return UNBOUNDED if the second rate of a drive is unbounded there. Return 0, ENDED or another
+ * status.
  */
-static int pass_drive_jump(Integrator *run, int switch_index, const Parameters *p)
+static int apply_drive_jump(Integrator *run, int switch_index, const Parameters *p)
 {
-    const double t = run->t, ahead = t + max_of(32.0 * DBL_EPSILON * fabs(t), 2.0 * run->roots.time_resolution);
+    const double t = run->t, t_after = t + max_of(32.0 * DBL_EPSILON * fabs(t), 2.0 * run->roots.time_resolution);
     /* methods with step-size control approach in short steps; the time is known to a few time resolutions */
     const double distance = max_of(1e-6 * run->control.fixed, 4e5 * run->roots.time_resolution);
-    if (run->control.fixed > 0.0 && (is_unbounded(run, -distance, p) || is_unbounded(run, distance, p)))
+    if (run->control.fixed > 0.0 && (is_drive_rate_unbounded(run, -distance, p)
+        || is_drive_rate_unbounded(run, distance, p)))
         return UNBOUNDED;
-    int status = update_branches_just_after(run, ahead, switch_index, p);
+    int status = update_branches_just_after(run, t_after, switch_index, p);
     if (status)
         return status;
-    const double before = kinetic_energy(run, p);
+    const double energy_before = kinetic_energy(run, p);
     apply_drive_impulse(run, p);
-    if (kinetic_energy(run, p) == before)
+    if (kinetic_energy(run, p) == energy_before)
         return update_branches(run, switch_index, p);
-    status = update_branches_just_after(run, ahead, switch_index, p); /* branches that depend on the changed speeds */
+    status = update_branches_just_after(run, t_after, switch_index, p); /* branches that depend on the changed speeds */
     if (!status)
         status = rates(run, t, run->y, p, run->dy, &run->rhs);
     return status ? status : record_crossed_events(run, NULL, p);
 }
 
 /*
- * Apply the jump of a drive's rate at the start or end of a run, or just after it. Record user-defined events whose
- * zeros the impulse crosses.
+ * Apply jumps of the rates of drives at the present time, called at the start and end of a run. If a branch differs
+ * just after that time, apply the impulse, resolve the impacts it causes and record the user-defined events that it
+ * crosses. Return 0, ENDED or another status.
  */
 static int pass_drive_jumps_here(Integrator *run, const Parameters *p)
 {
-    double before[N_SWITCHES + 1];
-    int some = 0;
+    double branches_before[N_SWITCHES + 1];
+    int has_changed = 0;
     for (int k = 0; k < N_SWITCHES; k++)
-        before[k] = run->discrete.branch[k];
+        branches_before[k] = run->discrete.branch[k];
     int status = update_branches_just_after(run, just_after(run->t), -1, p);
     for (int k = 0; k < N_SWITCHES; k++)
-        some |= before[k] != run->discrete.branch[k];
-    if (status || !some)
+        has_changed |= branches_before[k] != run->discrete.branch[k];
+    if (status || !has_changed)
         return status;
     apply_drive_impulse(run, p);
     status = update_branches_just_after(run, just_after(run->t), -1, p);
@@ -201,8 +221,10 @@ static int pass_drive_jumps_here(Integrator *run, const Parameters *p)
     return status ? status : record_crossed_events(run, NULL, p);
 }
 #else
-/* Update branches: no drive of the scene has a rate that jumps. */
-static inline int pass_drive_jump(Integrator *run, int switch_index, const Parameters *p)
+/*
+ * Update branches after the zero of a switching function: no drive of the scene has a rate that jumps. Return a status.
+ */
+static inline int apply_drive_jump(Integrator *run, int switch_index, const Parameters *p)
 {
     return update_branches(run, switch_index, p);
 }
@@ -212,19 +234,22 @@ static inline int pass_drive_jumps_here(Integrator *run, const Parameters *p) { 
 #endif
 
 /*
- * Change the branch of switching function `switch_index` at its zero, apply the impulse of a drive, and suppress a
- * repeated zero.
+ * Apply the jump of a drive at the zero of a switching function, update branches, and suppress a repeated zero in the
+ * next step. Return 0 or a status. Called by apply_event() if a switching function ended the step.
  */
 static int change_branch(Integrator *run, int switch_index, const Parameters *p)
 {
-    double before[N_Y];
-    memcpy(before, run->dy, sizeof before);
-    const int status = pass_drive_jump(run, switch_index, p);
-    suppress_repeated_switch(run, switch_index, before);
+    double dy_before[N_Y];
+    memcpy(dy_before, run->dy, sizeof dy_before);
+    const int status = apply_drive_jump(run, switch_index, p);
+    suppress_repeated_switch(run, switch_index, dy_before);
     return status;
 }
 
-/* Record the forces of contacts that begin now: a force that begins with a jump may be largest at its onset. */
+/*
+ * Record the forces of compliant contacts that begin at the present time, as peaks: a force that begins with a jump may
+ * be largest at its onset.
+ */
 static void record_onset_forces(Integrator *run)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
@@ -233,21 +258,22 @@ static void record_onset_forces(Integrator *run)
 }
 
 /*
- * Apply all changes at an event and evaluate the right-hand side after them. Every event function of a contact or
- * switching point that has reached zero changes, then contacts, friction and user-defined events. Changes that lead
- * other user-defined events across their zeros record these. Return 0, ENDED or another status.
+ * Apply all changes at an event and evaluate the right-hand side after them. event: number of the event function that
+ * ended the step. Every contact whose function has reached zero changes as well, then branches, friction modes, rigid
+ * contacts and user-defined events in this order. User-defined events that these changes lead across zero are recorded.
+ * Return 0, ENDED if an event ends the run, or another status. Called after each accepted step that an event ended.
  */
 static int apply_event(Integrator *run, int event, const Parameters *p)
 {
-    double before[AT_LEAST_ONE(N_USER_EVENTS)], branch[AT_LEAST_ONE(N_SWITCHES)];
-    const StateBeforeEvent held = copy_before_event(run);
-    memcpy(branch, run->discrete.branch, sizeof branch);
+    double values_before[AT_LEAST_ONE(N_USER_EVENTS)], branches_before[AT_LEAST_ONE(N_SWITCHES)];
+    const StateBeforeEvent state_before = copy_before_event(run);
+    memcpy(branches_before, run->discrete.branch, sizeof branches_before);
     for (int i = 0; i < N_USER_EVENTS; i++)
-        before[i] = run->rhs.event[i];
+        values_before[i] = run->rhs.event[i];
     for (int k = 0; k < N_CLEARANCES + N_SWITCHES; k++)
         if (k == event
-            || (k < N_CLEARANCES && event_function(&run->discrete, &run->rhs, k) < penetration_rounding(p, k)))
-            cross_event(run, k, p);
+            || (k < N_CLEARANCES && event_function(&run->discrete, &run->rhs, k) < compute_penetration_rounding(p, k)))
+            toggle_contact_or_branch(run, k, p);
     const int switch_index = event - N_CLEARANCES, friction = switch_index - N_SWITCHES;
     const int user_event = friction - N_FRICTIONS;
     int status = switch_index >= 0 && friction < 0 ? change_branch(run, switch_index, p) : update_branches(run, -1, p);
@@ -259,16 +285,20 @@ static int apply_event(Integrator *run, int event, const Parameters *p)
         status = change_friction_modes(run, p);
     if (!status && user_event < 0)
         status = update_contacts(run, event, p);
-    if (!status && user_event >= 0 && !has_unchanged_sign(run, user_event, branch, p)
+    if (!status && user_event >= 0 && !has_equal_sign_after_event(run, user_event, branches_before, p)
         && reverse_event_sign(run, user_event) && !run->events.pole
         && record_user_event(run, user_event, run->t, run->y, p))
         status = ENDED;
-    const int ended = !status || status == ENDED ? record_crossed_events(run, before, p) : 0;
-    const int held_now = !status || status == ENDED ? record_arrivals_at_zero(run, &held, 1e-4 * run->control.h, p) : 0;
-    return ended ? ended : held_now ? held_now : status;
+    const int crossed_status = !status || status == ENDED ? record_crossed_events(run, values_before, p) : 0;
+    const int arrival_status = !status || status == ENDED
+        ? record_arrivals_at_zero(run, &state_before, 1e-4 * run->control.h, p) : 0;
+    return crossed_status ? crossed_status : arrival_status ? arrival_status : status;
 }
 
-/* Return LOST if an open contact has a penetration beyond its tolerance: contact detection has failed; otherwise 0. */
+/*
+ * Return LOST if an open contact has a penetration beyond its tolerance, so that contact detection has failed;
+ * otherwise 0. Called at accepted states.
+ */
 static int check_contacts(const Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++)

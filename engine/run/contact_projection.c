@@ -1,25 +1,27 @@
 /* Projection of closed contacts of rigid surfaces onto the gap zero, delta = 0. */
 /*
- * Project positions onto delta = -gap (m, of each listed contact) and velocities of closed contacts onto deltadot = 0.
- * The change of the state y is the smallest in the norm of the mass matrix. Return 0 or the status of the motion.
+ * Project positions onto delta = -gap and velocities of closed contacts onto deltadot = 0, by at most three Newton
+ * steps. contacts: lists the joints, its operator is overwritten; gap: distance of each listed contact, m. The change
+ * of the state y is the smallest in the norm of the mass matrix. Friction is switched off. Return 0 or the status of
+ * the motion. Called after impacts and when states of the dense output are projected.
  */
 static int project_contacts(
     Integrator *run, double t, double *y, const Parameters *p, Delassus *contacts, const double *gap)
 {
     unsigned char closed[N_RIGID];
-    DiscreteState now = run->discrete;
-    disable_friction(&now);
+    DiscreteState discrete = run->discrete;
+    disable_friction(&discrete);
     for (int k = 0; k < contacts->n; k++) {
-        ContactState *contact = &now.contact[contacts->joint[k]];
+        ContactState *contact = &discrete.contact[contacts->joint[k]];
         closed[k] = (unsigned char)contact->closed;
         contact->closed = 1; /* closed: so that a contact force acts in it */
     }
     for (int pass = 0; pass < 3; pass++) {
-        double dy[N_Y], depth[N_RIGID], rate[N_RIGID], x[N_RIGID], u[N_RIGID], worst = 0.0;
+        double dy[N_Y], depth[N_RIGID], rate[N_RIGID], x[N_RIGID], u[N_RIGID], largest_ratio = 0.0;
         RhsOutputs rhs;
-        int status = compute_delassus(motion_with_inner_states, N_Y, t, y, &now, p, contacts);
+        int status = compute_delassus(motion_with_inner_states, N_Y, t, y, &discrete, p, contacts);
         if (!status)
-            status = motion_with_inner_states(t, y, &now, p, dy, &rhs);
+            status = motion_with_inner_states(t, y, &discrete, p, dy, &rhs);
         count_evaluations(run, contacts->n + 2);
         if (status)
             return status;
@@ -27,27 +29,30 @@ static int project_contacts(
             const Clearance *joint = &rhs.clearance[contacts->joint[k]];
             depth[k] = joint->delta + gap[k];
             rate[k] = closed[k] ? joint->deltadot : 0.0;
-            worst = max_of(worst, fabs(depth[k]) / radial_clearance(p, contacts->joint[k]));
+            largest_ratio = max_of(largest_ratio, fabs(depth[k]) / radial_clearance(p, contacts->joint[k]));
         }
-        solve_part(contacts, NULL, depth, x);
-        solve_part(contacts, closed, rate, u);
+        solve_contact_subset(contacts, NULL, depth, x);
+        solve_contact_subset(contacts, closed, rate, u);
         for (int k = 0; k < contacts->n; k++)
             for (int i = 0; i < N_X; i++) {
-                y[i] += contacts->way[k][N_X + i] * x[k];
-                y[N_X + i] += contacts->way[k][N_X + i] * u[k];
+                y[i] += contacts->response[k][N_X + i] * x[k];
+                y[N_X + i] += contacts->response[k][N_X + i] * u[k];
             }
-        if (worst < 1e-14)
+        if (largest_ratio < 1e-14)
             break;
     }
     return 0;
 }
 
-/* Project a state y onto delta = 0 and deltadot = 0 of all closed contacts. */
+/*
+ * Project a state y at time t onto delta = 0 and deltadot = 0 of all closed rigid contacts; without closed contacts y
+ * stays. A failure is ignored.
+ */
 static void project_closed_contacts(Integrator *run, double t, double *y, const Parameters *p)
 {
-    const double none[N_RIGID] = {0.0};
+    const double zero_gap[N_RIGID] = {0.0};
     Delassus contacts;
-    contacts.n = list_closed(&run->discrete, contacts.joint);
+    contacts.n = list_closed_contacts(&run->discrete, contacts.joint);
     if (contacts.n)
-        (void)project_contacts(run, t, y, p, &contacts, none);
+        (void)project_contacts(run, t, y, p, &contacts, zero_gap);
 }

@@ -1,8 +1,11 @@
 /* The envelope of forces and paths of joints with play: a bounded number of rows (EnvelopeRow) covers all steps. */
-/* Extend the smallest and largest force of joint i in the current row by F (N) at time t (s). */
-static void extend_force_envelope(Integrator *run, int i, double t, double F)
+/*
+ * Extend the smallest and largest force of a joint in the current row of the envelope by F (N) at time t (s). Called at
+ * ends of steps and at peaks between them.
+ */
+static void extend_force_envelope(Integrator *run, int joint, double t, double F)
 {
-    double *columns = run->envelope.rows[run->envelope.row].joint[i];
+    double *columns = run->envelope.rows[run->envelope.row].joint[joint];
     if (F < columns[ENVELOPE_F_low]) {
         columns[ENVELOPE_F_low] = F;
         columns[ENVELOPE_t_F_low] = t;
@@ -13,20 +16,26 @@ static void extend_force_envelope(Integrator *run, int i, double t, double F)
     }
 }
 
-/* Store the position of joint i's journal at time t as the outermost one of the current row, if it is. */
-static void extend_path_envelope(Integrator *run, int i, double t, const Clearance *joint)
+/*
+ * Store the eccentricity of a joint's journal at time t (s) in the current row of the envelope, if its magnitude is the
+ * largest of that row.
+ */
+static void extend_path_envelope(Integrator *run, int joint, double t, const Clearance *clearance)
 {
-    double *columns = run->envelope.rows[run->envelope.row].joint[i];
-    if (!(joint->e * joint->e
+    double *columns = run->envelope.rows[run->envelope.row].joint[joint];
+    if (!(clearance->e * clearance->e
             > columns[ENVELOPE_ex_out] * columns[ENVELOPE_ex_out]
                 + columns[ENVELOPE_ey_out] * columns[ENVELOPE_ey_out]))
         return;
-    columns[ENVELOPE_ex_out] = joint->ex;
-    columns[ENVELOPE_ey_out] = joint->ey;
+    columns[ENVELOPE_ex_out] = clearance->ex;
+    columns[ENVELOPE_ey_out] = clearance->ey;
     columns[ENVELOPE_t_out] = t;
 }
 
-/* Start the current row of the envelope without steps. */
+/*
+ * Initialize the current row of the envelope, which covers no steps yet: smallest force infinite, largest -infinite,
+ * eccentricity zero.
+ */
 static void begin_envelope_row(Integrator *run)
 {
     run->envelope.steps = 0;
@@ -39,39 +48,46 @@ static void begin_envelope_row(Integrator *run)
     }
 }
 
-/* Merge row a and the following row b into row `to`. */
-static void merge_envelope_rows(EnvelopeRow *to, const EnvelopeRow *a, const EnvelopeRow *b)
+/*
+ * Merge two successive rows of the envelope into `merged`, which may be one of them: extremes of both, end position and
+ * time of the second.
+ */
+static void merge_envelope_rows(EnvelopeRow *merged, const EnvelopeRow *first, const EnvelopeRow *second)
 {
-    EnvelopeRow both = *b;
+    EnvelopeRow result = *second;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        const double *first = a->joint[i];
-        double *columns = both.joint[i];
-        if (first[ENVELOPE_F_low] <= columns[ENVELOPE_F_low]) {
-            columns[ENVELOPE_F_low] = first[ENVELOPE_F_low];
-            columns[ENVELOPE_t_F_low] = first[ENVELOPE_t_F_low];
+        const double *from = first->joint[i];
+        double *columns = result.joint[i];
+        if (from[ENVELOPE_F_low] <= columns[ENVELOPE_F_low]) {
+            columns[ENVELOPE_F_low] = from[ENVELOPE_F_low];
+            columns[ENVELOPE_t_F_low] = from[ENVELOPE_t_F_low];
         }
-        if (first[ENVELOPE_F_high] >= columns[ENVELOPE_F_high]) {
-            columns[ENVELOPE_F_high] = first[ENVELOPE_F_high];
-            columns[ENVELOPE_t_F_high] = first[ENVELOPE_t_F_high];
+        if (from[ENVELOPE_F_high] >= columns[ENVELOPE_F_high]) {
+            columns[ENVELOPE_F_high] = from[ENVELOPE_F_high];
+            columns[ENVELOPE_t_F_high] = from[ENVELOPE_t_F_high];
         }
-        if (hypot(first[ENVELOPE_ex_out], first[ENVELOPE_ey_out])
+        if (hypot(from[ENVELOPE_ex_out], from[ENVELOPE_ey_out])
             >= hypot(columns[ENVELOPE_ex_out], columns[ENVELOPE_ey_out])) {
-            columns[ENVELOPE_ex_out] = first[ENVELOPE_ex_out];
-            columns[ENVELOPE_ey_out] = first[ENVELOPE_ey_out];
-            columns[ENVELOPE_t_out] = first[ENVELOPE_t_out];
+            columns[ENVELOPE_ex_out] = from[ENVELOPE_ex_out];
+            columns[ENVELOPE_ey_out] = from[ENVELOPE_ey_out];
+            columns[ENVELOPE_t_out] = from[ENVELOPE_t_out];
         }
     }
-    *to = both;
+    *merged = result;
 }
 
-/* Extend the envelope by the present state as the end of a step. A full envelope is halved and its stride doubled. */
+/*
+ * Extend the current row of the envelope by the present state, the end of a step, and begin the next row after `stride`
+ * steps. If no row is left, each two rows are merged and the stride is doubled. Called at each accepted state of a run
+ * with an envelope.
+ */
 static void extend_envelope(Integrator *run)
 {
-    EnvelopeRow *row = &run->envelope.rows[run->envelope.row];
-    row->t = run->t;
+    EnvelopeRow *current = &run->envelope.rows[run->envelope.row];
+    current->t = run->t;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &run->rhs.clearance[i];
-        double *columns = row->joint[i];
+        double *columns = current->joint[i];
         extend_force_envelope(run, i, run->t, total_force(joint));
         extend_path_envelope(run, i, run->t, joint);
         columns[ENVELOPE_ex] = joint->ex;
@@ -88,11 +104,11 @@ static void extend_envelope(Integrator *run)
     begin_envelope_row(run);
 }
 
-/* Start the envelope of a run in memory for an even number of rows. */
-static void start_envelope(Integrator *run, EnvelopeRow *trace, long rows)
+/* Start the envelope of a run in memory for n_rows rows, an even number. */
+static void start_envelope(Integrator *run, EnvelopeRow *rows, long n_rows)
 {
-    run->envelope.rows = trace;
-    run->envelope.n_rows = rows;
+    run->envelope.rows = rows;
+    run->envelope.n_rows = n_rows;
     run->envelope.stride = 1;
     begin_envelope_row(run);
 }

@@ -7,24 +7,25 @@
 enum { MAX_TRIES = 8 + 4 * N_FRICTIONS };
 
 /*
- * Return the event function of friction element i, positive while its mode lasts: static limit minus |force| in stick
- * (N), slip in its direction otherwise (m/s).
+ * Return the event function of a friction element, positive while its mode lasts. In stick: static limit minus |force|
+ * in N; in slip: the slip in its direction, m/s; held by others (MODE_HELD): AT_REST minus |slip|, m/s.
  */
-static double friction_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int i)
+static double friction_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int element)
 {
-    const Friction *friction = &rhs->friction[i];
-    if (discrete->mode[i] == MODE_HELD)
+    const Friction *friction = &rhs->friction[element];
+    if (discrete->mode[element] == MODE_HELD)
         return AT_REST - fabs(friction->v);
-    if (discrete->mode[i] == 0.0)
+    if (discrete->mode[element] == 0.0)
         return friction->static_limit - fabs(friction->force);
-    return discrete->mode[i] * friction->v + ROUNDING;
+    return discrete->mode[element] * friction->v + ROUNDING;
 }
 
 /*
- * Evaluate the right-hand side with the present friction modes. A sticking element whose pivot vanishes is already held
- * by a drive or another sticking element: its force is indeterminate, and it becomes MODE_HELD without force.
+ * Evaluate the right-hand side at the present state with the present friction modes. A sticking element whose pivot
+ * vanishes is already held by a drive or another sticking element: it becomes MODE_HELD, without force, and the
+ * evaluation is repeated. Return 0 or a status.
  */
-static int evaluate_rates_of_modes(Integrator *run, const Parameters *p)
+static int evaluate_rates_with_modes(Integrator *run, const Parameters *p)
 {
     int status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
     for (int i = 0; i < N_FRICTIONS && status > N_LOOPS && status <= N_LOOPS + N_FRICTIONS; i++) {
@@ -35,57 +36,60 @@ static int evaluate_rates_of_modes(Integrator *run, const Parameters *p)
 }
 
 /*
- * Set the slip of elements that stick or start to slip to exactly zero where modes change. Otherwise rounding would
- * decide the next mode.
+ * Remove the slip of elements that stick or start to slip, where modes change, by impulses of their friction. Otherwise
+ * rounding would decide the next mode. The discrete state is restored; velocities and the right-hand side change.
+ * Return 0 or a status. Called by change_friction_modes() before the modes are iterated.
  */
-static int begin_at_rest(Integrator *run, const Parameters *p)
+static int remove_slips_at_rest(Integrator *run, const Parameters *p)
 {
-    const DiscreteState known = run->discrete;
+    const DiscreteState discrete = run->discrete;
     for (int i = 0; i < N_FRICTIONS; i++)
         if (run->discrete.mode[i] != MODE_HELD && fabs(run->rhs.friction[i].v) <= AT_REST)
             run->discrete.mode[i] = 0.0;
-    const int status = evaluate_rates_of_modes(run, p);
+    const int status = evaluate_rates_with_modes(run, p);
     if (!status)
         (void)remove_slip_residuals(run, run->t, run->y, &run->rhs, p);
-    run->discrete = known;
+    run->discrete = discrete;
     return status;
 }
 
 /*
  * Correct the friction mode with the largest violation and return whether there was one. Violations are a sticking
  * force beyond its limit, or a slip from rest against its own rate. If an element would start to slip while another is
- * held, the held one slips instead, so that its force helps first.
+ * held, the held one slips instead, so that its force acts first. Called in each pass of update_modes() after
+ * the right-hand side.
  */
 static int correct_worst_mode(Integrator *run)
 {
-    int worst = -1, held = -1;
+    int element = -1, held_element = -1;
     double largest = 1e-9, mode = 0.0;
     for (int i = 0; i < N_FRICTIONS; i++) {
         const Friction *friction = &run->rhs.friction[i];
-        const double now = run->discrete.mode[i];
-        double violation = 0.0, next = 0.0;
-        if (now == 0.0) {
+        const double mode_now = run->discrete.mode[i];
+        double violation = 0.0, mode_next = 0.0;
+        if (mode_now == 0.0) {
             violation = (fabs(friction->force) - friction->static_limit) / (friction->static_limit + 1e-300);
-            next = friction->force > 0.0 ? -1.0 : 1.0;
+            mode_next = friction->force > 0.0 ? -1.0 : 1.0;
         } else if (fabs(friction->v) <= AT_REST && fabs(friction->rate) > AT_REST) {
-            violation = now == MODE_HELD || now * friction->rate < 0.0 ? 1.0 : 0.0;
-            next = now != MODE_HELD ? 0.0 : friction->rate > 0.0 ? 1.0 : -1.0;
+            violation = mode_now == MODE_HELD || mode_now * friction->rate < 0.0 ? 1.0 : 0.0;
+            mode_next = mode_now != MODE_HELD ? 0.0 : friction->rate > 0.0 ? 1.0 : -1.0;
         }
-        held = now == MODE_HELD && violation == 0.0 ? i : held;
+        held_element = mode_now == MODE_HELD && violation == 0.0 ? i : held_element;
         if (violation > largest) {
-            worst = i;
+            element = i;
             largest = violation;
-            mode = next;
+            mode = mode_next;
         }
     }
-    if (worst >= 0)
-        run->discrete.mode[mode != 0.0 && held >= 0 ? held : worst] = mode;
-    return worst >= 0;
+    if (element >= 0)
+        run->discrete.mode[mode != 0.0 && held_element >= 0 ? held_element : element] = mode;
+    return element >= 0;
 }
 
 /*
- * Iterate the friction modes to a consistent set, since a change of one mode loads or unloads the others at once.
- * Return CHATTERING if there is none within MAX_TRIES.
+ * Iterate the friction modes to a consistent set and evaluate the right-hand side, since a change of one mode loads or
+ * unloads the others at once. Held elements at rest may stick again. Return 0, CHATTERING if MAX_TRIES passes find no
+ * set, or another status. Called after each change of modes, at the start and after impacts.
  */
 static int update_modes(Integrator *run, const Parameters *p)
 {
@@ -93,14 +97,18 @@ static int update_modes(Integrator *run, const Parameters *p)
         if (run->discrete.mode[i] == MODE_HELD && fabs(run->rhs.friction[i].v) <= AT_REST)
             run->discrete.mode[i] = 0.0;
     for (int i = 0; i < MAX_TRIES; i++) {
-        const int status = evaluate_rates_of_modes(run, p);
+        const int status = evaluate_rates_with_modes(run, p);
         if (status || !correct_worst_mode(run))
             return status;
     }
     return CHATTERING;
 }
 
-/* Change the mode of each friction element whose event function has reached zero, then update all modes. */
+/*
+ * Change the mode of each friction element whose event function has reached zero, count these changes, then update all
+ * modes. Stick changes to slip against the force; slip changes to stick. Return 0 or a status. Called at an event of
+ * friction.
+ */
 static int change_friction_modes(Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_FRICTIONS; i++) {
@@ -114,29 +122,35 @@ static int change_friction_modes(Integrator *run, const Parameters *p)
         else
             *mode = *mode == MODE_HELD ? (friction->v > 0.0 ? 1.0 : -1.0) : 0.0;
     }
-    const int status = begin_at_rest(run, p);
+    const int status = remove_slips_at_rest(run, p);
     return status ? status : update_modes(run, p);
 }
 
-/* Set the modes that a start does not specify: the sign of the slip, or stick where the slip is zero. */
-static int begin_friction(Integrator *run, const Parameters *p)
+/*
+ * Set the friction modes that a start does not specify (NaN): the sign of the slip, or stick at rest. If any was set,
+ * iterate all modes to a consistent set. Return 0 or a status.
+ */
+static int initialize_friction_modes(Integrator *run, const Parameters *p)
 {
-    int unknown = 0;
+    int has_unknown = 0;
     for (int i = 0; i < N_FRICTIONS; i++) {
         const double v = run->rhs.friction[i].v;
         if (!isnan(run->discrete.mode[i]))
             continue;
-        unknown = 1;
+        has_unknown = 1;
         run->discrete.mode[i] = fabs(v) <= AT_REST ? 0.0 : v > 0.0 ? 1.0 : -1.0;
     }
-    return unknown ? update_modes(run, p) : 0;
+    return has_unknown ? update_modes(run, p) : 0;
 }
 
 #if N_RIGID
 /* Iterate the friction modes to a consistent set while rigid contacts change. */
 static int update_friction_modes(Integrator *run, const Parameters *p) { return update_modes(run, p); }
 
-/* Set the friction modes after an impact: an element that the impact moves slips. */
+/*
+ * Set the modes of friction elements after an impact and evaluate the right-hand side: an element with a slip above
+ * AT_REST slips in its direction, others keep their mode. Return 0 or a status.
+ */
 static int update_modes_after_impact(Integrator *run, const Parameters *p)
 {
     const int status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
@@ -150,14 +164,14 @@ static int update_modes_after_impact(Integrator *run, const Parameters *p)
 #endif
 
 #else
-/* Return a positive value: the scene has no friction that may stick. */
-static inline double friction_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int i)
+/* Return 1: the scene has no friction that may stick. */
+static inline double friction_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int element)
 {
-    (void)discrete, (void)rhs, (void)i;
+    (void)discrete, (void)rhs, (void)element;
     return 1.0;
 }
 
-/* Evaluate the right-hand side: the scene has no sticking friction whose slip must be removed. */
+/* Evaluate the right-hand side: the scene has no sticking friction whose slip must be removed. Return a status. */
 static inline int evaluate_rates_at_rest(
     Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
@@ -178,7 +192,7 @@ static inline int change_friction_modes(Integrator *run, const Parameters *p)
 }
 
 /* Return 0: the scene has no friction modes to start with. */
-static inline int begin_friction(Integrator *run, const Parameters *p)
+static inline int initialize_friction_modes(Integrator *run, const Parameters *p)
 {
     (void)run, (void)p;
     return 0;

@@ -24,7 +24,10 @@ typedef struct {
     double velocity[N_RIGID][N_X];      /* change of velocities per unit P */
 } FrictionImpulses;
 
-/* Switch off friction in all contacts of a discrete state, with no given tangential force. */
+/*
+ * Switch off friction in all contacts of a discrete state and set their prescribed tangential forces to zero, for
+ * impacts and the projection of contacts.
+ */
 static void disable_friction(DiscreteState *discrete)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
@@ -34,33 +37,35 @@ static void disable_friction(DiscreteState *discrete)
 }
 
 /*
- * Return FRICTION_INCONSISTENT if a run without a small enough step has inconsistent contacts, else the status
- * `otherwise`. Contacts are inconsistent if friction lets their forces grow without bound, or leaves them none (F.
- * Genot, B. Brogliato, European Journal of Mechanics A/Solids 18 (1999) 653-677).
+ * Return FRICTION_INCONSISTENT if a run whose step size underflows has inconsistent contacts, else default_status.
+ * Contacts are inconsistent if friction lets their forces grow without bound, or leaves them none. Their forces are
+ * compared with those without friction (F. Genot, B. Brogliato, European Journal of Mechanics A/Solids 18 (1999)
+ * 653-677). Called when a run stalls or its step size underflows.
  */
-static int diagnose_stall(const Integrator *run, int otherwise, const Parameters *p)
+static int diagnose_stall(const Integrator *run, int default_status, const Parameters *p)
 {
-    double force[2][N_RIGID], most[2] = {0.0, 0.0};
-    int none = 0;
+    double force[2][N_RIGID], max_force[2] = {0.0, 0.0};
+    int has_lost_force = 0;
     for (int smooth = 0; smooth < 2; smooth++) {
-        DiscreteState now = run->discrete;
+        DiscreteState discrete = run->discrete;
         Delassus contacts;
-        contacts.n = list_closed(&now, contacts.joint);
+        contacts.n = list_closed_contacts(&discrete, contacts.joint);
         if (smooth)
-            disable_friction(&now);
-        if (compute_delassus(motion_with_inner_states, N_Y, run->t, run->y, &now, p, &contacts))
-            return otherwise;
-        solve_part(&contacts, NULL, contacts.r, force[smooth]);
+            disable_friction(&discrete);
+        if (compute_delassus(motion_with_inner_states, N_Y, run->t, run->y, &discrete, p, &contacts))
+            return default_status;
+        solve_contact_subset(&contacts, NULL, contacts.r, force[smooth]);
         for (int k = 0; k < contacts.n; k++) {
-            most[smooth] = max_of(most[smooth], fabs(force[smooth][k]));
-            none |= smooth && force[0][k] == 0.0 && force[1][k] != 0.0; /* the others took all of D */
+            max_force[smooth] = max_of(max_force[smooth], fabs(force[smooth][k]));
+            has_lost_force |= smooth && force[0][k] == 0.0 && force[1][k] != 0.0; /* the others took all of D */
         }
     }
-    return none || most[0] > INCONSISTENT_RATIO * most[1] ? FRICTION_INCONSISTENT : otherwise;
+    return has_lost_force || max_force[0] > INCONSISTENT_RATIO * max_force[1] ? FRICTION_INCONSISTENT : default_status;
 }
 
 /*
- * Update the branches of switching functions after velocities have jumped: friction in closed contacts depends on them.
+ * Update the branches of switching functions after velocities have jumped, because friction in closed contacts depends
+ * on them. At most six passes; nothing happens if branches are not frozen. A failed evaluation is left to the next one.
  */
 static void update_slip_branches(Integrator *run, const Parameters *p)
 {
@@ -81,72 +86,74 @@ static void update_slip_branches(Integrator *run, const Parameters *p)
 }
 
 /*
- * Compute the slips (m/s) after normal impulses, and mu = F_t/F_n of the friction laws there, 0 without an impulse.
- * unit: a normal force in N at which the laws are evaluated.
+ * Compute the slip (m/s) of each contact after normal impulses (N s), and mu = F_t/F_n of the friction laws there, 0
+ * without an impulse. unit_force: normal force in N at which the laws are evaluated. Return a status.
  */
-static int compute_slips_after_impact(Integrator *run, const Delassus *impact, const double *impulse, double unit,
+static int compute_slips_after_impact(Integrator *run, const Delassus *impact, const double *impulse, double unit_force,
     const Parameters *p, double *slip, double *mu)
 {
     double y[N_Y], dy[N_Y];
-    DiscreteState now = run->discrete;
+    DiscreteState discrete = run->discrete;
     RhsOutputs rhs;
-    now.held = 0; /* branches of friction laws follow this slip */
+    discrete.held = 0; /* branches of friction laws follow this slip */
     for (int i = 0; i < N_Y; i++)
         y[i] = run->y[i];
     for (int k = 0; k < impact->n; k++) {
-        now.contact[impact->joint[k]].smooth = 0;
-        now.contact[impact->joint[k]].force = unit;
+        discrete.contact[impact->joint[k]].smooth = 0;
+        discrete.contact[impact->joint[k]].force = unit_force;
         for (int i = 0; i < N_X; i++)
-            y[N_X + i] += impact->way[k][N_X + i] * impulse[k];
+            y[N_X + i] += impact->response[k][N_X + i] * impulse[k];
     }
     count_evaluations(run, 1);
-    const int status = motion_with_inner_states(run->t, y, &now, p, dy, &rhs);
+    const int status = motion_with_inner_states(run->t, y, &discrete, p, dy, &rhs);
     for (int k = 0; k < impact->n; k++) {
         const Clearance *joint = &rhs.clearance[impact->joint[k]];
         slip[k] = joint->v_t;
-        mu[k] = impulse[k] > 0.0 ? fabs(joint->F_t) / unit : 0.0;
+        mu[k] = impulse[k] > 0.0 ? fabs(joint->F_t) / unit_force : 0.0;
     }
     return status;
 }
 
 /*
- * Compute the response of gap rates, slips and velocities to a unit tangential impulse in contact j (columns of
- * `friction`).
+ * Compute the response of gap rates, slips and velocities to a tangential impulse in one contact, as a column of each
+ * matrix in `friction`. unit_impulse: its magnitude, N s; base_rates, rhs_base: rates and outputs without it. Return a
+ * status. Called for each contact with friction of an impact.
  */
-static int compute_tangential_response(Integrator *run, const Delassus *impact, int j, const double *base,
-    const RhsOutputs *before, double unit, const Parameters *p, FrictionImpulses *friction)
+static int compute_tangential_response(Integrator *run, const Delassus *impact, int contact, const double *base_rates,
+    const RhsOutputs *rhs_base, double unit_impulse, const Parameters *p, FrictionImpulses *friction)
 {
-    double pushed[N_Y], y[N_Y];
-    DiscreteState now = run->discrete;
+    double rates_pushed[N_Y], y[N_Y];
+    DiscreteState discrete = run->discrete;
     RhsOutputs rhs;
-    now.contact[impact->joint[j]].along = unit;
+    discrete.contact[impact->joint[contact]].along = unit_impulse;
     count_evaluations(run, 2);
-    int status = motion_with_inner_states(run->t, run->y, &now, p, pushed, &rhs);
-    now.contact[impact->joint[j]].along = 0.0;
+    int status = motion_with_inner_states(run->t, run->y, &discrete, p, rates_pushed, &rhs);
+    discrete.contact[impact->joint[contact]].along = 0.0;
     for (int i = 0; i < N_Y; i++)
         y[i] = run->y[i];
     for (int i = 0; i < N_X; i++) {
-        friction->velocity[j][i] = (pushed[N_X + i] - base[N_X + i]) / unit;
-        y[N_X + i] += friction->velocity[j][i] * unit;
+        friction->velocity[contact][i] = (rates_pushed[N_X + i] - base_rates[N_X + i]) / unit_impulse;
+        y[N_X + i] += friction->velocity[contact][i] * unit_impulse;
     }
-    status = status ? status : motion_with_inner_states(run->t, y, &now, p, pushed, &rhs);
+    status = status ? status : motion_with_inner_states(run->t, y, &discrete, p, rates_pushed, &rhs);
     for (int k = 0; k < impact->n; k++) {
         const int i = impact->joint[k];
-        friction->gap_rate[k][j] = (rhs.clearance[i].deltadot - before->clearance[i].deltadot) / unit;
-        friction->slip[k][j] = (rhs.clearance[i].v_t - before->clearance[i].v_t) / unit;
+        friction->gap_rate[k][contact] = (rhs.clearance[i].deltadot - rhs_base->clearance[i].deltadot) / unit_impulse;
+        friction->slip[k][contact] = (rhs.clearance[i].v_t - rhs_base->clearance[i].v_t) / unit_impulse;
     }
     return status;
 }
 
 /*
- * Return the largest |P| of one direction that satisfies |P| <= mu times the normal impulse. rest: normal impulse at P
- * = 0; per_unit: its change per unit of |P|.
+ * Return the largest |P| of one direction that satisfies |P| <= mu times the normal impulse, N s. normal_impulse: at P
+ * = 0; normal_per_tangential: its change per unit of |P|. Infinite if the normal impulse grows at least as fast as the
+ * limit; 0 without a normal impulse.
  */
-static double impulse_limit(double mu, double rest, double per_unit)
+static double compute_impulse_limit(double mu, double normal_impulse, double normal_per_tangential)
 {
-    if (rest <= 0.0)
+    if (normal_impulse <= 0.0)
         return 0.0;
-    return mu * per_unit < 1.0 ? mu * rest / (1.0 - mu * per_unit) : INFINITY;
+    return mu * normal_per_tangential < 1.0 ? mu * normal_impulse / (1.0 - mu * normal_per_tangential) : INFINITY;
 }
 
 /*
@@ -175,7 +182,7 @@ static void solve_friction_impulses(const Delassus *impact, const double *impuls
                 rest += j != i ? friction->normal[i][j] * friction->P[j] : 0.0;
             }
             const double direction = slip > 0.0 ? -1.0 : 1.0;
-            const double largest = impulse_limit(friction->mu[i], rest, direction * friction->normal[i][i]);
+            const double largest = compute_impulse_limit(friction->mu[i], rest, direction * friction->normal[i][i]);
             const double next = direction * min_of(fabs(slip) / S[i][i], largest);
             change = max_of(change, fabs(next - friction->P[i]));
             size = max_of(size, fabs(next));
@@ -201,40 +208,44 @@ static void solve_friction_impulses(const Delassus *impact, const double *impuls
 }
 
 /*
- * Compute the tangential impulses of an impact and update the normal impulses. meeting: approach speeds, m/s. Return 0
- * or the status of the motion.
+ * Compute the tangential impulses P of an impact into `friction`, and add the normal impulses that they cause to
+ * `impulse` (N s), which stays >= 0. approach_speed: of each contact, m/s; impact: the Delassus operator of the
+ * contacts. Return 0 or the status of the motion. Called by resolve_impact() after the impulses without friction are
+ * known.
  */
 static int compute_friction_impulses(
-    Integrator *run, const Delassus *impact, const double *meeting, double *impulse, const Parameters *p,
+    Integrator *run, const Delassus *impact, const double *approach_speed, double *impulse, const Parameters *p,
     FrictionImpulses *friction)
 {
-    double base[N_Y], mass[N_Q], stop[N_RIGID], none[N_RIGID], unit = 0.0;
+    double base_rates[N_Y], mass[N_Q], impulse_plastic[N_RIGID], mu_plastic[N_RIGID], unit_force = 0.0;
     unsigned char pushes[N_RIGID];
-    RhsOutputs before;
+    RhsOutputs rhs_before;
     *friction = (FrictionImpulses){.n = impact->n};
     for (int k = 0; k < impact->n; k++)
         pushes[k] = impulse[k] > 0.0;
     mass_matrix(p, mass);
     for (int k = 0; k < N_Q; k += 3)
-        unit += mass[k];
+        unit_force += mass[k];
     for (int k = 0; k < impact->n; k++)
         run->discrete.contact[impact->joint[k]].force = 0.0;
     count_evaluations(run, 1);
-    int status = motion_with_inner_states(run->t, run->y, &run->discrete, p, base, &before);
-    solve_part(impact, pushes, meeting, stop);
-    status = status ? status : compute_slips_after_impact(run, impact, stop, unit, p, friction->plastic, none);
-    status = status ? status : compute_slips_after_impact(run, impact, impulse, unit, p, friction->after, friction->mu);
+    int status = motion_with_inner_states(run->t, run->y, &run->discrete, p, base_rates, &rhs_before);
+    solve_contact_subset(impact, pushes, approach_speed, impulse_plastic);
+    status = status ? status : compute_slips_after_impact(run, impact, impulse_plastic, unit_force, p,
+        friction->plastic, mu_plastic);
+    status = status ? status : compute_slips_after_impact(run, impact, impulse, unit_force, p, friction->after,
+        friction->mu);
     for (int j = 0; j < impact->n && !status; j++) {
-        double column[N_RIGID], more[N_RIGID];
-        friction->before[j] = before.clearance[impact->joint[j]].v_t;
+        double column[N_RIGID], normal_change[N_RIGID];
+        friction->before[j] = rhs_before.clearance[impact->joint[j]].v_t;
         if (friction->mu[j] <= 0.0)
             continue;
-        status = compute_tangential_response(run, impact, j, base, &before, unit, p, friction);
+        status = compute_tangential_response(run, impact, j, base_rates, &rhs_before, unit_force, p, friction);
         for (int k = 0; k < impact->n; k++)
             column[k] = friction->gap_rate[k][j];
-        solve_part(impact, pushes, column, more);
+        solve_contact_subset(impact, pushes, column, normal_change);
         for (int k = 0; k < impact->n; k++)
-            friction->normal[k][j] = more[k];
+            friction->normal[k][j] = normal_change[k];
     }
     if (status)
         return status;
@@ -245,19 +256,22 @@ static int compute_friction_impulses(
     return 0;
 }
 
-/* Add the velocity changes of the tangential impulses to y, and return the energy in J that friction dissipates. */
+/*
+ * Add the velocity changes of the tangential impulses to the state y, and return the energy in J that they dissipate.
+ * impulse: normal impulses, N s. Called by apply_impulses() at each impact.
+ */
 static double apply_friction_impulses(const FrictionImpulses *friction, const double *impulse, double *y)
 {
-    double lost = 0.0;
+    double dissipated = 0.0;
     for (int j = 0; j < friction->n; j++) {
-        lost -= friction->P[j] * friction->before[j];
+        dissipated -= friction->P[j] * friction->before[j];
         for (int k = 0; k < friction->n; k++)
-            lost += friction->P[j]
+            dissipated += friction->P[j]
                 * (impulse[k] * friction->gap_rate[k][j] - 0.5 * friction->slip[k][j] * friction->P[k]);
         for (int i = 0; i < N_X; i++)
             y[N_X + i] += friction->velocity[j][i] * friction->P[j];
     }
-    return lost;
+    return dissipated;
 }
 
 #else
@@ -267,10 +281,10 @@ typedef char FrictionImpulses;
 /* Leave the discrete state unchanged: the scene has no friction between rigid surfaces. */
 static inline void disable_friction(DiscreteState *discrete) { (void)discrete; }
 
-/* Return the status `otherwise`: without friction, contacts cannot be inconsistent. */
-static inline int diagnose_stall(const Integrator *run, int otherwise, const Parameters *p)
+/* Return default_status: without friction, contacts cannot be inconsistent. */
+static inline int diagnose_stall(const Integrator *run, int default_status, const Parameters *p)
 {
-    return (void)run, (void)p, otherwise;
+    return (void)run, (void)p, default_status;
 }
 
 /* Leave the branches unchanged: no friction between rigid surfaces depends on the slip. */
@@ -278,10 +292,10 @@ static inline void update_slip_branches(Integrator *run, const Parameters *p) { 
 
 /* Return 0: the scene has no friction between rigid surfaces. */
 static inline int compute_friction_impulses(
-    Integrator *run, const Delassus *impact, const double *meeting, double *impulse, const Parameters *p,
+    Integrator *run, const Delassus *impact, const double *approach_speed, double *impulse, const Parameters *p,
     FrictionImpulses *friction)
 {
-    (void)run, (void)impact, (void)meeting, (void)impulse, (void)p, (void)friction;
+    (void)run, (void)impact, (void)approach_speed, (void)impulse, (void)p, (void)friction;
     return 0;
 }
 

@@ -11,44 +11,50 @@
 enum { MAX_PASSES = 1000, LISTED_PASSES = 8, MAX_SEPARATIONS = 12 };
 
 /*
- * Return the event function of the contact of joint i: gap of an open contact in m, force of a closed rigid contact in
- * N. It is non-negative while the contact stays as it is.
+ * Return the event function of a contact, non-negative while it stays open or closed: gap of an open contact in m,
+ * pressing force of a closed rigid contact in N, penetration of a closed compliant one in m.
  */
-static double contact_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int i)
+static double contact_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int joint)
 {
-    const Clearance *joint = &rhs->clearance[i];
-    if (!discrete->contact[i].closed)
-        return -joint->delta;
-    return !gives(i) ? -joint->F_n : joint->delta;
+    const Clearance *clearance = &rhs->clearance[joint];
+    if (!discrete->contact[joint].closed)
+        return -clearance->delta;
+    return !gives(joint) ? -clearance->F_n : clearance->delta;
 }
 
-/* Return whether the rigid surfaces of joint i touch: the gap is within TOUCHING or the contact is closed. */
-static int is_touching_at(const Integrator *run, int i, const Parameters *p)
+/*
+ * Return whether the rigid surfaces of a joint touch: the gap is within TOUCHING clearances, or the contact is closed.
+ * Compliant surfaces return 0.
+ */
+static int is_rigid_joint_touching(const Integrator *run, int joint, const Parameters *p)
 {
-    const int near = run->rhs.clearance[i].delta >= -TOUCHING * radial_clearance(p, i);
-    return !gives(i) && (near || run->discrete.contact[i].closed);
+    const int has_no_gap = run->rhs.clearance[joint].delta >= -TOUCHING * radial_clearance(p, joint);
+    return !gives(joint) && (has_no_gap || run->discrete.contact[joint].closed);
 }
 
 /*
  * Return the step length in s within which no open rigid joint moves by more than half its clearance. Free flight is so
- * smooth that a longer step could leave the bearing and return. Rates are those of the state and, if `step` is given,
- * of its stages.
+ * smooth that a longer step could leave the bearing and return. Gap rates are those of the state and, if `step` is not
+ * NULL, of its stages. Infinite without an open rigid joint. Called before each step, and after it with its stages.
  */
 static double flight_step_limit(const Integrator *run, const Step *step, const Parameters *p)
 {
-    double least = INFINITY;
+    double limit = INFINITY;
     for (int i = 0; i < N_CLEARANCES; i++) {
         double rate = fabs(run->rhs.clearance[i].deltadot);
         if (gives(i) || run->discrete.contact[i].closed)
             continue;
         if (step)
             rate = max_of(rate, max_of(fabs(step->rate[i][0]), fabs(step->rate[i][1])));
-        least = min_of(least, 0.5 * radial_clearance(p, i) / rate);
+        limit = min_of(limit, 0.5 * radial_clearance(p, i) / rate);
     }
-    return least;
+    return limit;
 }
 
-/* Compute the Delassus operator of the listed contacts at the present state of the run. */
+/*
+ * Compute the Delassus operator of the listed contacts at the present state of the run, count the evaluations, and
+ * return a status.
+ */
 static int compute_present_delassus(Integrator *run, const Parameters *p, Delassus *contacts)
 {
     count_evaluations(run, 1 + contacts->n);
@@ -56,120 +62,132 @@ static int compute_present_delassus(Integrator *run, const Parameters *p, Delass
 }
 
 /*
- * Add the velocity jumps of contact and friction impulses (N s) to the state, and their lost energy to the work of the
- * joints. meeting: approach speeds, m/s.
+ * Add the velocity jumps of normal impulses (N s) and of friction impulses to the state. The energy that they dissipate
+ * is subtracted from the work of the joints; the work of drives balances the kinetic energy. approach_speed: of each
+ * contact before the impact, m/s.
  */
-static void apply_impulses(Integrator *run, const Delassus *impact, const double *impulse, const double *meeting,
+static void apply_impulses(Integrator *run, const Delassus *impact, const double *impulse, const double *approach_speed,
     const FrictionImpulses *friction, const Parameters *p)
 {
     const double energy = kinetic_energy(run, p);
-    double lost = 0.0;
+    double dissipated = 0.0;
     for (int k = 0; k < impact->n; k++) {
-        double change = 0.0;
+        double speed_change = 0.0;
         for (int j = 0; j < impact->n; j++)
-            change += impact->D[k][j] * impulse[j];
-        lost += impulse[k] * (meeting[k] - 0.5 * change); /* impulse times mean gap rate */
+            speed_change += impact->D[k][j] * impulse[j];
+        dissipated += impulse[k] * (approach_speed[k] - 0.5 * speed_change); /* impulse times mean gap rate */
         for (int i = 0; i < N_X; i++)
-            run->y[N_X + i] += impact->way[k][N_X + i] * impulse[k];
+            run->y[N_X + i] += impact->response[k][N_X + i] * impulse[k];
     }
-    lost += apply_friction_impulses(friction, impulse, run->y);
-    run->y[2 * N_X + 2] -= lost;
-    run->y[2 * N_X] += kinetic_energy(run, p) - energy + lost; /* work of drives, which keep their motion */
+    dissipated += apply_friction_impulses(friction, impulse, run->y);
+    run->y[2 * N_X + 2] -= dissipated;
+    run->y[2 * N_X] += kinetic_energy(run, p) - energy
+        + dissipated; /* work of drives, which keep their motion */
 }
 
 /*
- * Resolve one joint impact of all contacts that touch: those that approach, and those that rest. Rebounds slower than
- * the threshold v_0 are set to zero. Only friction between the surfaces that meet takes part (run/frictional_impact.c).
- * With `limit`, the limit of a sequence of impacts, every touching joint takes part with restitution 0. *approach: the
- * sum of impulse times approach speed in J, 0 if no joint was struck.
+ * Resolve one joint impact of all rigid contacts that touch: those that approach, and those that rest. Rebounds slower
+ * than the threshold v_0 are set to zero. Friction acts only between these surfaces (run/frictional_impact.c).
+ * is_limit: resolve the limit of a sequence of impacts, in which every touching joint has restitution 0. pass: number
+ * of previous impacts at this time. *energy: sum of impulse times approach speed in J, 0 if no joint approaches. Return
+ * a status.
  */
-static int resolve_impact(Integrator *run, const Parameters *p, int pass, int limit, double *approach)
+static int resolve_impact(Integrator *run, const Parameters *p, int pass, int is_limit, double *energy)
 {
     Delassus impact = {0};
     FrictionImpulses friction;
-    double meeting[N_RIGID], r[N_RIGID], impulse[N_RIGID];
-    const DiscreteState known = run->discrete;
-    const double least = gap_rate_rounding(run, p), gap = gap_rounding(run, p);
-    int struck = 0;
-    *approach = 0.0;
+    double approach_speed[N_RIGID], rebound_sum[N_RIGID], impulse[N_RIGID];
+    const DiscreteState known_state = run->discrete;
+    const double min_rate = compute_gap_rate_rounding(run, p), gap = compute_gap_rounding(run, p);
+    int has_impact = 0;
+    *energy = 0.0;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const double u = run->rhs.clearance[i].deltadot;
-        const int meets_now = is_touching_at(run, i, p) && u > resting_speed_limit(least, p, i);
-        if (!meets_now && !(is_touching_at(run, i, p) && (limit || u >= -resting_speed_limit(least, p, i))))
+        const int approaches = is_rigid_joint_touching(run, i, p) && u > compute_resting_speed_limit(min_rate, p, i);
+        if (!approaches && !(is_rigid_joint_touching(run, i, p)
+            && (is_limit || u >= -compute_resting_speed_limit(min_rate, p, i))))
             continue;
-        const double back = limit ? 0.0 : restitution_of(p, i) * u;
-        meeting[impact.n] = u;
-        r[impact.n] = meets_now && back > closing_speed_limit(run, p, i, gap) ? u + back : u;
+        const double rebound_speed = is_limit ? 0.0 : restitution_of(p, i) * u;
+        approach_speed[impact.n] = u;
+        rebound_sum[impact.n] = approaches && rebound_speed > compute_closing_speed_limit(run, p, i, gap)
+            ? u + rebound_speed
+            : u;
         impact.joint[impact.n++] = i;
         run->discrete.contact[i].closed = 1;
-        struck |= meets_now;
+        has_impact |= approaches;
     }
     for (int i = 0; i < N_FRICTIONS; i++)
         run->discrete.mode[i] = MODE_HELD; /* without force: friction elements have no impulse */
     disable_friction(&run->discrete);
-    int status = struck ? compute_present_delassus(run, p, &impact) : 0;
-    status = !status && struck ? complementary(&impact, r, impulse) : status;
-    status = !status && struck ? compute_friction_impulses(run, &impact, meeting, impulse, p, &friction) : status;
-    run->discrete = known;
-    if (status || !struck)
+    int status = has_impact ? compute_present_delassus(run, p, &impact) : 0;
+    status = !status && has_impact ? solve_complementarity(&impact, rebound_sum, impulse) : status;
+    status = !status && has_impact ? compute_friction_impulses(run, &impact, approach_speed, impulse, p, &friction)
+        : status;
+    run->discrete = known_state;
+    if (status || !has_impact)
         return status;
-    apply_impulses(run, &impact, impulse, meeting, &friction, p);
+    apply_impulses(run, &impact, impulse, approach_speed, &friction, p);
     update_slip_branches(run, p);
     for (int k = 0; k < impact.n && !status; k++) {
         const int i = impact.joint[k];
-        const double u = meeting[k] > resting_speed_limit(least, p, i) ? meeting[k] : 0.0; /* 0: a resting contact */
-        const Impact bounce = {run->t, run->t, u, impulse[k], run->t, i};
+        const double u = approach_speed[k] > compute_resting_speed_limit(min_rate, p, i) ? approach_speed[k]
+            : 0.0; /* 0: a resting contact */
+        const Impact listed = {run->t, run->t, u, impulse[k], run->t, i};
         if (impulse[k] > 0.0)
-            status = list_impact(run, &bounce, pass >= LISTED_PASSES, !known.contact[i].closed);
-        *approach += impulse[k] * u;
+            status = append_impact(run, &listed, pass >= LISTED_PASSES, !known_state.contact[i].closed);
+        *energy += impulse[k] * u;
     }
     return status ? status : update_modes_after_impact(run, p);
 }
 
 /*
- * Find the active set of contacts: those that rest, or separate slower than the threshold, and carry a positive force.
- * Joint `opens` (-1: none) has just lost its force and stays open. Return 0, FRICTION_INCONSISTENT or another status.
+ * Find the active set of rigid contacts, and close and open them: closed are those that rest, or separate slower than
+ * the threshold, and carry a positive force. opening_joint has just lost its force and stays open, -1: none. Return 0,
+ * FRICTION_INCONSISTENT or another status. Called by update_contacts() after all impacts are resolved.
  */
-static int update_closed_contacts(Integrator *run, int opens, const Parameters *p)
+static int update_closed_contacts(Integrator *run, int opening_joint, const Parameters *p)
 {
-    unsigned char rests[N_CLEARANCES], pushes[N_CLEARANCES] = {0};
+    unsigned char is_resting[N_CLEARANCES], has_force[N_CLEARANCES] = {0};
     double force[N_RIGID];
-    const DiscreteState known = run->discrete;
-    const double least = gap_rate_rounding(run, p);
+    const DiscreteState known_state = run->discrete;
+    const double min_rate = compute_gap_rate_rounding(run, p);
     Delassus contacts = {0};
     for (int i = 0; i < N_CLEARANCES; i++) {
-        const double slow = max_of(threshold_of(p, i), least);
-        rests[i] = i != opens && is_touching_at(run, i, p) && fabs(run->rhs.clearance[i].deltadot) <= slow;
+        const double speed_limit = max_of(threshold_of(p, i), min_rate);
+        is_resting[i] = i != opening_joint && is_rigid_joint_touching(run, i, p)
+            && fabs(run->rhs.clearance[i].deltadot) <= speed_limit;
         if (!gives(i))
-            run->discrete.contact[i].closed = rests[i];
-        if (rests[i])
+            run->discrete.contact[i].closed = is_resting[i];
+        if (is_resting[i])
             contacts.joint[contacts.n++] = i;
     }
     update_slip_branches(run, p);
     int status = contacts.n ? compute_present_delassus(run, p, &contacts) : 0;
     if (!status)
         status = is_frictionally_inconsistent(&contacts, 1, p) ? FRICTION_INCONSISTENT
-                                                               : complementary(&contacts, contacts.r, force);
+                                                               : solve_complementarity(&contacts, contacts.r, force);
     for (int k = 0; k < contacts.n && !status; k++)
-        pushes[contacts.joint[k]] = force[k] > 0.0;
+        has_force[contacts.joint[k]] = force[k] > 0.0;
     for (int i = 0; i < N_CLEARANCES; i++)
-        run->discrete.contact[i].closed = known.contact[i].closed;
+        run->discrete.contact[i].closed = known_state.contact[i].closed;
     for (int i = 0; i < N_CLEARANCES && !status; i++)
         if (!gives(i))
-            status = set_contact_closed(run, i, pushes[i]);
+            status = set_rigid_contact(run, i, has_force[i]);
     return status;
 }
 
 /*
- * Project closed contacts onto delta = 0 and give separating contacts a small gap, so that the next step can detect
- * their return.
+ * Project closed rigid contacts onto delta = 0 and give touching open ones a small gap, so that the next step can
+ * detect their return. The gap is enlarged up to MAX_SEPARATIONS times, because separating one contact may close
+ * another. The change of kinetic energy is added to the work of the joints. Return a status. Called by
+ * update_contacts() after the active set is known.
  */
 static int separate_contacts(Integrator *run, const Parameters *p)
 {
     const double energy = kinetic_energy(run, p);
-    double distance = gap_rounding(run, p);
-    int status = 0, meets_again = 1;
-    for (int pass = 0; pass < MAX_SEPARATIONS && meets_again && !status; pass++, distance *= 4.0) {
+    double distance = compute_gap_rounding(run, p);
+    int status = 0, has_contact = 1;
+    for (int pass = 0; pass < MAX_SEPARATIONS && has_contact && !status; pass++, distance *= 4.0) {
         double gap[N_RIGID];
         Delassus touching = {0};
         for (int i = 0; i < N_CLEARANCES; i++) {
@@ -181,48 +199,52 @@ static int separate_contacts(Integrator *run, const Parameters *p)
         status = touching.n ? project_contacts(run, run->t, run->y, p, &touching, gap) : 0;
         if (!status && touching.n)
             status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
-        meets_again = 0; /* distant points round by more; separating one contact may close another, as in a wedge */
+        has_contact = 0; /* distant points round by more; separating one contact may close another, as in a wedge */
         for (int i = 0; i < N_CLEARANCES && touching.n; i++)
-            meets_again |= !gives(i) && !run->discrete.contact[i].closed && !(run->rhs.clearance[i].delta < 0.0);
+            has_contact |= !gives(i) && !run->discrete.contact[i].closed && !(run->rhs.clearance[i].delta < 0.0);
     }
     run->y[2 * N_X + 2] += kinetic_energy(run, p) - energy; /* of separations slower than the threshold */
     return status;
 }
 
 /*
- * Resolve impacts until no surfaces approach; return 0, CHATTERING or another status. One impact may make other
- * surfaces approach, and these the first ones again, as in a wedge. Two contacts with the Delassus operator D that
- * strike in turn approach at x[n+1] = (1 + e) k x[n] - e x[n-1], where k = -D12/sqrt(D11 D22), x scaled by sqrt(D). If
- * (1 + e) k < 2 sqrt(e) some x is negative: the sequence ends. Otherwise the x tend to a geometric sequence that never
- * ends. Its limit has no approach speed left and the impulses sum = D^-1 u: the joint impact of all touching contacts
- * with e = 0. That impact is solved directly once the ratio is steady, or after MAX_PASSES.
+ * Resolve impacts at the present time until no rigid surfaces approach; return 0, CHATTERING or another status. One
+ * impact may make other surfaces approach, and these the first ones again, as in a wedge. Two contacts with the
+ * Delassus operator D that strike in turn approach at x[n+1] = (1 + e) k x[n] - e x[n-1], where k = -D12/sqrt(D11 D22),
+ * x scaled by sqrt(D). If (1 + e) k < 2 sqrt(e) some x is negative: the sequence ends. Otherwise the x tend to a
+ * geometric sequence that never ends. Its limit has no approach speed left and the impulses sum = D^-1 u: the joint
+ * impact of all touching contacts with e = 0. That impact is solved directly once the ratio is steady, or after
+ * MAX_PASSES. Called by update_contacts() at each event, also if nothing approaches.
  */
 static int resolve_impacts(Integrator *run, const Parameters *p)
 {
-    double sizes[5] = {0.0}; /* impulse times approach speed of the last passes, J */
-    int limit = 0, status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
+    double energies[5] = {0.0}; /* impulse times approach speed of the last passes, J */
+    int is_limit = 0, status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
     for (int pass = 0; pass < 2 * MAX_PASSES && !status; pass++) {
-        memmove(sizes, sizes + 1, sizeof sizes - sizeof *sizes);
-        status = resolve_impact(run, p, pass, limit, &sizes[4]);
-        if (status || !(sizes[4] > 0.0))
+        memmove(energies, energies + 1, sizeof energies - sizeof *energies);
+        status = resolve_impact(run, p, pass, is_limit, &energies[4]);
+        if (status || !(energies[4] > 0.0))
             return status;
         status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
-        const double first = sizes[2] / sizes[0], second = sizes[4] / sizes[2]; /* of two passes: contacts alternate */
-        limit |= pass >= MAX_PASSES || (pass >= 4 && second < 1.0 && fabs(second - first) < RATIO_TOL * second);
+        const double ratio_before = energies[2] / energies[0],
+            ratio = energies[4] / energies[2]; /* of two passes: contacts alternate */
+        is_limit |= pass >= MAX_PASSES || (pass >= 4 && ratio < 1.0 && fabs(ratio - ratio_before) < RATIO_TOL * ratio);
     }
     return status ? status : CHATTERING;
 }
 
 /*
- * Resolve impacts, update the active set of contacts and the friction modes, and evaluate the right-hand side after
- * them. event: the event function that ended the step, -1: none.
+ * Resolve impacts, update the active set of rigid contacts and the friction modes, and evaluate the right-hand side
+ * after them. event: the event function that ended the step, which opens its closed contact; -1: none. Called at each
+ * event and at jumps of drives. Return a status.
  */
 static int update_contacts(Integrator *run, int event, const Parameters *p)
 {
-    const int opens = event >= 0 && event < N_CLEARANCES && !gives(event) && run->discrete.contact[event].closed;
+    const int is_opening = event >= 0 && event < N_CLEARANCES && !gives(event)
+        && run->discrete.contact[event].closed;
     int status = resolve_impacts(run, p);
     for (int pass = 0; pass < 2 && !status; pass++) { /* forces of stick and of contacts depend on each other */
-        status = update_closed_contacts(run, opens ? event : -1, p);
+        status = update_closed_contacts(run, is_opening ? event : -1, p);
         if (!status)
             status = update_friction_modes(run, p);
         if (!N_FRICTIONS)
@@ -234,30 +256,30 @@ static int update_contacts(Integrator *run, int event, const Parameters *p)
 }
 
 /*
- * Resolve impacts and close resting contacts at a start where surfaces touch. Return LOST if a journal is outside its
- * bearing.
+ * Resolve impacts and close resting rigid contacts at the start of a run, if surfaces touch. Return 0, LOST if a
+ * journal is outside its bearing, or another status.
  */
-static int begin_contacts(Integrator *run, const Parameters *p)
+static int initialize_rigid_contacts(Integrator *run, const Parameters *p)
 {
-    int some = 0;
+    int has_touching = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
         if (gives(i) || run->discrete.contact[i].closed)
             continue;
         if (run->rhs.clearance[i].delta > 1e-6 * radial_clearance(p, i))
             return LOST;
-        some |= is_touching_at(run, i, p);
+        has_touching |= is_rigid_joint_touching(run, i, p);
     }
-    return some ? update_contacts(run, -1, p) : 0;
+    return has_touching ? update_contacts(run, -1, p) : 0;
 }
 
 #else
 /*
- * Return the event function of the contact of joint i in m: the gap of an open contact, the penetration of a closed
- * one.
+ * Return the event function of a contact in m, non-negative while it stays open or closed: the gap of an open contact,
+ * the penetration of a closed one.
  */
-static inline double contact_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int i)
+static inline double contact_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int joint)
 {
-    return discrete->contact[i].closed ? rhs->clearance[i].delta : -rhs->clearance[i].delta;
+    return discrete->contact[joint].closed ? rhs->clearance[joint].delta : -rhs->clearance[joint].delta;
 }
 
 /* Leave the state unchanged: the scene has no rigid contacts. */
@@ -272,10 +294,10 @@ static inline double flight_step_limit(const Integrator *run, const Step *step, 
     return (void)run, (void)step, (void)p, INFINITY;
 }
 
-/* Return the status `otherwise`: the scene has no rigid contacts that could be inconsistent. */
-static inline int diagnose_stall(const Integrator *run, int otherwise, const Parameters *p)
+/* Return default_status: the scene has no rigid contacts that could be inconsistent. */
+static inline int diagnose_stall(const Integrator *run, int default_status, const Parameters *p)
 {
-    return (void)run, (void)p, otherwise;
+    return (void)run, (void)p, default_status;
 }
 
 /* Return 0: the scene has no rigid contacts. */
@@ -286,7 +308,7 @@ static inline int update_contacts(Integrator *run, int event, const Parameters *
 }
 
 /* Return 0: the scene has no rigid contacts. */
-static inline int begin_contacts(Integrator *run, const Parameters *p)
+static inline int initialize_rigid_contacts(Integrator *run, const Parameters *p)
 {
     (void)run, (void)p;
     return 0;

@@ -8,14 +8,16 @@
 #define FILM_FORCE_TOL 5e2 /* times rtol: relative accuracy of film forces when the iteration of stages ends */
 
 /*
- * Update the history once before each step is tried, and whether the motion continues smoothly (run->newton.continues).
+ * Update the history of beginnings before a step is tried: at a new step the present beginning becomes the previous
+ * one. A repeated attempt leaves the beginnings unchanged. Also set the distance of both, the accuracy of film forces,
+ * and whether the motion continues smoothly, so that initial guesses can be extrapolated (run->newton.continues).
  */
 static inline void update_iteration_history(Integrator *run)
 {
     Beginning *now = &run->newton.now;
     if (run->newton.seen_steps != run->counts.steps || now->t != run->t) {
-        const int follows = run->newton.seen_steps == run->counts.steps - 1 && run->counts.steps > 0;
-        run->newton.before_t = follows ? now->t : run->t;
+        const int is_next_step = run->newton.seen_steps == run->counts.steps - 1 && run->counts.steps > 0;
+        run->newton.before_t = is_next_step ? now->t : run->t;
         for (int i = 0; i < N_Y; i++) {
             run->newton.before_y[i] = now->y[i];
             run->newton.before_dy[i] = now->dy[i];

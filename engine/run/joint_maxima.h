@@ -3,45 +3,55 @@
  * this file owns Contacts (run/run.h).
  */
 
-/* Return the magnitude of the force of a joint with play, N. */
-static inline double total_force(const Clearance *joint)
+/* Return the magnitude of the force of a joint with play, N, from its normal and tangential components. */
+static inline double total_force(const Clearance *clearance)
 {
-    return sqrt(joint->F_n * joint->F_n + joint->F_t * joint->F_t);
+    return sqrt(clearance->F_n * clearance->F_n + clearance->F_t * clearance->F_t);
 }
 
-/* Return the length in m whose rate is deltadot: the eccentricity, or the penetration for a bearing with a contour. */
-static inline double outward_coordinate(const Clearance *joint)
+/*
+ * Return the length in m whose rate is deltadot: the eccentricity, or the penetration in a scene with a bearing
+ * contour.
+ */
+static inline double get_outward_coordinate(const Clearance *clearance)
 {
 #ifdef CONTOURS
-    return joint->delta;
+    return clearance->delta;
 #else
-    return joint->e;
+    return clearance->e;
 #endif
 }
 
-/* End the compression of joint i's contact if the penetration has stopped growing. */
-static inline void update_compression(Integrator *run, int i, double deltadot)
+/*
+ * Mark the contact of a joint as no longer being compressed if it is closed and the penetration has stopped growing
+ * (deltadot <= 0).
+ */
+static inline void update_compression(Integrator *run, int joint, double deltadot)
 {
-    run->contacts.is_compressing[i] &= !(is_closed(&run->discrete.contact[i]) & (deltadot <= 0.0));
+    run->contacts.is_compressing[joint] &= !(is_closed(&run->discrete.contact[joint]) & (deltadot <= 0.0));
 }
 
-/* Update the peaks of joint i at an accepted state, and the extremes of deltadot/deltadot_minus of a contact. */
-static inline void update_joint_peaks(Integrator *run, int i)
+/*
+ * Update the peaks of a joint with play at an accepted state: largest eccentricity and force of the run, and largest
+ * force of a closed contact. In compliant contacts the extremes of deltadot/deltadot_minus are updated too, and values
+ * outside [-1, 1] are counted.
+ */
+static inline void update_joint_peaks(Integrator *run, int joint)
 {
-    const Clearance *joint = &run->rhs.clearance[i];
-    const double F = total_force(joint);
-    const int closed = is_closed(&run->discrete.contact[i]), higher = F > run->contacts.F_peak[i];
-    run->contacts.e_max[i] = max_of(joint->e, run->contacts.e_max[i]);
-    run->contacts.F_peak[i] = pick(higher, F, run->contacts.F_peak[i]);
-    run->contacts.t_peak[i] = pick(higher, run->t, run->contacts.t_peak[i]);
+    const Clearance *clearance = &run->rhs.clearance[joint];
+    const double F = total_force(clearance);
+    const int closed = is_closed(&run->discrete.contact[joint]), higher = F > run->contacts.F_peak[joint];
+    run->contacts.e_max[joint] = max_of(clearance->e, run->contacts.e_max[joint]);
+    run->contacts.F_peak[joint] = pick(higher, F, run->contacts.F_peak[joint]);
+    run->contacts.t_peak[joint] = pick(higher, run->t, run->contacts.t_peak[joint]);
     if (!closed)
         return;
-    const int highest = closed & (F > run->contacts.open[i].F_peak);
-    run->contacts.open[i].F_peak = pick(highest, F, run->contacts.open[i].F_peak);
-    run->contacts.open[i].t_peak = pick(highest, run->t, run->contacts.open[i].t_peak);
-    if (!gives(i))
+    const int highest = closed & (F > run->contacts.open[joint].F_peak);
+    run->contacts.open[joint].F_peak = pick(highest, F, run->contacts.open[joint].F_peak);
+    run->contacts.open[joint].t_peak = pick(highest, run->t, run->contacts.open[joint].t_peak);
+    if (!gives(joint))
         return; /* rigid contacts have no rate */
-    const double ratio = joint->deltadot / run->discrete.contact[i].deltadot_minus;
+    const double ratio = clearance->deltadot / run->discrete.contact[joint].deltadot_minus;
     const int outside = (ratio < -1.0) | (ratio > 1.0);
     run->contacts.ratio_min = pick(closed & (ratio < run->contacts.ratio_min), ratio, run->contacts.ratio_min);
     run->contacts.ratio_max = pick(closed & (ratio > run->contacts.ratio_max), ratio, run->contacts.ratio_max);

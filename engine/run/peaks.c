@@ -9,98 +9,115 @@ enum { MAX_PARABOLAS = 20, MIN_INNER_STAGES = 2 /* with fewer stages inside, the
 #define MIN_PEAK_TOL 1e-10
 #define MAX_PEAK_TOL 1e-5
 
-/* Record the force F (N) of joint i at time t (s) in the envelope and the peaks of run and contact. */
-static void record_force(Integrator *run, int i, double t, double F)
+/*
+ * Record the force F (N) of a joint at time t (s) in the envelope, if there is one, and in the peaks of the run and of
+ * the lasting contact.
+ */
+static void record_force(Integrator *run, int joint, double t, double F)
 {
     if (run->envelope.rows)
-        extend_force_envelope(run, i, t, F);
-    raise_force(run, i, t, F);
-    raise_contact_force(run, i, t, F);
+        extend_force_envelope(run, joint, t, F);
+    update_peak_force(run, joint, t, F);
+    update_contact_peak_force(run, joint, t, F);
 }
 
 /*
- * Return the force in N of joint i at fraction s of a step, and record it with the eccentricity; 0 if it is undefined.
+ * Return the force in N of a joint at a fraction of a step, from the dense output, and record it with the eccentricity.
+ * If a switching function is on the wrong branch there, branches are updated for this evaluation only. Return 0 if the
+ * evaluation fails.
  */
-static double evaluate_joint_force(Integrator *run, const Step *step, double s, int i, const Parameters *p)
+static double evaluate_joint_force(Integrator *run, const Step *step, double fraction, int joint, const Parameters *p)
 {
     RhsOutputs rhs;
-    int wrong = 0;
+    int has_wrong_branch = 0;
     for (int k = 0; k < N_SWITCHES; k++)
         rhs.g[k] = NAN; /* stays NaN for functions on which no joint force depends */
-    int status = evaluate_contacts_in_step(run, step, s, p, &rhs);
+    int status = evaluate_contacts_in_step(run, step, fraction, p, &rhs);
     for (int k = 0; k < N_SWITCHES; k++)
-        wrong |= run->discrete.branch[k] * rhs.g[k] < 0.0;
-    if (!status && wrong) { /* a switching point was passed inside the step: use the other branch */
-        const DiscreteState held = run->discrete;
+        has_wrong_branch |= run->discrete.branch[k] * rhs.g[k] < 0.0;
+    if (!status && has_wrong_branch) { /* a switching point was passed inside the step: use the other branch */
+        const DiscreteState discrete = run->discrete;
         double y[N_Y], dy[N_Y];
-        status = state_at(run, step, s, p, y, dy, &rhs);
+        status = state_at(run, step, fraction, p, y, dy, &rhs);
         if (!status)
-            status = update_branches_at(run, step->t + s * step->h, y, dy, &rhs, -1, p);
-        run->discrete = held;
+            status = update_branches_at(run, step->t + fraction * step->h, y, dy, &rhs, -1, p);
+        run->discrete = discrete;
     }
     if (status)
         return 0.0;
-    const double F = total_force(&rhs.clearance[i]);
-    record_force(run, i, step->t + s * step->h, F);
-    raise_eccentricity(run, i, rhs.clearance[i].e);
+    const double F = total_force(&rhs.clearance[joint]);
+    record_force(run, joint, step->t + fraction * step->h, F);
+    update_largest_eccentricity(run, joint, rhs.clearance[joint].e);
     return F;
 }
 
 /*
- * Return the fraction of the explicit stage before `fraction` with the largest force of joint i, or half of `fraction`.
+ * Return the node of the explicit stage inside (0, fraction) with the largest force of a joint, if it exceeds min_force
+ * (N); otherwise, and for stiff methods, half of `fraction`.
  */
-static double node_of_largest_force(const Step *step, double fraction, int i, double force)
+static double find_node_of_largest_force(const Step *step, double fraction, int joint, double min_force)
 {
-    const StageValues forces = stage_values(step, STAGE_FORCES + i);
-    double most = force * force, node = 0.5 * fraction;
+    const StageValues forces = stage_values(step, STAGE_FORCES + joint);
+    double largest_square = min_force * min_force, node = 0.5 * fraction;
     for (int k = 0; k < step->n_seen && !step->method->stiff; k++)
-        if (step->node[k] > 0.0 && step->node[k] < fraction && stage_value(forces, k) > most)
-            most = stage_value(forces, k), node = step->node[k];
+        if (step->node[k] > 0.0 && step->node[k] < fraction && stage_value(forces, k) > largest_square)
+            largest_square = stage_value(forces, k), node = step->node[k];
     return node;
 }
 
 /*
- * Find the maximum of joint i's force inside a step up to `fraction` by parabolas through three points. before, after:
- * the forces at both ends, N. The search ends where the parabola predicts a gain below PEAK_TOL tolerances.
+ * Find the maximum of a joint's force inside a step up to `fraction` by parabolas through three points, and record each
+ * evaluated force. force_begin, force_end: the forces at both ends, N. The search ends after MAX_PARABOLAS, or where
+ * the parabola predicts a gain below the tolerance (PEAK_TOL). Called if a force rose before the step and falls at its
+ * end, or a stage exceeds both ends.
  */
-static void find_inner_peak(Integrator *run, const Step *step, double fraction, int i, double before, double after,
+static void find_inner_peak(Integrator *run, const Step *step, double fraction, int joint, double force_begin,
+    double force_end,
     const Parameters *p)
 {
-    const double first = node_of_largest_force(step, fraction, i, max_of(before, after));
-    const double fine = min_of(MAX_PEAK_TOL, max_of(MIN_PEAK_TOL, PEAK_TOL * tolerance_of(run)));
-    double f[3] = {before, evaluate_joint_force(run, step, first, i, p), after};
-    double x[3] = {0.0, first, fraction}, error = INFINITY;
-    record_force(run, i, step->t, before);
+    const double node = find_node_of_largest_force(step, fraction, joint, max_of(force_begin, force_end));
+    const double tolerance = min_of(MAX_PEAK_TOL, max_of(MIN_PEAK_TOL, PEAK_TOL * tolerance_of(run)));
+    double f[3] = {force_begin, evaluate_joint_force(run, step, node, joint, p), force_end};
+    double x[3] = {0.0, node, fraction}, error = INFINITY;
+    record_force(run, joint, step->t, force_begin);
     for (int n = 0; n < MAX_PARABOLAS; n++) {
-        const double low = x[1] - x[0], high = x[2] - x[1], left = f[0] - f[1], right = f[2] - f[1];
-        const double bend = right * low + left * high, rise = right * low * low - left * high * high;
-        double top = left > right ? x[0] : x[2];
+        const double width_left = x[1] - x[0], width_right = x[2] - x[1], drop_left = f[0] - f[1],
+            drop_right = f[2] - f[1];
+        const double bend = drop_right * width_left + drop_left * width_right,
+            rise = drop_right * width_left * width_left - drop_left * width_right * width_right;
+        double top = drop_left > drop_right ? x[0] : x[2];
         if (bend < 0.0)
             top = x[1] - 0.5 * rise / bend;
-        top = min_of(x[2] - 0.1 * high, max_of(x[0] + 0.1 * low, top));
-        const double u = top - x[1], expected = f[1] + u * (rise + bend * u) / (low * high * (low + high));
+        top = min_of(x[2] - 0.1 * width_right, max_of(x[0] + 0.1 * width_left, top));
+        const double offset = top - x[1], expected = f[1]
+            + offset * (rise + bend * offset) / (width_left * width_right * (width_left + width_right));
         const double most = max_of(f[1], max_of(f[0], f[2]));
-        if (bend < 0.0 && expected - most + 0.1 * error < fine * most)
+        if (bend < 0.0 && expected - most + 0.1 * error < tolerance * most)
             break;
-        const double found = evaluate_joint_force(run, step, top, i, p);
-        const int above = top > x[1], higher = found > f[1], end = above == higher ? 0 : 2;
-        error = fabs(found - expected);
+        const double force = evaluate_joint_force(run, step, top, joint, p);
+        const int above = top > x[1], higher = force > f[1], end = above == higher ? 0 : 2;
+        error = fabs(force - expected);
         x[end] = higher ? x[1] : top;
-        f[end] = higher ? f[1] : found;
+        f[end] = higher ? f[1] : force;
         if (higher)
-            x[1] = top, f[1] = found;
+            x[1] = top, f[1] = force;
     }
 }
 
 #if N_RIGID
-/* Return whether the stages of an explicit step show that the force of contact i only rises or only falls. */
-static int is_force_monotone(Step *step, double fraction, int i, double before, double after, const Parameters *p)
+/*
+ * Return whether the stages of a complete explicit step show that the force of a contact only rises or only falls
+ * between force_begin and force_end (N). Return 0 for stiff methods, too few stages, a part of a step, and terms of
+ * time that may oscillate between stages.
+ */
+static int is_force_monotone(Step *step, double fraction, int joint, double force_begin, double force_end,
+    const Parameters *p)
 {
     Sample all[N_STAGES + 2];
-    const StageValues forces = stage_values(step, STAGE_FORCES + i);
-    const Sample begin = {0.0, before * before, NAN}, end = {1.0, after * after, NAN};
-    const int n = values_of_stages(step, begin, end, forces, all);
-    const double bend = max_second_derivative(all, n);
+    const StageValues forces = stage_values(step, STAGE_FORCES + joint);
+    const Sample begin = {0.0, force_begin * force_begin, NAN}, end = {1.0, force_end * force_end, NAN};
+    const int n = collect_stage_samples(step, begin, end, forces, all);
+    const double bend = bound_second_derivative(all, n);
     int rises = 0, falls = 0;
     for (int k = 1; k < n; k++) {
         const double w = all[k].s - all[k - 1].s, slope = (all[k].f - all[k - 1].f) / w;
@@ -112,96 +129,103 @@ static int is_force_monotone(Step *step, double fraction, int i, double before, 
 }
 
 /*
- * Find the largest force of rigid contact i inside a step up to `fraction`. The force may rise and fall while the
- * motion hardly changes. The step is therefore bisected (watch/forces.c) until no part can exceed the largest force.
+ * Find and record the largest force of a rigid contact inside a step up to `fraction`. The force may rise and fall
+ * while the motion hardly changes. The step is therefore bisected (watch/forces.c) until no part can exceed the largest
+ * force. force_begin, force_end: forces at both ends, N. Nothing happens if the stages show a monotone force, or
+ * without dense output.
  */
 static void find_rigid_peak(
-    Integrator *run, Step *step, double fraction, int i, double before, double after, const Parameters *p)
+    Integrator *run, Step *step, double fraction, int joint, double force_begin, double force_end, const Parameters *p)
 {
     const double middle = 0.5 * fraction;
-    Sampled part[MAX_BISECTIONS + 1];
-    Sample from = {0.0, before, NAN};
-    record_force(run, i, step->t, before);
-    if (is_force_monotone(step, fraction, i, before, after, p) || compute_dense_output(run, p, step))
+    SampledPart part[MAX_BISECTIONS + 1];
+    Sample from = {0.0, force_begin, NAN};
+    record_force(run, joint, step->t, force_begin);
+    if (is_force_monotone(step, fraction, joint, force_begin, force_end, p) || compute_dense_output(run, p, step))
         return;
     part[0] =
-        (Sampled){{middle, evaluate_joint_force(run, step, middle, i, p), NAN}, {fraction, after, NAN}, INFINITY};
+        (SampledPart){{middle, evaluate_joint_force(run, step, middle, joint, p), NAN}, {fraction, force_end, NAN},
+            INFINITY};
     for (int n = 1, samples = 1; n > 0;) {
-        const Sampled now = part[n - 1];
-        const double known = max_of(run->contacts.open[i].F_peak, after) * (1.0 + RIGID_FORCE_TOL);
-        const double w = now.end.s - from.s;
+        const SampledPart now = part[n - 1];
+        const double largest_known = max_of(run->contacts.open[joint].F_peak, force_end) * (1.0 + RIGID_FORCE_TOL);
+        const double width = now.end.s - from.s;
         const double slope = 0.5 * (now.end.f - from.f), bend = from.f - 2.0 * now.middle.f + now.end.f;
         const double top = bend < 0.0 && fabs(slope) < -bend ? now.middle.f - 0.5 * slope * slope / bend
             : max_of(from.f, now.end.f);
-        const int clear = !(top + now.error > known) && !may_oscillate_between(step, from.s, now.end.s, p);
-        if (clear || n > MAX_BISECTIONS || samples > MAX_FORCE_SAMPLES) {
+        const int is_clear = !(top + now.error > largest_known) && !may_oscillate_between(step, from.s, now.end.s, p);
+        if (is_clear || n > MAX_BISECTIONS || samples > MAX_FORCE_SAMPLES) {
             from = now.end;
             n--;
             continue;
         }
-        const double s[2] = {from.s + 0.25 * w, now.end.s - 0.25 * w};
-        const Sample left = {s[0], evaluate_joint_force(run, step, s[0], i, p), NAN};
-        const Sample right = {s[1], evaluate_joint_force(run, step, s[1], i, p), NAN};
-        const double error = error_of_halves(from, now, left, right);
-        part[n - 1] = (Sampled){right, now.end, error};
-        part[n++] = (Sampled){left, now.middle, error};
+        const double fractions[2] = {from.s + 0.25 * width, now.end.s - 0.25 * width};
+        const Sample left = {fractions[0], evaluate_joint_force(run, step, fractions[0], joint, p), NAN};
+        const Sample right = {fractions[1], evaluate_joint_force(run, step, fractions[1], joint, p), NAN};
+        const double error = estimate_error_of_halves(from, now, left, right);
+        part[n - 1] = (SampledPart){right, now.end, error};
+        part[n++] = (SampledPart){left, now.middle, error};
         samples += 2;
     }
 }
 #endif
 
 /*
- * Return the position in (0, 1) of the maximum of the cubic through (d0, d1) with end slopes r0 > 0 > r1; *height: its
- * value.
+ * Return the position in (0, 1) of the maximum of the cubic with the values value_0, value_1 and slopes slope_0 > 0 >
+ * slope_1 at both ends, per unit interval. *height: the value of the cubic there.
  */
-static double cubic_maximum(double d0, double r0, double d1, double r1, double *height)
+static double find_cubic_maximum(double value_0, double slope_0, double value_1, double slope_1, double *height)
 {
-    const double b = 3.0 * (d1 - d0) - 2.0 * r0 - r1, c = r0 + r1 - 2.0 * (d1 - d0);
-    const double s = r0 / (sqrt(b * b - 3.0 * c * r0) - b);
-    *height = d0 + s * (r0 + s * (b + s * c));
+    const double b = 3.0 * (value_1 - value_0) - 2.0 * slope_0 - slope_1,
+        c = slope_0 + slope_1 - 2.0 * (value_1 - value_0);
+    const double s = slope_0 / (sqrt(b * b - 3.0 * c * slope_0) - b);
+    *height = value_0 + s * (slope_0 + s * (b + s * c));
     return s;
 }
 
 /*
- * Find the largest eccentricity of joint i inside a step up to `fraction`, if the journal turns back inside the step.
+ * Find the largest eccentricity of a joint inside a step up to `fraction` by at most six cubics, and record it. Nothing
+ * happens unless the gap rate changes from outward to inward, if the cubic stays below the largest known eccentricity,
+ * or if the evaluation fails.
  */
-static void find_largest_eccentricity(Integrator *run, Step *step, double fraction, int i, const Parameters *p)
+static void find_largest_eccentricity(Integrator *run, Step *step, double fraction, int joint, const Parameters *p)
 {
-    Clearance low = run->rhs.clearance[i], high = step->rhs.clearance[i];
-    double from = 0.0, to = fraction;
-    for (int n = 0; n < 6 && low.deltadot > 0.0 && high.deltadot < 0.0; n++) {
-        const double h = (to - from) * step->h;
+    Clearance clearance_low = run->rhs.clearance[joint], clearance_high = step->rhs.clearance[joint];
+    double low_fraction = 0.0, high_fraction = fraction;
+    for (int n = 0; n < 6 && clearance_low.deltadot > 0.0 && clearance_high.deltadot < 0.0; n++) {
+        const double h = (high_fraction - low_fraction) * step->h;
         double top;
-        const double round = low.e - outward_coordinate(&low); /* 0 without a contour */
-        const double s = from
-            + (to - from)
-                * cubic_maximum(outward_coordinate(&low), h * low.deltadot,
-                    outward_coordinate(&high), h * high.deltadot, &top);
+        const double round = clearance_low.e - get_outward_coordinate(&clearance_low); /* 0 without a contour */
+        const double s = low_fraction
+            + (high_fraction - low_fraction)
+                * find_cubic_maximum(get_outward_coordinate(&clearance_low), h * clearance_low.deltadot,
+                    get_outward_coordinate(&clearance_high), h * clearance_high.deltadot, &top);
         RhsOutputs rhs;
-        if (top + round < run->contacts.e_max[i] - 0.01 * fabs(run->contacts.e_max[i])
+        if (top + round < run->contacts.e_max[joint] - 0.01 * fabs(run->contacts.e_max[joint])
             || compute_dense_output(run, p, step) || evaluate_contacts_in_step(run, step, s, p, &rhs))
             return;
-        const Clearance *now = &rhs.clearance[i];
+        const Clearance *clearance = &rhs.clearance[joint];
         if (run->envelope.rows)
-            extend_path_envelope(run, i, step->t + s * step->h, now);
-        raise_eccentricity(run, i, now->e);
-        if (fabs(outward_coordinate(now) - top) < 1e-9 * fabs(top + round))
+            extend_path_envelope(run, joint, step->t + s * step->h, clearance);
+        update_largest_eccentricity(run, joint, clearance->e);
+        if (fabs(get_outward_coordinate(clearance) - top) < 1e-9 * fabs(top + round))
             return;
-        if (now->deltadot > 0.0)
-            from = s, low = *now;
+        if (clearance->deltadot > 0.0)
+            low_fraction = s, clearance_low = *clearance;
         else
-            to = s, high = *now;
+            high_fraction = s, clearance_high = *clearance;
     }
 }
 
 /*
- * Return whether joint i's force rises (1) or falls (-1) at a fraction of an explicit step, from the last two stages
- * before it. 0: the parabola through them leaves the sign uncertain, or the method is stiff.
+ * Return whether a joint's force (force_end, N) rises (1) or falls (-1) at a fraction of an explicit step, from the
+ * last two stages before it. Return 0 if the parabola through them leaves the sign uncertain, or the method is stiff.
+ * Used to find forces that pass a maximum in the step.
  */
-static int force_trend(const Step *step, double fraction, int i, double after)
+static int estimate_force_trend(const Step *step, double fraction, int joint, double force_end)
 {
     double s[2] = {-1.0, -1.0}, f[2] = {NAN, NAN};
-    const StageValues forces = stage_values(step, STAGE_FORCES + i);
+    const StageValues forces = stage_values(step, STAGE_FORCES + joint);
     for (int k = 0; k < step->n_seen && !step->method->stiff; k++) {
         const double node = step->node[k];
         if (!(node < 0.99 * fraction && node > s[1]) || node == s[0])
@@ -212,111 +236,123 @@ static int force_trend(const Step *step, double fraction, int i, double after)
         s[0] = last ? node : s[0], f[0] = last ? square : f[0];
     }
     f[0] = sqrt(f[0]), f[1] = sqrt(f[1]);
-    const double slope = (after - f[0]) / (fraction - s[0]);
+    const double slope = (force_end - f[0]) / (fraction - s[0]);
     const double bend = (slope - (f[0] - f[1]) / (s[0] - s[1])) * (fraction - s[0]) / (fraction - s[1]);
-    const int clear = fabs(bend) < MAX_BEND * fabs(slope) && fabs(slope) * (fraction - s[0]) > MIN_FORCE_CHANGE * after;
+    const int clear = fabs(bend) < MAX_BEND * fabs(slope)
+        && fabs(slope) * (fraction - s[0]) > MIN_FORCE_CHANGE * force_end;
     return clear ? (slope > 0.0) - (slope < 0.0) : 0;
 }
 
 /*
- * Determine the trend of forces whose `trends` entry is 0 by a very short step along the motion. Return 0 or the
- * status.
+ * Set the trend of each joint whose entry in `trends` is 0 by a very short step along the motion: 1 rises, -1 falls.
+ * force_end: the forces at the fraction of the step, N. Return 0 or the status of the evaluation. Called if the stages
+ * leave a trend unknown.
  */
-static int extrapolate_trends(Integrator *run, const Step *step, double fraction, const double *after, int *trends,
+static int determine_force_trends(Integrator *run, const Step *step, double fraction, const double *force_end,
+    int *trends,
     const Parameters *p)
 {
-    double x[N_Y];
+    double y[N_Y];
     RhsOutputs rhs;
-    const double e = 1e-4 * fraction * step->h;
+    const double duration = 1e-4 * fraction * step->h;
     for (int k = 0; k < N_Y; k++)
-        x[k] = step->y[k] + e * step->dy[k];
-    const int status = play(run, step->t + fraction * step->h + e, x, p, &rhs);
+        y[k] = step->y[k] + duration * step->dy[k];
+    const int status = evaluate_contacts_at(run, step->t + fraction * step->h + duration, y, p, &rhs);
     for (int i = 0; i < N_CLEARANCES && !status; i++)
         if (!trends[i])
-            trends[i] = total_force(&rhs.clearance[i]) > after[i] ? 1 : -1;
+            trends[i] = total_force(&rhs.clearance[i]) > force_end[i] ? 1 : -1;
     return status;
 }
 
 /*
- * Return whether the force of joint i may exceed both end values inside a step up to `fraction`. The estimate is the
- * parabola through both ends and the first stage beyond.
+ * Return whether the force of a joint may exceed both end values (N) inside a step up to `fraction`, by the parabola
+ * through both ends and the first stage beyond. Return 1 if there is no such stage.
  */
-static int may_have_inner_maximum(const Step *step, double fraction, int i, double before, double after)
+static int may_have_inner_maximum(const Step *step, double fraction, int joint, double force_begin, double force_end)
 {
-    const StageValues forces = stage_values(step, STAGE_FORCES + i);
+    const StageValues forces = stage_values(step, STAGE_FORCES + joint);
     double node = INFINITY, force = NAN;
     for (int k = 0; k < step->n_seen; k++)
         if (step->node[k] > fraction && step->node[k] < node)
             node = step->node[k], force = sqrt(stage_value(forces, k));
-    const double bend = 2.0 * ((force - before) / node - (after - before) / fraction) / (node - fraction);
+    const double bend = 2.0 * ((force - force_begin) / node - (force_end - force_begin) / fraction) / (node - fraction);
     const double curve = ERROR_SAFETY * fabs(bend) * fraction * fraction;
-    return !(fabs(after - before) > 0.5 * curve || 0.125 * curve < (MAXIMUM_RATIO - 1.0) * max_of(before, after));
+    return !(fabs(force_end - force_begin) > 0.5 * curve
+        || 0.125 * curve < (MAXIMUM_RATIO - 1.0) * max_of(force_begin, force_end));
 }
 
 /*
- * Return the largest known force in N of joint i inside a step up to `fraction`: at its stages, or in the middle if a
- * contact continues and few stages are inside.
+ * Return the largest known force in N of a joint inside a step up to `fraction`, from its stages. If a compliant
+ * contact continues and few stages are inside, the force in the middle is evaluated on the dense output as well. 0:
+ * none.
  */
-static double largest_force_inside(Integrator *run, Step *step, double fraction, int i, const Parameters *p)
+static double find_largest_inner_force(Integrator *run, Step *step, double fraction, int joint, const Parameters *p)
 {
-    const double before = total_force(&run->rhs.clearance[i]), after = total_force(&step->rhs.clearance[i]);
+    const double force_begin = total_force(&run->rhs.clearance[joint]),
+        force_end = total_force(&step->rhs.clearance[joint]);
     double most = 0.0;
-    int found = 0;
-    const StageValues forces = stage_values(step, STAGE_FORCES + i);
+    int n_inner = 0;
+    const StageValues forces = stage_values(step, STAGE_FORCES + joint);
     for (int k = 0; k < step->n_seen; k++)
         if (step->node[k] > 0.0 && step->node[k] < fraction) {
             most = max_of(most, stage_value(forces, k));
-            found++;
+            n_inner++;
         }
-    if (found < MIN_INNER_STAGES && run->discrete.contact[i].closed && gives(i)
-        && may_have_inner_maximum(step, fraction, i, before, after) && compute_dense_output(run, p, step) == 0)
-        return max_of(sqrt(most), evaluate_joint_force(run, step, 0.5 * fraction, i, p));
+    if (n_inner < MIN_INNER_STAGES && run->discrete.contact[joint].closed && gives(joint)
+        && may_have_inner_maximum(step, fraction, joint, force_begin, force_end)
+            && compute_dense_output(run, p, step) == 0)
+        return max_of(sqrt(most), evaluate_joint_force(run, step, 0.5 * fraction, joint, p));
     return sqrt(most);
 }
 
 /*
  * Return whether a contact law ceases to push at the end of a step: with the contact held closed, its force would pull.
  */
-static int is_pulling_at_end(double before, double after) { return after < 1e-6 * before; }
+static int has_tension_at_end(double before, double after) { return after < 1e-6 * before; }
 
 /*
- * Find the peaks of all joints inside a step up to `fraction`, where a force near its largest rose before and now
- * falls.
+ * Find the peaks of forces and eccentricities of all joints inside an accepted step up to `fraction`, and record them.
+ * Forces are searched where a stage exceeds both ends, or where a force near its largest value was rising and now
+ * falls. Store which forces rise at the end. Without trends, because an evaluation fails, the search of forces is
+ * omitted. Called after each accepted step.
  */
 static void find_inner_peaks(Integrator *run, Step *step, double fraction, const Parameters *p)
 {
     enum { LOW = 2 }; /* a force too small to be a peak */
-    double before[AT_LEAST_ONE(N_CLEARANCES)], after[AT_LEAST_ONE(N_CLEARANCES)];
-    int trends[AT_LEAST_ONE(N_CLEARANCES)], arches[AT_LEAST_ONE(N_CLEARANCES)], unknown = 0;
+    double force_begin[AT_LEAST_ONE(N_CLEARANCES)], force_end[AT_LEAST_ONE(N_CLEARANCES)];
+    int trends[AT_LEAST_ONE(N_CLEARANCES)], has_inner_peak[AT_LEAST_ONE(N_CLEARANCES)], has_unknown = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
         find_largest_eccentricity(run, step, fraction, i, p);
         const Clearance *a = &run->rhs.clearance[i], *b = &step->rhs.clearance[i];
-        const double known = run->discrete.contact[i].closed ? run->contacts.open[i].F_peak : run->contacts.F_peak[i];
-        before[i] = total_force(a), after[i] = total_force(b);
+        const double largest_known = run->discrete.contact[i].closed ? run->contacts.open[i].F_peak
+            : run->contacts.F_peak[i];
+        force_begin[i] = total_force(a), force_end[i] = total_force(b);
         /* a contact's force may double in a step, a film's grows by some percent */
-        const double share_of = run->discrete.contact[i].closed ? 0.9 : 0.97;
+        const double min_ratio = run->discrete.contact[i].closed ? 0.9 : 0.97;
 #if N_RIGID
         if (!gives(i) && run->discrete.contact[i].closed)
-            find_rigid_peak(run, step, fraction, i, before[i], after[i], p);
+            find_rigid_peak(run, step, fraction, i, force_begin[i], force_end[i], p);
 #endif
-        const int bears = run->discrete.contact[i].closed || has_film(i);
-        const double ends = max_of(before[i], after[i]),
-                     inside = bears ? largest_force_inside(run, step, fraction, i, p) : 0.0;
-        arches[i] = gives(i) && inside > (step->method->stiff ? MAXIMUM_RATIO_STIFF : MAXIMUM_RATIO) * ends;
-        const double largest = !gives(i) ? 0.0 : arches[i] ? inside : ends;
-        const int near = largest > share_of * known && largest > 0.0;
-        const int pulls = near && is_pulling_at_end(before[i], after[i]);
-        trends[i] = !near ? LOW : pulls ? -1 : force_trend(step, fraction, i, after[i]);
-        unknown |= !trends[i];
+        const int has_force = run->discrete.contact[i].closed || has_film(i);
+        const double larger_end = max_of(force_begin[i], force_end[i]),
+                     largest_inner = has_force ? find_largest_inner_force(run, step, fraction, i, p) : 0.0;
+        has_inner_peak[i] = gives(i) && largest_inner > (step->method->stiff ? MAXIMUM_RATIO_STIFF
+            : MAXIMUM_RATIO) * larger_end;
+        const double candidate = !gives(i) ? 0.0 : has_inner_peak[i] ? largest_inner : larger_end;
+        const int has_event_candidate = candidate > min_ratio * largest_known && candidate > 0.0;
+        const int is_pulling = has_event_candidate && has_tension_at_end(force_begin[i], force_end[i]);
+        trends[i] = !has_event_candidate ? LOW : is_pulling ? -1
+            : estimate_force_trend(step, fraction, i, force_end[i]);
+        has_unknown |= !trends[i];
     }
-    if (unknown && extrapolate_trends(run, step, fraction, after, trends, p))
+    if (has_unknown && determine_force_trends(run, step, fraction, force_end, trends, p))
         return;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        const int turned = run->rhs.clearance[i].F_n * step->rhs.clearance[i].F_n < 0.0; /* it was zero in between */
-        const int near = trends[i] != LOW, falls = near && trends[i] < 0;
-        if (near && (((falls || turned) && run->contacts.is_rising[i]) || arches[i])
+        const int reverses = run->rhs.clearance[i].F_n * step->rhs.clearance[i].F_n < 0.0; /* it was zero in between */
+        const int has_event_candidate = trends[i] != LOW, falls = has_event_candidate && trends[i] < 0;
+        if (has_event_candidate && (((falls || reverses) && run->contacts.is_rising[i]) || has_inner_peak[i])
             && compute_dense_output(run, p, step) == 0)
-            find_inner_peak(run, step, fraction, i, before[i], after[i], p);
-        set_rising(run, i, !falls);
+            find_inner_peak(run, step, fraction, i, force_begin[i], force_end[i], p);
+        set_force_rising(run, i, !falls);
     }
 }

@@ -1,21 +1,24 @@
 /* The report of a run to Python: samples, counts, residuals, and whether lists must be fetched. */
 #include <string.h>
 
-/* Store the present state of all bodies, the discrete state and the contact codes as a sample. */
-void gudgeon_run_sample(const void *integrator, const double *p, double *y, double *latched, signed char *state)
+/*
+ * Store the present state of all bodies y (N_S), the discrete state (N_DISCRETE) and the contact codes (N_CLEARANCES)
+ * as a sample.
+ */
+void gudgeon_run_sample(const void *integrator, const double *p, double *y, double *discrete, signed char *codes)
 {
     const Integrator *run = integrator;
-    store_sample(run, run->t, run->y, (const Parameters *)p, 0, y, latched, state);
+    store_sample(run, run->t, run->y, (const Parameters *)p, 0, y, discrete, codes);
 }
 
 /*
- * Report on a run that no longer advances. gained: time in s that the last MONITOR_STEPS steps gained. steps: that
- * number, and whether these steps are far shorter than earlier ones. ended (StepEnd): how many steps each kind of event
- * ended.
+ * Report the progress of a run that no longer advances. time_gained: time in s that the last MONITOR_STEPS steps
+ * gained. steps: that number, and whether these steps are far shorter than earlier ones. ended (N_STEP_ENDS): how many
+ * steps each kind of event ended since the last check. Called when a run of a batch ends.
  */
-static void report_monitor(const Integrator *run, double *gained, long *steps, long *ended)
+static void report_monitor(const Integrator *run, double *time_gained, long *steps, long *ended)
 {
-    *gained = run->progress.monitor.gain;
+    *time_gained = run->progress.monitor.gain;
     steps[0] = MONITOR_STEPS;
     steps[1] = run->progress.monitor.crawls;
     for (int k = 0; k < N_STEP_ENDS; k++)
@@ -32,18 +35,21 @@ static void report_monitor(const Integrator *run, double *gained, long *steps, l
 /* Return whether Python must fetch the lists and the step record before the run resumes. */
 int gudgeon_run_full(const void *integrator) { return has_full_lists(integrator); }
 
-/* Return the number of events and contacts in the lists, including contacts that last. */
+/* Return the number of user-defined events and contacts that wait in the lists, including contacts that still last. */
 int gudgeon_run_listed(const void *integrator)
 {
     const Integrator *run = integrator;
-    int n = run->contacts.n_impacts + run->events.n;
+    int count = run->contacts.n_impacts + run->events.n;
     for (int i = 0; i < N_CLEARANCES; i++)
-        n += run->discrete.contact[i].closed;
-    return n;
+        count += run->discrete.contact[i].closed;
+    return count;
 }
 
-/* Report the time (s), counts, residuals and ratios of a run, and three values (Peak) of each joint with play. */
-void gudgeon_run_report(const void *integrator, double *t, long *counts, double *numbers, double *peaks)
+/*
+ * Report the time t (s) of a run, its counts (Count), its largest residuals and restitution ratios (Residual), and
+ * largest force, its time and largest eccentricity of each joint with play in `peaks` (Peak).
+ */
+void gudgeon_run_report(const void *integrator, double *t, long *counts, double *residuals, double *peaks)
 {
     const Integrator *run = integrator;
     *t = run->t;
@@ -55,10 +61,10 @@ void gudgeon_run_report(const void *integrator, double *t, long *counts, double 
     counts[COUNT_rejected] = run->counts.rejected;
     counts[COUNT_jacobians] = run->counts.jacobians;
     counts[COUNT_stiff_steps] = run->counts.stiff_steps;
-    numbers[RESIDUAL_phi_max] = run->residuals.phi_max;
-    numbers[RESIDUAL_phi_dot_max] = run->residuals.phi_dot_max;
-    numbers[RESIDUAL_ratio_min] = run->contacts.ratio_min;
-    numbers[RESIDUAL_ratio_max] = run->contacts.ratio_max;
+    residuals[RESIDUAL_phi_max] = run->residuals.phi_max;
+    residuals[RESIDUAL_phi_dot_max] = run->residuals.phi_dot_max;
+    residuals[RESIDUAL_ratio_min] = run->contacts.ratio_min;
+    residuals[RESIDUAL_ratio_max] = run->contacts.ratio_max;
     for (int i = 0; i < N_CLEARANCES; i++, peaks += N_PEAK) {
         peaks[PEAK_F] = run->contacts.F_peak[i];
         peaks[PEAK_t] = run->contacts.t_peak[i];

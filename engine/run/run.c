@@ -6,8 +6,9 @@
 #include "../both/states.h"
 
 /*
- * Evaluate the right-hand side with the inner states of contact laws, for given rigid contact forces. The laws read
- * their inner states from the contact states; the rates of these follow the works in dy. Return 0 or the status.
+ * Evaluate the right-hand side at (t, y) with the inner states of contact laws, for the rigid contact forces stored in
+ * `discrete`. Inner states are copied from y into the contact states; their rates follow the works in dy. Return 0 or
+ * the status.
  */
 static int motion_with_inner_states(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
@@ -24,7 +25,8 @@ static int motion_with_inner_states(
 
 /*
  * Evaluate the right-hand side of a run at (t, y): rates dy and the other outputs rhs. Forces of closed rigid contacts
- * are included. Return 0, STOPPED after a cancellation, or the vanished pivot.
+ * are computed first. Evaluations are counted and the caller is polled. Return 0, STOPPED after a cancellation, or the
+ * number of the vanished pivot.
  */
 static int rates(Integrator *run, double t, const double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
@@ -33,7 +35,7 @@ static int rates(Integrator *run, double t, const double *y, const Parameters *p
         return STOPPED;
 #if N_RIGID
     int joint[N_RIGID];
-    const int n = list_closed(&run->discrete, joint);
+    const int n = list_closed_contacts(&run->discrete, joint);
     count_evaluations(run, n ? n + 1 : 0);
     return rates_in_contact(motion_with_inner_states, N_Y, t, y, &run->discrete, p, dy, rhs);
 #else
@@ -45,7 +47,10 @@ static int rates(Integrator *run, double t, const double *y, const Parameters *p
 #include "contacts.c"
 #include "envelope.c"
 
-/* Return whether a penetration exceeds the range of validity of the contact laws, a tenth of the radius. */
+/*
+ * Return whether the penetration of any joint at the present state exceeds the range of validity of its contact laws, a
+ * tenth of the radius.
+ */
 static int is_outside_model(const Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
@@ -55,8 +60,9 @@ static int is_outside_model(const Integrator *run, const Parameters *p)
 }
 
 /*
- * Update peaks, residuals and the ratio deltadot/deltadot_minus at an accepted state. Return 0, NOT_FINITE, OUTSIDE, or
- * the status of accept_state().
+ * Update peaks, envelope, residuals and the ratio deltadot/deltadot_minus at an accepted state. Return 0, NOT_FINITE if
+ * the state or its rates are not finite, OUTSIDE if a penetration exceeds the contact laws, or the status of
+ * accept_state(). Called at the start and after each accepted step.
  */
 static int record_accepted_state(Integrator *run, const Parameters *p)
 {
@@ -64,10 +70,10 @@ static int record_accepted_state(Integrator *run, const Parameters *p)
     double sum = 0.0;
     for (int k = 0; k < N_Y; k++)
         sum += run->dy[k] + run->y[k];
-    const int lost = accept_state(run->t, run->y, &run->discrete, p, rhs, &run->residuals.phi_max,
+    const int status = accept_state(run->t, run->y, &run->discrete, p, rhs, &run->residuals.phi_max,
         &run->residuals.phi_dot_max);
-    if (lost)
-        return lost;
+    if (status)
+        return status;
     for (int i = 0; i < N_CLEARANCES; i++)
         update_joint_peaks(run, i);
     if (run->envelope.rows)
@@ -75,24 +81,33 @@ static int record_accepted_state(Integrator *run, const Parameters *p)
     return !isfinite(sum) ? NOT_FINITE : is_outside_model(run, p) ? OUTSIDE : 0;
 }
 
-/* Store the state of all bodies, the discrete state and the contact codes at time t as row i of the samples. */
-static void store_sample(const Integrator *run, double t, const double *now, const Parameters *p, long i, double *y,
-    double *latched, signed char *state)
+/*
+ * Store the state of all bodies, the discrete state and the contact codes at time t (s) in a row of the arrays y,
+ * discrete and codes. state_vector (N_Y): integrated state. In `discrete`: approach speeds (NaN for open joints),
+ * friction modes and inner states of laws. Called for output times, events, rows of the step record, and the end of a
+ * run.
+ */
+static void store_sample(const Integrator *run, double t, const double *state_vector, const Parameters *p, long row,
+    double *y,
+    double *discrete, signed char *codes)
 {
     enum { MEMORY = AT_LEAST_ONE(N_DISCRETE), JOINTS = AT_LEAST_ONE(N_CLEARANCES) };
-    to_absolute(t, now, &run->discrete, p, y + i * N_S);
+    to_absolute(t, state_vector, &run->discrete, p, y + row * N_S);
     for (int k = 0; k < N_CLEARANCES; k++) {
-        latched[i * MEMORY + k] = run->discrete.contact[k].closed ? run->discrete.contact[k].deltadot_minus : NAN;
-        state[i * JOINTS + k] = (signed char)(!run->discrete.contact[k].closed ? CODE_FREE
+        discrete[row * MEMORY + k] = run->discrete.contact[k].closed ? run->discrete.contact[k].deltadot_minus : NAN;
+        codes[row * JOINTS + k] = (signed char)(!run->discrete.contact[k].closed ? CODE_FREE
             : run->contacts.is_compressing[k] ? CODE_IMPACT : CODE_CONTACT);
     }
     for (int k = 0; k < N_FRICTIONS; k++)
-        latched[i * MEMORY + N_CLEARANCES + k] = run->discrete.mode[k];
+        discrete[row * MEMORY + N_CLEARANCES + k] = run->discrete.mode[k];
     for (int k = 0; k < N_STATES; k++)
-        latched[i * MEMORY + N_DISCRETE - N_STATES + k] = now[FIRST_STATE + k];
+        discrete[row * MEMORY + N_DISCRETE - N_STATES + k] = state_vector[FIRST_STATE + k];
 }
 
-/* Freeze the active branches of all switching functions as they are at the present state. */
+/*
+ * Set the branches of all switching functions to their signs at the present state, and freeze them and the contacts
+ * (discrete.held). Called when a run begins, and before states just after the present time are evaluated.
+ */
 static void freeze_branches(Integrator *run)
 {
     for (int k = 0; k < N_SWITCHES; k++)
@@ -101,19 +116,20 @@ static void freeze_branches(Integrator *run)
 }
 
 /*
- * Update the branches of all active switching functions at (t, y) until they agree with their signs, and evaluate the
- * right-hand side there. Switching function `fixed` (-1: none) keeps its branch. A function that becomes active may
- * have held the other branch, on which its value may be NaN.
+ * Update the branches of all active switching functions at (t, y) until they agree with their signs, in at most six
+ * passes, and evaluate the right-hand side there into dy and rhs. fixed_switch keeps its branch, -1: none. A function
+ * that becomes active may have held the other branch, on which its value may be NaN. Return the status of the last
+ * evaluation.
  */
 static int update_branches_at(
-    Integrator *run, double t, const double *y, double *dy, RhsOutputs *rhs, int fixed, const Parameters *p)
+    Integrator *run, double t, const double *y, double *dy, RhsOutputs *rhs, int fixed_switch, const Parameters *p)
 {
     int status = 0, changed = 1;
     for (int pass = 0; pass < 6 && changed; pass++) {
         changed = 0;
         status = rates(run, t, y, p, dy, rhs);
         for (int k = 0; k < N_SWITCHES && status != STOPPED; k++)
-            if (k != fixed && run->discrete.branch[k] * rhs->g[k] < 0.0) {
+            if (k != fixed_switch && run->discrete.branch[k] * rhs->g[k] < 0.0) {
                 run->discrete.branch[k] = -run->discrete.branch[k];
                 changed = 1;
             }
@@ -124,11 +140,11 @@ static int update_branches_at(
 /* Return the kinetic energy of all bodies at the present state, J. */
 static double kinetic_energy(const Integrator *run, const Parameters *p)
 {
-    double m[N_Q], all[N_S], sum = 0.0;
-    mass_matrix(p, m);
-    to_absolute(run->t, run->y, &run->discrete, p, all);
+    double mass[N_Q], absolute_state[N_S], sum = 0.0;
+    mass_matrix(p, mass);
+    to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
     for (int k = 0; k < N_Q; k++)
-        sum += 0.5 * m[k] * all[N_Q + k] * all[N_Q + k];
+        sum += 0.5 * mass[k] * absolute_state[N_Q + k] * absolute_state[N_Q + k];
     return sum;
 }
 
@@ -146,92 +162,97 @@ static double kinetic_energy(const Integrator *run, const Parameters *p)
 #endif
 #include "impacts.c"
 
-/* Return whether Python must fetch the lists and the step record before the next step. */
+/* Return whether Python must fetch the lists of contacts and events, or the step record, before the next step. */
 static int has_full_lists(const Integrator *run)
 {
     return run->contacts.n_impacts >= MAX_LISTED || run->events.n >= MAX_LISTED || is_record_full(run);
 }
 
 /*
- * Return the effective mass in kg that the force of contact i moves, NaN if undefined. The force of contact i changes
- * the rate of deltadot, which is linear in the velocities. direction (N_X): the velocities that increase deltadot by
- * 1 m/s.
+ * Return the effective mass in kg that the force of a contact moves, NaN if an evaluation fails. The force changes the
+ * rate of deltadot, which is linear in the velocities. direction (N_X): set to the velocities that increase deltadot by
+ * 1 m/s. The contact state of the joint is left changed: the caller restores it. Used for the approach speed of
+ * contacts in which a run begins.
  */
-static double effective_mass(Integrator *run, int i, double *direction, const Parameters *p)
+static double compute_effective_mass(Integrator *run, int joint, double *direction, const Parameters *p)
 {
     const double duration = 1e-3; /* s */
-    double force[2], rate[2], y[N_Y], dy[2][N_Y], scrap[N_Y];
+    double force[2], rate[2], y[N_Y], dy[2][N_Y], dy_unused[N_Y];
     RhsOutputs rhs;
     memcpy(y, run->y, sizeof y);
     for (int closed = 0; closed < 2; closed++) {
-        run->discrete.contact[i].closed = (unsigned char)closed;
-        run->discrete.contact[i].deltadot_minus = INFINITY; /* the contact force has no damping part */
+        run->discrete.contact[joint].closed = (unsigned char)closed;
+        run->discrete.contact[joint].deltadot_minus = INFINITY; /* the contact force has no damping part */
         if (update_branches_at(run, run->t, run->y, dy[closed], &rhs, -1, p))
             return NAN;
-        force[closed] = rhs.clearance[i].F_n;
+        force[closed] = rhs.clearance[joint].F_n;
         for (int k = N_X; k < 2 * N_X; k++)
             y[k] = run->y[k] + duration * dy[closed][k];
-        if (rates(run, run->t, y, p, scrap, &rhs))
+        if (rates(run, run->t, y, p, dy_unused, &rhs))
             return NAN;
-        rate[closed] = rhs.clearance[i].deltadot;
+        rate[closed] = rhs.clearance[joint].deltadot;
     }
-    const double pushed = (rate[1] - rate[0]) / duration;
+    const double acceleration = (rate[1] - rate[0]) / duration;
     for (int k = 0; k < N_X; k++)
-        direction[k] = (dy[1][N_X + k] - dy[0][N_X + k]) / pushed;
-    return (force[1] - force[0]) / pushed;
+        direction[k] = (dy[1][N_X + k] - dy[0][N_X + k]) / acceleration;
+    return (force[1] - force[0]) / acceleration;
 }
 
 /*
- * Estimate the approach speed of contact i, in which the run begins without a known onset. The contact is assumed to
- * have lost no energy since the onset: 1/2 m u^2 = 1/2 m deltadot^2 + F delta / (n + 1), with the elastic force F at
- * deltadot = 0 and the exponent n of a power law.
+ * Estimate and store the approach speed of a contact in which the run begins without a known onset, and start its
+ * record. The contact is assumed to have lost no energy since the onset: 1/2 m u^2 = 1/2 m deltadot^2 + F delta / (n +
+ * 1), with the elastic force F at deltadot = 0 and the exponent n of a power law. The stored speed is only ever
+ * increased; it stays if the estimate fails.
  */
-static void estimate_approach_speed(Integrator *run, int i, const Parameters *p)
+static void estimate_approach_speed(Integrator *run, int joint, const Parameters *p)
 {
-    const double deltadot = run->rhs.clearance[i].deltadot;
+    const double deltadot = run->rhs.clearance[joint].deltadot;
     double force[2], delta[2], direction[N_X], y[N_Y], dy[N_Y];
-    DiscreteState known = run->discrete;
+    DiscreteState discrete_before = run->discrete;
     RhsOutputs rhs;
     freeze_branches(run); /* frozen: an open contact stays open, wherever the journal is */
-    const double mass = effective_mass(run, i, direction, p);
+    const double mass = compute_effective_mass(run, joint, direction, p);
     memcpy(y, run->y, sizeof y);
-    for (int part = 0; part < 2 && mass > 0.0; part++) {
+    for (int sample = 0; sample < 2 && mass > 0.0; sample++) {
         for (int k = 0; k < N_X; k++) {
-            y[k] = run->y[k] - (part ? 0.1 * delta[0] * direction[k] : 0.0);
+            y[k] = run->y[k] - (sample ? 0.1 * delta[0] * direction[k] : 0.0);
             y[N_X + k] = run->y[N_X + k] - deltadot * direction[k];
         }
         const int status = rates(run, run->t, y, p, dy, &rhs);
-        force[part] = status ? NAN : fabs(rhs.clearance[i].F_n);
-        delta[part] = rhs.clearance[i].delta;
+        force[sample] = status ? NAN : fabs(rhs.clearance[joint].F_n);
+        delta[sample] = rhs.clearance[joint].delta;
     }
     if (mass > 0.0) {
         const double n = log(force[1] / force[0]) / log(delta[1] / delta[0]);
         const double onset = sqrt(deltadot * deltadot + 2.0 * force[0] * delta[0] / (n + 1.0) / mass);
         if (n > 0.0 && isfinite(onset))
-            known.contact[i].deltadot_minus = max_of(known.contact[i].deltadot_minus, onset);
+            discrete_before.contact[joint].deltadot_minus = max_of(discrete_before.contact[joint].deltadot_minus,
+                onset);
     }
-    run->discrete = known;
-    begin_contact(run, i, run->t, known.contact[i].deltadot_minus);
+    run->discrete = discrete_before;
+    start_contact_record(run, joint, run->t, discrete_before.contact[joint].deltadot_minus);
 }
 
 /*
- * Evaluate the first right-hand side of a run and set its contacts, friction modes and signs of user-defined events. A
- * start with penetration is in contact; friction begins with the mode of its slip.
+ * Evaluate the first right-hand side of a run, set its contacts, friction modes and signs of user-defined events, and
+ * record the state. A start with penetration is in contact; friction begins with the mode of its slip. Return 0 or a
+ * status. Called once, when the memory of the run has been initialized.
  */
 static int begin_state(Integrator *run, const Parameters *p)
 {
     int status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
     if (!status)
-        status = begin_friction(run, p);
-    const DiscreteState known = run->discrete;
-    if (!status && begin_contacts_of_start(run, p)) {
+        status = initialize_friction_modes(run, p);
+    const DiscreteState discrete_before = run->discrete;
+    if (!status && initialize_compliant_contacts(run, p)) {
         for (int i = 0; i < N_CLEARANCES; i++)
-            if (run->discrete.contact[i].closed && !known.contact[i].closed && run->rhs.clearance[i].delta > 0.0)
+            if (run->discrete.contact[i].closed && !discrete_before.contact[i].closed
+                && run->rhs.clearance[i].delta > 0.0)
                 estimate_approach_speed(run, i, p);
         status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
     }
     if (!status)
-        status = begin_contacts(run, p);
+        status = initialize_rigid_contacts(run, p);
     double value[AT_LEAST_ONE(N_USER_EVENTS)];
     evaluate_resolved_events(run, run->t, run->y, &run->rhs, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++) {
@@ -243,7 +264,10 @@ static int begin_state(Integrator *run, const Parameters *p)
     return status ? status : record_accepted_state(run, p);
 }
 
-/* Return the size of the memory of a run in bytes. */
+/*
+ * Return the size of the memory of a run in bytes: the Integrator, and states at events if the scene has user-defined
+ * events.
+ */
 size_t gudgeon_run_size(void)
 {
 #if N_USER_EVENTS
@@ -253,17 +277,21 @@ size_t gudgeon_run_size(void)
 #endif
 }
 
-/* Initialize a run at time t (s) from the state y of all bodies and the discrete state `latched`, for parameters p. */
-void gudgeon_run_start(void *integrator, const double *p, double t, const double *y, const double *latched)
+/*
+ * Initialize the memory of a run at time t (s) for parameters p. y (N_S): state of all bodies; discrete (N_DISCRETE):
+ * the discrete state as in a sample. NaN inner states, those of a new run, become zero.
+ */
+void gudgeon_run_start(void *integrator, const double *p, double t, const double *y, const double *discrete)
 {
     Integrator *run = integrator;
     *run = (Integrator){.t = t};
     from_absolute(t, y, &run->discrete, (const Parameters *)p, run->y);
-    read_discrete_state(latched, &run->discrete);
+    read_discrete_state(discrete, &run->discrete);
     run->discrete.token = &run->cancellation;
     if (CONTINUES)
         run->discrete.least = run->discrete.least_size = NEARBY;
     for (int k = 0; k < N_STATES; k++) /* NaN at a new run: no inner states yet */
-        run->y[FIRST_STATE + k] = isnan(latched[N_DISCRETE - N_STATES + k]) ? 0.0 : latched[N_DISCRETE - N_STATES + k];
-    start_contacts(run, t, latched);
+        run->y[FIRST_STATE + k] = isnan(discrete[N_DISCRETE - N_STATES + k]) ? 0.0
+            : discrete[N_DISCRETE - N_STATES + k];
+    initialize_contacts(run, t, discrete);
 }

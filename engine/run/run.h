@@ -328,13 +328,13 @@ typedef struct {
     Audit audit;
 } Integrator;
 
-/* Return whether the contact law of any joint with play has a film. */
+/* Return whether the contact law of any joint with play has a film, whose force acts without a contact. */
 static inline int has_films(void)
 {
-    int found = 0;
+    int has_any = 0;
     for (int i = 0; i < N_CLEARANCES; i++)
-        found |= has_film(i);
-    return found;
+        has_any |= has_film(i);
+    return has_any;
 }
 
 #include "step_log.h"

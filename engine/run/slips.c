@@ -6,64 +6,71 @@
 #define MAX_RESIDUAL_SLIP 2e-9 /* m/s: slip up to which the beginning of stick is located */
 
 /*
- * Return the change of the rate of slip i when its friction force reverses (mode 1 to -1), and in dy that of all rates.
- * 0: the change is unknown.
+ * Return the change of the rate of a slip when its friction force reverses (mode 1 to -1), in m/s^2, and set dy (N_Y)
+ * to the change of all rates. Return 0 if an evaluation fails. The mode is restored. Used to compute the impulse that
+ * stops a slip.
  */
-static double slip_response(Integrator *run, double t, const double *y, int i, const Parameters *p, double *dy)
+static double compute_slip_response(Integrator *run, double t, const double *y, int element, const Parameters *p,
+    double *dy)
 {
-    double *mode = &run->discrete.mode[i], other[N_Y];
-    const double known = *mode;
-    RhsOutputs along, against;
+    double *mode = &run->discrete.mode[element], dy_along[N_Y];
+    const double mode_before = *mode;
+    RhsOutputs rhs_against, rhs_along;
     *mode = -1.0;
-    int status = rates(run, t, y, p, dy, &along);
+    int status = rates(run, t, y, p, dy, &rhs_against);
     *mode = 1.0;
-    status = status ? status : rates(run, t, y, p, other, &against);
-    *mode = known;
+    status = status ? status : rates(run, t, y, p, dy_along, &rhs_along);
+    *mode = mode_before;
     for (int k = 0; k < N_Y; k++)
-        dy[k] -= other[k];
-    return status ? 0.0 : along.friction[i].rate - against.friction[i].rate;
+        dy[k] -= dy_along[k];
+    return status ? 0.0 : rhs_against.friction[element].rate - rhs_along.friction[element].rate;
 }
 
 /*
- * Return whether the velocity change `factor` * `direction` is a residual error of a step. The velocities are tested,
- * not the slip: a slip may be small because its lever arm is.
+ * Return whether the velocity change `factor` * `direction` (N_Y) is a residual error of a step: no velocity changes by
+ * more than its tolerance or the location error of stick. The velocities are tested, not the slip, because a slip may
+ * be small only because its lever arm is.
  */
 static int is_slip_residual(const Integrator *run, const double *direction, double factor)
 {
-    int small = 1;
+    int is_small = 1;
     for (int k = N_X; k < 2 * N_X; k++) {
-        const double *least = run->norm.least;
-        const double turns = least[0] > 0.0 ? least[1] / least[0] : 1.0; /* rad/m; rk4 does not know */
-        const double located = is_angle[k - N_X] ? MAX_RESIDUAL_SLIP * turns : MAX_RESIDUAL_SLIP;
+        const double *scale = run->norm.least;
+        const double angle_per_length = scale[0] > 0.0 ? scale[1] / scale[0] : 1.0; /* rad/m; rk4 does not know */
+        const double located = is_angle[k - N_X] ? MAX_RESIDUAL_SLIP * angle_per_length : MAX_RESIDUAL_SLIP;
         const double tolerance = run->norm.weight[k] > 0.0 ? MAX_RESIDUAL_TOLERANCES / run->norm.weight[k] : 0.0;
-        small &= fabs(direction[k] * factor) <= max_of(tolerance, located);
+        is_small &= fabs(direction[k] * factor) <= max_of(tolerance, located);
     }
-    return small;
+    return is_small;
 }
 
 /*
- * Remove the residual slips of sticking friction by impulses of that friction and return whether there were any. The
- * impulse of one element leaves the others at rest.
+ * Remove the residual slips of sticking friction from the velocities in y, by impulses of that friction, and return
+ * whether there were any. rhs: outputs at y. The impulse of one element leaves the others at rest. Slips that are too
+ * large for an error of the step are kept.
  */
 static int remove_slip_residuals(Integrator *run, double t, double *y, const RhsOutputs *rhs, const Parameters *p)
 {
-    int some = 0;
-    for (int i = 0; i < N_FRICTIONS; i++) {
+    int has_residual = 0;
+    for (int element = 0; element < N_FRICTIONS; element++) {
         double direction[N_Y];
-        const double v = rhs->friction[i].v;
-        if (run->discrete.mode[i] != 0.0 || fabs(v) <= MIN_SLIP)
+        const double v = rhs->friction[element].v;
+        if (run->discrete.mode[element] != 0.0 || fabs(v) <= MIN_SLIP)
             continue;
-        const double response = slip_response(run, t, y, i, p, direction);
+        const double response = compute_slip_response(run, t, y, element, p, direction);
         if (!(response > 0.0) || !is_slip_residual(run, direction, v / response))
             continue;
         for (int k = N_X; k < 2 * N_X; k++)
             y[k] -= direction[k] * (v / response);
-        some = 1;
+        has_residual = 1;
     }
-    return some;
+    return has_residual;
 }
 
-/* Evaluate the right-hand side at a state after removing residual slips of sticking friction from y. */
+/*
+ * Evaluate the right-hand side at a state after removing residual slips of sticking friction from y. dy, rhs: the
+ * result, at the changed y. Return 0 or a status. Called at states of the dense output and at ends of steps.
+ */
 static int evaluate_rates_at_rest(
     Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
@@ -71,14 +78,17 @@ static int evaluate_rates_at_rest(
     return status || !remove_slip_residuals(run, t, y, rhs, p) ? status : rates(run, t, y, p, dy, rhs);
 }
 
-/* Remove residual slips of sticking friction from a state y. */
+/*
+ * Remove residual slips of sticking friction from a state y at time t; without a sticking element y stays. A failure is
+ * ignored.
+ */
 static void project_slips(Integrator *run, double t, double *y, const Parameters *p)
 {
     double dy[N_Y];
     RhsOutputs rhs;
-    int sticks = 0;
+    int has_stick = 0;
     for (int i = 0; i < N_FRICTIONS; i++)
-        sticks |= run->discrete.mode[i] == 0.0;
-    if (sticks)
+        has_stick |= run->discrete.mode[i] == 0.0;
+    if (has_stick)
         (void)evaluate_rates_at_rest(run, t, y, p, dy, &rhs);
 }

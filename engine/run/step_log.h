@@ -16,11 +16,11 @@ static inline void count_evaluations(Integrator *run, long n) { run->counts.eval
 /* Restore an earlier number of evaluations: those for output do not count as integration. */
 static inline void restore_evaluations(Integrator *run, long evaluations) { run->counts.evaluations = evaluations; }
 
-/* Count an accepted step, and whether its method is stiff. */
-static inline void count_step(Integrator *run, int stiff)
+/* Count an accepted step, also as a stiff step if its method is stiff. */
+static inline void count_step(Integrator *run, int is_stiff)
 {
     run->counts.steps++;
-    run->counts.stiff_steps += stiff;
+    run->counts.stiff_steps += is_stiff;
 }
 
 /* Count a rejected step. */
@@ -35,7 +35,10 @@ static inline void count_mode_change(Integrator *run) { run->counts.switches++; 
 /* Set the largest residual of the velocity constraints so far. */
 static inline void set_phi_dot_max(Integrator *run, double phi_dot) { run->residuals.phi_dot_max = phi_dot; }
 
-/* Count the event function that ended a step (-1: none), and whether it ended the step at its beginning. */
+/*
+ * Count the event function that ended a step (-1: none). no_advance: whether it ended the step at its beginning; such
+ * successive steps are counted as well.
+ */
 static inline void record_step_end(Integrator *run, int event, int no_advance)
 {
     run->progress.no_advance = no_advance ? run->progress.no_advance + 1 : 0;
@@ -46,8 +49,8 @@ static inline void record_step_end(Integrator *run, int event, int no_advance)
 static inline int is_chattering(const Integrator *run) { return run->progress.no_advance > MAX_NO_ADVANCE; }
 
 /*
- * Count successive too short steps and return whether there are too many: speeds grow without bound, as at a dead
- * centre.
+ * Count successive steps that are too short to advance, and return whether they exceed MAX_SHORT_STEPS: speeds grow
+ * without bound, as at a dead centre. A longer step resets the count.
  */
 static inline int is_stuck_in_short_steps(Integrator *run, int is_short)
 {
@@ -55,7 +58,10 @@ static inline int is_stuck_in_short_steps(Integrator *run, int is_short)
     return run->progress.short_steps > MAX_SHORT_STEPS;
 }
 
-/* Return whether the run no longer advances. Each check of the progress restarts the counts of what ends steps. */
+/*
+ * Count a step and return whether the run no longer advances towards t_end (s). Each comparison of the progress monitor
+ * restarts the counts of the event functions that ended steps.
+ */
 static inline int is_stalled(Integrator *run, double t_end)
 {
     const int stalled = has_stalled(&run->progress.monitor, run->t, t_end);

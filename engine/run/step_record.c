@@ -9,13 +9,16 @@ enum {
 };
 #define JUMP_OFFSET 1e-9 /* of a step: distance of the rows just before and after a jump */
 
-/* Return whether the step record may lack space for the rows of the next step. */
+/* Return whether the step record may lack space for the rows of the next step; 0 without a record. */
 static int is_record_full(const Integrator *run)
 {
     return run->step_record.rows && run->step_record.n > run->step_record.capacity - MAX_ROWS_PER_STEP;
 }
 
-/* Append a state at time t to the step record: jump mark, t, state of all bodies, discrete state, contact codes. */
+/*
+ * Append a state y at time t (s) to the step record: jump mark, t, state of all bodies, discrete state, contact codes.
+ * Then reset the jump mark. Nothing is done without a record or if it is full.
+ */
 static void record_state(Integrator *run, double t, const double *y, const Parameters *p)
 {
     StepRecord *step_record = &run->step_record;
@@ -34,24 +37,27 @@ static void record_state(Integrator *run, double t, const double *y, const Param
 /* Mark that something jumped before the next row, if `jumped`. */
 static void mark_jump(Integrator *run, int jumped) { run->step_record.jumped |= jumped; }
 
-/* Append the present state to the step record as the state just after a jump. */
+/* Append the present state to the step record, marked as the state just after a jump. */
 static void record_after_jump(Integrator *run, const Parameters *p)
 {
     run->step_record.jumped = 1;
     record_state(run, run->t, run->y, p);
 }
 
-/* Start the step record in memory for `capacity` rows, at least those of a few steps. */
+/*
+ * Start the step record in the caller's memory `rows` for `capacity` rows, at least those of a few steps. Its first row
+ * is marked as a jump.
+ */
 void gudgeon_run_record(void *integrator, double *rows, long capacity)
 {
     ((Integrator *)integrator)->step_record = (StepRecord){.rows = rows, .capacity = capacity, .jumped = 1};
 }
 
-/* Return the number of rows since the last call, and start again at the first row. */
+/* Return the number of rows recorded since the last call, and start again at the first row. */
 long gudgeon_run_recorded(void *integrator)
 {
     Integrator *run = integrator;
-    const long n = run->step_record.n;
+    const long count = run->step_record.n;
     run->step_record.n = 0;
-    return n;
+    return count;
 }

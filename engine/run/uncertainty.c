@@ -6,24 +6,24 @@
 #define OBSERVED_FACTOR 16.0 /* factor on observed differences, which may consist of rounding only */
 
 /*
- * Add the constraint residual of a state to its error: the correction that closes the linkage, and the velocity
- * residual at perturbed positions. Near a singular position these exceed rounding. error (2 N_X): m, rad and their
- * rates.
+ * Add the constraint residual of a state to its error: the correction that closes the loops, and the velocity residuals
+ * at three patterns of perturbed positions. Near a singular position these exceed rounding. error (2 N_X): m, rad and
+ * their rates. Nothing is added without loops or if the correction fails. Called by estimate_state_errors().
  */
-static void add_closing(Integrator *run, double t, const double *y, const Parameters *p, double *error)
+static void add_constraint_residuals(Integrator *run, double t, const double *y, const Parameters *p, double *error)
 {
-    double dq[N_X + 1], dv[N_X + 1], other[N_Y], worst;
-    if (N_LOOPS == 0 || closing_of_state(t, y, &run->discrete, p, dq, dv, &worst))
+    double dq[N_X + 1], dv[N_X + 1], perturbed[N_Y], residual;
+    if (N_LOOPS == 0 || closing_of_state(t, y, &run->discrete, p, dq, dv, &residual))
         return;
     for (int k = 0; k < N_X; k++) {
         error[k] += isfinite(dq[k]) ? CLOSING_STEPS * fabs(dq[k]) : 0.0;
         error[N_X + k] += isfinite(dv[k]) ? CLOSING_STEPS * fabs(dv[k]) : 0.0;
     }
-    memcpy(other, y, sizeof other);
-    for (int mask = 0; mask < 3; mask++) {
+    memcpy(perturbed, y, sizeof perturbed);
+    for (int pattern = 0; pattern < 3; pattern++) {
         for (int k = 0; k < N_X; k++)
-            other[k] = y[k] + (k & mask ? -error[k] : error[k]);
-        if (closing_of_state(t, other, &run->discrete, p, dq, dv, &worst))
+            perturbed[k] = y[k] + (k & pattern ? -error[k] : error[k]);
+        if (closing_of_state(t, perturbed, &run->discrete, p, dq, dv, &residual))
             continue;
         for (int k = 0; k < N_X; k++)
             error[N_X + k] += isfinite(dv[k]) ? fabs(dv[k]) : 0.0;
@@ -31,10 +31,10 @@ static void add_closing(Integrator *run, double t, const double *y, const Parame
 }
 
 /*
- * Compute the errors of coordinates and velocities of a state y: rounding of the largest length and angle, plus
- * constraint residuals. error (2 N_X): m, rad and their rates.
+ * Compute the errors of coordinates and velocities of a state y: rounding relative to the largest length and angle,
+ * plus constraint residuals. error (2 N_X): m, rad and their rates.
  */
-static void rounding_errors(Integrator *run, double t, const double *y, const Parameters *p, double *error)
+static void estimate_state_errors(Integrator *run, double t, const double *y, const Parameters *p, double *error)
 {
     double size[2] = {0.0, 1.0}, speed[2] = {run->norm.speed[0], run->norm.speed[1]};
     for (int k = 0; k < N_X; k++) {
@@ -45,120 +45,134 @@ static void rounding_errors(Integrator *run, double t, const double *y, const Pa
         error[k] = ACCUMULATED_ULPS * DBL_EPSILON * size[is_angle[k]];
         error[N_X + k] = ACCUMULATED_ULPS * DBL_EPSILON * (speed[is_angle[k]] + run->norm.speed_rounded[is_angle[k]]);
     }
-    add_closing(run, t, y, p, error);
+    add_constraint_residuals(run, t, y, p, error);
 }
 
 #if N_FRICTIONS
 /*
- * Add the residual slip of sticking friction to the velocity errors: the velocity change by which an impulse of that
- * friction would stop the slip. Other sticking elements stay at rest.
+ * Add the residual slip of sticking friction to the velocity errors in `error` (2 N_X): the velocity change by which an
+ * impulse of that friction would stop the slip, with other sticking elements at rest. With a sticking element,
+ * coordinate errors are raised to the rounding of the smallest relevant length. Called by estimate_uncertainty().
  */
-static void add_stuck_slip(Integrator *run, double t, const double *y, const Parameters *p, double *error)
+static void add_residual_slips(Integrator *run, double t, const double *y, const Parameters *p, double *error)
 {
-    double scrap[N_Y], direction[N_Y];
+    double dy_unused[N_Y], direction[N_Y];
     RhsOutputs rhs;
     int status = -1;
-    for (int i = 0; i < N_FRICTIONS; i++) {
-        if (run->discrete.mode[i] != 0.0)
+    for (int element = 0; element < N_FRICTIONS; element++) {
+        if (run->discrete.mode[element] != 0.0)
             continue;
-        status = status < 0 ? rates(run, t, y, p, scrap, &rhs) : status;
-        const double response = status ? 0.0 : slip_response(run, t, y, i, p, direction);
+        status = status < 0 ? rates(run, t, y, p, dy_unused, &rhs) : status;
+        const double response = status ? 0.0 : compute_slip_response(run, t, y, element, p, direction);
         for (int k = N_X; k < 2 * N_X && response > 0.0; k++)
-            error[k] += fabs(direction[k] * rhs.friction[i].v / response);
+            error[k] += fabs(direction[k] * rhs.friction[element].v / response);
     }
     for (int k = 0; k < N_X && status >= 0; k++) /* a held coordinate may be 0: use the smallest relevant length */
         error[k] = max_of(error[k], ACCUMULATED_ULPS * DBL_EPSILON * run->norm.least[is_angle[k]]);
 }
 #else
-/* Add nothing: the scene has no friction that may stick. */
-static void add_stuck_slip(Integrator *run, double t, const double *y, const Parameters *p, double *error)
+/* Leave `error` unchanged: the scene has no friction that may stick. */
+static void add_residual_slips(Integrator *run, double t, const double *y, const Parameters *p, double *error)
 {
     (void)run, (void)t, (void)y, (void)p, (void)error;
 }
 #endif
 
-/* Return the value of watched function i, a switching function or a user-defined event, on any branch. */
-static inline double watched_value(const RhsOutputs *rhs, int i)
+/*
+ * Return the value of a watched function, a switching function or a user-defined event, not multiplied by its branch or
+ * sign.
+ */
+static inline double get_watched_value(const RhsOutputs *rhs, int index)
 {
-    const int k = watched[i] - N_CLEARANCES;
+    const int k = watched[index] - N_CLEARANCES;
     return k < N_SWITCHES ? rhs->g[k] : rhs->event[k - N_SWITCHES - N_FRICTIONS];
 }
 
 #if KNOWN_BOUNDS
-/* Estimate by bounds how much errors of the state change each watched function; 0 if the bounds contain a pole. */
-static void error_of_watched(
-    Integrator *run, double t, const double *y, const double *error, const Parameters *p, double *out)
+/*
+ * Estimate how much errors of the state (2 N_X) change each watched function, by interval bounds: uncertainty
+ * (N_WATCHED), 0 if the bounds contain a pole.
+ */
+static void estimate_watched_errors(
+    Integrator *run, double t, const double *y, const double *error, const Parameters *p, double *uncertainty)
 {
-    error_by_bounds(t, y, y + N_X, error, error + N_X, N_X, &run->discrete, p, out);
+    error_by_bounds(t, y, y + N_X, error, error + N_X, N_X, &run->discrete, p, uncertainty);
 }
 #else
 /*
- * Estimate how much errors of the state change each watched function from differences for four patterns of error signs:
- * no bounds are known.
+ * Estimate how much errors of the state (2 N_X) change each watched function, from differences for four patterns of
+ * error signs, because no bounds are known. uncertainty (N_WATCHED): the sum of the finite differences; zero if the
+ * evaluation at y fails.
  */
-static void error_of_watched(
-    Integrator *run, double t, const double *y, const double *error, const Parameters *p, double *out)
+static void estimate_watched_errors(
+    Integrator *run, double t, const double *y, const double *error, const Parameters *p, double *uncertainty)
 {
-    double now[N_Y], dy[N_Y];
-    RhsOutputs rhs, other;
+    double y_perturbed[N_Y], dy[N_Y];
+    RhsOutputs rhs, rhs_perturbed;
     const int failed = rates(run, t, y, p, dy, &rhs);
-    memcpy(now, y, sizeof now);
+    memcpy(y_perturbed, y, sizeof y_perturbed);
     for (int i = 0; i < N_WATCHED; i++)
-        out[i] = 0.0;
-    for (int mask = 0; mask < 8 && !failed; mask = mask ? 2 * mask : 1) {
+        uncertainty[i] = 0.0;
+    for (int pattern = 0; pattern < 8 && !failed; pattern = pattern ? 2 * pattern : 1) {
         for (int k = 0; k < 2 * N_X; k++)
-            now[k] = y[k] + (k & mask ? -error[k] : error[k]) / OBSERVED_FACTOR;
-        if (rates(run, t, now, p, dy, &other))
+            y_perturbed[k] = y[k] + (k & pattern ? -error[k] : error[k]) / OBSERVED_FACTOR;
+        if (rates(run, t, y_perturbed, p, dy, &rhs_perturbed))
             continue;
         for (int i = 0; i < N_WATCHED; i++) {
-            const double change = OBSERVED_FACTOR * fabs(watched_value(&other, i) - watched_value(&rhs, i));
-            out[i] += isfinite(change) ? change : 0.0;
+            const double change = OBSERVED_FACTOR * fabs(get_watched_value(&rhs_perturbed, i)
+                - get_watched_value(&rhs, i));
+            uncertainty[i] += isfinite(change) ? change : 0.0;
         }
     }
 }
 #endif
 
-/* Estimate by how much rounding and constraint residuals of a state change each watched function (N_WATCHED values). */
-static void uncertainty(Integrator *run, double t, const double *y, const Parameters *p, double *out)
+/*
+ * Estimate how much rounding, constraint residuals and residual slips of the state y at time t (s) change each watched
+ * function: change (N_WATCHED). A value below its uncertainty has no sign. Called when a value near zero must be
+ * distinguished from rounding.
+ */
+static void estimate_uncertainty(Integrator *run, double t, const double *y, const Parameters *p, double *change)
 {
     double error[2 * N_X + 1];
-    rounding_errors(run, t, y, p, error);
-    add_stuck_slip(run, t, y, p, error);
-    error_of_watched(run, t, y, error, p, out);
+    estimate_state_errors(run, t, y, p, error);
+    add_residual_slips(run, t, y, p, error);
+    estimate_watched_errors(run, t, y, error, p, change);
 }
 
 /*
- * Compute the user-defined event functions at a state, with 0 for values below their uncertainty. The uncertainty is
- * estimated only if a sign differs from the stored one.
+ * Compute the user-defined event functions at a state y into `values` (N_USER_EVENTS), with 0 for values below their
+ * uncertainty. The uncertainty is estimated only if a sign differs from the stored one. rhs: outputs at y.
  */
 static void evaluate_resolved_events(
-    Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p, double *value)
+    Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p, double *values)
 {
     double error[AT_LEAST_ONE(N_WATCHED)];
-    int differs = 0;
+    int has_new_sign = 0;
     for (int i = 0; i < N_USER_EVENTS; i++) {
-        value[i] = rhs->event[i];
-        differs |= !(run->discrete.event_sign[i] * value[i] > 0.0);
+        values[i] = rhs->event[i];
+        has_new_sign |= !(run->discrete.event_sign[i] * values[i] > 0.0);
     }
-    if (!differs)
+    if (!has_new_sign)
         return;
-    uncertainty(run, t, y, p, error);
+    estimate_uncertainty(run, t, y, p, error);
     for (int i = 0; i < N_USER_EVENTS; i++)
-        if (fabs(value[i]) <= error[N_WATCHED - N_USER_EVENTS + i])
-            value[i] = 0.0;
+        if (fabs(values[i]) <= error[N_WATCHED - N_USER_EVENTS + i])
+            values[i] = 0.0;
 }
 
 #else
-/* Do nothing: the scene has no user-defined events. */
+/* Do nothing: the scene has no watched functions, so no user-defined events. */
 static inline void evaluate_resolved_events(
-    const Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p, double *value)
+    const Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p, double *values)
 {
-    (void)run, (void)t, (void)y, (void)rhs, (void)p, (void)value;
+    (void)run, (void)t, (void)y, (void)rhs, (void)p, (void)values;
 }
 
 /* Do nothing: the scene has no watched functions. */
-static inline void uncertainty(const Integrator *run, double t, const double *y, const Parameters *p, double *out)
+static inline void estimate_uncertainty(const Integrator *run, double t, const double *y, const Parameters *p,
+    double *change)
 {
-    (void)run, (void)t, (void)y, (void)p, (void)out;
+    (void)run, (void)t, (void)y, (void)p, (void)change;
 }
 #endif

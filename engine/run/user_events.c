@@ -3,61 +3,74 @@
 #define COINCIDENCE_S 1e-11 /* s: events closer to the start or end of a run are at it; above the time resolution */
 #define COINCIDENCE_FRACTION 1e-9 /* of the time in which a fast motion crosses the mechanism */
 
-/* Append user-defined event i at time t (s) to the list, if the list has space. */
-static void append_event(Integrator *run, int i, double t)
+/* Append a user-defined event at time t (s) to the list; a full list is left unchanged. */
+static void append_user_event(Integrator *run, int event, double t)
 {
     if (run->events.n < LISTED_EVENTS) {
         run->events.t[run->events.n] = t;
-        run->events.number[run->events.n++] = i;
+        run->events.number[run->events.n++] = event;
     }
 }
 
 /* Store whether the event that ends a step is a pole instead of a zero. */
-static inline void set_pole(Integrator *run, int is_pole) { run->events.pole = is_pole; }
+static inline void set_pole_flag(Integrator *run, int is_pole) { run->events.pole = is_pole; }
 
-/* Record user-defined event i at time t with the state there, and return whether the event ends the run. */
-static int record_user_event(Integrator *run, int i, double t, const double *now, const Parameters *p)
+/*
+ * Record a user-defined event at time t (s) with the integrated state there, and return whether the event ends the run.
+ * A second event of the same function within the time resolution counts as the same zero: nothing is recorded and 0 is
+ * returned. A full list is left unchanged.
+ */
+static int record_user_event(Integrator *run, int event, double t, const double *state_vector, const Parameters *p)
 {
 #if N_USER_EVENTS
     EventStates *at = event_states(run);
-    const double first = t - SAME_ZERO_RESOLUTIONS * run->roots.time_resolution;
-    for (int k = run->events.n - 1; k >= 0 && run->events.t[k] >= first; k--)
-        if (run->events.number[k] == i)
+    const double t_first = t - SAME_ZERO_RESOLUTIONS * run->roots.time_resolution;
+    for (int k = run->events.n - 1; k >= 0 && run->events.t[k] >= t_first; k--)
+        if (run->events.number[k] == event)
             return 0; /* within the time resolution: the same zero, crossed again by rounding */
     if (run->events.n < LISTED_EVENTS)
-        store_sample(run, t, now, p, run->events.n, at->y[0], at->latched[0], at->state[0]);
-    append_event(run, i, t);
-    return run->events.stop && event_stops[i];
+        store_sample(run, t, state_vector, p, run->events.n, at->y[0], at->latched[0], at->state[0]);
+    append_user_event(run, event, t);
+    return run->events.stop && event_stops[event];
 #else
-    (void)run, (void)i, (void)t, (void)now, (void)p;
+    (void)run, (void)event, (void)t, (void)state_vector, (void)p;
     return 0;
 #endif
 }
 
-/* Reverse the sign of user-defined event i at its zero, and return whether this direction counts as an event. */
-static int reverse_event_sign(Integrator *run, int i)
+/*
+ * Reverse the stored sign of a user-defined event at its zero, and return whether this direction counts as an event.
+ * Called when a located zero ends a step.
+ */
+static int reverse_event_sign(Integrator *run, int event)
 {
-    const int to = -run->discrete.event_sign[i];
-    run->discrete.event_sign[i] = (signed char)to;
-    return event_direction[i] * to >= 0;
+    const int sign = -run->discrete.event_sign[event];
+    run->discrete.event_sign[event] = (signed char)sign;
+    return event_direction[event] * sign >= 0;
 }
 
-/* Record once in a run that user-defined event i is NaN at time t: listed with number i + N_USER_EVENTS. */
-static void record_nan_event(Integrator *run, int i, double t)
+/*
+ * Record once in a run that a user-defined event function is NaN at time t (s): listed with number event +
+ * N_USER_EVENTS. Called when a user-defined event function is evaluated as NaN.
+ */
+static void record_nan_event(Integrator *run, int event, double t)
 {
-    if (!run->events.no_number[i])
-        append_event(run, i + N_USER_EVENTS, t);
-    run->events.no_number[i] = 1;
+    if (!run->events.no_number[event])
+        append_user_event(run, event + N_USER_EVENTS, t);
+    run->events.no_number[event] = 1;
 }
 
-/* Set the signs of user-defined events that began at zero, or were held there, from their values at a state. */
+/*
+ * Set the signs of user-defined events that began at zero, or were held there, from their values at a state. rhs:
+ * outputs at y. Signs that are known stay. Called after each accepted step.
+ */
 static void update_event_signs(Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p)
 {
     double value[AT_LEAST_ONE(N_USER_EVENTS)];
-    int zeros = 0;
+    int has_zero = 0;
     for (int i = 0; i < N_USER_EVENTS; i++)
-        zeros |= run->discrete.event_sign[i] == 0;
-    if (!zeros)
+        has_zero |= run->discrete.event_sign[i] == 0;
+    if (!has_zero)
         return;
     evaluate_resolved_events(run, t, y, rhs, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++)
@@ -66,143 +79,153 @@ static void update_event_signs(Integrator *run, double t, const double *y, const
 }
 
 /*
- * Record user-defined events that a sudden change led across zero, and return ENDED if one of them ends the run.
- * before: their values before the change, NULL: any.
+ * Record user-defined events that a sudden change of the state led across zero, and return ENDED if one of them ends
+ * the run, else 0. values_before (N_USER_EVENTS): values before the change, of which the same sign as now excludes an
+ * event; NULL: any sign. Called after impacts, impulses of drives and changes of branches or modes.
  */
-static int record_crossed_events(Integrator *run, const double *before, const Parameters *p)
+static int record_crossed_events(Integrator *run, const double *values_before, const Parameters *p)
 {
     double value[AT_LEAST_ONE(N_USER_EVENTS)];
     int status = 0;
     evaluate_resolved_events(run, run->t, run->y, &run->rhs, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++)
-        if ((!before || !have_same_sign(before[i], value[i]))
-            && event_crosses(i, &run->discrete.event_sign[i], value[i]) && record_user_event(run, i, run->t, run->y, p))
+        if ((!values_before || !have_same_sign(values_before[i], value[i]))
+            && event_crosses(i, &run->discrete.event_sign[i], value[i])
+                && record_user_event(run, i, run->t, run->y, p))
             status = ENDED;
     return status;
 }
 
 #if N_USER_EVENTS
 /*
- * Evaluate the user-defined event functions `ahead` seconds after a state, along its rates; 0 below their uncertainty.
+ * Evaluate the user-defined event functions `duration` seconds after a state, extrapolated along its rates dy, into
+ * `values` (N_USER_EVENTS). Values below their uncertainty are 0; all are 0 if the evaluation fails. Return a status.
  */
-static int evaluate_events_ahead(Integrator *run, double t, double ahead, const double *y, const double *dy,
-    const Parameters *p, double *value)
+static int evaluate_events_ahead(Integrator *run, double t, double duration, const double *y, const double *dy,
+    const Parameters *p, double *values)
 {
-    double there[N_Y], scrap[N_Y];
+    double y_after[N_Y], dy_unused[N_Y];
     RhsOutputs rhs;
     for (int k = 0; k < N_Y; k++)
-        there[k] = y[k] + ahead * dy[k];
-    const int status = rates(run, t + ahead, there, p, scrap, &rhs);
+        y_after[k] = y[k] + duration * dy[k];
+    const int status = rates(run, t + duration, y_after, p, dy_unused, &rhs);
     for (int i = 0; i < N_USER_EVENTS; i++)
-        value[i] = 0.0;
+        values[i] = 0.0;
     if (!status)
-        evaluate_resolved_events(run, t + ahead, there, &rhs, p, value);
+        evaluate_resolved_events(run, t + duration, y_after, &rhs, p, values);
     return status;
 }
 
 /*
- * Evaluate the right-hand side `h` seconds after the present time, and update and freeze the branches that hold there.
+ * Evaluate the right-hand side `duration` seconds after the present time, along the present rates, and update and
+ * freeze the branches that hold there. rhs_after: the outputs. Return a status.
  */
-static int evaluate_just_after(Integrator *run, double h, const Parameters *p, RhsOutputs *beyond)
+static int evaluate_rates_just_after(Integrator *run, double duration, const Parameters *p, RhsOutputs *rhs_after)
 {
     double y[N_Y], dy[N_Y];
     for (int k = 0; k < N_Y; k++)
-        y[k] = run->y[k] + h * run->dy[k];
+        y[k] = run->y[k] + duration * run->dy[k];
     if (!run->discrete.held)
         freeze_branches(run);
-    return update_branches_at(run, run->t + h, y, dy, beyond, -1, p);
+    return update_branches_at(run, run->t + duration, y, dy, rhs_after, -1, p);
 }
 
 /*
  * Return the time difference in s within which an event counts as at the start or end of a run. It depends on the state
- * alone, and for rk4 on its step length `step`.
+ * alone, or for rk4 on its step length fixed_step in s (0: another method). Used where events at the start and end of a
+ * run are found.
  */
-static double coincidence_time(const Integrator *run, double step)
+static double compute_coincidence_time(const Integrator *run, double fixed_step)
 {
     double rate = 0.0;
-    for (int k = 0; k < N_X && !(step > 0.0); k++) {
-        const double least = run->norm.least[is_angle[k]];
-        rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / least, sqrt(fabs(run->dy[N_X + k]) / least)));
+    for (int k = 0; k < N_X && !(fixed_step > 0.0); k++) {
+        const double scale = run->norm.least[is_angle[k]];
+        rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / scale, sqrt(fabs(run->dy[N_X + k]) / scale)));
     }
-    const double near = min_of(COINCIDENCE_S, COINCIDENCE_FRACTION * (step > 0.0 ? step : 1.0 / rate));
-    return max_of(4.0 * DBL_EPSILON * fabs(run->t), near);
+    const double limit = min_of(COINCIDENCE_S, COINCIDENCE_FRACTION * (fixed_step > 0.0 ? fixed_step : 1.0 / rate));
+    return max_of(4.0 * DBL_EPSILON * fabs(run->t), limit);
 }
 
 /*
- * Compute the sign of each user-defined event function just after the present time, 0 if it stays below its
- * uncertainty. The signs depend on the state alone. A run that ends here records events with other signs; a run that
- * begins here starts with these signs. Each event of a run that is divided anywhere is therefore recorded once.
- * Branches of switching functions are updated to those just after the present time.
+ * Compute the sign of each user-defined event function just after the present time into `signs`, 0 if it stays below
+ * its uncertainty. fixed_step: step length of rk4 in s, 0 for other methods. The signs depend on the state alone. A run
+ * that ends here records events with other signs; a run that begins here starts with these signs. Each event of a run
+ * that is divided anywhere is therefore recorded once. Branches of switching functions are updated to those just after
+ * the present time. Return a status.
  */
-static int event_signs_after(Integrator *run, double step, const Parameters *p, signed char *branch)
+static int compute_event_signs_after(Integrator *run, double fixed_step, const Parameters *p, signed char *signs)
 {
-    const double h = coincidence_time(run, step);
-    double error[N_WATCHED], value[N_USER_EVENTS];
-    int unknown = 0;
-    RhsOutputs beyond;
-    const int status = evaluate_just_after(run, h, p, &beyond);
+    const double h = compute_coincidence_time(run, fixed_step);
+    double error[N_WATCHED], value_later[N_USER_EVENTS];
+    int has_unknown = 0;
+    RhsOutputs rhs_after;
+    const int status = evaluate_rates_just_after(run, h, p, &rhs_after);
     if (status)
         return status;
-    uncertainty(run, run->t, run->y, p, error);
+    estimate_uncertainty(run, run->t, run->y, p, error);
     for (int i = 0; i < N_USER_EVENTS; i++) {
-        const double f = beyond.event[i];
-        branch[i] = (signed char)(fabs(f) > error[N_WATCHED - N_USER_EVENTS + i] ? (f > 0.0) - (f < 0.0) : 0);
-        unknown |= !branch[i];
+        const double value_after = rhs_after.event[i];
+        signs[i] = (signed char)(fabs(value_after) > error[N_WATCHED - N_USER_EVENTS + i]
+            ? (value_after > 0.0) - (value_after < 0.0) : 0);
+        has_unknown |= !signs[i];
     }
-    for (double ahead = 1e3 * h; unknown && ahead < 1e10 * h; ahead *= 1e3) {
-        const int known = !evaluate_events_ahead(run, run->t, ahead, run->y, run->dy, p, value);
+    for (double later = 1e3 * h; has_unknown && later < 1e10 * h; later *= 1e3) {
+        const int is_evaluated = !evaluate_events_ahead(run, run->t, later, run->y, run->dy, p, value_later);
         for (int i = 0; i < N_USER_EVENTS; i++)
-            if (known && !branch[i])
-                branch[i] = (signed char)((value[i] > 0.0) - (value[i] < 0.0));
+            if (is_evaluated && !signs[i])
+                signs[i] = (signed char)((value_later[i] > 0.0) - (value_later[i] < 0.0));
     }
     return 0;
 }
 
 /*
- * Record events whose zero, or jump across it, is at the end of the run; step: length of fixed steps, 0 otherwise.
- * Return ENDED if one of them ends the run.
+ * Record events whose zero, or jump across it, is at the end of the run; fixed_step: length of fixed steps in s, 0
+ * otherwise. The discrete state is restored except for the signs. Return ENDED if one of the events ends the run, else
+ * 0.
  */
-static int record_events_at_end(Integrator *run, double step, const Parameters *p)
+static int record_events_at_end(Integrator *run, double fixed_step, const Parameters *p)
 {
-    const DiscreteState discrete = run->discrete;
-    signed char branch[N_USER_EVENTS];
-    const int failed = event_signs_after(run, step, p, branch);
+    const DiscreteState discrete_before = run->discrete;
+    signed char sign[N_USER_EVENTS];
+    const int failed = compute_event_signs_after(run, fixed_step, p, sign);
     int status = 0;
-    run->discrete = discrete;
+    run->discrete = discrete_before;
     for (int i = 0; i < N_USER_EVENTS && !failed; i++)
-        if (event_crosses(i, &run->discrete.event_sign[i], branch[i]) && record_user_event(run, i, run->t, run->y, p))
+        if (event_crosses(i, &run->discrete.event_sign[i], sign[i])
+            && record_user_event(run, i, run->t, run->y, p))
             status = ENDED;
     return status;
 }
 
 /*
- * Start with the signs of event functions and the branches just after the start. Branches stay as they were for rk4,
- * whose steps of length `step` do not freeze them; step = 0: another method.
+ * Set the signs of event functions and the branches to those just after the start of a run. For rk4, whose steps of
+ * length fixed_step (s) do not freeze branches, branches stay as they were; 0: another method. If branches change, the
+ * right-hand side is evaluated again. Return a status.
  */
-static int start_just_after(Integrator *run, double step, const Parameters *p)
+static int start_just_after(Integrator *run, double fixed_step, const Parameters *p)
 {
-    signed char branch[N_USER_EVENTS];
-    const DiscreteState before = run->discrete;
-    const int status = event_signs_after(run, step, p, branch);
-    if (step > 0.0)
-        run->discrete = before;
+    signed char sign[N_USER_EVENTS];
+    const DiscreteState discrete_before = run->discrete;
+    const int status = compute_event_signs_after(run, fixed_step, p, sign);
+    if (fixed_step > 0.0)
+        run->discrete = discrete_before;
     for (int i = 0; i < N_USER_EVENTS && !status; i++)
-        run->discrete.event_sign[i] = branch[i] ? branch[i] : run->discrete.event_sign[i];
-    if (status || !memcmp(before.branch, run->discrete.branch, sizeof before.branch))
+        run->discrete.event_sign[i] = sign[i] ? sign[i] : run->discrete.event_sign[i];
+    if (status || !memcmp(discrete_before.branch, run->discrete.branch, sizeof discrete_before.branch))
         return status;
     return rates(run, run->t, run->y, p, run->dy, &run->rhs);
 }
 #else
 /* Return 0: the scene has no user-defined events. */
-static inline int record_events_at_end(Integrator *run, double step, const Parameters *p)
+static inline int record_events_at_end(Integrator *run, double fixed_step, const Parameters *p)
 {
-    return (void)run, (void)step, (void)p, 0;
+    return (void)run, (void)fixed_step, (void)p, 0;
 }
 
 /* Return 0: the scene has no user-defined events. */
-static inline int start_just_after(Integrator *run, double step, const Parameters *p)
+static inline int start_just_after(Integrator *run, double fixed_step, const Parameters *p)
 {
-    return (void)run, (void)step, (void)p, 0;
+    return (void)run, (void)fixed_step, (void)p, 0;
 }
 #endif
 
@@ -215,59 +238,68 @@ typedef struct {
     double y[N_Y], dy[N_Y], event[N_USER_EVENTS];
 } StateBeforeEvent;
 
-/* Return a copy of the discrete state, state, rates and event functions before an event. */
+/*
+ * Return a copy of the discrete state, state, rates and event functions of a run, before an event changes them. Called
+ * by apply_event() for record_arrivals_at_zero().
+ */
 static StateBeforeEvent copy_before_event(const Integrator *run)
 {
-    StateBeforeEvent before = {.discrete = run->discrete};
-    memcpy(before.y, run->y, sizeof before.y);
-    memcpy(before.dy, run->dy, sizeof before.dy);
-    memcpy(before.event, run->rhs.event, sizeof before.event);
-    return before;
-}
-
-/* Return whether friction sticks or a rigid contact is closed now that was not `before`. */
-static int is_more_held(const DiscreteState *before, const DiscreteState *now)
-{
-    int more = 0;
-    for (int i = 0; i < N_FRICTIONS; i++)
-        more |= now->mode[i] == 0.0 && before->mode[i] != 0.0;
-    for (int i = 0; i < N_CLEARANCES; i++)
-        more |= !gives(i) && now->contact[i].closed && !before->contact[i].closed;
-    return more;
+    StateBeforeEvent copy = {.discrete = run->discrete};
+    memcpy(copy.y, run->y, sizeof copy.y);
+    memcpy(copy.dy, run->dy, sizeof copy.dy);
+    memcpy(copy.event, run->rhs.event, sizeof copy.event);
+    return copy;
 }
 
 /*
- * Record event functions that reach zero and are held there from now on, unless they were at zero before. A function
- * that was held and moves again gets its sign without an event. Whether it is held follows from its value `ahead`
- * seconds later, with and without the change. Return ENDED if one of them ends the run.
+ * Return whether friction sticks or a rigid contact is closed in discrete_after that did not stick, or was open, in
+ * discrete_before.
  */
-static int record_arrivals_at_zero(Integrator *run, const StateBeforeEvent *before, double ahead, const Parameters *p)
+static int has_new_constraint(const DiscreteState *discrete_before, const DiscreteState *discrete_after)
 {
-    double error[N_WATCHED], now[N_USER_EVENTS], then[N_USER_EVENTS];
-    const int more = is_more_held(&before->discrete, &run->discrete);
-    int zeros = 0, status = 0;
+    int is_held = 0;
+    for (int i = 0; i < N_FRICTIONS; i++)
+        is_held |= discrete_after->mode[i] == 0.0 && discrete_before->mode[i] != 0.0;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        is_held |= !gives(i) && discrete_after->contact[i].closed && !discrete_before->contact[i].closed;
+    return is_held;
+}
+
+/*
+ * Record event functions that reach zero and are held there after an event, unless they were at zero before. A function
+ * that was held and moves again gets its sign without an event. Whether it is held follows from its value `duration`
+ * seconds later, with and without the change. Nothing is done if nothing new is held and no function is at zero. Return
+ * ENDED if a recorded event ends the run, else 0. Called by apply_event() after all changes.
+ */
+static int record_arrivals_at_zero(Integrator *run, const StateBeforeEvent *state_before, double duration,
+    const Parameters *p)
+{
+    double error[N_WATCHED], value_after[N_USER_EVENTS], value_without[N_USER_EVENTS];
+    const int is_held = has_new_constraint(&state_before->discrete, &run->discrete);
+    int has_zero = 0, status = 0;
     for (int i = 0; i < N_USER_EVENTS; i++)
-        zeros |= run->discrete.event_sign[i] == 0;
-    if (!more && !zeros)
+        has_zero |= run->discrete.event_sign[i] == 0;
+    if (!is_held && !has_zero)
         return 0;
     DiscreteState discrete = run->discrete;
-    uncertainty(run, run->t, before->y, p, error); /* before: slips that were just stopped count */
-    (void)evaluate_events_ahead(run, run->t, ahead, run->y, run->dy, p, now);
-    run->discrete = before->discrete;
-    (void)evaluate_events_ahead(run, run->t, ahead, before->y, before->dy, p, then);
+    estimate_uncertainty(run, run->t, state_before->y, p, error); /* before: slips that were just stopped count */
+    (void)evaluate_events_ahead(run, run->t, duration, run->y, run->dy, p, value_after);
+    run->discrete = state_before->discrete;
+    (void)evaluate_events_ahead(run, run->t, duration, state_before->y, state_before->dy, p, value_without);
     run->discrete = discrete;
     for (int i = 0; i < N_USER_EVENTS; i++) {
         signed char *branch = &run->discrete.event_sign[i];
-        const double least = error[N_WATCHED - N_USER_EVENTS + i];
-        const int from = *branch, moves = fabs(now[i]) > least + 0.01 * fabs(then[i]);
-        if (from == 0 && moves)
-            event_crosses(i, branch, now[i]);
-        if (from == 0 || moves || !more || !(fabs(run->rhs.event[i]) <= least))
+        const double uncertain = error[N_WATCHED - N_USER_EVENTS + i];
+        const int sign_before = *branch, is_moving = fabs(value_after[i]) > uncertain + 0.01 * fabs(value_without[i]);
+        if (sign_before == 0 && is_moving)
+            event_crosses(i, branch, value_after[i]);
+        if (sign_before == 0 || is_moving || !is_held || !(fabs(run->rhs.event[i]) <= uncertain))
             continue;
-        const int comes = from * before->event[i] > least || from * then[i] < -least;
-        if (comes || from * then[i] > least)
+        const int arrives = sign_before * state_before->event[i] > uncertain
+            || sign_before * value_without[i] < -uncertain;
+        if (arrives || sign_before * value_without[i] > uncertain)
             *branch = 0;
-        if (comes && event_direction[i] * from <= 0 && record_user_event(run, i, run->t, run->y, p))
+        if (arrives && event_direction[i] * sign_before <= 0 && record_user_event(run, i, run->t, run->y, p))
             status = ENDED;
     }
     return status;
@@ -282,9 +314,10 @@ typedef struct {
 static StateBeforeEvent copy_before_event(const Integrator *run) { return (void)run, (StateBeforeEvent){0}; }
 
 /* Return 0: nothing can hold an event function at zero in this scene. */
-static int record_arrivals_at_zero(Integrator *run, const StateBeforeEvent *before, double ahead, const Parameters *p)
+static int record_arrivals_at_zero(Integrator *run, const StateBeforeEvent *state_before, double duration,
+    const Parameters *p)
 {
-    return (void)run, (void)before, (void)ahead, (void)p, 0;
+    return (void)run, (void)state_before, (void)duration, (void)p, 0;
 }
 #endif
 
@@ -292,31 +325,32 @@ static int record_arrivals_at_zero(Integrator *run, const StateBeforeEvent *befo
 void gudgeon_run_stop(void *integrator, int stop) { ((Integrator *)integrator)->events.stop = stop; }
 
 /*
- * Move the oldest user-defined events, at most `capacity`, from the list into these arrays, with the states there as
- * rows of samples. Return their number.
+ * Move the oldest user-defined events, at most `capacity`, from the list into these arrays: times t (s), numbers, and
+ * states there as rows of samples (y, discrete states, contact codes). A number from N_USER_EVENTS on means NaN. Return
+ * how many were moved.
  */
-int gudgeon_run_events(void *integrator, int capacity, double *t, int *event, double *y, double *latched,
-    signed char *state)
+int gudgeon_run_events(void *integrator, int capacity, double *t, int *event, double *y, double *discrete,
+    signed char *codes)
 {
     Integrator *run = integrator;
-    const int n = run->events.n < capacity ? run->events.n : capacity, left = run->events.n - n;
-    for (int i = 0; i < n; i++) {
+    const int count = run->events.n < capacity ? run->events.n : capacity, n_left = run->events.n - count;
+    for (int i = 0; i < count; i++) {
         t[i] = run->events.t[i];
         event[i] = run->events.number[i];
     }
 #if N_USER_EVENTS
-    EventStates *at = event_states(run);
-    memcpy(y, at->y, (size_t)n * sizeof at->y[0]);
-    memcpy(latched, at->latched, (size_t)n * sizeof at->latched[0]);
-    memcpy(state, at->state, (size_t)n * sizeof at->state[0]);
-    memmove(at->y, at->y + n, (size_t)left * sizeof at->y[0]);
-    memmove(at->latched, at->latched + n, (size_t)left * sizeof at->latched[0]);
-    memmove(at->state, at->state + n, (size_t)left * sizeof at->state[0]);
+    EventStates *states = event_states(run);
+    memcpy(y, states->y, (size_t)count * sizeof states->y[0]);
+    memcpy(discrete, states->latched, (size_t)count * sizeof states->latched[0]);
+    memcpy(codes, states->state, (size_t)count * sizeof states->state[0]);
+    memmove(states->y, states->y + count, (size_t)n_left * sizeof states->y[0]);
+    memmove(states->latched, states->latched + count, (size_t)n_left * sizeof states->latched[0]);
+    memmove(states->state, states->state + count, (size_t)n_left * sizeof states->state[0]);
 #else
-    (void)y, (void)latched, (void)state;
+    (void)y, (void)discrete, (void)codes;
 #endif
-    memmove(run->events.t, run->events.t + n, (size_t)left * sizeof run->events.t[0]);
-    memmove(run->events.number, run->events.number + n, (size_t)left * sizeof run->events.number[0]);
-    run->events.n = left;
-    return n;
+    memmove(run->events.t, run->events.t + count, (size_t)n_left * sizeof run->events.t[0]);
+    memmove(run->events.number, run->events.number + count, (size_t)n_left * sizeof run->events.number[0]);
+    run->events.n = n_left;
+    return count;
 }

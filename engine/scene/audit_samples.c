@@ -4,10 +4,13 @@
  */
 
 /*
- * Compute the accelerations a (N_Q) by the equations of all bodies at their state `all` (q, v, works). force: largest
- * constraint or friction force, N. Returns a status.
+ * Compute the accelerations a (N_Q) of all bodies by the equations of motion in absolute coordinates, at the state
+ * absolute_state (q, v, works). *force: largest constraint or friction force there, N. Branches are not frozen. Return
+ * a status. Used by the audit of steps.
  */
-int absolute_accelerations(double t, const double *all, const DiscreteState *discrete, const Parameters *p, double *a,
+int compute_absolute_accelerations(double t, const double *absolute_state, const DiscreteState *discrete,
+    const Parameters *p,
+    double *a,
     double *force)
 {
     double rate[N_S];
@@ -16,7 +19,7 @@ int absolute_accelerations(double t, const double *all, const DiscreteState *dis
     now.held = 0; /* switching functions of all bodies have other indices */
     now.least = NEARLY_SINGULAR;
     now.least_size = VANISHING;
-    const int status = rates_at(t, all, &now, p, rate, &rhs);
+    const int status = evaluate_rates_at(t, absolute_state, &now, p, rate, &rhs);
     for (int k = 0; k < N_Q; k++)
         a[k] = rate[N_Q + k];
     *force = 0.0;
@@ -28,38 +31,44 @@ int absolute_accelerations(double t, const double *all, const DiscreteState *dis
 }
 
 /*
- * Compute Phi_q v - nu (`missed`) and nu of all constraint equations; Phi_q v is the difference of Phi over h (s)
- * before and after.
+ * Compute the residuals Phi_q v - nu (`residual`) and nu of all N_ALL_ROWS velocity constraints. Phi_q v is the central
+ * difference of Phi along v over half_interval (s) before and after; with half_interval = 0 it counts as zero.
  */
-void velocity_residuals(double t, const double *q, const double *v, double h, const Parameters *p, double *missed,
+void compute_velocity_residuals(double t, const double *q, const double *v, double half_interval, const Parameters *p,
+    double *residual,
     double *nu)
 {
-    double near[2][N_Q], phi[2][AT_LEAST_ONE(N_ALL_ROWS)];
-    const double between = h > 0.0 ? 2.0 * h : INFINITY;
-    for (int branch = 0; branch < 2; branch++) {
+    double q_near[2][N_Q], phi[2][AT_LEAST_ONE(N_ALL_ROWS)];
+    const double interval = half_interval > 0.0 ? 2.0 * half_interval : INFINITY;
+    for (int side = 0; side < 2; side++) {
         for (int k = 0; k < N_Q; k++)
-            near[branch][k] = q[k] + (branch ? h : -h) * v[k];
-        constraints(t, near[branch], p, phi[branch]);
+            q_near[side][k] = q[k] + (side ? half_interval : -half_interval) * v[k];
+        constraints(t, q_near[side], p, phi[side]);
     }
     velocity_rhs(t, q, p, nu);
     for (int r = 0; r < N_ALL_ROWS; r++)
-        missed[r] = (phi[1][r] - phi[0][r]) / between - nu[r];
+        residual[r] = (phi[1][r] - phi[0][r]) / interval - nu[r];
 }
 
-/* Return whether the first or second rate of a drive jumps, or is unbounded, at time t. */
+/*
+ * Return whether the first or second rate of a drive jumps, or is unbounded, at time t (s), by its values just before,
+ * at and just after t. q, v: coordinates and velocities of all bodies. Used where an audit or a start must not rely on
+ * rates at t.
+ */
 int drives_jump(double t, const double *q, const double *v, const Parameters *p)
 {
-    const double near = max_of(1e-9 * fabs(t), 1e-12);
-    double nu[3][AT_LEAST_ONE(N_ALL_ROWS)], second[3][AT_LEAST_ONE(N_ALL_ROWS)];
+    const double interval = max_of(1e-9 * fabs(t), 1e-12);
+    double nu[3][AT_LEAST_ONE(N_ALL_ROWS)], gamma[3][AT_LEAST_ONE(N_ALL_ROWS)];
     for (int k = 0; k < 3; k++) {
-        velocity_rhs(t + (k - 1) * near, q, p, nu[k]);
-        acceleration_rhs(t + (k - 1) * near, q, v, p, second[k]);
+        velocity_rhs(t + (k - 1) * interval, q, p, nu[k]);
+        acceleration_rhs(t + (k - 1) * interval, q, v, p, gamma[k]);
     }
-    for (int d = 0; d < N_DRIVES; d++) {
-        const int r = drive_row[d];
-        const double rate = fabs(nu[2][r]) + fabs(nu[0][r]), bend = fabs(second[2][r]) + fabs(second[0][r]);
-        if (!(fabs(nu[1][r] - nu[0][r]) + fabs(nu[2][r] - nu[1][r]) <= 1e-5 * rate)
-            || !(fabs(second[1][r] - second[0][r]) + fabs(second[2][r] - second[1][r]) <= 1e-3 * bend))
+    for (int drive = 0; drive < N_DRIVES; drive++) {
+        const int row = drive_row[drive];
+        const double rate_scale = fabs(nu[2][row]) + fabs(nu[0][row]),
+            second_rate_scale = fabs(gamma[2][row]) + fabs(gamma[0][row]);
+        if (!(fabs(nu[1][row] - nu[0][row]) + fabs(nu[2][row] - nu[1][row]) <= 1e-5 * rate_scale)
+            || !(fabs(gamma[1][row] - gamma[0][row]) + fabs(gamma[2][row] - gamma[1][row]) <= 1e-3 * second_rate_scale))
             return 1;
     }
     return 0;
@@ -96,7 +105,7 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
             y[N_Q + k] = v[k];
         }
         read_discrete_state(discrete, &now);
-        if (drives_jump(t[i], q, v, p) || rates_at(t[i], y, &now, p, dy, &rhs))
+        if (drives_jump(t[i], q, v, p) || evaluate_rates_at(t[i], y, &now, p, dy, &rhs))
             continue;
         for (int k = 0; k < N_Q; k++) {
             const int angle = k % 3 == 2;
@@ -114,7 +123,7 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
         }
         outputs(t[i], q, v, p, rhs.lambda, reactions, torques, series, stored[2]);
         constraints(t[i], q, p, phi);
-        velocity_residuals(t[i], q, v, h, p, missed, nu);
+        compute_velocity_residuals(t[i], q, v, h, p, missed, nu);
         const double between = h > 0.0 ? 2.0 * h : INFINITY;
         double sum = (stored[1][1] - stored[0][1]) / between, driven = 0.0;
         double terms = LEAST_POWER + fabs(sum) + force[0] * fast[0] + force[1] * fast[1];

@@ -1,5 +1,13 @@
-/* Compute the rates dy of the state y = (q, v, works) in absolute coordinates. Returns a status. */
-static int state_equation(double t, const double *y, const DiscreteState *discrete, const Parameters *p, double *dy,
+/*
+ * The functions of calls.h that need no time loop: parameters, constraint equations, right-hand side, results at
+ * samples. Arguments are C-contiguous arrays in SI units.
+ */
+/*
+ * Compute the rates dy of the state y = (q, v, works) in absolute coordinates, and the outputs rhs, with the contact
+ * forces stored in `discrete`. Return a status.
+ */
+static int state_equation(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
+    double *dy,
     RhsOutputs *rhs)
 {
     const int status = dynamics(t, y, y + N_Q, discrete, p, dy + N_Q, rhs);
@@ -13,22 +21,28 @@ static int state_equation(double t, const double *y, const DiscreteState *discre
 #if N_RIGID
 #include "contact_forces.h"
 
-/* Compute the rates of a state with the contact forces stored in `discrete`. */
-static int state_rates(
+/*
+ * Compute the rates dy of a state y in absolute coordinates with the contact forces stored in `discrete`, as a callback
+ * of rates_in_contact(). Return a status.
+ */
+static int evaluate_state_rates(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     return state_equation(t, y, discrete, p, dy, rhs);
 }
 
-/* Compute the rates of a state with the forces of its closed rigid contacts. Returns a status. */
-static int rates_at(
+/*
+ * Compute the rates dy of a state y in absolute coordinates with the forces of its closed rigid contacts, which are
+ * stored in `discrete`. Return a status.
+ */
+static int evaluate_rates_at(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    return rates_in_contact(state_rates, N_S, t, y, discrete, p, dy, rhs);
+    return rates_in_contact(evaluate_state_rates, N_S, t, y, discrete, p, dy, rhs);
 }
 #else
-/* Compute the rates of a state. Returns a status. */
-static int rates_at(
+/* Compute the rates dy of a state y in absolute coordinates; the scene has no rigid contacts. Return a status. */
+static int evaluate_rates_at(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     return state_equation(t, y, discrete, p, dy, rhs);
@@ -36,8 +50,9 @@ static int rates_at(
 #endif
 
 /*
- * Read the discrete state of a sample (N_DISCRETE numbers): approach speeds, NaN for open joints; modes of friction;
- * inner states of laws.
+ * Read the discrete state of a sample (N_DISCRETE numbers) into `discrete`: approach speeds (NaN for open joints),
+ * friction modes, inner states of laws (NaN: zero). Branches are not frozen, signs of events unknown, and no
+ * cancellation is set. Called before each evaluation of a sample.
  */
 void read_discrete_state(const double *sample, DiscreteState *discrete)
 {
@@ -63,29 +78,35 @@ void read_discrete_state(const double *sample, DiscreteState *discrete)
     discrete->least_size = VANISHING;
 }
 
-/* Compute the parameters p from given values; defaults where is_given is 0. */
+/*
+ * Compute the parameters p from the values that are specified, in SI units: given[k] where is_given[k] is 1, defaults
+ * where it is 0.
+ */
 void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p)
 {
     prepare(given, is_given, (Parameters *)p);
 }
 
-/* Compute the parameters of several runs; each has a row of `slots` given values. */
-void gudgeon_prepare_runs(long runs, long slots, const double *given, const unsigned char *is_given, double *p)
+/*
+ * Compute the parameters p of n_runs runs; each has a row of n_given values in `given`, and in `is_given` whether each
+ * is specified.
+ */
+void gudgeon_prepare_runs(long n_runs, long n_given, const double *given, const unsigned char *is_given, double *p)
 {
-    for (long i = 0; i < runs; i++)
-        prepare(given + i * slots, is_given + i * slots, (Parameters *)p + i);
+    for (long i = 0; i < n_runs; i++)
+        prepare(given + i * n_given, is_given + i * n_given, (Parameters *)p + i);
 }
 
 /* Compute the diagonal of the mass matrix, m[N_Q]. */
 void gudgeon_mass(const double *p, double *m) { mass_matrix((const Parameters *)p, m); }
 
-/* Compute the constraint equations Phi, N_ALL_ROWS. */
+/* Compute the residuals phi (N_ALL_ROWS) of all constraint equations Phi at time t and coordinates q. */
 void gudgeon_phi(double t, const double *q, const double *p, double *phi)
 {
     constraints(t, q, (const Parameters *)p, phi);
 }
 
-/* Compute the Jacobian Phi_q, N_ALL_ROWS x N_Q, by rows. */
+/* Compute the constraint Jacobian Phi_q (N_ALL_ROWS x N_Q), by rows, with its zeros. */
 void gudgeon_phi_q(double t, const double *q, const double *p, double *phi_q)
 {
     for (long k = 0; k < (long)N_ALL_ROWS * N_Q; k++)
@@ -93,67 +114,70 @@ void gudgeon_phi_q(double t, const double *q, const double *p, double *phi_q)
     jacobian(t, q, (const Parameters *)p, phi_q);
 }
 
-/* Compute nu, the right-hand side of the velocity constraints Phi_q v = nu. */
+/* Compute nu (N_ALL_ROWS), the right-hand side of the velocity constraints Phi_q v = nu. */
 void gudgeon_nu(double t, const double *q, const double *p, double *nu)
 {
     velocity_rhs(t, q, (const Parameters *)p, nu);
 }
 
-/* Compute gamma, the right-hand side of the acceleration constraints Phi_q a = gamma. */
-void gudgeon_gamma(double t, const double *q, const double *v, const double *p, double *gamma_rows)
+/* Compute gamma (N_ALL_ROWS), the right-hand side of the acceleration constraints Phi_q a = gamma. */
+void gudgeon_gamma(double t, const double *q, const double *v, const double *p, double *gamma_values)
 {
-    acceleration_rhs(t, q, v, (const Parameters *)p, gamma_rows);
+    acceleration_rhs(t, q, v, (const Parameters *)p, gamma_values);
 }
 
-/* Compute guess, set coordinates and set rates of a start from the parameters. */
+/* Compute the values of a start from the parameters: guesses of coordinates, set coordinates, and set rates. */
 void gudgeon_start_values(const double *p, double *guess, double *set, double *rates)
 {
     start_values((const Parameters *)p, guess, set, rates);
 }
 
-/* Compute the rates dy of the state y in absolute coordinates. discrete: as in a sample. Returns a status. */
+/*
+ * Compute the rates dy (N_S) of the state y in absolute coordinates, including forces of rigid contacts. discrete: as
+ * in a sample (N_DISCRETE). Return a status.
+ */
 int gudgeon_rhs(double t, const double *y, const double *discrete, const double *p, double *dy)
 {
     DiscreteState now = {0};
     RhsOutputs rhs;
     read_discrete_state(discrete, &now);
-    return rates_at(t, y, &now, (const Parameters *)p, dy, &rhs);
+    return evaluate_rates_at(t, y, &now, (const Parameters *)p, dy, &rhs);
 }
 
 /*
- * Evaluate the right-hand side `count` times for benchmarks; each call depends on the one before. Returns a sum that
- * keeps the calls.
+ * Evaluate the right-hand side `count` times for benchmarks; each call depends on the one before, so that none is
+ * removed or overlapped. Return a sum of accelerations that depends on all calls.
  */
 double gudgeon_time_rhs(long count, double t, const double *y, const double *discrete, const double *p)
 {
-    double dy[N_S], moved[N_S], sum = 0.0;
+    double dy[N_S], y_changed[N_S], sum = 0.0;
     for (int k = 0; k < N_S; k++)
-        moved[k] = y[k];
+        y_changed[k] = y[k];
     for (long i = 0; i < count; i++) {
-        gudgeon_rhs(t, moved, discrete, p, dy);
+        gudgeon_rhs(t, y_changed, discrete, p, dy);
         sum += dy[N_Q];
-        moved[0] = y[0] + 1e-300 * sum; /* the next call waits for this one */
+        y_changed[0] = y[0] + 1e-300 * sum; /* the next call waits for this one */
     }
     return sum;
 }
 
 #ifdef WALLS
 /*
- * Sum the corner forces on the slider of each guide with play, N, and their moment about the slider's point, N m. That
- * point is in the middle between the first and the last corner, which are opposite.
+ * Sum the corner forces on the slider of each guide with play into `reaction`: force in N, and moment about the
+ * slider's point in N m. That point is in the middle between the first and the last corner, which are opposite.
  */
-static void sum_corners(const Clearance *clearance, double *reaction)
+static void sum_corner_forces(const Clearance *corner_clearances, double *reaction)
 {
     for (int k = 0; k < WALLS; k++, reaction += N_REACTION_COLUMNS) {
-        const Clearance *own = clearance + first_corner[k];
+        const Clearance *corners = corner_clearances + first_corner[k];
         double Fx = 0.0, Fy = 0.0, M = 0.0;
         for (int i = 0; i < SLIDER_CORNERS; i++) {
-            Fx += own[i].Fx;
-            Fy += own[i].Fy;
-            M -= own[i].moment_first;
+            Fx += corners[i].Fx;
+            Fy += corners[i].Fy;
+            M -= corners[i].moment_first;
         }
-        const double x = 0.5 * (own[0].from_x + own[SLIDER_CORNERS - 1].from_x);
-        const double y = 0.5 * (own[0].from_y + own[SLIDER_CORNERS - 1].from_y);
+        const double x = 0.5 * (corners[0].from_x + corners[SLIDER_CORNERS - 1].from_x);
+        const double y = 0.5 * (corners[0].from_y + corners[SLIDER_CORNERS - 1].from_y);
         reaction[REACTION_Fx] = Fx;
         reaction[REACTION_Fy] = Fy;
         reaction[REACTION_M] = M - (x * Fy - y * Fx);
@@ -162,12 +186,14 @@ static void sum_corners(const Clearance *clearance, double *reaction)
 #endif
 
 /*
- * Compute all results at n samples; arrays that are NULL are left out. Reactions, torques, series and energy belong
- * together. Returns 0 or the number of a vanishing pivot, with the sample in `failed`.
+ * Compute the results at n samples into the arrays that are not NULL: accelerations, multipliers, columns of joints
+ * with play and friction elements, powers, residuals. Reactions, torques, series and energy belong together: all or
+ * none are NULL. discrete: rows of N_DISCRETE. Return 0, or the number of a vanishing pivot with the index of the
+ * sample in *failed_sample; later samples are not computed.
  */
 int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *discrete,
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
-    double *series, double *friction, double *energy, double *power, double *drift, long *failed)
+    double *series, double *friction, double *energy, double *power, double *drift, long *failed_sample)
 {
     const Parameters *p = (const Parameters *)parameters;
     for (long i = 0; i < n; i++) {
@@ -179,9 +205,9 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
             y[N_Q + k] = v[i * N_Q + k];
         }
         read_discrete_state(discrete + i * N_DISCRETE, &now);
-        const int status = rates_at(t[i], y, &now, p, dy, &rhs);
+        const int status = evaluate_rates_at(t[i], y, &now, p, dy, &rhs);
         if (status) {
-            *failed = i;
+            *failed_sample = i;
             return status;
         }
         for (int k = 0; a && k < N_Q; k++)
@@ -202,7 +228,7 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
                 torques + i * N_DRIVES, series + i * N_SERIES, energy + N_ENERGY * i);
 #ifdef WALLS
         if (energy)
-            sum_corners(rhs.clearance, reactions + N_REACTION_COLUMNS * (i * N_REACTIONS + N_JOINTS));
+            sum_corner_forces(rhs.clearance, reactions + N_REACTION_COLUMNS * (i * N_REACTIONS + N_JOINTS));
 #endif
         for (int k = 0; friction && k < N_FRICTIONS; k++) {
             double *out = friction + (i * N_FRICTIONS + k) * N_FRICTION_COLUMNS;
@@ -228,22 +254,23 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
 }
 
 /*
- * Compute all results at samples of several runs, stored one after the other: counts[i] samples of run i, with its row
- * of `numbers` parameters. Arguments and status as gudgeon_evaluate().
+ * Compute the results at samples of several runs, stored one after the other: counts[i] samples of run i, with its row
+ * of n_parameters parameters. Arguments and status as gudgeon_evaluate(); *failed_sample counts within the run that
+ * failed.
  */
-int gudgeon_evaluate_runs(long runs, const long *counts, const double *t, const double *q, const double *v,
-    const double *discrete, const double *parameters, long numbers, double *a, double *lambda, double *reactions,
+int gudgeon_evaluate_runs(long n_runs, const long *counts, const double *t, const double *q, const double *v,
+    const double *discrete, const double *parameters, long n_parameters, double *a, double *lambda, double *reactions,
     double *torques, double *clearance, double *series, double *friction, double *energy, double *power, double *drift,
-    long *failed)
+    long *failed_sample)
 {
 #define FROM(array, width) ((array) ? (array) + first * (width) : NULL)
-    for (long i = 0, first = 0; i < runs; first += counts[i++]) {
+    for (long i = 0, first = 0; i < n_runs; first += counts[i++]) {
         const int status = gudgeon_evaluate(counts[i], t + first, q + first * N_Q, v + first * N_Q,
-            discrete + first * N_DISCRETE, parameters + i * numbers, FROM(a, N_Q), FROM(lambda, N_ROWS),
+            discrete + first * N_DISCRETE, parameters + i * n_parameters, FROM(a, N_Q), FROM(lambda, N_ROWS),
             FROM(reactions, N_REACTION_COLUMNS * N_REACTIONS), FROM(torques, N_DRIVES),
             FROM(clearance, N_CLEARANCE_COLUMNS * N_CLEARANCES),
             FROM(series, N_SERIES), FROM(friction, N_FRICTION_COLUMNS * N_FRICTIONS), FROM(energy, N_ENERGY),
-            FROM(power, N_WORK), FROM(drift, N_DRIFT), failed);
+            FROM(power, N_WORK), FROM(drift, N_DRIFT), failed_sample);
         if (status)
             return status;
     }

@@ -9,139 +9,153 @@
 
 enum { MAX_CLOSING = 60 };
 
-/* Compute the residuals w->rest: -Phi and the differences from the set coordinates, scaled. Returns their norm. */
-static double open_rows(Closing *w, double t, const double *q, const Parameters *p)
+/*
+ * Compute the residuals of the start into workspace->residual: -Phi, then the differences from the set coordinates,
+ * each divided by its scale. Return their Euclidean norm.
+ */
+static double compute_start_residuals(StartWorkspace *workspace, double t, const double *q, const Parameters *p)
 {
     double sum = 0.0;
-    constraints(t, q, p, w->rest);
+    constraints(t, q, p, workspace->residual);
     for (int k = 0; k < N_APART; k++)
-        w->rest[apart_row[k]] += w->set[N_SET + k];
+        workspace->residual[apart_row[k]] += workspace->set[N_SET + k];
     for (int r = 0; r < N_ALL_ROWS; r++)
-        w->rest[r] = -w->rest[r];
+        workspace->residual[r] = -workspace->residual[r];
     for (int i = 0; i < N_SET; i++)
-        w->rest[N_ALL_ROWS + i] = w->set[i] - q[set_place[i]];
+        workspace->residual[N_ALL_ROWS + i] = workspace->set[i] - q[set_place[i]];
     for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
-        w->rest[r] *= w->over_row[r];
-        sum += w->rest[r] * w->rest[r];
+        workspace->residual[r] *= workspace->row_scale[r];
+        sum += workspace->residual[r] * workspace->residual[r];
     }
     return sqrt(sum);
 }
 
 /*
- * Compute the linearized equations w->row (Phi_q and the set coordinates), scaled by sizes and weights, and the
- * residuals. Returns the norm of the residuals.
+ * Compute the linearized equations workspace->row (Phi_q, then the set coordinates), scaled by sizes and weights, and
+ * the residuals. Return the norm of the residuals.
  */
-SELDOM static double linearized_rows(Closing *w, double t, const double *q, const Parameters *p)
+SELDOM static double linearize_start_equations(
+    StartWorkspace *workspace, double t, const double *q, const Parameters *p)
 {
-    jacobian(t, q, p, &w->row[0][0]);
-    for (int r = 0; r < N_ALL_ROWS; r++)
-        for (int e = phi_q_first[r]; e < phi_q_first[r + 1]; e++)
-            w->row[r][phi_q_place[e]] *= w->over_row[r] * w->over_weight[phi_q_place[e]];
-    for (int i = 0; i < N_SET; i++)
-        w->row[N_ALL_ROWS + i][set_place[i]] = w->over_row[N_ALL_ROWS + i] * w->over_weight[set_place[i]];
-    return open_rows(w, t, q, p);
+    jacobian(t, q, p, &workspace->row[0][0]);
+    for (int row = 0; row < N_ALL_ROWS; row++)
+        for (int entry = phi_q_first[row]; entry < phi_q_first[row + 1]; entry++)
+            workspace->row[row][phi_q_place[entry]] *= workspace->row_scale[row]
+                * workspace->column_scale[phi_q_place[entry]];
+    for (int k = 0; k < N_SET; k++)
+        workspace->row[N_ALL_ROWS + k][set_place[k]] = workspace->row_scale[N_ALL_ROWS + k]
+            * workspace->column_scale[set_place[k]];
+    return compute_start_residuals(workspace, t, q, p);
 }
 
 /*
- * Solve for the angles that equations without lengths determine (drives, sliders). Returns 1 if these depend on each
- * other.
+ * Solve for the angles in q that equations without positions determine (drives, sliders), by one linear step. Return 1
+ * if these equations depend on each other, else 0.
  */
-SELDOM static int place_angles(Closing *w, double t, const Parameters *p, double *q)
+SELDOM static int solve_independent_angles(StartWorkspace *workspace, double t, const Parameters *p, double *q)
 {
-    int place[N_Q];
-    linearized_rows(w, t, q, p);
-    w->some.n = 0;
-    for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
-        int places = 0;
-        const int n = places_of(r, set_place, place);
+    int coordinates[N_Q];
+    linearize_start_equations(workspace, t, q, p);
+    workspace->subset.n = 0;
+    for (int row = 0; row < N_ALL_ROWS + N_SET; row++) {
+        int has_position = 0;
+        const int n = list_coordinates_of_equation(row, set_place, coordinates);
         for (int i = 0; i < n; i++)
-            places |= place[i] % 3 != 2 && w->row[r][place[i]] != 0.0;
-        if (!places)
-            w->some.row[w->some.n++] = (short)r;
+            has_position |= coordinates[i] % 3 != 2 && workspace->row[row][coordinates[i]] != 0.0;
+        if (!has_position)
+            workspace->subset.row[workspace->subset.n++] = (short)row;
     }
-    find_meetings(w, &w->some, set_place);
-    if (factor_rows(w, &w->some))
+    compute_normal_pattern(workspace, &workspace->subset, set_place);
+    if (factorize_equations(workspace, &workspace->subset))
         return 1;
-    step_of_rows(w, &w->some);
+    compute_smallest_step(workspace, &workspace->subset);
     for (int k = 0; k < N_Q; k++)
-        q[k] += w->step[k] * w->over_weight[k];
+        q[k] += workspace->step[k] * workspace->column_scale[k];
     return 0;
 }
 
-/* Return the squared weighted distance of q from the guess. */
-static double distance(const Closing *w, const double *q)
+/* Return the squared weighted distance of q from the guess; angles count without full turns removed. */
+static double compute_squared_distance(const StartWorkspace *workspace, const double *q)
 {
     double sum = 0.0;
     for (int k = 0; k < N_Q; k++)
-        sum += (q[k] - w->placed[k]) * w->weight[k] * (q[k] - w->placed[k]) * w->weight[k];
+        sum += (q[k] - workspace->reference[k]) * workspace->weight[k] * (q[k] - workspace->reference[k])
+            * workspace->weight[k];
     return sum;
 }
 
 /* Return whether a norm of residuals is rounding only. */
-static int rows_closed(const Closing *w, double norm) { return norm < 1e-10 + NO_MORE * w->reach / w->size; }
+static int are_residuals_rounding(const StartWorkspace *workspace, double norm)
+{
+    return norm < 1e-10 + NO_MORE * workspace->radius / workspace->size;
+}
 
 /*
  * Return whether Newton's steps lead to a configuration that is not nearer to the guess than the nearest known one.
  * fraction_left: the fraction of the residuals that the last step left; the following steps are smaller by as much.
+ * Slow convergence decides nothing: 0.
  */
-static int is_no_nearer(const Closing *w, const double *q, double fraction_left)
+static int is_no_nearer(const StartWorkspace *workspace, const double *q, double fraction_left)
 {
-    double step = 0.0, away = 0.0;
+    double step_squared = 0.0, distance_squared = 0.0;
     for (int k = 0; k < N_Q; k++) {
-        const double off = q[k] - w->placed[k], turns = k % 3 == 2 ? rint(off / (2.0 * PI)) : 0.0; /* see unwind() */
-        const double weighed = (off - 2.0 * PI * turns) * w->weight[k];
-        step += w->step[k] * w->step[k];
-        away += weighed * weighed;
+        const double difference = q[k] - workspace->reference[k];
+        const double n_turns = k % 3 == 2 ? rint(difference / (2.0 * PI)) : 0.0; /* see remove_full_turns() */
+        const double scaled = (difference - 2.0 * PI * n_turns) * workspace->weight[k];
+        step_squared += workspace->step[k] * workspace->step[k];
+        distance_squared += scaled * scaled;
     }
-    return fraction_left < 0.1 && sqrt(away) - 4.0 * fraction_left * sqrt(step) > sqrt(w->nearest);
+    return fraction_left < 0.1
+        && sqrt(distance_squared) - 4.0 * fraction_left * sqrt(step_squared) > sqrt(workspace->nearest);
 }
 
 /*
- * Solve the constraint equations by Newton's method with line search; the first step is for positions only. Equations
- * closed to rounding leave q unchanged to the bit. Returns 1 if they are not closed or lead to nothing nearer.
+ * Solve the constraint equations for q by Newton's method with line search; the first step is for positions only.
+ * Factorizations are reused near the solution. Equations closed to rounding leave q unchanged to the bit. Return 1 if
+ * they are not closed, depend on each other, or lead to nothing nearer to the guess; else 0.
  */
-SELDOM static int close_rows(Closing *w, double t, const Parameters *p, double *q)
+SELDOM static int solve_closure(StartWorkspace *workspace, double t, const Parameters *p, double *q)
 {
-    const double rounding = NO_MORE * w->reach / w->size;
-    double other[N_Q];
-    int held = 0; /* factorization and equations are those of an earlier q */
-    if (!w->all.n)
-        rows_together(w, &w->all, N_ALL_ROWS + N_SET, set_place);
-    double norm = linearized_rows(w, t, q, p);
+    const double rounding = NO_MORE * workspace->radius / workspace->size;
+    double q_trial[N_Q];
+    int is_reused = 0; /* factorization and equations are those of an earlier q */
+    if (!workspace->all.n)
+        select_leading_equations(workspace, &workspace->all, N_ALL_ROWS + N_SET, set_place);
+    double norm = linearize_start_equations(workspace, t, q, p);
     if (norm < rounding)
-        return factor_rows(w, &w->all);
-    if (nearest_step(w))
+        return factorize_equations(workspace, &workspace->all);
+    if (compute_least_squares_step(workspace))
         return 1;
     for (int k = 0; k < N_Q; k++)
-        q[k] += w->step[k] * w->over_weight[k];
-    norm = open_rows(w, t, q, p);
+        q[k] += workspace->step[k] * workspace->column_scale[k];
+    norm = compute_start_residuals(workspace, t, q, p);
     for (int i = 0; i < MAX_CLOSING; i++) {
-        if (!held) {
-            linearized_rows(w, t, q, p);
-            if (factor_rows(w, &w->all))
+        if (!is_reused) {
+            linearize_start_equations(workspace, t, q, p);
+            if (factorize_equations(workspace, &workspace->all))
                 return 1;
         }
-        step_of_rows(w, &w->all);
-        double fraction = 1.0, left = norm;
-        for (; fraction > (held ? 0.5 : 1e-4); fraction *= 0.5) {
+        compute_smallest_step(workspace, &workspace->all);
+        double fraction = 1.0, norm_trial = norm;
+        for (; fraction > (is_reused ? 0.5 : 1e-4); fraction *= 0.5) {
             for (int k = 0; k < N_Q; k++)
-                other[k] = q[k] + fraction * (w->step[k] * w->over_weight[k]);
-            left = open_rows(w, t, other, p);
-            if (left < (1.0 - 1e-4 * fraction) * norm)
+                q_trial[k] = q[k] + fraction * (workspace->step[k] * workspace->column_scale[k]);
+            norm_trial = compute_start_residuals(workspace, t, q_trial, p);
+            if (norm_trial < (1.0 - 1e-4 * fraction) * norm)
                 break;
         }
-        if (!(fraction > (held ? 0.5 : 1e-4))) {
-            if (!held || norm < rounding)
+        if (!(fraction > (is_reused ? 0.5 : 1e-4))) {
+            if (!is_reused || norm < rounding)
                 break;
-            held = 0;
+            is_reused = 0;
             continue;
         }
         for (int k = 0; k < N_Q; k++)
-            q[k] = other[k];
-        if (fraction == 1.0 && is_no_nearer(w, q, left / norm))
+            q[k] = q_trial[k];
+        if (fraction == 1.0 && is_no_nearer(workspace, q, norm_trial / norm))
             return 1;
-        held = left < HELD_FROM && (left < 0.1 * norm || left < rounding);
-        norm = left;
+        is_reused = norm_trial < HELD_FROM && (norm_trial < 0.1 * norm || norm_trial < rounding);
+        norm = norm_trial;
     }
-    return !rows_closed(w, norm);
+    return !are_residuals_rounding(workspace, norm);
 }

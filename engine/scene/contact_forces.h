@@ -1,7 +1,7 @@
 /*
  * Forces of closed rigid contacts (Newton's restitution), which keep e = c. Accelerations are affine in these forces F.
- * The right-hand side without them and with each alone gives delta'' = r - D F, with the Delassus operator D, and the
- * rates a + way F.
+ * The right-hand side without them and with each alone determines delta'' = r - D F, with the Delassus operator D, and
+ * the rates a + response F.
  */
 #ifndef GUDGEON_CONTACT_FORCES_H
 #define GUDGEON_CONTACT_FORCES_H
@@ -15,7 +15,7 @@ enum { RUBS = 1 };
 enum { RUBS = 0 };
 #endif
 
-/* Compute the rates of a state (state_rates() or motion()); returns a status. */
+/* Compute the rates of a state (evaluate_state_rates() or motion()); returns a status. */
 typedef int RatesOf(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs);
 
@@ -24,109 +24,120 @@ typedef struct {
     int n, joint[N_RIGID];
     double r[N_RIGID];                /* delta'' without forces, m/s^2 */
     double D[N_RIGID][N_RIGID];       /* -d(delta_i'')/dF_j, 1/kg */
-    double way[N_RIGID][MAX_RATES];  /* change of all rates by a unit force, each unit a newton */
+    double response[N_RIGID][MAX_RATES];  /* change of all rates by a unit force, each unit a newton */
 } Delassus;
 
-/* Return delta'' of a joint, m/s^2, from e . e'' + e' . e' = e e'' + e'^2; of a corner at a wall it is known. */
-static double outward_rate(const Clearance *joint)
+/*
+ * Return delta'' of a joint in m/s^2, the acceleration of its penetration, from e . e'' + e' . e' = e e'' + e'^2. Of a
+ * corner at a wall it is known without that division by e.
+ */
+static double compute_outward_acceleration(const Clearance *clearance)
 {
 #ifdef WALLS
-    if (joint->at_wall)
-        return joint->half_square_rate;
+    if (clearance->at_wall)
+        return clearance->half_square_rate;
 #endif
-    return (joint->half_square_rate - joint->deltadot * joint->deltadot) / joint->e;
+    return (clearance->half_square_rate - clearance->deltadot * clearance->deltadot) / clearance->e;
 }
 
-/* List the closed rigid contacts in `joint`. Returns their number. */
-static int list_closed(const DiscreteState *discrete, int *joint)
+/*
+ * List the numbers of the joints with a closed rigid contact in `joints`, in increasing order, and return how many
+ * there are.
+ */
+static int list_closed_contacts(const DiscreteState *discrete, int *joints)
 {
     int n = 0;
     for (int i = 0; i < N_CLEARANCES; i++)
         if (!gives(i) && discrete->contact[i].closed)
-            joint[n++] = i;
+            joints[n++] = i;
     return n;
 }
 
-/* Return a force, N, whose effect on the accelerations of these bodies is not lost in rounding. */
-static double unit_force(const Delassus *contacts, const Parameters *p)
+/*
+ * Return a force in N whose effect on the accelerations of these bodies is not lost in rounding: total mass times the
+ * largest r, at least 1 m/s^2.
+ */
+static double choose_unit_force(const Delassus *contacts, const Parameters *p)
 {
-    double m[N_Q], mass = 0.0, most = 1.0;
+    double m[N_Q], mass = 0.0, acceleration = 1.0;
     mass_matrix(p, m);
     for (int k = 0; k < N_Q; k += 3)
         mass += m[k];
     for (int k = 0; k < contacts->n; k++)
-        most = max_of(most, fabs(contacts->r[k]));
-    return mass * most;
+        acceleration = max_of(acceleration, fabs(contacts->r[k]));
+    return mass * acceleration;
 }
 
 /*
- * Compute r, D and `way` of the listed contacts, which `discrete` has closed, by n + 1 right-hand sides. Their forces
- * in `discrete` are 0 afterwards. Returns a status.
+ * Compute r, D and `response` of the listed contacts, which `discrete` has closed, by n + 1 evaluations of the
+ * right-hand side `evaluate_rates` at (t, y). n_rates: number of rates. Their forces in `discrete` are 0 afterwards.
+ * Return the status of the evaluations.
  */
-static int compute_delassus(RatesOf *rates_of, int size, double t, const double *y, DiscreteState *discrete,
+static int compute_delassus(RatesOf *evaluate_rates, int n_rates, double t, const double *y, DiscreteState *discrete,
     const Parameters *p, Delassus *contacts)
 {
-    double base[MAX_RATES], pushed[MAX_RATES];
+    double rates_base[MAX_RATES], rates_pushed[MAX_RATES];
     RhsOutputs rhs;
     for (int k = 0; k < contacts->n; k++)
         discrete->contact[contacts->joint[k]].force = 0.0;
-    int status = rates_of(t, y, discrete, p, base, &rhs);
+    int status = evaluate_rates(t, y, discrete, p, rates_base, &rhs);
     for (int k = 0; k < contacts->n; k++)
-        contacts->r[k] = outward_rate(&rhs.clearance[contacts->joint[k]]);
-    const double unit = unit_force(contacts, p);
-    for (int j = 0; j < contacts->n && !status; j++) {
-        ContactState *contact = &discrete->contact[contacts->joint[j]];
-        contact->force = unit;
-        status = rates_of(t, y, discrete, p, pushed, &rhs);
+        contacts->r[k] = compute_outward_acceleration(&rhs.clearance[contacts->joint[k]]);
+    const double unit_force = choose_unit_force(contacts, p);
+    for (int column = 0; column < contacts->n && !status; column++) {
+        ContactState *contact = &discrete->contact[contacts->joint[column]];
+        contact->force = unit_force;
+        status = evaluate_rates(t, y, discrete, p, rates_pushed, &rhs);
         contact->force = 0.0;
         for (int k = 0; k < contacts->n; k++)
-            contacts->D[k][j] = (contacts->r[k] - outward_rate(&rhs.clearance[contacts->joint[k]])) / unit;
-        for (int k = 0; k < size; k++)
-            contacts->way[j][k] = (pushed[k] - base[k]) / unit;
+            contacts->D[k][column] = (contacts->r[k]
+                - compute_outward_acceleration(&rhs.clearance[contacts->joint[k]])) / unit_force;
+        for (int k = 0; k < n_rates; k++)
+            contacts->response[column][k] = (rates_pushed[k] - rates_base[k]) / unit_force;
     }
     return status;
 }
 
 /*
- * Solve D x = r in the contacts with part[i] (NULL: all) by Gaussian elimination with diagonal pivoting. x = 0 in the
- * others and in dependent contacts. Returns whether a pivot is negative beyond rounding; that needs friction, because D
- * is symmetric without it.
+ * Solve D x = r in the contacts with is_included[i] (NULL: all) by Gaussian elimination with diagonal pivoting. x = 0
+ * in the others and in dependent contacts. Return whether a pivot is negative beyond rounding, which needs friction,
+ * because D is symmetric without it. Called for forces, impulses and projections of contacts.
  */
-static int solve_part(const Delassus *contacts, const unsigned char *part, const double *r, double *x)
+static int solve_contact_subset(const Delassus *contacts, const unsigned char *is_included, const double *r, double *x)
 {
     const int n = contacts->n;
     double A[N_RIGID][N_RIGID + 1];
-    int is_jammed = 0, solved = 0, order[N_RIGID] = {0};
-    unsigned char left[N_RIGID] = {0};
+    int is_jammed = 0, n_solved = 0, pivots[N_RIGID] = {0};
+    unsigned char is_left[N_RIGID] = {0};
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++)
             A[i][j] = contacts->D[i][j];
         A[i][n] = r[i];
-        left[i] = part ? part[i] : 1;
+        is_left[i] = is_included ? is_included[i] : 1;
         x[i] = 0.0;
     }
     for (;;) {
-        int next = -1;
+        int pivot = -1;
         for (int i = 0; i < n; i++)
-            if (left[i] && A[i][i] > DEPENDENT * contacts->D[i][i] && (next < 0 || A[i][i] > A[next][next]))
-                next = i;
-        if (next < 0)
+            if (is_left[i] && A[i][i] > DEPENDENT * contacts->D[i][i] && (pivot < 0 || A[i][i] > A[pivot][pivot]))
+                pivot = i;
+        if (pivot < 0)
             break;
-        left[next] = 0;
-        order[solved++] = next;
+        is_left[pivot] = 0;
+        pivots[n_solved++] = pivot;
         for (int i = 0; i < n; i++) {
-            const double fraction = left[i] ? A[i][next] / A[next][next] : 0.0;
+            const double fraction = is_left[i] ? A[i][pivot] / A[pivot][pivot] : 0.0;
             for (int j = 0; j <= n && fraction != 0.0; j++)
-                A[i][j] -= fraction * A[next][j];
+                A[i][j] -= fraction * A[pivot][j];
         }
     }
     for (int i = 0; i < n; i++)
-        is_jammed |= left[i] && A[i][i] < -DEPENDENT * fabs(contacts->D[i][i]);
-    for (int k = solved - 1; k >= 0; k--) {
-        const int i = order[k];
+        is_jammed |= is_left[i] && A[i][i] < -DEPENDENT * fabs(contacts->D[i][i]);
+    for (int k = n_solved - 1; k >= 0; k--) {
+        const int i = pivots[k];
         double sum = A[i][n];
-        for (int l = k + 1; l < solved; l++)
-            sum -= A[i][order[l]] * x[order[l]];
+        for (int j = k + 1; j < n_solved; j++)
+            sum -= A[i][pivots[j]] * x[pivots[j]];
         x[i] = sum / A[i][i];
     }
     return is_jammed;
@@ -134,80 +145,84 @@ static int solve_part(const Delassus *contacts, const unsigned char *part, const
 
 /*
  * Solve the linear complementarity problem x >= 0, D x - r >= 0, x (D x - r) = 0 by Murty's least-index pivoting (K. G.
- * Murty, Linear Algebra Appl. 9 (1974) 65-108). Sets of contacts that jam by friction are excluded. Returns 0,
- * FRICTION_INCONSISTENT if all other sets fail, or CHATTERING.
+ * Murty, Linear Algebra Appl. 9 (1974) 65-108). Sets of contacts that jam by friction are excluded. Return 0,
+ * FRICTION_INCONSISTENT if all other sets fail, or CHATTERING if the iteration does not end. Called for the impulses of
+ * an impact and for the active set of contacts.
  */
-static inline int complementary(const Delassus *contacts, const double *r, double *x)
+static inline int solve_complementarity(const Delassus *contacts, const double *r, double *x)
 {
-    unsigned char pushes[N_RIGID] = {0};
-    double size = 0.0;
-    int some = 0;
+    unsigned char is_active[N_RIGID] = {0};
+    double scale = 0.0;
+    int has_jammed = 0;
     for (int k = 0; k < contacts->n; k++)
-        size = max_of(size, fabs(r[k]));
+        scale = max_of(scale, fabs(r[k]));
     for (long i = 0; i < 1000L << (N_RIGID < 10 ? N_RIGID : 10); i++) {
-        int turned = -1;
-        const int is_jammed = solve_part(contacts, pushes, r, x) && RUBS;
-        some |= is_jammed;
-        for (int k = 0; k < contacts->n && turned < 0; k++) {
-            double left = -r[k];
+        int changed = -1;
+        const int is_jammed = solve_contact_subset(contacts, is_active, r, x) && RUBS;
+        has_jammed |= is_jammed;
+        for (int k = 0; k < contacts->n && changed < 0; k++) {
+            double slack = -r[k];
             for (int j = 0; j < contacts->n; j++)
-                left += contacts->D[k][j] * x[j];
-            if (is_jammed ? pushes[k] : pushes[k] ? x[k] * contacts->D[k][k] < -1e-14 * size : left < -1e-12 * size)
-                turned = k;
+                slack += contacts->D[k][j] * x[j];
+            if (is_jammed ? is_active[k] : is_active[k] ? x[k] * contacts->D[k][k] < -1e-14 * scale
+                : slack < -1e-12 * scale)
+                changed = k;
         }
-        if (turned < 0)
+        if (changed < 0)
             return 0;
-        pushes[turned] = !pushes[turned];
+        is_active[changed] = !is_active[changed];
     }
-    return some ? FRICTION_INCONSISTENT : CHATTERING;
+    return has_jammed ? FRICTION_INCONSISTENT : CHATTERING;
 }
 
 #if N_RUBBED
 /*
  * Return whether a normal force in some closed contact, with its friction, brings the surfaces nearer (P. Painleve,
- * 1895). needed: consider only contacts that need a force.
+ * 1895): a diagonal entry of D is negative. only_approaching: consider only contacts that need a force, r > 0.
  */
-static int is_frictionally_inconsistent(const Delassus *contacts, int needed, const Parameters *p)
+static int is_frictionally_inconsistent(const Delassus *contacts, int only_approaching, const Parameters *p)
 {
     double m[N_Q], mass = 0.0;
     mass_matrix(p, m);
     for (int k = 0; k < N_Q; k += 3)
         mass += m[k];
     for (int k = 0; k < contacts->n; k++)
-        if (contacts->D[k][k] * mass < -DEPENDENT && (!needed || contacts->r[k] > 0.0))
+        if (contacts->D[k][k] * mass < -DEPENDENT && (!only_approaching || contacts->r[k] > 0.0))
             return 1;
     return 0;
 }
 #else
 /* Return 0: without friction no diagonal entry of D is negative. */
-static inline int is_frictionally_inconsistent(const Delassus *contacts, int needed, const Parameters *p)
+static inline int is_frictionally_inconsistent(const Delassus *contacts, int only_approaching, const Parameters *p)
 {
-    return (void)contacts, (void)needed, (void)p, 0;
+    return (void)contacts, (void)only_approaching, (void)p, 0;
 }
 #endif
 
 /*
- * Compute the rates of a state with the forces of its closed contacts, which are stored in `discrete`. Returns a
- * status.
+ * Compute the rates dy and outputs rhs of a state with the forces of its closed rigid contacts, which are stored in
+ * `discrete`. evaluate_rates: the right-hand side for given forces, with n_rates rates. Return 0,
+ * FRICTION_INCONSISTENT, or the status of an evaluation. Called at each evaluation of the right-hand side of a scene
+ * with rigid contacts.
  */
-static int rates_in_contact(RatesOf *rates_of, int size, double t, const double *y, DiscreteState *discrete,
+static int rates_in_contact(RatesOf *evaluate_rates, int n_rates, double t, const double *y, DiscreteState *discrete,
     const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     Delassus contacts;
-    contacts.n = list_closed(discrete, contacts.joint);
+    contacts.n = list_closed_contacts(discrete, contacts.joint);
     if (contacts.n) {
         double force[N_RIGID];
-        const int status = compute_delassus(rates_of, size, t, y, discrete, p, &contacts);
+        const int status = compute_delassus(evaluate_rates, n_rates, t, y, discrete, p, &contacts);
         if (status)
             return status;
         if (is_frictionally_inconsistent(&contacts, 0, p))
             return FRICTION_INCONSISTENT;
-        if (solve_part(&contacts, NULL, contacts.r, force) && RUBS)
+        if (solve_contact_subset(&contacts, NULL, contacts.r, force) && RUBS)
             return FRICTION_INCONSISTENT; /* together they are inconsistent */
         for (int k = 0; k < contacts.n; k++)
             discrete->contact[contacts.joint[k]].force = force[k];
     }
-    return rates_of(t, y, discrete, p, dy, rhs);
+    return evaluate_rates(t, y, discrete, p, dy, rhs);
 }
 
 #endif

@@ -7,25 +7,25 @@
 #define GUDGEON_CONTOUR_H
 
 /*
- * Return the depth of a contour at an angle (rad), or its first or second derivative by the angle (order 0, 1, 2). NAN
- * if the angle is not finite.
+ * Return the depth of a bearing contour in m at an angle (rad), or its derivative by the angle of order 1 or 2. depths:
+ * `count` depths at equal angles, the first at 0; they repeat after a turn. NAN if the angle is not finite.
  */
-static inline double contour(const double *depth, int count, int order, double angle)
+static inline double contour(const double *depths, int count, int order, double angle)
 {
-    const double turns = angle / (2.0 * PI), x = count * (turns - floor(turns)), per_angle = count / (2.0 * PI);
-    if (!(x >= 0.0 && x <= count))
+    const double turns = angle / (2.0 * PI), position = count * (turns - floor(turns)), per_angle = count / (2.0 * PI);
+    if (!(position >= 0.0 && position <= count))
         return NAN;
-    const int k = x < count ? (int)x : count - 1, next = k + 1 < count ? k + 1 : 0;
-    const double a = depth[k > 0 ? k - 1 : count - 1], b = depth[k], c = depth[next];
-    const double d = depth[next + 1 < count ? next + 1 : 0];
-    const double s = x - k, slope = 0.5 * (c - a), bend = (a - b) + (c - b), rest = 3.0 * (c - b) + (a - d);
+    const int piece = position < count ? (int)position : count - 1, next = piece + 1 < count ? piece + 1 : 0;
+    const double a = depths[piece > 0 ? piece - 1 : count - 1], b = depths[piece], c = depths[next];
+    const double d = depths[next + 1 < count ? next + 1 : 0];
+    const double s = position - piece, slope = 0.5 * (c - a), bend = (a - b) + (c - b), jump = 3.0 * (c - b) + (a - d);
     switch (order) {
     case 0:
-        return b + s * (slope + s * (0.5 * bend + s * rest * (1.5 + s * (s - 2.5))));
+        return b + s * (slope + s * (0.5 * bend + s * jump * (1.5 + s * (s - 2.5))));
     case 1:
-        return per_angle * (slope + s * (bend + s * rest * (4.5 + s * (5.0 * s - 10.0))));
+        return per_angle * (slope + s * (bend + s * jump * (4.5 + s * (5.0 * s - 10.0))));
     default:
-        return per_angle * per_angle * (bend + s * rest * (9.0 + s * (20.0 * s - 30.0)));
+        return per_angle * per_angle * (bend + s * jump * (9.0 + s * (20.0 * s - 30.0)));
     }
 }
 

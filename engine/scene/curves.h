@@ -14,13 +14,16 @@ typedef struct {
 
 static const double CURVE_MARGIN = 1e-9; /* of the range */
 
-/* Return the index of the piece that contains x, or of the outermost one. */
-static inline int curve_piece(const Curve *f, double x)
+/*
+ * Return the index of the piece of a curve that contains x, by bisection; the first or last piece for x outside of the
+ * range.
+ */
+static inline int find_curve_piece(const Curve *curve_table, double x)
 {
-    int low = 0, high = f->pieces;
+    int low = 0, high = curve_table->pieces;
     while (high - low > 1) {
         const int middle = low + (high - low) / 2;
-        if (x < f->x[middle])
+        if (x < curve_table->x[middle])
             high = middle;
         else
             low = middle;
@@ -28,172 +31,196 @@ static inline int curve_piece(const Curve *f, double x)
     return low;
 }
 
-/* Return the derivative of order 0 ... 3 of a piece at h from its beginning. */
-static inline double curve_in_piece(const double *c, int order, double h)
+/* Return the value (order 0) or the derivative of order 1 to 3 of one cubic piece at an offset from its beginning. */
+static inline double evaluate_curve_piece(const double *coefficients, int order, double offset)
 {
     switch (order) {
     case 0:
-        return c[0] + h * (c[1] + h * (c[2] + h * c[3]));
+        return coefficients[0] + offset * (coefficients[1] + offset * (coefficients[2] + offset * coefficients[3]));
     case 1:
-        return c[1] + h * (2.0 * c[2] + h * (3.0 * c[3]));
+        return coefficients[1] + offset * (2.0 * coefficients[2] + offset * (3.0 * coefficients[3]));
     case 2:
-        return 2.0 * c[2] + h * (6.0 * c[3]);
+        return 2.0 * coefficients[2] + offset * (6.0 * coefficients[3]);
     default:
-        return 6.0 * c[3];
+        return 6.0 * coefficients[3];
     }
 }
 
-/* Return x reduced to the range of a periodic curve. */
-static inline double curve_turned(const Curve *f, double x)
+/* Return x moved by whole periods into the range of a periodic curve; other curves return x. */
+static inline double reduce_to_period(const Curve *curve_table, double x)
 {
-    const double first = f->x[0], length = f->x[f->pieces] - first;
-    return f->repeats ? x - length * floor((x - first) / length) : x;
+    const double first = curve_table->x[0], length = curve_table->x[curve_table->pieces] - first;
+    return curve_table->repeats ? x - length * floor((x - first) / length) : x;
 }
 
 /* Return the branch of a piece: alternating 1 and -1. */
-static inline double curve_branch(int piece) { return piece % 2 ? -1.0 : 1.0; }
+static inline double get_piece_branch(int piece) { return piece % 2 ? -1.0 : 1.0; }
 
 /*
- * Return a curve (order 0) or its derivative of order 1 to 3 at x. On a frozen branch, a piece of the other branch is
- * replaced by the polynomial of its nearer neighbour.
+ * Return a curve (order 0) or its derivative of order 1 to 3 at x; NAN outside of the range beyond rounding. branch: 0,
+ * or a frozen branch (1 or -1), on which a piece of the other branch is replaced by the polynomial of its nearer
+ * neighbour.
  */
-static inline double curve_at(const Curve *f, int order, double x, double branch)
+static inline double evaluate_curve(const Curve *curve_table, int order, double x, double branch)
 {
-    const double first = f->x[0], last = f->x[f->pieces], allowance = CURVE_MARGIN * (last - first);
-    x = curve_turned(f, x);
+    const double first = curve_table->x[0], last = curve_table->x[curve_table->pieces],
+        allowance = CURVE_MARGIN * (last - first);
+    x = reduce_to_period(curve_table, x);
     if (!(x >= first - allowance && x <= last + allowance))
         return NAN;
-    int k = curve_piece(f, x);
-    double from = f->x[k];
-    if (branch * curve_branch(k) < 0.0 && x - from < f->x[k + 1] - x) {
-        from = k > 0 ? f->x[k - 1] : f->repeats ? f->x[f->pieces - 1] - (last - first) : from;
-        k = k > 0 ? k - 1 : f->repeats ? f->pieces - 1 : k;
-    } else if (branch * curve_branch(k) < 0.0 && (k + 1 < f->pieces || f->repeats)) {
-        from = f->x[k + 1];
-        k = k + 1 < f->pieces ? k + 1 : 0;
+    int piece = find_curve_piece(curve_table, x);
+    double begin = curve_table->x[piece];
+    if (branch * get_piece_branch(piece) < 0.0 && x - begin < curve_table->x[piece + 1] - x) {
+        begin = piece > 0 ? curve_table->x[piece - 1] : curve_table->repeats
+            ? curve_table->x[curve_table->pieces - 1] - (last - first) : begin;
+        piece = piece > 0 ? piece - 1 : curve_table->repeats ? curve_table->pieces - 1 : piece;
+    } else if (branch * get_piece_branch(piece) < 0.0 && (piece + 1 < curve_table->pieces || curve_table->repeats)) {
+        begin = curve_table->x[piece + 1];
+        piece = piece + 1 < curve_table->pieces ? piece + 1 : 0;
     }
-    return curve_in_piece(f->c[k], order, x - from);
+    return evaluate_curve_piece(curve_table->c[piece], order, x - begin);
 }
 
 /*
- * Return a function whose zeros are the knots between pieces; its sign is the branch of the piece, its slope there is 1
- * over the length.
+ * Return a switching function at x whose zeros are the knots between pieces; its sign is the branch of the piece, its
+ * slope there is 1 over the length. The ends of a curve that does not repeat are no zeros.
  */
-static inline double knots_at(const Curve *f, double x)
+static inline double evaluate_knot_function(const Curve *curve_table, double x)
 {
-    x = curve_turned(f, x);
-    const int k = curve_piece(f, x), begins = k > 0 || f->repeats, ends = k + 1 < f->pieces || f->repeats;
-    const double length = f->x[k + 1] - f->x[k];
-    return curve_branch(k) * (begins ? (x - f->x[k]) / length : 1.0) * (ends ? (f->x[k + 1] - x) / length : 1.0);
+    x = reduce_to_period(curve_table, x);
+    const int piece = find_curve_piece(curve_table, x), begins = piece > 0
+        || curve_table->repeats, ends = piece + 1 < curve_table->pieces || curve_table->repeats;
+    const double length = curve_table->x[piece + 1] - curve_table->x[piece];
+    return get_piece_branch(piece) * (begins ? (x - curve_table->x[piece]) / length : 1.0)
+        * (ends ? (curve_table->x[piece + 1] - x) / length : 1.0);
 }
 
-#define curve(which, order, x) curve_at(&curves[which], order, x, 0.0)
-#define curve_on(which, order, x, branch) curve_at(&curves[which], order, x, branch)
-#define knots(which, x) knots_at(&curves[which], x)
+#define curve(which, order, x) evaluate_curve(&curves[which], order, x, 0.0)
+#define curve_on(which, order, x, branch) evaluate_curve(&curves[which], order, x, branch)
+#define knots(which, x) evaluate_knot_function(&curves[which], x)
 
 #ifdef GUDGEON_LANES_H
-/* Return curve_at() of each lane. */
-static inline Lanes lanes_curve_at(const Curve *f, int order, Lanes x, Lanes branch)
+/*
+ * Return evaluate_curve() of each lane: a curve or its derivative of an order at the vector x, on a vector of branches.
+ */
+static inline Lanes evaluate_curve_in_lanes(const Curve *curve_table, int order, Lanes x, Lanes branch)
 {
     Lanes y = {0.0};
     for (int k = 0; k < LANES; k++)
-        y[k] = curve_at(f, order, x[k], branch[k]);
+        y[k] = evaluate_curve(curve_table, order, x[k], branch[k]);
     return y;
 }
 
-/* Return knots_at() of each lane. */
-static inline Lanes lanes_knots_at(const Curve *f, Lanes x)
+/* Return evaluate_knot_function() of each lane of the vector x. */
+static inline Lanes evaluate_knot_function_in_lanes(const Curve *curve_table, Lanes x)
 {
     Lanes y = {0.0};
     for (int k = 0; k < LANES; k++)
-        y[k] = knots_at(f, x[k]);
+        y[k] = evaluate_knot_function(curve_table, x[k]);
     return y;
 }
 
-#define lanes_knots(which, x) lanes_knots_at(&curves[which], x)
-#define lanes_curve(which, order, x) lanes_curve_at(&curves[which], order, x, all_of(0.0))
-#define lanes_curve_on(which, order, x, branch) lanes_curve_at(&curves[which], order, x, branch)
+#define lanes_knots(which, x) evaluate_knot_function_in_lanes(&curves[which], x)
+#define lanes_curve(which, order, x) evaluate_curve_in_lanes(&curves[which], order, x, all_of(0.0))
+#define lanes_curve_on(which, order, x, branch) evaluate_curve_in_lanes(&curves[which], order, x, branch)
 #endif
 
 #ifdef GUDGEON_RANGES_H
-/* Extend the bounds least, most by a derivative of a piece at h. */
-static inline void curve_take(const double *c, int order, double h, double *least, double *most)
+/* Extend the bounds *lower, *upper by the derivative of an order of one piece at an offset from its beginning. */
+static inline void extend_bounds_by_value(const double *coefficients, int order, double offset, double *lower,
+    double *upper)
 {
-    const double y = curve_in_piece(c, order, h);
-    *least = min_of(*least, y);
-    *most = max_of(*most, y);
+    const double y = evaluate_curve_piece(coefficients, order, offset);
+    *lower = min_of(*lower, y);
+    *upper = max_of(*upper, y);
 }
 
 /*
- * Extend the bounds by a derivative of a piece between two locations, measured from its beginning, and its extrema
- * between.
+ * Extend the bounds *lower, *upper by the derivative of an order of one piece between two offsets `begin` and `end`
+ * from its beginning: its values at both and its extrema between.
  */
-static inline void curve_bounds_in(const double *c, int order, double from, double to, double *least, double *most)
+static inline void extend_bounds_in_piece(const double *coefficients, int order, double begin, double end,
+    double *lower,
+    double *upper)
 {
-    double turns[2] = {from, from};
+    double extrema[2] = {begin, begin};
     if (order == 0) {
-        const double inner = c[2] * c[2] - 3.0 * c[1] * c[3], root = inner > 0.0 ? sqrt(inner) : 0.0;
-        const double q = -(c[2] + (c[2] < 0.0 ? -root : root)); /* no digits are lost */
-        turns[0] = q / (3.0 * c[3]);
-        turns[1] = c[1] / q;
+        const double inner = coefficients[2] * coefficients[2] - 3.0 * coefficients[1] * coefficients[3],
+            root = inner > 0.0 ? sqrt(inner) : 0.0;
+        const double q = -(coefficients[2] + (coefficients[2] < 0.0 ? -root : root)); /* no digits are lost */
+        extrema[0] = q / (3.0 * coefficients[3]);
+        extrema[1] = coefficients[1] / q;
     } else if (order == 1)
-        turns[0] = -c[2] / (3.0 * c[3]);
-    curve_take(c, order, from, least, most);
-    curve_take(c, order, to, least, most);
+        extrema[0] = -coefficients[2] / (3.0 * coefficients[3]);
+    extend_bounds_by_value(coefficients, order, begin, lower, upper);
+    extend_bounds_by_value(coefficients, order, end, lower, upper);
     for (int i = 0; i < 2; i++)
-        if (turns[i] > from && turns[i] < to)
-            curve_take(c, order, turns[i], least, most);
+        if (extrema[i] > begin && extrema[i] < end)
+            extend_bounds_by_value(coefficients, order, extrema[i], lower, upper);
 }
 
 /*
- * Extend the bounds by a curve from lo to hi within its range. On a frozen branch only its pieces count, each up to
- * half of its neighbours.
+ * Extend the bounds *lower, *upper by a curve or its derivative from x_lower to x_upper, within its range. On a frozen
+ * branch (branch 1 or -1) only its pieces count, each up to half of its neighbours; branch 0: all pieces.
  */
-static inline void curve_bounds(
-    const Curve *f, int order, double branch, double lo, double hi, double *least, double *most)
+static inline void extend_bounds_by_curve(
+    const Curve *curve_table, int order, double branch, double x_lower, double x_upper, double *lower, double *upper)
 {
-    const int end = f->pieces, middle = branch != 0.0;
-    const int first = curve_piece(f, lo) - middle, last = curve_piece(f, hi) + middle;
+    const int end = curve_table->pieces, middle = branch != 0.0;
+    const int first = find_curve_piece(curve_table, x_lower) - middle,
+        last = find_curve_piece(curve_table, x_upper) + middle;
     for (int i = first; i <= last; i++) {
         const int k = i < 0 ? end - 1 : i >= end ? 0 : i;
-        const double shift = i < 0 ? f->x[0] - f->x[end] : i >= end ? f->x[end] - f->x[0] : 0.0;
-        if ((k != i && !f->repeats) || branch * curve_branch(k) < 0.0)
+        const double shift = i < 0 ? curve_table->x[0] - curve_table->x[end] : i >= end
+            ? curve_table->x[end] - curve_table->x[0] : 0.0;
+        if ((k != i && !curve_table->repeats) || branch * get_piece_branch(k) < 0.0)
             continue;
-        const double begin = f->x[k] + shift, finish = f->x[k + 1] + shift, width = middle ? finish - begin : 0.0;
-        const double below = k > 0 ? f->x[k] - f->x[k - 1] : f->x[end] - f->x[end - 1];
-        const double above = k + 1 < end ? f->x[k + 2] - f->x[k + 1] : f->x[1] - f->x[0];
-        const int open_below = k == 0 && !f->repeats, open_above = k == end - 1 && !f->repeats;
-        const double from = open_below ? lo : max_of(lo, begin - (width > 0.0 ? 0.5 * below : 0.0));
-        const double to = open_above ? hi : min_of(hi, finish + (width > 0.0 ? 0.5 * above : 0.0));
+        const double begin = curve_table->x[k] + shift, finish = curve_table->x[k + 1] + shift, width = middle
+            ? finish - begin : 0.0;
+        const double length_before = k > 0 ? curve_table->x[k] - curve_table->x[k - 1]
+            : curve_table->x[end] - curve_table->x[end - 1];
+        const double length_after = k + 1 < end ? curve_table->x[k + 2] - curve_table->x[k + 1]
+            : curve_table->x[1] - curve_table->x[0];
+        const int open_below = k == 0 && !curve_table->repeats, open_above = k == end - 1 && !curve_table->repeats;
+        const double from = open_below ? x_lower : max_of(x_lower, begin - (width > 0.0 ? 0.5 * length_before : 0.0));
+        const double to = open_above ? x_upper : min_of(x_upper, finish + (width > 0.0 ? 0.5 * length_after : 0.0));
         if (from <= to)
-            curve_bounds_in(f->c[k], order, from - begin, to - begin, least, most);
+            extend_bounds_in_piece(curve_table->c[k], order, from - begin, to - begin, lower, upper);
     }
 }
 
-/* Compute the bounds of a curve from lo to hi, which may exceed a period. */
-static inline void curve_span(
-    const Curve *f, int order, double branch, double lo, double hi, double *least, double *most)
+/*
+ * Compute the bounds *lower, *upper of a curve or its derivative from x_lower to x_upper, which may exceed a period of
+ * a periodic curve. If no piece of the branch is in the interval, lower > upper.
+ */
+static inline void compute_curve_bounds(
+    const Curve *curve_table, int order, double branch, double x_lower, double x_upper, double *lower, double *upper)
 {
-    const double first = f->x[0], last = f->x[f->pieces], length = last - first;
-    const double turns = f->repeats ? length * floor((lo - first) / length) : 0.0;
-    *least = INFINITY;
-    *most = -INFINITY;
-    if (!f->repeats)
-        curve_bounds(f, order, branch, lo, hi, least, most);
-    else if (!(hi - lo < length))
-        curve_bounds(f, order, branch, first, last, least, most);
+    const double first = curve_table->x[0], last = curve_table->x[curve_table->pieces], length = last - first;
+    const double turns = curve_table->repeats ? length * floor((x_lower - first) / length) : 0.0;
+    *lower = INFINITY;
+    *upper = -INFINITY;
+    if (!curve_table->repeats)
+        extend_bounds_by_curve(curve_table, order, branch, x_lower, x_upper, lower, upper);
+    else if (!(x_upper - x_lower < length))
+        extend_bounds_by_curve(curve_table, order, branch, first, last, lower, upper);
     else {
-        curve_bounds(f, order, branch, lo - turns, min_of(hi - turns, last), least, most);
-        if (hi - turns > last)
-            curve_bounds(f, order, branch, first, hi - turns - length, least, most);
+        extend_bounds_by_curve(curve_table, order, branch, x_lower - turns, min_of(x_upper - turns, last), lower,
+            upper);
+        if (x_upper - turns > last)
+            extend_bounds_by_curve(curve_table, order, branch, first, x_upper - turns - length, lower, upper);
     }
 }
 
-/* Return the part of x within the range of a curve; empty if there is none. */
-static inline Range curve_range(const Curve *f, Range x)
+/*
+ * Return the part of x within the range of a curve: all of it for a periodic curve, empty if there is none, partly
+ * undefined if x exceeds the range.
+ */
+static inline Range restrict_to_curve_range(const Curve *curve_table, Range x)
 {
-    const double first = f->x[0], last = f->x[f->pieces], allowance = CURVE_MARGIN * (last - first);
-    if (is_empty(x) || f->repeats)
+    const double first = curve_table->x[0], last = curve_table->x[curve_table->pieces],
+        allowance = CURVE_MARGIN * (last - first);
+    if (is_empty(x) || curve_table->repeats)
         return x;
     if (!(x.hi >= first - allowance && x.lo <= last + allowance))
         return only(NAN);
@@ -203,56 +230,64 @@ static inline Range curve_range(const Curve *f, Range x)
     return x;
 }
 
-/* Return bounds of curve_at() and of its slope. */
-static inline Range range_curve_at(const Curve *f, int order, Range x, Range branch)
+/*
+ * Return bounds of evaluate_curve() and of its slope for x and a frozen branch; a branch that is not constant counts as
+ * 0. Empty outside of the range. If no piece of the branch is in the interval, all pieces count.
+ */
+static inline Range bound_curve(const Curve *curve_table, int order, Range x, Range branch)
 {
-    const double held = branch.lo == branch.hi ? branch.lo : 0.0;
-    double lo, hi, least, most;
-    x = curve_range(f, x);
+    const double frozen = branch.lo == branch.hi ? branch.lo : 0.0;
+    double lower, upper, min_slope, max_slope;
+    x = restrict_to_curve_range(curve_table, x);
     if (is_empty(x))
         return x;
-    curve_span(f, order, held, x.lo, x.hi, &lo, &hi);
+    compute_curve_bounds(curve_table, order, frozen, x.lo, x.hi, &lower, &upper);
     if (order < 3)
-        curve_span(f, order + 1, held, x.lo, x.hi, &least, &most);
+        compute_curve_bounds(curve_table, order + 1, frozen, x.lo, x.hi, &min_slope, &max_slope);
     else
-        most = lo < hi ? INFINITY : 0.0, least = -most;
-    return lo <= hi ? apply_chain_rule(x, lo, hi, least, most) : range_curve_at(f, order, x, only(0.0));
+        max_slope = lower < upper ? INFINITY : 0.0, min_slope = -max_slope;
+    return lower <= upper ? apply_chain_rule(x, lower, upper, min_slope, max_slope)
+        : bound_curve(curve_table, order, x, only(0.0));
 }
 
-/* Return bounds of knots_at(), a parabola in each piece. */
-static inline Range range_knots_at(const Curve *f, Range x)
+/*
+ * Return bounds of evaluate_knot_function(), a parabola in each piece, and of its slope. Over a period or more they are
+ * -1 and 1 with unbounded slope. Empty if x is.
+ */
+static inline Range bound_knot_function(const Curve *curve_table, Range x)
 {
-    const double first = f->x[0], last = f->x[f->pieces];
-    const double turn = f->repeats ? (last - first) * floor((x.lo - first) / (last - first)) : 0.0;
-    double lo = INFINITY, hi = -INFINITY, least = INFINITY, most = -INFINITY;
+    const double first = curve_table->x[0], last = curve_table->x[curve_table->pieces];
+    const double shift = curve_table->repeats ? (last - first) * floor((x.lo - first) / (last - first)) : 0.0;
+    double lower = INFINITY, upper = -INFINITY, min_slope = INFINITY, max_slope = -INFINITY;
     if (is_empty(x))
         return x;
-    if (f->repeats && !(x.hi - x.lo < last - first))
+    if (curve_table->repeats && !(x.hi - x.lo < last - first))
         return (Range){-1.0, 1.0, -INFINITY, INFINITY, x.partly};
-    for (int i = curve_piece(f, x.lo - turn);; i++) {
-        const int k = i % f->pieces;
-        const double begin = f->x[k] + turn + (i >= f->pieces ? last - first : 0.0), length = f->x[k + 1] - f->x[k];
-        const int begins = k > 0 || f->repeats, ends = k + 1 < f->pieces || f->repeats;
-        const int highest = i >= 2 * f->pieces - 1 || (i + 1 >= f->pieces && !f->repeats);
+    for (int i = find_curve_piece(curve_table, x.lo - shift);; i++) {
+        const int k = i % curve_table->pieces;
+        const double begin = curve_table->x[k] + shift + (i >= curve_table->pieces ? last - first : 0.0),
+            length = curve_table->x[k + 1] - curve_table->x[k];
+        const int begins = k > 0 || curve_table->repeats, ends = k + 1 < curve_table->pieces || curve_table->repeats;
+        const int highest = i >= 2 * curve_table->pieces - 1 || (i + 1 >= curve_table->pieces && !curve_table->repeats);
         const double from = (max_of(x.lo, i == 0 ? x.lo : begin) - begin) / length;
         const double to = (highest ? x.hi - begin : min_of(x.hi - begin, length)) / length;
         const double c[4] = {begins ? 0.0 : 1.0, begins && ends ? 1.0 : begins ? 1.0 : ends ? -1.0 : 0.0,
             begins && ends ? -1.0 : 0.0, 0.0};
-        const double branch = curve_branch(k), piece[4] = {branch * c[0], branch * c[1], branch * c[2], 0.0};
+        const double branch = get_piece_branch(k), piece[4] = {branch * c[0], branch * c[1], branch * c[2], 0.0};
         const double slope[4] = {piece[1] / length, 2.0 * piece[2] / length, 0.0, 0.0};
         if (from <= to) {
-            curve_bounds_in(piece, 0, from, to, &lo, &hi);
-            curve_bounds_in(slope, 0, from, to, &least, &most);
+            extend_bounds_in_piece(piece, 0, from, to, &lower, &upper);
+            extend_bounds_in_piece(slope, 0, from, to, &min_slope, &max_slope);
         }
         if (highest || begin + length >= x.hi)
             break;
     }
-    return apply_chain_rule(x, lo, hi, least, most);
+    return apply_chain_rule(x, lower, upper, min_slope, max_slope);
 }
 
-#define range_curve(which, order, x) range_curve_at(&curves[which], order, x, only(0.0))
-#define range_curve_on(which, order, x, branch) range_curve_at(&curves[which], order, x, branch)
-#define range_knots(which, x) range_knots_at(&curves[which], x)
+#define range_curve(which, order, x) bound_curve(&curves[which], order, x, only(0.0))
+#define range_curve_on(which, order, x, branch) bound_curve(&curves[which], order, x, branch)
+#define range_knots(which, x) bound_knot_function(&curves[which], x)
 #endif
 
 #endif

@@ -16,7 +16,7 @@
 
 static const double TURN_LIMIT = 1e5; /* rad; larger angles go to the library's functions */
 
-/* Return the bits of a number. */
+/* Return the bits of a floating-point number as an integer. */
 static inline uint64_t bits_of(double x)
 {
     uint64_t bits;
@@ -24,7 +24,7 @@ static inline uint64_t bits_of(double x)
     return bits;
 }
 
-/* Return the number of given bits. */
+/* Return the floating-point number with these bits. */
 static inline double of_bits(uint64_t bits)
 {
     double x;
@@ -44,61 +44,72 @@ static inline double of_bits(uint64_t bits)
 #undef PARTS_POWER
 #undef PARTS_ENTRY
 
-/* Return sin x. */
-static inline double sine_of(double x)
+/*
+ * Return sin x, x in rad, with the same bits on every platform up to TURN_LIMIT; larger angles, infinity and NaN use
+ * the C library.
+ */
+static inline double compute_sine(double x)
 {
     if (!(fabs(x) < TURN_LIMIT))
         return sin(x);
-    double r, rest;
-    const uint64_t k = quarters(x, &r, &rest);
-    const double found = k & 1 ? cosine_near(r, rest) : sine_near(r, rest);
-    return k & 2 ? -found : found;
+    double r, r_error;
+    const uint64_t quadrant = quarters(x, &r, &r_error);
+    const double value = quadrant & 1 ? cosine_near(r, r_error) : sine_near(r, r_error);
+    return quadrant & 2 ? -value : value;
 }
 
-/* Return cos x. */
-static inline double cosine_of(double x)
+/*
+ * Return cos x, x in rad, with the same bits on every platform up to TURN_LIMIT; larger angles, infinity and NaN use
+ * the C library.
+ */
+static inline double compute_cosine(double x)
 {
     if (!(fabs(x) < TURN_LIMIT))
         return cos(x);
-    double r, rest;
-    const uint64_t k = quarters(x, &r, &rest);
-    const double found = k & 1 ? sine_near(r, rest) : cosine_near(r, rest);
-    return (k + 1) & 2 ? -found : found;
+    double r, r_error;
+    const uint64_t quadrant = quarters(x, &r, &r_error);
+    const double value = quadrant & 1 ? sine_near(r, r_error) : cosine_near(r, r_error);
+    return (quadrant + 1) & 2 ? -value : value;
 }
 
 /* Return whether x is positive, finite and not subnormal. */
 static inline int is_normal(double x) { return x >= DBL_MIN && x <= DBL_MAX; }
 
 /* Return whether x^y is computed by a square root: powers 3/2 and 1/2, as in Hertz's force and its slope. */
-static inline int is_of_root(double x, double y) { return x > 1e-150 && x < 1e150 && (y == 1.5 || y == 0.5); }
+static inline int is_square_root_power(double x, double y) { return x > 1e-150 && x < 1e150 && (y == 1.5 || y == 0.5); }
 
 /* Return exp x. */
-static inline double exp_of(double x) { return fabs(x) < 700.0 ? exp_of_parts(x, 0.0) : exp(x); }
+static inline double compute_exponential(double x) { return fabs(x) < 700.0 ? exp_of_parts(x, 0.0) : exp(x); }
 
-/* Return ln x. */
-static inline double log_of(double x)
+/*
+ * Return ln x with the same bits on every platform; zero, negative, subnormal and infinite x and NaN use the C library.
+ */
+static inline double compute_logarithm(double x)
 {
-    double rest;
-    return is_normal(x) ? log_in_parts(x, &rest) : log(x);
+    double error;
+    return is_normal(x) ? log_in_parts(x, &error) : log(x);
 }
 
-/* Return x^y. */
-static inline double power_of(double x, double y)
+/*
+ * Return x^y with the same bits on every platform: square roots for y = 1/2 and 3/2, else exp(y ln x) in two parts.
+ * Arguments or results outside of the range use the C library.
+ */
+static inline double compute_power(double x, double y)
 {
-    if (is_of_root(x, y))
+    if (is_square_root_power(x, y))
         return y == 0.5 ? sqrt(x) : three_halves(x, sqrt(x));
     if (is_normal(x) && fabs(y) < 0x1p60) {
-        double rest;
-        const double log_x = log_in_parts(x, &rest), x_high = upper_half(log_x), y_high = upper_half(y);
+        double log_error;
+        const double log_x = log_in_parts(x, &log_error), x_high = upper_half(log_x), y_high = upper_half(y);
         const double high = y_high * x_high;
         if (fabs(high) < 690.0)
-            return exp_of_parts(high, (y - y_high) * x_high + y * (log_x - x_high + rest));
+            return exp_of_parts(high, (y - y_high) * x_high + y * (log_x - x_high + log_error));
     }
     return pow(x, y);
 }
 
-/* Return (asin(x) - x) / x from z = x^2 up to 1/4. */
-static inline double asin_share(double z)
+/* Return (asin(x) - x) / x from z = x^2 <= 1/4, by a rational approximation. */
+static inline double compute_arcsine_quotient(double z)
 {
     const double p = z * (1.66666666666666657415e-01 + z * (-3.25565818622400915405e-01
         + z * (2.01212532134862925881e-01 + z * (-4.00555345006794114027e-02
@@ -107,26 +118,26 @@ static inline double asin_share(double z)
         + z * (-6.88283971605453293030e-01 + z * 7.70381505559019352791e-02))));
 }
 
-/* Return arcsin x. */
-static inline double asine_of(double x)
+/* Return arcsin x in rad with the same bits on every platform; |x| >= 1 and NaN use the C library. */
+static inline double compute_arcsine(double x)
 {
-    const double right = 1.57079632679489655800e+00, right_low = 6.12323399573676603587e-17, a = fabs(x);
+    const double half_pi = 1.57079632679489655800e+00, half_pi_low = 6.12323399573676603587e-17, a = fabs(x);
     const double shift = 50331648.0; /* adding and subtracting it rounds to a multiple of 2^-27 */
     if (!(a < 1.0))
         return asin(x);
     if (a < 0.5)
-        return x + x * asin_share(x * x);
+        return x + x * compute_arcsine_quotient(x * x);
     /* pi/2 - 2 asin s with s = f + c: right - 2 f and f^2 are exact */
     const double z = 0.5 - 0.5 * a, s = sqrt(z), f = s + shift - shift, c = (z - f * f) / (s + f);
-    const double found = right - 2.0 * f - (2.0 * s * asin_share(z) - (right_low - 2.0 * c));
-    return x < 0.0 ? -found : found;
+    const double value = half_pi - 2.0 * f - (2.0 * s * compute_arcsine_quotient(z) - (half_pi_low - 2.0 * c));
+    return x < 0.0 ? -value : value;
 }
 
-#define sin(x) sine_of(x)
-#define cos(x) cosine_of(x)
-#define asin(x) asine_of(x)
-#define exp(x) exp_of(x)
-#define log(x) log_of(x)
-#define pow(x, y) power_of(x, y)
+#define sin(x) compute_sine(x)
+#define cos(x) compute_cosine(x)
+#define asin(x) compute_arcsine(x)
+#define exp(x) compute_exponential(x)
+#define log(x) compute_logarithm(x)
+#define pow(x, y) compute_power(x, y)
 
 #endif

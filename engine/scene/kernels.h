@@ -134,12 +134,14 @@ void solve_block(int n, const double *A, const int *order, double *x);
  * Accelerations (N_Q) by the equations of all bodies, at a state `all` (q, v, work) of theirs, and the largest force of
  * constraints and of friction, N. Returns a status.
  */
-int absolute_accelerations(double t, const double *all, const DiscreteState *discrete, const Parameters *p, double *a,
+int compute_absolute_accelerations(double t, const double *all, const DiscreteState *discrete, const Parameters *p,
+    double *a,
     double *force);
 /* Return whether the first or second rate of a drive jumps at time t. */
 int drives_jump(double t, const double *q, const double *v, const Parameters *p);
 /* Phi_q v - nu, and nu, of all constraint equations; Phi_q v is the difference of Phi over h (s) before and after. */
-void velocity_residuals(double t, const double *q, const double *v, double h, const Parameters *p, double *missed,
+void compute_velocity_residuals(double t, const double *q, const double *v, double h, const Parameters *p,
+    double *missed,
     double *nu);
 
 #if N_TERMS || KNOWN_BOUNDS

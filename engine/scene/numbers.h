@@ -21,13 +21,13 @@ static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 
 /* Return whether both numbers are positive or both negative; their product may underflow. */
 static inline int have_same_sign(double x, double y) { return x > 0.0 ? y > 0.0 : x < 0.0 && y < 0.0; }
 
-/* Return whether n values are finite. */
+/* Return whether the n values x are all finite; 1 for n = 0. */
 static inline int all_finite(const double *x, int n)
 {
-    double none = 0.0;
+    double zero = 0.0;
     for (int k = 0; k < n; k++)
-        none += 0.0 * x[k];
-    return none == 0.0;
+        zero += 0.0 * x[k];
+    return zero == 0.0;
 }
 
 /* Return whether two numbers are equal to the last bit; NaN equals nothing. */
@@ -46,17 +46,17 @@ static inline double rounded(double t, double h) { return 8.0 * DBL_EPSILON * fa
 #endif
 
 /*
- * Return the time at which step i (0, 1, ...) of fixed length `step` ends, from t0 towards t_end, and its length h. The
- * last step ends at t_end and may be shorter. Steps from a multiple of their length end at multiples, so that a resumed
- * run makes the same steps to the bit.
+ * Return the time in s at which a step of fixed length ends, from t_begin towards t_end, and its length *length. index:
+ * number of the step, from 0. The last step ends at t_end and may be shorter. Steps from a multiple of their length end
+ * at multiples, so that a resumed run makes the same steps to the bit.
  */
-static inline double step_end(double t0, double t_end, double step, double i, double *h)
+static inline double step_end(double t_begin, double t_end, double fixed_step, double index, double *length)
 {
-    const double total = max_of(ceil((t_end - t0) / step * (1.0 - 1e-12)), 1.0);
-    const double rest = t_end - t0 - (total - 1.0) * step, count = rint(t0 / step);
-    const int multiple = fabs(count * step - t0) <= rounded(t0, step);
-    *h = i < total || fabs(rest - step) < 1e-9 * step ? step : rest;
-    return i < total ? (multiple ? (count + i) * step : t0 + i * step) : t_end;
+    const double n_steps = max_of(ceil((t_end - t_begin) / fixed_step * (1.0 - 1e-12)), 1.0);
+    const double last_length = t_end - t_begin - (n_steps - 1.0) * fixed_step, n_before = rint(t_begin / fixed_step);
+    const int is_multiple = fabs(n_before * fixed_step - t_begin) <= rounded(t_begin, fixed_step);
+    *length = index < n_steps || fabs(last_length - fixed_step) < 1e-9 * fixed_step ? fixed_step : last_length;
+    return index < n_steps ? (is_multiple ? (n_before + index) * fixed_step : t_begin + index * fixed_step) : t_end;
 }
 
 /* Return a point slightly larger than x, for a difference quotient. */
@@ -64,12 +64,12 @@ static inline double just_ahead(double x) { return x + 1e-9 * (1.0 + fabs(x)); }
 /* Return a point slightly smaller than x, for a difference quotient. */
 static inline double just_behind(double x) { return x - 1e-9 * (1.0 + fabs(x)); }
 /*
- * Return the derivative, or the difference quotient of two values `way` apart if it is not finite. A finite term whose
- * derivative overflows is saturated.
+ * Return the derivative, or the difference quotient of two values `distance` apart if the derivative is not finite. A
+ * finite term whose derivative overflows is saturated.
  */
-static inline double finite_slope(double derivative, double ahead, double behind, double way)
+static inline double finite_slope(double derivative, double value_after, double value_before, double distance)
 {
-    return isfinite(derivative) ? derivative : (ahead - behind) / way;
+    return isfinite(derivative) ? derivative : (value_after - value_before) / distance;
 }
 
 /* Return a time just after t, so that rounding does not hide on which branch a drive continues. */
@@ -77,63 +77,69 @@ static inline double just_after(double t) { return t + max_of(32.0 * DBL_EPSILON
 /* Return the time at which rates of drives are evaluated: just after t if they may jump, else t. */
 static inline double after_jump(double t) { return RATE_JUMPS ? just_after(t) : t; }
 
-/* Return mod(a, b) in [0, b). The end of a period belongs to the period that begins there. */
+/* Return mod(a, b) in [0, b), with the sign of b. The end of a period belongs to the period that begins there. */
 static inline double mod_of(double a, double b)
 {
-    const double rest = fmod(a, b);
-    return rest != 0.0 && (rest < 0.0) != (b < 0.0) ? rest + b : rest;
+    const double remainder = fmod(a, b);
+    return remainder != 0.0 && (remainder < 0.0) != (b < 0.0) ? remainder + b : remainder;
 }
 
 /*
- * Return mod(a, b) on a frozen branch: continued half a period beyond both ends of the even (1) or odd (-1) periods;
- * branch 0: mod(a, b).
+ * Return mod(a, b) on a frozen branch: continued half a period beyond both ends of the even (branch 1) or odd (-1)
+ * periods. branch 0: mod(a, b).
  */
 static inline double mod_on(double a, double b, double branch)
 {
-    const double rest = mod_of(a, 2.0 * b), x = rest / b;
+    const double remainder = mod_of(a, 2.0 * b), n_periods = remainder / b;
     if (branch == 0.0)
         return mod_of(a, b);
-    return branch > 0.0 ? (x < 1.5 ? rest : rest - 2.0 * b) : (x < 0.5 ? rest + b : rest - b);
+    return branch > 0.0 ? (n_periods < 1.5 ? remainder : remainder - 2.0 * b)
+        : (n_periods < 0.5 ? remainder + b : remainder - b);
 }
 
 /*
- * Return a function whose zeros are the ends of the periods: parabolas, positive in even periods of a/b, negative in
- * odd ones.
+ * Return a switching function whose zeros are the ends of the periods of mod(a, b): parabolas, positive in even periods
+ * of a/b, negative in odd ones.
  */
 static inline double period_branch(double a, double b)
 {
-    const double x = mod_of(a, 2.0 * b) / b;
-    return x < 1.0 ? 4.0 * x * (1.0 - x) : min_of(4.0 * (x - 1.0) * (x - 2.0), -DBL_MIN);
+    const double n_periods = mod_of(a, 2.0 * b) / b;
+    return n_periods < 1.0 ? 4.0 * n_periods * (1.0 - n_periods)
+        : min_of(4.0 * (n_periods - 1.0) * (n_periods - 2.0), -DBL_MIN);
 }
 
 /*
- * Return the branch of switching function k: the frozen one, or the sign of `value` if `branch` is NULL. g[k] is set to
- * `value`.
+ * Return the branch of a switching function: the frozen one, or the sign of `value` if `branch` is NULL.
+ * g[switch_index] is set to `value`.
  */
-static inline double branch_of(const double *branch, double *g, int k, double value)
+static inline double branch_of(const double *branch, double *g, int switch_index, double value)
 {
-    g[k] = value;
-    return branch ? branch[k] : sign_of(value);
+    g[switch_index] = value;
+    return branch ? branch[switch_index] : sign_of(value);
 }
 
 #define TURN_SMALL 0.01 /* rad: below it the series of turn_back are exact to rounding */
 
-/* Update cosine and sine, direction[2], of an angle that is reduced by x < TURN_SMALL rad. */
-static inline void turn_back(double *direction, double x)
+/*
+ * Update cosine and sine, direction[2], of an angle that is reduced by a small angle (less than TURN_SMALL, rad), by
+ * series.
+ */
+static inline void turn_back(double *direction, double angle)
 {
-    const double z = x * x, c = direction[0], s = direction[1];
-    const double sine = x * (1.0 - (1.0 / 6.0) * z * (1.0 - 0.05 * z));
-    const double less = 0.5 * z * (1.0 - (1.0 / 12.0) * z * (1.0 - (1.0 / 30.0) * z));
-    direction[0] = c + (s * sine - c * less);
-    direction[1] = s - (c * sine + s * less);
+    const double angle_squared = angle * angle, c = direction[0], s = direction[1];
+    const double sine = angle * (1.0 - (1.0 / 6.0) * angle_squared * (1.0 - 0.05 * angle_squared));
+    const double one_minus_cosine = 0.5 * angle_squared
+        * (1.0 - (1.0 / 12.0) * angle_squared * (1.0 - (1.0 / 30.0) * angle_squared));
+    direction[0] = c + (s * sine - c * one_minus_cosine);
+    direction[1] = s - (c * sine + s * one_minus_cosine);
 }
 
-/* Return the weight of node k at 0 for Lagrange's polynomial through the nodes -n ... -1, 1 ... n. */
-static inline double weight_at(int n, int k)
+/* Return the weight of a node at 0 for Lagrange's interpolation through the nodes -n ... -1, 1 ... n. */
+static inline double weight_at(int n, int node)
 {
     double weight = 1.0;
-    for (int j = 1; j <= n; j++)
-        weight *= j == k ? 0.5 : (double)(j * j) / (double)(j * j - k * k);
+    for (int other = 1; other <= n; other++)
+        weight *= other == node ? 0.5 : (double)(other * other) / (double)(other * other - node * node);
     return weight;
 }
 

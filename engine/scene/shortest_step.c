@@ -19,250 +19,276 @@ enum {
  * For the least-squares step coordinates take the place of equations. */
 typedef struct {
     int n;
-    short row[N_NORMAL + 1], meets[N_Q][N_START_ROWS + 1], n_meets[N_Q];
-    short filled[N_NORMAL + 1][N_NORMAL + 1], n_filled[N_NORMAL + 1];
-} System;
+    short row[N_NORMAL + 1], equations_of[N_Q][N_START_ROWS + 1], n_equations_of[N_Q];
+    short factor_entries[N_NORMAL + 1][N_NORMAL + 1], n_factor_entries[N_NORMAL + 1];
+} EquationSystem;
 
 /* Workspace of a start: linearized equations with residuals (columns divided by weights), a normal matrix (upper half)
  * and the reciprocal diagonal of its factor, guess and set values, patterns. */
 typedef struct {
-    double size, reach, weight[N_Q], step[N_Q], placed[N_Q];
-    double first[N_Q], beyond[N_Q], other[N_Q];
+    double size, radius, weight[N_Q], step[N_Q], reference[N_Q];
+    double first_solution[N_Q], mirrored[N_Q], trial[N_Q];
     double guess[N_GUESS + 1], set[N_SET + N_APART + 1], rates[N_RATES + N_APART + 1];
-    double row[N_START_ROWS + 1][N_Q], rest[N_START_ROWS + 1], over_row[N_START_ROWS + 1], over_weight[N_Q];
-    double normal[N_NORMAL + 1][N_NORMAL + 1], over_pivot[N_NORMAL + 1], right[N_NORMAL + 1];
-    unsigned char has[N_NORMAL + 1][N_NORMAL + 1];
-    System first_step, all, some;
+    double row[N_START_ROWS + 1][N_Q], residual[N_START_ROWS + 1], row_scale[N_START_ROWS + 1], column_scale[N_Q];
+    double normal[N_NORMAL + 1][N_NORMAL + 1], inverse_pivot[N_NORMAL + 1], rhs[N_NORMAL + 1];
+    unsigned char pattern[N_NORMAL + 1][N_NORMAL + 1];
+    EquationSystem first_step, all, subset;
     double nearest; /* squared distance from the guess that a configuration must improve on */
     int dependent;  /* whether dependent equations are left out: the residuals show if they do not close */
     Cancellation *cancellation;
-} Closing;
+} StartWorkspace;
 
 /*
- * List the coordinates with an entry in equation r: a few for joints and drives; the set coordinate own[] for the
- * equations after these. Returns their number.
+ * List the coordinates with an entry in an equation of a start: a few for constraint equations, one of set_coordinates
+ * for each equation after these. coordinates: the result, at most N_Q. Return their number.
  */
-static int places_of(int r, const int *own, int *place)
+static int list_coordinates_of_equation(int equation, const int *set_coordinates, int *coordinates)
 {
-    int n = 0;
-    if (r >= N_ALL_ROWS)
-        place[n++] = own[r - N_ALL_ROWS];
+    int count = 0;
+    if (equation >= N_ALL_ROWS)
+        coordinates[count++] = set_coordinates[equation - N_ALL_ROWS];
     else
-        for (int e = phi_q_first[r]; e < phi_q_first[r + 1]; e++)
-            place[n++] = phi_q_place[e];
-    return n;
+        for (int entry = phi_q_first[equation]; entry < phi_q_first[equation + 1]; entry++)
+            coordinates[count++] = phi_q_place[entry];
+    return count;
 }
 
-/* Compute the nonzeros of the factor of a normal matrix from its pattern w->has (upper half). */
-SELDOM static void fill(Closing *w, System *of)
+/*
+ * Compute the nonzeros of the Cholesky factor of a normal matrix into `system`, from the pattern in the workspace
+ * (upper half), which is completed as well.
+ */
+SELDOM static void compute_fill_in(StartWorkspace *workspace, EquationSystem *system)
 {
-    for (int k = 0; k < of->n; k++) {
-        short *place = of->filled[k];
-        int many = 0;
-        for (int i = k + 1; i < of->n; i++)
-            if (w->has[k][i])
-                place[many++] = (short)i;
-        of->n_filled[k] = (short)many;
-        for (int a = 0; a < many; a++)
-            for (int b = a + 1; b < many; b++)
-                w->has[place[a]][place[b]] = 1;
+    for (int k = 0; k < system->n; k++) {
+        short *entries = system->factor_entries[k];
+        int n_filled = 0;
+        for (int i = k + 1; i < system->n; i++)
+            if (workspace->pattern[k][i])
+                entries[n_filled++] = (short)i;
+        system->n_factor_entries[k] = (short)n_filled;
+        for (int a = 0; a < n_filled; a++)
+            for (int b = a + 1; b < n_filled; b++)
+                workspace->pattern[entries[a]][entries[b]] = 1;
     }
 }
 
-/* Clear the pattern of an n x n matrix (upper half). */
-static void clear_pattern(Closing *w, int n)
+/* Clear the pattern of an n x n matrix in the workspace (upper half). */
+static void clear_pattern(StartWorkspace *workspace, int n)
 {
     for (int i = 0; i < n; i++)
         for (int j = i; j < n; j++)
-            w->has[i][j] = 0;
+            workspace->pattern[i][j] = 0;
 }
 
-/* Compute the pattern of the normal matrix row row^T: equations with a common coordinate. own: set coordinates. */
-SELDOM static void find_meetings(Closing *w, System *of, const int *own)
+/*
+ * Compute the pattern of the normal matrix row row^T of the equations of `system`: two equations meet if they have a
+ * common coordinate. Also compute the nonzeros of its factor. set_coordinates: coordinates of the equations after the
+ * constraint equations.
+ */
+SELDOM static void compute_normal_pattern(StartWorkspace *workspace, EquationSystem *system, const int *set_coordinates)
 {
-    int place[N_Q];
+    int coordinates[N_Q];
     for (int k = 0; k < N_Q; k++)
-        of->n_meets[k] = 0;
-    for (int i = 0; i < of->n; i++) {
-        const int n = places_of(of->row[i], own, place);
+        system->n_equations_of[k] = 0;
+    for (int i = 0; i < system->n; i++) {
+        const int n = list_coordinates_of_equation(system->row[i], set_coordinates, coordinates);
         for (int a = 0; a < n; a++)
-            of->meets[place[a]][of->n_meets[place[a]]++] = (short)i;
+            system->equations_of[coordinates[a]][system->n_equations_of[coordinates[a]]++] = (short)i;
     }
-    clear_pattern(w, of->n);
+    clear_pattern(workspace, system->n);
     for (int k = 0; k < N_Q; k++)
-        for (int a = 0; a < of->n_meets[k]; a++)
-            for (int b = a + 1; b < of->n_meets[k]; b++)
-                w->has[of->meets[k][a]][of->meets[k][b]] = 1;
-    fill(w, of);
+        for (int a = 0; a < system->n_equations_of[k]; a++)
+            for (int b = a + 1; b < system->n_equations_of[k]; b++)
+                workspace->pattern[system->equations_of[k][a]][system->equations_of[k][b]] = 1;
+    compute_fill_in(workspace, system);
 }
 
-/* Set a system to equations 0 ... n - 1 and compute its pattern. */
-static void rows_together(Closing *w, System *of, int n, const int *own)
+/*
+ * Set a system to the equations 0 ... n - 1 and compute its pattern. set_coordinates: coordinates of the equations
+ * after the constraint equations.
+ */
+static void select_leading_equations(
+    StartWorkspace *workspace, EquationSystem *system, int n, const int *set_coordinates)
 {
-    of->n = n;
-    for (int r = 0; r < n; r++)
-        of->row[r] = (short)r;
-    find_meetings(w, of, own);
+    system->n = n;
+    for (int equation = 0; equation < n; equation++)
+        system->row[equation] = (short)equation;
+    compute_normal_pattern(workspace, system, set_coordinates);
 }
 
-/* Set the normal matrix to zero. */
-static void clear_normal(Closing *w, const System *of)
+/* Set the nonzeros of the normal matrix of a system to zero. */
+static void clear_normal_matrix(StartWorkspace *workspace, const EquationSystem *system)
 {
-    for (int k = 0; k < of->n; k++) {
-        w->normal[k][k] = 0.0;
-        for (int a = 0; a < of->n_filled[k]; a++)
-            w->normal[k][of->filled[k][a]] = 0.0;
+    for (int k = 0; k < system->n; k++) {
+        workspace->normal[k][k] = 0.0;
+        for (int a = 0; a < system->n_factor_entries[k]; a++)
+            workspace->normal[k][system->factor_entries[k][a]] = 0.0;
     }
 }
 
 /*
- * Factorize the normal matrix U^T U by Cholesky's method, by rows of its upper half, in place. Returns 1 if a pivot
- * nearly vanishes, or on cancellation.
+ * Factorize the normal matrix U^T U of a system by Cholesky's method, by rows of its upper half, in place. Return 1 if
+ * a pivot nearly vanishes (unless dependent equations are left out), is not finite, or on cancellation; else 0.
  */
-SELDOM static int factor_normal(Closing *w, const System *of)
+SELDOM static int factorize_normal_matrix(StartWorkspace *workspace, const EquationSystem *system)
 {
-    double *whole = w->right; /* not yet in use */
-    for (int k = 0; k < of->n; k++)
-        whole[k] = w->normal[k][k];
-    for (int k = 0; k < of->n; k++) {
-        double *u = w->normal[k];
-        const short *place = of->filled[k];
-        const int many = of->n_filled[k], stands = u[k] > 1e-12 * whole[k];
-        if (is_cancelled(w->cancellation))
+    double *diagonal = workspace->rhs; /* not yet in use */
+    for (int k = 0; k < system->n; k++)
+        diagonal[k] = workspace->normal[k][k];
+    for (int k = 0; k < system->n; k++) {
+        double *u = workspace->normal[k];
+        const short *entries = system->factor_entries[k];
+        const int n_filled = system->n_factor_entries[k], is_pivot = u[k] > 1e-12 * diagonal[k];
+        if (is_cancelled(workspace->cancellation))
             return 1;
-        if (!isfinite(whole[k]) || (!stands && !w->dependent))
+        if (!isfinite(diagonal[k]) || (!is_pivot && !workspace->dependent))
             return 1;
-        const double over = stands ? 1.0 / sqrt(u[k]) : 0.0; /* 0: its unknown is 0 */
-        w->over_pivot[k] = over;
-        for (int a = 0; a < many; a++)
-            u[place[a]] *= over;
-        for (int a = 0; a < many; a++) {
-            const double factor = u[place[a]];
-            double *below = w->normal[place[a]];
-            for (int b = a; b < many; b++)
-                below[place[b]] -= factor * u[place[b]];
+        const double inverse_pivot = is_pivot ? 1.0 / sqrt(u[k]) : 0.0; /* 0: its unknown is 0 */
+        workspace->inverse_pivot[k] = inverse_pivot;
+        for (int a = 0; a < n_filled; a++)
+            u[entries[a]] *= inverse_pivot;
+        for (int a = 0; a < n_filled; a++) {
+            const double factor = u[entries[a]];
+            double *below = workspace->normal[entries[a]];
+            for (int b = a; b < n_filled; b++)
+                below[entries[b]] -= factor * u[entries[b]];
         }
     }
     return 0;
 }
 
-/* Solve the factorized normal system; w->right: right-hand side on entry, solution on return. */
-static void solve_normal(Closing *w, const System *of)
+/* Solve the factorized normal system of equations in workspace->rhs: right-hand side on entry, solution on return. */
+static void solve_normal_system(StartWorkspace *workspace, const EquationSystem *system)
 {
-    for (int k = 0; k < of->n; k++) {
-        const double *u = w->normal[k];
-        w->right[k] *= w->over_pivot[k];
-        for (int a = 0; a < of->n_filled[k]; a++)
-            w->right[of->filled[k][a]] -= u[of->filled[k][a]] * w->right[k];
+    for (int k = 0; k < system->n; k++) {
+        const double *u = workspace->normal[k];
+        workspace->rhs[k] *= workspace->inverse_pivot[k];
+        for (int a = 0; a < system->n_factor_entries[k]; a++)
+            workspace->rhs[system->factor_entries[k][a]] -= u[system->factor_entries[k][a]] * workspace->rhs[k];
     }
-    for (int k = of->n - 1; k >= 0; k--) {
-        for (int a = 0; a < of->n_filled[k]; a++)
-            w->right[k] -= w->normal[k][of->filled[k][a]] * w->right[of->filled[k][a]];
-        w->right[k] *= w->over_pivot[k];
-    }
-}
-
-/* Compute and factorize the normal matrix row row^T. Returns 1 if a pivot nearly vanishes. */
-static int factor_rows(Closing *w, const System *of)
-{
-    double entry[N_START_ROWS + 1];
-    clear_normal(w, of);
-    for (int k = 0; k < N_Q; k++) {
-        const short *those = of->meets[k];
-        const int n = of->n_meets[k];
-        for (int a = 0; a < n; a++)
-            entry[a] = w->row[of->row[those[a]]][k];
-        for (int a = 0; a < n; a++)
-            for (int b = a; b < n; b++)
-                w->normal[those[a]][those[b]] += entry[a] * entry[b];
-    }
-    return factor_normal(w, of);
-}
-
-/* Compute the smallest step with row step = rest from the factorized equations: step = row^T x, row row^T x = rest. */
-static void step_of_rows(Closing *w, const System *of)
-{
-    for (int i = 0; i < of->n; i++)
-        w->right[i] = w->rest[of->row[i]];
-    solve_normal(w, of);
-    for (int k = 0; k < N_Q; k++) {
-        w->step[k] = 0.0;
-        for (int a = 0; a < of->n_meets[k]; a++)
-            w->step[k] += w->row[of->row[of->meets[k][a]]][k] * w->right[of->meets[k][a]];
-    }
-}
-
-/* Compute the pattern of row^T row: coordinates with a common equation. */
-static void find_pairs(Closing *w, System *of)
-{
-    int place[N_Q];
-    of->n = N_Q;
-    clear_pattern(w, N_Q);
-    for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
-        const int n = places_of(r, set_place, place);
-        for (int i = 0; i < n; i++)
-            for (int j = 0; j < n; j++)
-                w->has[place[i]][place[j]] = 1;
-    }
-    fill(w, of);
-}
-
-/* Compute row^T row for positions only, without angles. */
-static void add_rows(Closing *w, const System *of)
-{
-    int place[N_Q];
-    clear_normal(w, of);
-    for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
-        const int n = places_of(r, set_place, place);
-        for (int i = 0; i < n; i++)
-            for (int j = 0; j < n && place[i] % 3 != 2; j++)
-                if (place[j] % 3 != 2 && place[j] >= place[i])
-                    w->normal[place[i]][place[j]] += w->row[r][place[i]] * w->row[r][place[j]];
-    }
-}
-
-/* Compute row^T (rest - row step) - damping step in w->right, for positions only. */
-static void add_rest(Closing *w, double damping)
-{
-    int place[N_Q];
-    for (int k = 0; k < N_Q; k++)
-        w->right[k] = -damping * w->step[k];
-    for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
-        const int n = places_of(r, set_place, place);
-        double left = w->rest[r];
-        for (int i = 0; i < n; i++)
-            left -= w->row[r][place[i]] * w->step[place[i]];
-        for (int i = 0; i < n; i++)
-            if (place[i] % 3 != 2)
-                w->right[place[i]] += w->row[r][place[i]] * left;
+    for (int k = system->n - 1; k >= 0; k--) {
+        for (int a = 0; a < system->n_factor_entries[k]; a++)
+            workspace->rhs[k] -= workspace->normal[k][system->factor_entries[k][a]]
+                * workspace->rhs[system->factor_entries[k][a]];
+        workspace->rhs[k] *= workspace->inverse_pivot[k];
     }
 }
 
 /*
- * Compute the slightly damped least-squares step of positions, with which Newton's method begins. It is refined once:
- * along directions without equations the damped matrix has six digits only. Returns 1 on failure.
+ * Compute and factorize the normal matrix row row^T of the equations of a system. Return 1 if a pivot nearly vanishes
+ * or on cancellation, else 0.
  */
-static int nearest_step(Closing *w)
+static int factorize_equations(StartWorkspace *workspace, const EquationSystem *system)
 {
-    System *of = &w->first_step;
-    double trace = 0.0;
-    if (!of->n)
-        find_pairs(w, of);
-    add_rows(w, of);
+    double entry[N_START_ROWS + 1];
+    clear_normal_matrix(workspace, system);
+    for (int k = 0; k < N_Q; k++) {
+        const short *equations = system->equations_of[k];
+        const int n = system->n_equations_of[k];
+        for (int a = 0; a < n; a++)
+            entry[a] = workspace->row[system->row[equations[a]]][k];
+        for (int a = 0; a < n; a++)
+            for (int b = a; b < n; b++)
+                workspace->normal[equations[a]][equations[b]] += entry[a] * entry[b];
+    }
+    return factorize_normal_matrix(workspace, system);
+}
+
+/*
+ * Compute the smallest step that satisfies row step = residual from the factorized equations of a system: step = row^T
+ * x, where row row^T x = residual. The result is workspace->step (N_Q).
+ */
+static void compute_smallest_step(StartWorkspace *workspace, const EquationSystem *system)
+{
+    for (int i = 0; i < system->n; i++)
+        workspace->rhs[i] = workspace->residual[system->row[i]];
+    solve_normal_system(workspace, system);
+    for (int k = 0; k < N_Q; k++) {
+        workspace->step[k] = 0.0;
+        for (int a = 0; a < system->n_equations_of[k]; a++)
+            workspace->step[k] += workspace->row[system->row[system->equations_of[k][a]]][k]
+                * workspace->rhs[system->equations_of[k][a]];
+    }
+}
+
+/*
+ * Compute the pattern of row^T row into `system`: coordinates with a common equation, and the nonzeros of its factor.
+ */
+static void compute_coordinate_pattern(StartWorkspace *workspace, EquationSystem *system)
+{
+    int coordinates[N_Q];
+    system->n = N_Q;
+    clear_pattern(workspace, N_Q);
+    for (int equation = 0; equation < N_ALL_ROWS + N_SET; equation++) {
+        const int n = list_coordinates_of_equation(equation, set_place, coordinates);
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < n; j++)
+                workspace->pattern[coordinates[i]][coordinates[j]] = 1;
+    }
+    compute_fill_in(workspace, system);
+}
+
+/* Compute the matrix row^T row of all equations in workspace->normal, for positions only; rows of angles stay zero. */
+static void compute_position_matrix(StartWorkspace *workspace, const EquationSystem *system)
+{
+    int coordinates[N_Q];
+    clear_normal_matrix(workspace, system);
+    for (int equation = 0; equation < N_ALL_ROWS + N_SET; equation++) {
+        const int n = list_coordinates_of_equation(equation, set_place, coordinates);
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < n && coordinates[i] % 3 != 2; j++)
+                if (coordinates[j] % 3 != 2 && coordinates[j] >= coordinates[i])
+                    workspace->normal[coordinates[i]][coordinates[j]] += workspace->row[equation][coordinates[i]]
+                        * workspace->row[equation][coordinates[j]];
+    }
+}
+
+/*
+ * Compute row^T (residual - row step) - damping step in workspace->rhs, the right-hand side of the least-squares step,
+ * for positions only.
+ */
+static void compute_position_rhs(StartWorkspace *workspace, double damping)
+{
+    int coordinates[N_Q];
     for (int k = 0; k < N_Q; k++)
-        trace += w->normal[k][k];
+        workspace->rhs[k] = -damping * workspace->step[k];
+    for (int equation = 0; equation < N_ALL_ROWS + N_SET; equation++) {
+        const int n = list_coordinates_of_equation(equation, set_place, coordinates);
+        double residual = workspace->residual[equation];
+        for (int i = 0; i < n; i++)
+            residual -= workspace->row[equation][coordinates[i]] * workspace->step[coordinates[i]];
+        for (int i = 0; i < n; i++)
+            if (coordinates[i] % 3 != 2)
+                workspace->rhs[coordinates[i]] += workspace->row[equation][coordinates[i]] * residual;
+    }
+}
+
+/*
+ * Compute the slightly damped least-squares step of positions, with which Newton's method begins, into workspace->step;
+ * angles stay. It is refined once: along directions without equations the damped matrix has six digits only. Return 1
+ * on failure, else 0.
+ */
+static int compute_least_squares_step(StartWorkspace *workspace)
+{
+    EquationSystem *system = &workspace->first_step;
+    double trace = 0.0;
+    if (!system->n)
+        compute_coordinate_pattern(workspace, system);
+    compute_position_matrix(workspace, system);
+    for (int k = 0; k < N_Q; k++)
+        trace += workspace->normal[k][k];
     const double damping = 1e-10 * trace + 1e-300;
     for (int k = 0; k < N_Q; k++) {
-        w->normal[k][k] += damping;
-        w->step[k] = 0.0;
+        workspace->normal[k][k] += damping;
+        workspace->step[k] = 0.0;
     }
-    if (factor_normal(w, of))
+    if (factorize_normal_matrix(workspace, system))
         return 1;
     for (int pass = 0; pass < 2; pass++) {
-        add_rest(w, damping);
-        solve_normal(w, of);
+        compute_position_rhs(workspace, damping);
+        solve_normal_system(workspace, system);
         for (int k = 0; k < N_Q; k++)
-            w->step[k] += w->right[k];
+            workspace->step[k] += workspace->rhs[k];
     }
     return 0;
 }

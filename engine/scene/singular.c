@@ -20,7 +20,7 @@ typedef struct {
     double left[N_Q][N_BESIDE];               /* (Phi_q M^(-1/2))^T: remainder of each row outside the basis */
     double lower[AT_LEAST_ONE(N_ROWS)][N_BESIDE]; /* row i = sum over k of lower[k][i] basis[k] */
     double unused[N_BESIDE];                  /* 1 of a row that is not in the basis, 0 of others */
-    double all[N_ALL_ROWS][N_Q], root[N_Q], y[N_Q], along[AT_LEAST_ONE(N_ROWS)], rest[AT_LEAST_ONE(N_ROWS)];
+    double all[N_ALL_ROWS][N_Q], root[N_Q], y[N_Q], along[AT_LEAST_ONE(N_ROWS)], residual[AT_LEAST_ONE(N_ROWS)];
     double norm[AT_LEAST_ONE(N_ROWS)];
     /* M over the norm, its root^-1 g, Z^T M Z and its solution */
     double fraction[N_Q], force[N_Q], free[N_Q][N_Q], z[N_Q];
@@ -29,7 +29,7 @@ typedef struct {
 } Workspace;
 
 /* Return the scalar product of two vectors (N_Q), by three independent sums. */
-static double dot(const double *a, const double *b)
+static double compute_dot_product(const double *a, const double *b)
 {
     double x = 0.0, y = 0.0, theta = 0.0;
     for (int k = 0; k < N_Q; k += 3) {
@@ -40,262 +40,284 @@ static double dot(const double *a, const double *b)
     return x + y + theta;
 }
 
-/* Compute the products of all rows with a vector: sum[N_BESIDE]. */
-static void dot_rows(double (*restrict rows)[N_BESIDE], const double *vector, double *restrict sum)
+/*
+ * Compute the scalar products of all rows (N_Q x N_BESIDE, stored by columns) with a vector (N_Q): products (N_BESIDE).
+ */
+static void multiply_rows_by_vector(double (*restrict rows)[N_BESIDE], const double *vector, double *restrict products)
 {
     for (int i = 0; i < N_BESIDE; i++)
-        sum[i] = 0.0;
+        products[i] = 0.0;
     for (int k = 0; k < N_Q; k++) {
         const double factor = vector[k];
         for (int i = 0; i < N_BESIDE; i++)
-            sum[i] += rows[k][i] * factor;
+            products[i] += rows[k][i] * factor;
     }
 }
 
-/* Compute the squared norms of all rows: sum[N_BESIDE]. */
-static void square_rows(double (*restrict rows)[N_BESIDE], double *restrict sum)
+/* Compute the squared norms of all rows (N_Q x N_BESIDE, stored by columns): squares (N_BESIDE). */
+static void compute_squared_norms(double (*restrict rows)[N_BESIDE], double *restrict squares)
 {
     for (int i = 0; i < N_BESIDE; i++)
-        sum[i] = 0.0;
+        squares[i] = 0.0;
     for (int k = 0; k < N_Q; k++)
         for (int i = 0; i < N_BESIDE; i++)
-            sum[i] += rows[k][i] * rows[k][i];
+            squares[i] += rows[k][i] * rows[k][i];
 }
 
-/* Subtract along[i] times a vector from each row i. */
-static void subtract_from_rows(double (*restrict rows)[N_BESIDE], const double *vector, const double *restrict along)
+/* Subtract factors[i] times a vector (N_Q) from each row i of a matrix (N_Q x N_BESIDE, stored by columns). */
+static void subtract_from_rows(double (*restrict rows)[N_BESIDE], const double *vector, const double *restrict factors)
 {
     for (int k = 0; k < N_Q; k++) {
-        const double factor = vector[k];
+        const double component = vector[k];
         for (int i = 0; i < N_BESIDE; i++)
-            rows[k][i] -= along[i] * factor;
-    }
-}
-
-/* Remove the component along the newest basis vector from every row not yet used, twice because of rounding. */
-static void remove_component(Workspace *w, int rank)
-{
-    const double *basis = w->basis[rank];
-    for (int pass = 0; pass < 2; pass++) {
-        double along[N_BESIDE];
-        dot_rows(w->left, basis, along);
-        for (int i = 0; i < N_BESIDE; i++) {
-            along[i] *= w->unused[i];
-            w->lower[rank][i] += along[i];
-        }
-        subtract_from_rows(w->left, basis, along);
+            rows[k][i] -= factors[i] * component;
     }
 }
 
 /*
- * Select independent rows, the largest remainder first, into w->order. least: squared relative remainder of a dependent
- * row. Returns their number, or -1 on cancellation.
+ * Remove the component along the newest basis vector, number `rank`, from every row not yet in the basis, twice because
+ * of rounding. The components are added to workspace->lower.
  */
-static int independent_rows(Workspace *w, double least)
+static void remove_basis_component(Workspace *workspace, int rank)
+{
+    const double *basis = workspace->basis[rank];
+    for (int pass = 0; pass < 2; pass++) {
+        double components[N_BESIDE];
+        multiply_rows_by_vector(workspace->left, basis, components);
+        for (int i = 0; i < N_BESIDE; i++) {
+            components[i] *= workspace->unused[i];
+            workspace->lower[rank][i] += components[i];
+        }
+        subtract_from_rows(workspace->left, basis, components);
+    }
+}
+
+/*
+ * Select independent rows into workspace->order, the largest remainder first, and compute the basis. min_square:
+ * squared relative remainder below which a row is dependent. Return their number, or -1 on cancellation.
+ */
+static int select_independent_rows(Workspace *workspace, double min_square)
 {
     int rank = 0;
     for (; rank < N_ROWS; rank++) {
-        if (w->cancellation && poll_cancellation(w->cancellation))
+        if (workspace->cancellation && poll_cancellation(workspace->cancellation))
             return -1;
-        int best = rank;
-        double most = 0.0, square[N_BESIDE];
-        square_rows(w->left, square);
+        int pivot = rank;
+        double largest = 0.0, square[N_BESIDE];
+        compute_squared_norms(workspace->left, square);
         for (int i = rank; i < N_ROWS; i++) {
-            const double left = square[w->order[i]] / w->norm[w->order[i]];
-            if (left > most) {
-                most = left;
-                best = i;
+            const double relative_square = square[workspace->order[i]] / workspace->norm[workspace->order[i]];
+            if (relative_square > largest) {
+                largest = relative_square;
+                pivot = i;
             }
         }
-        if (!(most > least))
+        if (!(largest > min_square))
             break;
-        const int chosen = w->order[best];
-        w->order[best] = w->order[rank];
-        w->order[rank] = chosen;
-        const double length = sqrt(square[chosen]);
+        const int row = workspace->order[pivot];
+        workspace->order[pivot] = workspace->order[rank];
+        workspace->order[rank] = row;
+        const double length = sqrt(square[row]);
         for (int k = 0; k < N_Q; k++)
-            w->basis[rank][k] = w->left[k][chosen] / length;
-        w->lower[rank][chosen] = length;
-        w->unused[chosen] = 0.0;
-        remove_component(w, rank);
+            workspace->basis[rank][k] = workspace->left[k][row] / length;
+        workspace->lower[rank][row] = length;
+        workspace->unused[row] = 0.0;
+        remove_basis_component(workspace, rank);
     }
     return rank;
 }
 
-/* Compute the norm that replaces M where masses or moments of inertia are small; `light`: whether any is. */
-static void compute_norm(Workspace *w)
+/*
+ * Compute the norm that replaces the mass matrix where masses or moments of inertia are small: its square roots, the
+ * fraction of M in it, and in workspace->light whether any is small. Called by initialize_workspace().
+ */
+static void compute_norm(Workspace *workspace)
 {
     double heaviest = 0.0;
     for (int k = 0; k < N_Q; k++)
-        heaviest = k % 3 < 2 ? max_of(heaviest, w->root[k]) : heaviest;
+        heaviest = k % 3 < 2 ? max_of(heaviest, workspace->root[k]) : heaviest;
     for (int k = 0; k < N_Q; k++) {
-        double arm = 0.0, counts = k % 3 < 2 ? max_of(w->root[k], LEAST_MASS * heaviest) : w->root[k];
+        double arm_squared = 0.0, mass = k % 3 < 2 ? max_of(workspace->root[k], LEAST_MASS * heaviest)
+            : workspace->root[k];
         for (int i = 0; i < N_ROWS && k % 3 == 2; i++) {
-            const double *row = w->all[kept_row[i]];
+            const double *row = workspace->all[kept_row[i]];
             if (row[k - 2] != 0.0 || row[k - 1] != 0.0)
-                arm = max_of(arm, row[k] * row[k]);
+                arm_squared = max_of(arm_squared, row[k] * row[k]);
         }
         if (k % 3 == 2)
-            counts = max_of(counts, arm > 0.0 ? LEAST_INERTIA * w->free[0][k - 1] * arm : 1e-300);
-        w->fraction[k] = w->root[k] / counts;
-        w->light |= w->fraction[k] < 1.0;
-        w->free[0][k] = counts;
+            mass = max_of(mass, arm_squared > 0.0 ? LEAST_INERTIA * workspace->free[0][k - 1] * arm_squared : 1e-300);
+        workspace->fraction[k] = workspace->root[k] / mass;
+        workspace->light |= workspace->fraction[k] < 1.0;
+        workspace->free[0][k] = mass;
     }
     for (int k = 0; k < N_Q; k++)
-        w->root[k] = sqrt(w->free[0][k]);
+        workspace->root[k] = sqrt(workspace->free[0][k]);
 }
 
-/* Fill the workspace: rows scaled by the norm, and their right-hand sides rhs - Phi_q M^-1 g. */
-static void fill_workspace(Workspace *w, double t, const double *q, const Parameters *p, const double *force,
+/*
+ * Initialize the workspace: rows of Phi_q scaled by the norm, and the right-hand sides rhs - Phi_q M^-1 g. force: g;
+ * rhs: right-hand sides of the acceleration constraints.
+ */
+static void initialize_workspace(Workspace *workspace, double t, const double *q, const Parameters *p,
+    const double *force,
     const double *rhs)
 {
-    *w = (Workspace){0};
-    mass_matrix(p, w->root);
-    jacobian(t, q, p, &w->all[0][0]);
-    compute_norm(w);
+    *workspace = (Workspace){0};
+    mass_matrix(p, workspace->root);
+    jacobian(t, q, p, &workspace->all[0][0]);
+    compute_norm(workspace);
     for (int k = 0; k < N_Q; k++) {
-        w->force[k] = force[k] / w->root[k];
-        w->y[k] = w->light ? 0.0 : w->force[k];
+        workspace->force[k] = force[k] / workspace->root[k];
+        workspace->y[k] = workspace->light ? 0.0 : workspace->force[k];
     }
     for (int i = 0; i < N_ROWS; i++) {
         double row[N_Q];
-        w->order[i] = i;
-        w->unused[i] = 1.0;
+        workspace->order[i] = i;
+        workspace->unused[i] = 1.0;
         for (int k = 0; k < N_Q; k++)
-            row[k] = w->left[k][i] = w->all[kept_row[i]][k] / w->root[k];
-        w->norm[i] = dot(row, row) + 1e-300;
-        w->rest[i] = rhs[i] - dot(row, w->y);
-        w->along[i] = fabs(rhs[i]) + sqrt(w->norm[i] * dot(w->y, w->y)); /* its size, for the comparison below */
+            row[k] = workspace->left[k][i] = workspace->all[kept_row[i]][k] / workspace->root[k];
+        workspace->norm[i] = compute_dot_product(row, row) + 1e-300;
+        workspace->residual[i] = rhs[i] - compute_dot_product(row, workspace->y);
+        workspace->along[i] = fabs(rhs[i]) + sqrt(workspace->norm[i]
+            * compute_dot_product(workspace->y, workspace->y)); /* its size, for the comparison below */
     }
 }
 
-/* Complete the orthonormal basis beyond `rank`: each time from the coordinate with the largest remainder. */
-static void complete_basis(Workspace *w, int rank)
+/*
+ * Complete the orthonormal basis from `rank` to N_Q vectors: each next one is the coordinate direction with the largest
+ * remainder, orthogonalized twice. Called by add_free_motion().
+ */
+static void complete_basis(Workspace *workspace, int rank)
 {
     for (; rank < N_Q; rank++) {
-        double *next = w->basis[rank], most = -1.0;
-        int best = 0;
+        double *next = workspace->basis[rank], largest = -1.0;
+        int coordinate = 0;
         for (int j = 0; j < N_Q; j++) {
-            double left = 1.0;
+            double remainder = 1.0;
             for (int k = 0; k < rank; k++)
-                left -= w->basis[k][j] * w->basis[k][j];
-            if (left > most) {
-                most = left;
-                best = j;
+                remainder -= workspace->basis[k][j] * workspace->basis[k][j];
+            if (remainder > largest) {
+                largest = remainder;
+                coordinate = j;
             }
         }
         for (int j = 0; j < N_Q; j++)
-            next[j] = j == best;
+            next[j] = j == coordinate;
         for (int pass = 0; pass < 2; pass++)
             for (int k = 0; k < rank; k++) {
-                const double along = dot(next, w->basis[k]);
+                const double along = compute_dot_product(next, workspace->basis[k]);
                 for (int j = 0; j < N_Q; j++)
-                    next[j] -= along * w->basis[k][j];
+                    next[j] -= along * workspace->basis[k][j];
             }
-        const double length = sqrt(dot(next, next));
+        const double length = sqrt(compute_dot_product(next, next));
         for (int j = 0; j < N_Q; j++)
             next[j] /= length;
     }
 }
 
 /*
- * Add the motion in the null space of the constraints to y, and compute the right-hand sides of the multipliers.
- * Returns 0 if M is singular there.
+ * Add the motion in the null space of the constraints to the accelerations workspace->y, and compute the right-hand
+ * sides of the multipliers. Used where the norm is not the mass matrix; rank: number of independent rows. Return 0 if M
+ * is singular there, else 1.
  */
-static int add_free_motion(Workspace *w, int rank)
+static int add_free_motion(Workspace *workspace, int rank)
 {
-    complete_basis(w, rank);
+    complete_basis(workspace, rank);
     for (int i = rank; i < N_Q; i++) { /* Z^T M Z and Z^T (g - M y), by Cholesky's method */
-        double *row = w->free[i];
-        w->z[i] = dot(w->basis[i], w->force);
+        double *row = workspace->free[i];
+        workspace->z[i] = compute_dot_product(workspace->basis[i], workspace->force);
         for (int k = 0; k < N_Q; k++)
-            w->z[i] -= w->basis[i][k] * w->fraction[k] * w->y[k];
+            workspace->z[i] -= workspace->basis[i][k] * workspace->fraction[k] * workspace->y[k];
         for (int j = rank; j <= i; j++) {
             row[j] = 0.0;
             for (int k = 0; k < N_Q; k++)
-                row[j] += w->basis[i][k] * w->fraction[k] * w->basis[j][k];
+                row[j] += workspace->basis[i][k] * workspace->fraction[k] * workspace->basis[j][k];
         }
-        const double whole = row[i];
+        const double diagonal = row[i];
         for (int j = rank; j <= i; j++) {
             for (int k = rank; k < j; k++)
-                row[j] -= row[k] * w->free[j][k];
-            row[j] = j < i ? row[j] / w->free[j][j] : row[j];
-            w->z[i] -= j < i ? row[j] * w->z[j] : 0.0;
+                row[j] -= row[k] * workspace->free[j][k];
+            row[j] = j < i ? row[j] / workspace->free[j][j] : row[j];
+            workspace->z[i] -= j < i ? row[j] * workspace->z[j] : 0.0;
         }
-        if (!(row[i] > 1e-14 * whole))
+        if (!(row[i] > 1e-14 * diagonal))
             return 0;
         row[i] = sqrt(row[i]);
-        w->z[i] /= row[i];
+        workspace->z[i] /= row[i];
     }
     for (int i = N_Q - 1; i >= rank; i--) {
         for (int j = i + 1; j < N_Q; j++)
-            w->z[i] -= w->free[j][i] * w->z[j];
-        w->z[i] /= w->free[i][i];
+            workspace->z[i] -= workspace->free[j][i] * workspace->z[j];
+        workspace->z[i] /= workspace->free[i][i];
         for (int k = 0; k < N_Q; k++)
-            w->y[k] += w->z[i] * w->basis[i][k];
+            workspace->y[k] += workspace->z[i] * workspace->basis[i][k];
     }
     for (int i = 0; i < rank; i++) {
-        double left = -dot(w->basis[i], w->force);
+        double sum = -compute_dot_product(workspace->basis[i], workspace->force);
         for (int k = 0; k < N_Q; k++)
-            left += w->basis[i][k] * w->fraction[k] * w->y[k];
-        w->rest[w->order[i]] = left;
+            sum += workspace->basis[i][k] * workspace->fraction[k] * workspace->y[k];
+        workspace->residual[workspace->order[i]] = sum;
     }
     return 1;
 }
 
 /*
- * Compute y and lambda by the equations that are independent to `least`. Returns 1 if the others agree to `tolerance`,
- * 0 if not, or STOPPED.
+ * Compute accelerations workspace->y and multipliers lambda (N_ROWS) by the equations that are independent to
+ * min_square; others have lambda = 0. Return 1 if the others agree to `tolerance`, 0 if not or if M is singular, or
+ * STOPPED on cancellation.
  */
-static int solve_independent(Workspace *w, double least, double tolerance, double *lambda)
+static int solve_independent(Workspace *workspace, double min_square, double tolerance, double *lambda)
 {
-    const int rank = independent_rows(w, least);
+    const int rank = select_independent_rows(workspace, min_square);
     if (rank < 0)
         return STOPPED;
     for (int k = 0; k < rank; k++) { /* forward: coordinates along the basis */
-        const int row = w->order[k];
-        const double along = w->rest[row] / w->lower[k][row];
+        const int row = workspace->order[k];
+        const double component = workspace->residual[row] / workspace->lower[k][row];
         for (int i = 0; i < N_ROWS; i++) {
-            w->along[i] += fabs(w->lower[k][i] * along);
-            w->rest[i] -= i == row ? 0.0 : w->lower[k][i] * along;
+            workspace->along[i] += fabs(workspace->lower[k][i] * component);
+            workspace->residual[i] -= i == row ? 0.0 : workspace->lower[k][i] * component;
         }
-        w->rest[row] = along;
+        workspace->residual[row] = component;
         for (int j = 0; j < N_Q; j++)
-            w->y[j] += along * w->basis[k][j];
+            workspace->y[j] += component * workspace->basis[k][j];
     }
-    if (w->light && !add_free_motion(w, rank))
+    if (workspace->light && !add_free_motion(workspace, rank))
         return 0;
     for (int i = 0; i < N_ROWS; i++)
         lambda[i] = 0.0;
     for (int k = rank - 1; k >= 0; k--) { /* backward: multipliers of the independent rows */
-        double value = w->rest[w->order[k]];
+        double value = workspace->residual[workspace->order[k]];
         for (int i = k + 1; i < rank; i++)
-            value += w->lower[k][w->order[i]] * lambda[w->order[i]];
-        lambda[w->order[k]] = -value / w->lower[k][w->order[k]];
+            value += workspace->lower[k][workspace->order[i]] * lambda[workspace->order[i]];
+        lambda[workspace->order[k]] = -value / workspace->lower[k][workspace->order[k]];
     }
-    int agree = 1;
+    int is_consistent = 1;
     for (int i = rank; i < N_ROWS; i++)
-        agree = agree && fabs(w->rest[w->order[i]]) <= tolerance * w->along[w->order[i]];
-    return agree;
+        is_consistent = is_consistent && fabs(workspace->residual[workspace->order[i]]) <= tolerance
+            * workspace->along[workspace->order[i]];
+    return is_consistent;
 }
 
 /*
- * Compute accelerations a and multipliers lambda where a pivot nearly vanishes. force: g; rhs: gamma - 2 alpha Phi_dot
- * - beta^2 Phi. Returns 0, NEAR if the motion is to be continued, STOPPED, or `pivot` if the constraints are
- * contradictory.
+ * Compute accelerations a and multipliers lambda where a pivot of the equations of motion nearly vanishes. force: g;
+ * rhs: gamma - 2 alpha Phi_dot - beta^2 Phi; pivot: number of the pivot. Dependent equations are left out, those of
+ * rounding in a second pass only. Return 0, NEAR if the motion is to be continued from both sides, STOPPED, or `pivot`
+ * if the constraints are contradictory, accelerations are not finite, or memory is short. Called by the equations of
+ * motion after their factorization has failed.
  */
 int solve_dependent(double t, const double *q, const Parameters *p, const double *force, const double *rhs,
     double *a, double *lambda, int pivot, const DiscreteState *discrete)
 {
-    static const double least[] = {NEARLY_SINGULAR, SINGULAR}, tolerance[] = {1e-3, 1e-6};
+    static const double min_squares[] = {NEARLY_SINGULAR, SINGULAR}, tolerances[] = {1e-3, 1e-6};
     if (discrete->least > NEARLY_SINGULAR)
         return NEAR;
-    Workspace *w = malloc(sizeof(Workspace));
+    Workspace *workspace = malloc(sizeof(Workspace));
     int status = pivot;
-    for (int pass = 0; w && status && pass < 2; pass++) {
-        fill_workspace(w, t, q, p, force, rhs);
-        w->cancellation = discrete->token;
-        status = solve_independent(w, least[pass], tolerance[pass], lambda);
+    for (int pass = 0; workspace && status && pass < 2; pass++) {
+        initialize_workspace(workspace, t, q, p, force, rhs);
+        workspace->cancellation = discrete->token;
+        status = solve_independent(workspace, min_squares[pass], tolerances[pass], lambda);
         if (status == STOPPED)
             break;
         if (!status) {
@@ -304,11 +326,11 @@ int solve_dependent(double t, const double *q, const Parameters *p, const double
         }
         status = 0;
         for (int k = 0; k < N_Q; k++) {
-            a[k] = w->y[k] / w->root[k];
+            a[k] = workspace->y[k] / workspace->root[k];
             if (!isfinite(a[k]))
                 status = pivot;
         }
     }
-    free(w);
+    free(workspace);
     return status;
 }

@@ -12,208 +12,237 @@
 #define SMALL_INERTIA 1e-9 /* of m size^2: least moment of inertia in the norm (sizes.py) */
 #define NEARER 1e-5  /* least relative difference of distances for a nearer configuration */
 
-/* Return the largest distance from the origin, m, that drives, set coordinates and guess require; at least the size. */
-static double farthest_place(Closing *w, double t, const Parameters *p, const double *q)
+/*
+ * Return the largest distance from the origin in m that drives, set coordinates and guess q require; at least the size
+ * of the mechanism.
+ */
+static double find_largest_distance(StartWorkspace *workspace, double t, const Parameters *p, const double *q)
 {
-    double reach = w->size;
-    open_rows(w, t, q, p);
-    for (int r = 0; r < N_ALL_ROWS; r++)
-        if (row_is_length[r])
-            reach = max_of(reach, fabs(w->rest[r] * w->size));
+    double reach = workspace->size;
+    compute_start_residuals(workspace, t, q, p);
+    for (int equation = 0; equation < N_ALL_ROWS; equation++)
+        if (row_is_length[equation])
+            reach = max_of(reach, fabs(workspace->residual[equation] * workspace->size));
     for (int k = 0; k < N_Q; k++)
         if (k % 3 != 2)
             reach = max_of(reach, fabs(q[k]));
     return reach;
 }
 
-/* Initialize the workspace: values of the start, weights of coordinates and scales of equations as in Python. */
-static void begin_start(Closing *w, const Parameters *p)
+/*
+ * Initialize the workspace of a start from the parameters: guess and set values, weights of coordinates, scales of
+ * equations. They are those of the search in Python.
+ */
+static void initialize_start_workspace(StartWorkspace *workspace, const Parameters *p)
 {
-    start_values(p, w->guess, w->set, w->rates);
+    start_values(p, workspace->guess, workspace->set, workspace->rates);
     for (int k = 0; k < N_Q; k++)
-        w->weight[k] = k % 3 == 2 ? 1e-2 : 1e-4 / w->size;
+        workspace->weight[k] = k % 3 == 2 ? 1e-2 : 1e-4 / workspace->size;
     for (int i = 0; i < N_GUESS && !GUESSED_POINTS; i++)
-        w->weight[guess_place[i]] = guess_place[i] % 3 == 2 ? 1.0 : 1.0 / w->size;
+        workspace->weight[guess_place[i]] = guess_place[i] % 3 == 2 ? 1.0 : 1.0 / workspace->size;
     for (int k = 0; k < N_Q; k++)
-        w->over_weight[k] = 1.0 / w->weight[k];
-    for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
-        const int is_length = r < N_ALL_ROWS ? row_is_length[r] : set_place[r - N_ALL_ROWS] % 3 != 2;
-        w->over_row[r] = is_length ? 1.0 / w->size : 1.0;
+        workspace->column_scale[k] = 1.0 / workspace->weight[k];
+    for (int equation = 0; equation < N_ALL_ROWS + N_SET; equation++) {
+        const int is_length = equation < N_ALL_ROWS ? row_is_length[equation]
+            : set_place[equation - N_ALL_ROWS] % 3 != 2;
+        workspace->row_scale[equation] = is_length ? 1.0 / workspace->size : 1.0;
     }
-    w->nearest = INFINITY;
+    workspace->nearest = INFINITY;
 }
 
-/* Set q to the guess, with the angles that equations without lengths determine. Returns 1 on failure. */
-static int first_guess(Closing *w, double t, const Parameters *p, double *q)
+/*
+ * Initialize the workspace and set q to the guess, with the angles that equations without positions determine. Return 1
+ * if these depend on each other, else 0.
+ */
+static int initialize_guess(StartWorkspace *workspace, double t, const Parameters *p, double *q)
 {
-    begin_start(w, p);
+    initialize_start_workspace(workspace, p);
     for (int k = 0; k < N_Q; k++)
         q[k] = 0.0;
     for (int i = 0; i < N_GUESS; i++)
-        q[guess_place[i]] = w->guess[i];
+        q[guess_place[i]] = workspace->guess[i];
     for (int i = 0; i < N_SET; i++)
-        q[set_place[i]] = w->set[i];
-    if (place_angles(w, t, p, q))
+        q[set_place[i]] = workspace->set[i];
+    if (solve_independent_angles(workspace, t, p, q))
         return 1;
     for (int k = 0; k < N_Q; k++)
-        w->placed[k] = q[k];
-    w->reach = farthest_place(w, t, p, q);
+        workspace->reference[k] = q[k];
+    workspace->radius = find_largest_distance(workspace, t, p, q);
     return 0;
 }
 
 /*
- * Return the largest change of a guessed angle or position, relative to the limit beyond which the search in Python
- * decides.
+ * Return the largest change of a guessed angle or position from the guess to q, relative to the limit (1) beyond which
+ * the search in Python decides.
  */
-static double strayed(const Closing *w, const double *q)
+static double compute_relative_change(const StartWorkspace *workspace, const double *q)
 {
-    double worst = 0.0, off[N_Q] = {0.0};
+    double largest = 0.0, change[N_Q] = {0.0};
     for (int i = 0; i < N_GUESS; i++)
-        off[guess_place[i]] = q[guess_place[i]] - w->placed[guess_place[i]];
+        change[guess_place[i]] = q[guess_place[i]] - workspace->reference[guess_place[i]];
     for (int k = 0; k < N_Q; k += 3) {
-        const double away = hypot(off[k], off[k + 1]), from = hypot(w->placed[k], w->placed[k + 1]);
-        worst = max_of(max_of(away / (APART * max_of(w->size, from)), fabs(off[k + 2]) / FAR), worst);
+        const double distance = hypot(change[k], change[k + 1]),
+            radius = hypot(workspace->reference[k], workspace->reference[k + 1]);
+        largest = max_of(max_of(distance / (APART * max_of(workspace->size, radius)), fabs(change[k + 2]) / FAR),
+            largest);
     }
-    return worst;
+    return largest;
 }
 
-/* Return whether all positions are within 1000 times the reach: the iteration has not diverged. */
-static int is_near(const Closing *w, const double *q)
+/* Return whether all positions in q are within 1000 times the reach: the iteration has not diverged. */
+static int is_bounded(const StartWorkspace *workspace, const double *q)
 {
-    int near = 1;
+    int is_bounded = 1;
     for (int k = 0; k < N_Q; k++)
-        near &= k % 3 == 2 || fabs(q[k]) < 1e3 * w->reach;
-    return near;
-}
-
-/* Reduce angles to within half a turn of the guess. Returns 1 if equations depend on the number of turns. */
-static int unwind(Closing *w, double t, const Parameters *p, double *q)
-{
-    int wound = 0;
-    for (int k = 2; k < N_Q; k += 3) {
-        const double turns = rint((q[k] - w->placed[k]) / (2.0 * PI));
-        wound |= turns != 0.0;
-        q[k] -= 2.0 * PI * turns;
-    }
-    return wound && !rows_closed(w, open_rows(w, t, q, p));
+        is_bounded &= k % 3 == 2 || fabs(q[k]) < 1e3 * workspace->radius;
+    return is_bounded;
 }
 
 /*
- * Replace q by the nearest of three closed configurations: q, the one beyond the guess with guessed coordinates
- * mirrored, and the one with all coordinates mirrored.
+ * Reduce angles in q to within half a turn of the guess. Return 1 if that opens the equations, which then depend on the
+ * number of turns; else 0. Called for mirrored configurations.
  */
-static void nearer(Closing *w, double t, const Parameters *p, double *q)
+static int remove_full_turns(StartWorkspace *workspace, double t, const Parameters *p, double *q)
 {
-    if (strayed(w, q) < MIRRORED)
+    int has_turned = 0;
+    for (int k = 2; k < N_Q; k += 3) {
+        const double n_turns = rint((q[k] - workspace->reference[k]) / (2.0 * PI));
+        has_turned |= n_turns != 0.0;
+        q[k] -= 2.0 * PI * n_turns;
+    }
+    return has_turned && !are_residuals_rounding(workspace, compute_start_residuals(workspace, t, q, p));
+}
+
+/*
+ * Replace q by the nearest to the guess of three closed configurations: q, the one with guessed coordinates mirrored at
+ * the guess, and the one with all coordinates mirrored. If q is near the guess, it stays; mirrored starts that do not
+ * close are omitted. Called after a configuration is closed.
+ */
+static void select_nearest_start(StartWorkspace *workspace, double t, const Parameters *p, double *q)
+{
+    if (compute_relative_change(workspace, q) < MIRRORED)
         return;
     for (int k = 0; k < N_Q; k++) {
-        w->first[k] = q[k];
-        w->beyond[k] = 2.0 * w->placed[k] - q[k];
+        workspace->first_solution[k] = q[k];
+        workspace->mirrored[k] = 2.0 * workspace->reference[k] - q[k];
     }
-    for (int all = 0; all < 2; all++) {
-        w->nearest = (1.0 - NEARER) * (1.0 - NEARER) * distance(w, q);
+    for (int mirrors_all = 0; mirrors_all < 2; mirrors_all++) {
+        workspace->nearest = (1.0 - NEARER) * (1.0 - NEARER) * compute_squared_distance(workspace, q);
         for (int k = 0; k < N_Q; k++)
-            w->other[k] = all ? w->beyond[k] : w->first[k];
+            workspace->trial[k] = mirrors_all ? workspace->mirrored[k] : workspace->first_solution[k];
         for (int i = 0; i < N_GUESS; i++)
-            w->other[guess_place[i]] = w->beyond[guess_place[i]];
+            workspace->trial[guess_place[i]] = workspace->mirrored[guess_place[i]];
         for (int i = 0; i < N_SET; i++)
-            w->other[set_place[i]] = w->set[i];
-        if (place_angles(w, t, p, w->other) || close_rows(w, t, p, w->other) || !is_near(w, w->other)
-            || unwind(w, t, p, w->other) || !(distance(w, w->other) < w->nearest))
+            workspace->trial[set_place[i]] = workspace->set[i];
+        if (solve_independent_angles(workspace, t, p, workspace->trial)
+            || solve_closure(workspace, t, p, workspace->trial)
+            || !is_bounded(workspace, workspace->trial)
+            || remove_full_turns(workspace, t, p, workspace->trial)
+                || !(compute_squared_distance(workspace, workspace->trial) < workspace->nearest))
             continue;
         for (int k = 0; k < N_Q; k++)
-            q[k] = w->other[k];
+            q[k] = workspace->trial[k];
     }
 }
 
-/* Compute the reciprocal square roots of the norm's diagonal: M with a least moment of inertia. */
-static void over_root_of_metric(const Closing *w, const Parameters *p, double *over_root)
+/*
+ * Compute the reciprocal square roots (N_Q) of the diagonal of the norm of velocities: the mass matrix with a least
+ * moment of inertia.
+ */
+static void compute_metric_scaling(const StartWorkspace *workspace, const Parameters *p, double *inverse_root)
 {
     double m[N_Q];
     mass_matrix(p, m);
     for (int k = 0; k < N_Q; k++) {
-        const double least = k % 3 == 2 ? SMALL_INERTIA * m[k - 1] * w->size * w->size : 0.0;
-        over_root[k] = 1.0 / sqrt(max_of(m[k], least));
+        const double min_inertia = k % 3 == 2 ? SMALL_INERTIA * m[k - 1] * workspace->size * workspace->size : 0.0;
+        inverse_root[k] = 1.0 / sqrt(max_of(m[k], min_inertia));
     }
 }
 
 /*
- * Compute the velocities that satisfy Phi_q v = nu and the set rates, least in the norm of M, refined twice. Returns 1
- * on failure.
+ * Compute the velocities v that satisfy Phi_q v = nu and the set rates at q, least in the norm of M, refined twice.
+ * Return 1 if the equations depend on each other or are not satisfied to rounding, else 0.
  */
-SELDOM static int first_velocities(Closing *w, double t, const Parameters *p, const double *q, double *v)
+SELDOM static int compute_start_velocities(StartWorkspace *workspace, double t, const Parameters *p, const double *q,
+    double *v)
 {
-    double over_root[N_Q], required[N_START_ROWS + 1], most = 0.0, worst = 0.0;
-    int place[N_Q];
-    over_root_of_metric(w, p, over_root);
+    double inverse_root[N_Q], required[N_START_ROWS + 1], largest = 0.0, largest_residual = 0.0;
+    int coordinates[N_Q];
+    compute_metric_scaling(workspace, p, inverse_root);
     for (int k = 0; k < N_Q; k++)
         v[k] = 0.0;
-    rows_together(w, &w->some, N_ALL_ROWS + N_RATES, rate_place);
-    jacobian(t, q, p, &w->row[0][0]);
+    select_leading_equations(workspace, &workspace->subset, N_ALL_ROWS + N_RATES, rate_place);
+    jacobian(t, q, p, &workspace->row[0][0]);
     velocity_rhs(after_jump(t), q, p, required);
     for (int k = 0; k < N_APART; k++)
-        required[apart_row[k]] -= w->rates[N_RATES + k];
+        required[apart_row[k]] -= workspace->rates[N_RATES + k];
     for (int i = 0; i < N_RATES; i++) {
-        required[N_ALL_ROWS + i] = w->rates[i];
-        w->row[N_ALL_ROWS + i][rate_place[i]] = 1.0;
+        required[N_ALL_ROWS + i] = workspace->rates[i];
+        workspace->row[N_ALL_ROWS + i][rate_place[i]] = 1.0;
     }
-    for (int r = 0; r < w->some.n; r++) {
-        const int n = places_of(r, rate_place, place);
+    for (int equation = 0; equation < workspace->subset.n; equation++) {
+        const int n = list_coordinates_of_equation(equation, rate_place, coordinates);
         for (int i = 0; i < n; i++)
-            w->row[r][place[i]] *= over_root[place[i]];
-        most = max_of(most, fabs(required[r]));
+            workspace->row[equation][coordinates[i]] *= inverse_root[coordinates[i]];
+        largest = max_of(largest, fabs(required[equation]));
     }
-    if (factor_rows(w, &w->some))
+    if (factorize_equations(workspace, &workspace->subset))
         return 1;
     for (int pass = 0; pass <= 3; pass++) {
-        worst = 0.0;
-        for (int r = 0; r < w->some.n; r++) {
-            const int n = places_of(r, rate_place, place);
-            w->rest[r] = required[r];
+        largest_residual = 0.0;
+        for (int equation = 0; equation < workspace->subset.n; equation++) {
+            const int n = list_coordinates_of_equation(equation, rate_place, coordinates);
+            workspace->residual[equation] = required[equation];
             for (int i = 0; i < n; i++)
-                w->rest[r] -= w->row[r][place[i]] * v[place[i]];
-            worst = max_of(worst, fabs(w->rest[r]));
+                workspace->residual[equation] -= workspace->row[equation][coordinates[i]] * v[coordinates[i]];
+            largest_residual = max_of(largest_residual, fabs(workspace->residual[equation]));
         }
         if (pass == 3)
             break;
-        step_of_rows(w, &w->some);
+        compute_smallest_step(workspace, &workspace->subset);
         for (int k = 0; k < N_Q; k++)
-            v[k] += w->step[k];
+            v[k] += workspace->step[k];
     }
     for (int k = 0; k < N_Q; k++)
-        v[k] *= over_root[k];
-    return !(worst <= 1e-10 * most + MIN_RESOLVED);
+        v[k] *= inverse_root[k];
+    return !(largest_residual <= 1e-10 * largest + MIN_RESOLVED);
 }
 
 /*
- * Compute the start q, v nearest to the guess. size: the mechanism's size, m; residual: largest |Phi|. Returns 0, or 1
- * if the search in Python must decide.
+ * Compute the start q, v (N_Q) nearest to the guess of the parameters. size: of the mechanism, m; *residual: largest
+ * |Phi| reached, m or rad. Return 0, or 1 if the search in Python must decide: the start does not close, is far from
+ * the guess, has no velocities, was cancelled, or guesses points. Called for each run of a batch.
  */
 int close_start(
     double t, const double *parameters, double size, double *q, double *v, double *residual, Cancellation *cancellation)
 {
     const Parameters *p = (const Parameters *)parameters;
-    Closing *w = GUESSED_POINTS ? NULL : calloc(1, sizeof(Closing));
-    if (!w)
+    StartWorkspace *workspace = GUESSED_POINTS ? NULL : calloc(1, sizeof(StartWorkspace));
+    if (!workspace)
         return 1;
-    w->size = size;
-    w->cancellation = cancellation;
-    int status = first_guess(w, t, p, q) || close_rows(w, t, p, q);
-    if (!status && strayed(w, q) < 1.0)
-        nearer(w, t, p, q);
-    status = status || !(strayed(w, q) < 1.0) || !is_near(w, q); /* another branch may be nearer */
-    status = status || first_velocities(w, t, p, q, v);
-    open_rows(w, t, q, p);
+    workspace->size = size;
+    workspace->cancellation = cancellation;
+    int status = initialize_guess(workspace, t, p, q) || solve_closure(workspace, t, p, q);
+    if (!status && compute_relative_change(workspace, q) < 1.0)
+        select_nearest_start(workspace, t, p, q);
+    status = status || !(compute_relative_change(workspace, q) < 1.0)
+        || !is_bounded(workspace, q); /* another branch may be nearer */
+    status = status || compute_start_velocities(workspace, t, p, q, v);
+    compute_start_residuals(workspace, t, q, p);
     *residual = 0.0;
-    for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
-        const int is_length = r < N_ALL_ROWS ? row_is_length[r] : set_place[r - N_ALL_ROWS] % 3 != 2;
-        *residual = max_of(*residual, fabs(w->rest[r]) * (is_length ? size : 1.0));
+    for (int equation = 0; equation < N_ALL_ROWS + N_SET; equation++) {
+        const int is_length = equation < N_ALL_ROWS ? row_is_length[equation]
+            : set_place[equation - N_ALL_ROWS] % 3 != 2;
+        *residual = max_of(*residual, fabs(workspace->residual[equation]) * (is_length ? size : 1.0));
     }
-    free(w);
+    free(workspace);
     return status;
 }
 
-/* Compute the start q, v as close_start(), without cancellation. */
+/*
+ * Compute the start q, v nearest to the guess as close_start() does, without cancellation. *residual: largest |Phi|
+ * reached. Return 0, or 1 if Python must search.
+ */
 int gudgeon_start(double t, const double *parameters, double size, double *q, double *v, double *residual)
 {
     Cancellation no_cancellation = {0};
@@ -222,23 +251,24 @@ int gudgeon_start(double t, const double *parameters, double size, double *q, do
 
 /*
  * Continue a closed start q to other parameters: Newton's method from q, then velocities v. Equations may depend on
- * each other. Returns 0, 1 if it does not close, or 2 if it has no velocities. The caller checks that q remains near.
+ * each other. Return 0, 1 if it does not close or memory is short, or 2 if it has no velocities. The caller checks that
+ * q remains near. No cancellation.
  */
 int gudgeon_continuation(double t, const double *parameters, double size, double *q, double *v)
 {
     const Parameters *p = (const Parameters *)parameters;
     Cancellation no_cancellation = {0};
-    Closing *w = calloc(1, sizeof(Closing));
-    if (!w)
+    StartWorkspace *workspace = calloc(1, sizeof(StartWorkspace));
+    if (!workspace)
         return 1;
-    w->size = size;
-    w->cancellation = &no_cancellation;
-    w->dependent = 1;
-    begin_start(w, p);
-    w->reach = farthest_place(w, t, p, q);
-    int status = close_rows(w, t, p, q);
-    if (!status && first_velocities(w, t, p, q, v))
+    workspace->size = size;
+    workspace->cancellation = &no_cancellation;
+    workspace->dependent = 1;
+    initialize_start_workspace(workspace, p);
+    workspace->radius = find_largest_distance(workspace, t, p, q);
+    int status = solve_closure(workspace, t, p, q);
+    if (!status && compute_start_velocities(workspace, t, p, q, v))
         status = 2;
-    free(w);
+    free(workspace);
     return status;
 }

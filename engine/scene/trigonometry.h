@@ -9,16 +9,16 @@
 typedef double Four __attribute__((vector_size(32)));
 typedef long long FourBits __attribute__((vector_size(32)));
 
-/* Compute sines and cosines of four angles by the C library. */
-static void compute_by_library(const Four *angle, Four *sine, Four *cosine)
+/* Compute sines and cosines of four angles (rad) by the C library, for large angles. */
+static void compute_sines_by_library(const Four *angles, Four *sines, Four *cosines)
 {
     for (int k = 0; k < 4; k++) {
-        (*sine)[k] = sin((*angle)[k]);
-        (*cosine)[k] = cos((*angle)[k]);
+        (*sines)[k] = sin((*angles)[k]);
+        (*cosines)[k] = cos((*angles)[k]);
     }
 }
 
-/* Compute sines and cosines of four angles; large angles use the C library. */
+/* Compute sines and cosines of four angles (rad) at once in a vector; if one is large, all use the C library. */
 static inline void sines_and_cosines(const Four *angles, Four *sine, Four *cosine)
 {
     const Four angle = *angles;
@@ -32,13 +32,13 @@ static inline void sines_and_cosines(const Four *angles, Four *sine, Four *cosin
 #undef BITS_OF
 #undef OF_BITS
     if (!(small[0] & small[1] & small[2] & small[3]))
-        compute_by_library(angles, sine, cosine);
+        compute_sines_by_library(angles, sine, cosine);
 }
 
 #else
 typedef double Four[4];
 
-/* Compute sine and cosine of an angle; large angles use the C library. */
+/* Compute sine and cosine of an angle (rad); large angles use the C library. */
 static void sine_and_cosine(double angle, double *sine, double *cosine)
 {
 #define SINES_OF double
@@ -56,7 +56,7 @@ static void sine_and_cosine(double angle, double *sine, double *cosine)
     }
 }
 
-/* Compute sines and cosines of four angles, one after the other. */
+/* Compute sines and cosines of four angles (rad), one after the other, by the operations of the vector form. */
 static void sines_and_cosines(const Four *angles, Four *sine, Four *cosine)
 {
     for (int k = 0; k < 4; k++)
@@ -64,9 +64,12 @@ static void sines_and_cosines(const Four *angles, Four *sine, Four *cosine)
 }
 #endif
 
-/* Compute sines and cosines of n groups of four angles. */
-static inline void many_sines_and_cosines(int n, const Four *angle, Four *sine, Four *cosine)
+/*
+ * Compute sines and cosines of n_groups groups of four angles (rad). Called by emitted code for all angles of a
+ * linkage.
+ */
+static inline void many_sines_and_cosines(int n_groups, const Four *angles, Four *sines, Four *cosines)
 {
-    for (int k = 0; k < n; k++)
-        sines_and_cosines(&angle[k], &sine[k], &cosine[k]);
+    for (int i = 0; i < n_groups; i++)
+        sines_and_cosines(&angles[i], &sines[i], &cosines[i]);
 }

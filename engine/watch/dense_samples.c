@@ -4,7 +4,7 @@
  * sampled on the dense output; a step that does not resolve it is repeated shorter. Scenes with bounds use watched.c.
  */
 #if N_WATCHED
-/* Evaluate the right-hand side's outputs at a state; its rates and status are discarded. */
+/* Evaluate the outputs of the right-hand side at a state y of the dense output; rates and status are discarded. */
 static void sample_dense_output(Integrator *run, double t, const double *y, const Parameters *p, RhsOutputs *rhs)
 {
     double dy[N_Y];
@@ -12,28 +12,28 @@ static void sample_dense_output(Integrator *run, double t, const double *y, cons
 }
 
 /*
- * Return whether event function k may have a zero in the step: its smallest sample is less than the range of its
- * samples.
+ * Return whether an event function may have a zero in the step: its smallest sample at ends and stages is less than the
+ * range of its samples. *range: that range, largest minus smallest.
  */
-static int may_have_zero(const Integrator *run, const Step *step, int k, double *range)
+static int may_have_zero(const Integrator *run, const Step *step, int event, double *range)
 {
-    const double start = event_function(&run->discrete, &run->rhs, k),
-                 end = event_function(&run->discrete, &step->rhs, k);
-    double least = min_of(start, end), most = max_of(start, end); /* the end may lie outside of the domain */
-    const StageValues seen = stage_values(step, k);
+    const double start = event_function(&run->discrete, &run->rhs, event),
+                 end = event_function(&run->discrete, &step->rhs, event);
+    double smallest = min_of(start, end), largest = max_of(start, end); /* the end may lie outside of the domain */
+    const StageValues stages = stage_values(step, event);
     for (int i = 0; i < step->n_seen; i++) {
-        least = min_of(least, stage_value(seen, i));
-        most = max_of(most, stage_value(seen, i));
+        smallest = min_of(smallest, stage_value(stages, i));
+        largest = max_of(largest, stage_value(stages, i));
     }
-    *range = most - least;
-    return least < *range;
+    *range = largest - smallest;
+    return smallest < *range;
 }
 
 /*
- * Estimate by how much each watched function changes if the state changes by one error tolerance. Smaller values cannot
- * be resolved.
+ * Estimate by how much each watched function changes if every coordinate and velocity changes by one error tolerance:
+ * change (N_WATCHED). Smaller values cannot be resolved. Called by is_unresolved() for the allowed error of samples.
  */
-static void event_function_uncertainty(Integrator *run, const Step *step, const Parameters *p, double *change)
+static void estimate_event_function_uncertainty(Integrator *run, const Step *step, const Parameters *p, double *change)
 {
     double y[N_Y];
     RhsOutputs rhs;
@@ -45,50 +45,60 @@ static void event_function_uncertainty(Integrator *run, const Step *step, const 
             event_function(&run->discrete, &rhs, watched[i]) - event_function(&run->discrete, &run->rhs, watched[i]));
 }
 
-/* Estimate the interpolation error at an end by the difference of order 4 at most: f[0], f[out], ..., f[n out]. */
-static double end_error(const double *f, int out, int n)
+/*
+ * Estimate the interpolation error at an end of a row of samples f[0], f[stride], ..., f[n stride], from their
+ * difference of order 4 at most. Return 0 for n = 0.
+ */
+static double estimate_end_error(const double *f, int stride, int n)
 {
     const int order = n < 4 ? n : 4;
-    double d[5] = {0.0};
+    double difference[5] = {0.0};
     for (int k = 0; k <= order; k++)
-        d[k] = f[k * out];
+        difference[k] = f[k * stride];
     for (int i = 0; i < order; i++)
         for (int k = order; k > i; k--)
-            d[k] -= d[k - 1];
-    return order > 0 ? fabs(d[order]) / (1 << order) : 0.0;
+            difference[k] -= difference[k - 1];
+    return order > 0 ? fabs(difference[order]) / (1 << order) : 0.0;
 }
 
 /*
- * Return the largest difference between the samples and cubics through every second sample. Stencils across the
- * interval after sample `at` are left out, because the function may jump there; N_SAMPLES: none.
+ * Return the largest difference between the samples f (N_SAMPLES + 1) and cubics through every second sample. Stencils
+ * across the interval after sample `jump` are left out, because the function may jump there, and the errors at its ends
+ * are added; N_SAMPLES: no jump.
  */
-static double interpolation_error(const double *f, int at)
+static double compute_interpolation_error(const double *f, int jump)
 {
-    double worst = 0.0;
+    double largest = 0.0;
     for (int j = 3; j + 3 <= N_SAMPLES; j += 2)
-        if (j + 3 <= at || j - 3 > at)
-            worst = max_of(worst, fabs(f[j] - (9.0 * (f[j - 1] + f[j + 1]) - f[j - 3] - f[j + 3]) / 16.0));
-    if (at >= N_SAMPLES)
-        return worst;
-    return max_of(worst, max_of(end_error(f + at, -1, at), end_error(f + at + 1, 1, N_SAMPLES - at - 1)));
+        if (j + 3 <= jump || j - 3 > jump)
+            largest = max_of(largest, fabs(f[j] - (9.0 * (f[j - 1] + f[j + 1]) - f[j - 3] - f[j + 3]) / 16.0));
+    if (jump >= N_SAMPLES)
+        return largest;
+    return max_of(largest, max_of(estimate_end_error(f + jump, -1, jump),
+        estimate_end_error(f + jump + 1, 1, N_SAMPLES - jump - 1)));
 }
 
 /*
- * Return the interpolation error of the samples of a step; for a function with a jump of value or slope, on both sides
- * of the jump. A shorter step would not reduce that jump. Errors below `enough` end the search.
+ * Return the interpolation error of the samples f (N_SAMPLES + 1) of a step, for the position of one jump of value or
+ * slope that makes it smallest. A shorter step would not reduce that jump. Errors below `sufficient` end the search.
  */
-static double resolution_error(const double *f, double enough)
+static double compute_resolution_error(const double *f, double sufficient)
 {
-    double least = interpolation_error(f, N_SAMPLES);
-    for (int at = 0; at < N_SAMPLES && least > enough; at++)
-        least = min_of(least, interpolation_error(f, at));
-    return least;
+    double smallest = compute_interpolation_error(f, N_SAMPLES);
+    for (int jump = 0; jump < N_SAMPLES && smallest > sufficient; jump++)
+        smallest = min_of(smallest, compute_interpolation_error(f, jump));
+    return smallest;
 }
 
-/* Return whether samples do not resolve a watched function that may have a zero, so that the step is too long. */
+/*
+ * Return whether samples of the dense output do not resolve a watched function that may have a zero, so that the step
+ * is too long. Stores the samples in step->sample, and in step->near which functions may have a zero. Return 0 without
+ * such a function, without dense output, or if samples are as near as event times. Called for each tried step before it
+ * is accepted; such a step is repeated shorter.
+ */
 static int is_unresolved(Integrator *run, Step *step, const Parameters *p)
 {
-    double range[N_WATCHED], change[N_WATCHED];
+    double range[N_WATCHED], uncertainties[N_WATCHED];
     step->has_zero_bracket = 0;
     for (int i = 0; i < N_WATCHED; i++) {
         step->near[i] = (unsigned char)may_have_zero(run, step, watched[i], &range[i]);
@@ -96,78 +106,84 @@ static int is_unresolved(Integrator *run, Step *step, const Parameters *p)
     }
     if (!step->has_zero_bracket || compute_dense_output(run, p, step))
         return 0;
-    for (int j = 0; j <= N_SAMPLES; j++) {
+    for (int sample = 0; sample <= N_SAMPLES; sample++) {
         double y[N_Y];
-        RhsOutputs rhs = j < N_SAMPLES ? run->rhs : step->rhs;
-        if (j > 0 && j < N_SAMPLES) {
-            interpolate(run, step, (double)j / N_SAMPLES, y);
-            sample_dense_output(run, step->t + (double)j / N_SAMPLES * step->h, y, p, &rhs);
+        RhsOutputs rhs = sample < N_SAMPLES ? run->rhs : step->rhs;
+        if (sample > 0 && sample < N_SAMPLES) {
+            interpolate(run, step, (double)sample / N_SAMPLES, y);
+            sample_dense_output(run, step->t + (double)sample / N_SAMPLES * step->h, y, p, &rhs);
         }
         for (int i = 0; i < N_WATCHED; i++)
-            step->sample[i][j] = event_function(&run->discrete, &rhs, watched[i]);
+            step->sample[i][sample] = event_function(&run->discrete, &rhs, watched[i]);
     }
-    if (N_SAMPLES * event_time_tolerance(run, step) >= 1.0)
+    if (N_SAMPLES * compute_event_time_tolerance(run, step) >= 1.0)
         return 0; /* the samples are as near as times can be (a pole, many jumps) */
-    event_function_uncertainty(run, step, p, change);
+    estimate_event_function_uncertainty(run, step, p, uncertainties);
     for (int i = 0; i < N_WATCHED; i++) {
-        double least = INFINITY, most = -INFINITY;
-        for (int j = 0; j <= N_SAMPLES; j++) {
-            least = min_of(least, step->sample[i][j]);
-            most = max_of(most, step->sample[i][j]);
+        double smallest = INFINITY, largest = -INFINITY;
+        for (int sample = 0; sample <= N_SAMPLES; sample++) {
+            smallest = min_of(smallest, step->sample[i][sample]);
+            largest = max_of(largest, step->sample[i][sample]);
         }
-        const double allowed = max_of(0.05 * (most - least), 10.0 * change[i]),
-                     missed = resolution_error(step->sample[i], allowed);
+        const double allowed = max_of(0.05 * (largest - smallest), 10.0 * uncertainties[i]),
+                     error = compute_resolution_error(step->sample[i], allowed);
         /* stages with a far larger range than the samples: the samples are in step with an oscillation */
-        const int is_aliased = range[i] > 2.0 * (most - least) + 10.0 * change[i] && !step->method->stiff;
-        if (step->near[i] && (missed > allowed || is_aliased) && least - missed < 0.0)
+        const int is_aliased = range[i] > 2.0 * (largest - smallest) + 10.0 * uncertainties[i] && !step->method->stiff;
+        if (step->near[i] && (error > allowed || is_aliased) && smallest - error < 0.0)
             return 1;
     }
     return 0;
 }
 
 /*
- * Return the minimum of event function k near s, by parabolas over `width` on both sides; s is moved there. best: its
- * value at s. The search ends at the first negative value.
+ * Find the minimum of an event function near *fraction by parabolas over `width` on both sides, which is halved down to
+ * 1e-6. *fraction is moved to the smallest value found, which is returned; smallest: the value there at the start. The
+ * search ends at the first negative value, or if the parabola has no zero. Called if a parabola through three samples
+ * comes near zero.
  */
 static double refine_minimum(
-    Integrator *run, const Step *step, int k, double *s, double width, double best, const Parameters *p)
+    Integrator *run, const Step *step, int event, double *fraction, double width, double smallest, const Parameters *p)
 {
-    for (; width > 1e-6 && best >= 0.0 && *s - width >= 0.0 && *s + width <= 1.0; width *= 0.5) {
-        const double left = event_function_at(run, step, *s - width, k, p),
-                     right = event_function_at(run, step, *s + width, k, p);
-        const double bend = left - 2.0 * best + right;
-        double at[3] = {*s - width, *s + width, *s}, value[3] = {left, right, best};
-        if (bend > 0.0) {
-            at[2] = min_of(at[1], max_of(at[0], *s + 0.5 * width * (left - right) / bend));
-            value[2] = event_function_at(run, step, at[2], k, p);
+    for (; width > 1e-6 && smallest >= 0.0 && *fraction - width >= 0.0 && *fraction + width <= 1.0; width *= 0.5) {
+        const double left = evaluate_event_function_at(run, step, *fraction - width, event, p),
+                     right = evaluate_event_function_at(run, step, *fraction + width, event, p);
+        const double second_difference = left - 2.0 * smallest + right;
+        double fractions[3] = {*fraction - width, *fraction + width, *fraction}, value[3] = {left, right, smallest};
+        if (second_difference > 0.0) {
+            fractions[2] = min_of(fractions[1],
+                max_of(fractions[0], *fraction + 0.5 * width * (left - right) / second_difference));
+            value[2] = evaluate_event_function_at(run, step, fractions[2], event, p);
         }
         for (int j = 0; j < 3; j++)
-            if (value[j] < best) {
-                best = value[j];
-                *s = at[j];
+            if (value[j] < smallest) {
+                smallest = value[j];
+                *fraction = fractions[j];
             }
-        if (best > 8.0 * bend)
+        if (smallest > 8.0 * second_difference)
             break; /* the parabola has no zero */
     }
-    return best;
+    return smallest;
 }
 
 /*
- * Return the first fraction at which watched function i is negative, by its samples and minima between them; 0: none.
+ * Return the first fraction of the step at which a watched function is negative, and its value there in *value. index:
+ * of the watched function. Samples and, between them, minima of parabolas are tested in order. 0: none.
  */
-static double first_negative_sample(Integrator *run, const Step *step, int i, const Parameters *p, double *value)
+static double find_first_negative_sample(Integrator *run, const Step *step, int index, const Parameters *p,
+    double *value)
 {
-    const double *f = step->sample[i];
-    for (int j = 1; j <= N_SAMPLES && step->near[i]; j++) {
-        const double bend = j > 1 ? f[j - 2] - 2.0 * f[j - 1] + f[j] : 0.0;
-        if (bend > 0.0 && f[j - 2] > f[j - 1] && f[j - 1] <= f[j]) {
-            const double way = 0.5 * (f[j - 2] - f[j]) / bend, lowest = f[j - 1] - 0.5 * bend * way * way;
-            double at = (j - 1 + way) / N_SAMPLES;
-            if (lowest < 0.1 * f[j - 1]) {
-                *value = event_function_at(run, step, at, watched[i], p);
-                *value = refine_minimum(run, step, watched[i], &at, 0.5 / N_SAMPLES, *value, p);
+    const double *f = step->sample[index];
+    for (int j = 1; j <= N_SAMPLES && step->near[index]; j++) {
+        const double second_difference = j > 1 ? f[j - 2] - 2.0 * f[j - 1] + f[j] : 0.0;
+        if (second_difference > 0.0 && f[j - 2] > f[j - 1] && f[j - 1] <= f[j]) {
+            const double offset = 0.5 * (f[j - 2] - f[j]) / second_difference,
+                minimum = f[j - 1] - 0.5 * second_difference * offset * offset;
+            double fraction = (j - 1 + offset) / N_SAMPLES;
+            if (minimum < 0.1 * f[j - 1]) {
+                *value = evaluate_event_function_at(run, step, fraction, watched[index], p);
+                *value = refine_minimum(run, step, watched[index], &fraction, 0.5 / N_SAMPLES, *value, p);
                 if (*value < 0.0)
-                    return at;
+                    return fraction;
             }
         }
         if (f[j] < 0.0) {
@@ -178,8 +194,8 @@ static double first_negative_sample(Integrator *run, const Step *step, int i, co
     return 0.0;
 }
 
-/* Reset the brackets of the watched functions; their zeros are found from the samples. */
-static void search_step(const Integrator *run, Step *step, const Parameters *p)
+/* Set step->from of all watched functions to 0: their zeros are searched in the samples, not in brackets. */
+static void find_watched_zeros(const Integrator *run, Step *step, const Parameters *p)
 {
     (void)run, (void)p;
     for (int i = 0; i < N_WATCHED; i++)
@@ -187,7 +203,7 @@ static void search_step(const Integrator *run, Step *step, const Parameters *p)
 }
 
 #else
-/* Return 0: the scene has no watched functions. */
+/* Return 0: the scene has no watched functions that a step must resolve. */
 static inline int is_unresolved(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;
@@ -195,16 +211,16 @@ static inline int is_unresolved(const Integrator *run, const Step *step, const P
 }
 
 /* Do nothing: the scene has no watched functions. */
-static inline void search_step(const Integrator *run, const Step *step, const Parameters *p)
+static inline void find_watched_zeros(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;
 }
 
-/* Return 0: the scene has no watched functions. */
-static inline double first_negative_sample(
-    const Integrator *run, const Step *step, int i, const Parameters *p, double *value)
+/* Return 0 and set *value to 0: the scene has no watched functions. */
+static inline double find_first_negative_sample(
+    const Integrator *run, const Step *step, int index, const Parameters *p, double *value)
 {
-    (void)run, (void)step, (void)i, (void)p;
+    (void)run, (void)step, (void)index, (void)p;
     return *value = 0.0;
 }
 #endif

@@ -8,7 +8,10 @@
 enum { N_INNER_SAMPLES = 8 };
 #define HARMLESS 0.1 /* of the tolerance: change of a step by the inactive branch that is accepted */
 
-/* Change the branch of each switching point that the step passes without an event; a second call restores it. */
+/*
+ * Change the branch of each switching point that the step passes without an event (step->passed); a second call
+ * restores the branches. Called around an evaluation on the new branches, and when the step is accepted.
+ */
 static void flip_ignored_branches(Integrator *run, const Step *step)
 {
     for (int k = 0; k < N_SWITCHES; k++)
@@ -20,35 +23,36 @@ static void flip_ignored_branches(Integrator *run, const Step *step)
 static void watch_every_switch(Integrator *run) { run->roots.skip = -1; }
 
 /*
- * Mark in step->passed the switching points that the step may pass without an event. They are those of contact laws
- * whose branches meet, and a suppressed repeated one (suppress_repeated_switch), crossed near the end of the step. The
- * error of the frozen branch is at most the step times the difference of the rates at its end. If it is below HARMLESS
- * tolerances, the end of the step gets the rates of the new branch. Returns whether any is passed.
+ * Mark in step->passed the switching points that the step may pass without an event, and return whether there is any.
+ * They are those of contact laws whose branches meet, and a suppressed repeated one (suppress_repeated_switch), crossed
+ * near the end of the step. The error of the frozen branch is at most the step times the difference of the rates at its
+ * end. If it is below HARMLESS tolerances, the end of the step gets the rates of the new branch. Otherwise no point is
+ * passed, and suppressed ones are searched again. Called by first_event() before zeros are searched.
  */
 static int ignore_harmless_switches(Integrator *run, Step *step, const Parameters *p)
 {
-    double dy[N_Y], most = 0.0;
-    int crossed = 0;
+    double dy[N_Y], largest_change = 0.0;
+    int has_passed = 0;
     RhsOutputs rhs;
     step->harm = INFINITY;
     for (int k = 0; k < N_SWITCHES; k++) {
         const int gap_function = N_CLEARANCES + k;
-        const int law = meets[k] && watched_as[gap_function] < 0 && run->control.fixed <= 0.0;
-        const int may_pass = law || k == run->roots.skip; /* fixed steps have no tolerance to compare with */
+        const int is_of_law = meets[k] && watched_as[gap_function] < 0 && run->control.fixed <= 0.0;
+        const int may_pass = is_of_law || k == run->roots.skip; /* fixed steps have no tolerance to compare with */
         step->passed[k] = may_pass && event_function(&run->discrete, &step->rhs, gap_function) < 0.0;
-        crossed |= step->passed[k];
+        has_passed |= step->passed[k];
     }
-    if (!crossed)
+    if (!has_passed)
         return 0;
     flip_ignored_branches(run, step);
     const int status = rates(run, step->t + step->h, step->y, p, dy, &rhs);
     flip_ignored_branches(run, step); /* frozen until the step is accepted */
     for (int k = 0; k < 2 * N_X && !status; k++)
-        most = max_of(most, fabs(step->h * (dy[k] - step->dy[k])) * run->norm.weight[k]);
+        largest_change = max_of(largest_change, fabs(step->h * (dy[k] - step->dy[k])) * run->norm.weight[k]);
     for (int k = FIRST_STATE; k < N_Y && !status; k++)
-        most = max_of(most, fabs(step->h * (dy[k] - step->dy[k])) * run->norm.weight[k]);
+        largest_change = max_of(largest_change, fabs(step->h * (dy[k] - step->dy[k])) * run->norm.weight[k]);
     if (!status && all_finite(dy, N_Y))
-        step->harm = most;
+        step->harm = largest_change;
     if (step->harm < HARMLESS) {
         for (int k = 0; k < N_Y; k++)
             step->dy[k] = dy[k];
@@ -62,103 +66,119 @@ static int ignore_harmless_switches(Integrator *run, Step *step, const Parameter
     return 0;
 }
 
-/* Return whether event function k is not searched: a switching point that is suppressed or passed by this step. */
-static int is_ignored(const Integrator *run, const Step *step, int k)
+/*
+ * Return whether event function number `event` is not searched for a zero: that of a switching point that is suppressed
+ * or that this step passes.
+ */
+static int is_ignored(const Integrator *run, const Step *step, int event)
 {
-    const int switch_index = k - N_CLEARANCES;
+    const int switch_index = event - N_CLEARANCES;
     return switch_index >= 0 && switch_index < N_SWITCHES
         && (switch_index == run->roots.skip || step->passed[switch_index]);
 }
 
-/* Return the node of the stage at which event function k was lowest; 1: none. */
-static double stage_of_minimum(const Step *step, int k)
+/* Return the node, as a fraction of the step, of the stage at which an event function was lowest; 1: no stage. */
+static double find_stage_of_minimum(const Step *step, int event)
 {
-    const StageValues seen = stage_values(step, k);
+    const StageValues stages = stage_values(step, event);
     for (int i = 0; i < step->n_seen; i++)
-        if (stage_value(seen, i) == step->lowest[k])
+        if (stage_value(stages, i) == step->lowest[event])
             return step->node[i];
     return 1.0;
 }
 
 /*
- * Return the node of the first stage with a negative event function k if a later stage or the end is not negative: it
- * may cross zero more than once. Otherwise return 1.
+ * Return the node of the first stage with a negative event function, if a later stage or the end (end_value) is not
+ * negative: it may cross zero more than once. Otherwise return 1.
  */
-static double first_negative_stage(const Step *step, int k, double end)
+static double find_first_negative_stage(const Step *step, int event, double end_value)
 {
-    const StageValues seen = stage_values(step, k);
-    double first = 1.0, back = end >= 0.0 ? 1.0 : 0.0;
+    const StageValues stages = stage_values(step, event);
+    double first = 1.0, last_positive = end_value >= 0.0 ? 1.0 : 0.0;
     for (int i = 0; i < step->n_seen; i++) {
-        const double f = stage_value(seen, i);
+        const double f = stage_value(stages, i);
         first = f < 0.0 ? min_of(first, step->node[i]) : first;
-        back = f >= 0.0 ? max_of(back, step->node[i]) : back;
+        last_positive = f >= 0.0 ? max_of(last_positive, step->node[i]) : last_positive;
     }
-    return first < back ? first : 1.0;
+    return first < last_positive ? first : 1.0;
 }
 
 /*
- * Return a fraction of the step at which event function k, not one of a gap, is negative: the upper end of its bracket;
- * 0: none. `value` is set to its value there.
+ * Return a fraction of the step at which an event function is negative, as the upper end of its bracket, and set *value
+ * to its value there; 0: none. event: number of the function, not of a gap. For watched functions it is the first
+ * negative sample; for others it is a negative stage that the dense output confirms, or the end.
  */
-static double last_negative_stage(Integrator *run, Step *step, int k, const Parameters *p, double *value)
+static double find_negative_fraction(Integrator *run, Step *step, int event, const Parameters *p, double *value)
 {
-    if (watched_as[k] >= 0)
-        return first_negative_sample(run, step, watched_as[k], p, value);
-    const double end = event_function(&run->discrete, &step->rhs, k);
-    for (int last = 0; last < 2 && step->lowest[k] < 0.0; last++) {
-        const double at = last ? stage_of_minimum(step, k) : first_negative_stage(step, k, end);
-        if (at >= 1.0 || compute_dense_output(run, p, step))
+    if (watched_as[event] >= 0)
+        return find_first_negative_sample(run, step, watched_as[event], p, value);
+    const double end_value = event_function(&run->discrete, &step->rhs, event);
+    for (int pass = 0; pass < 2 && step->lowest[event] < 0.0; pass++) {
+        const double fraction = pass ? find_stage_of_minimum(step, event)
+            : find_first_negative_stage(step, event, end_value);
+        if (fraction >= 1.0 || compute_dense_output(run, p, step))
             continue;
-        *value = event_function_at(run, step, at, k, p);
+        *value = evaluate_event_function_at(run, step, fraction, event, p);
         if (*value < 0.0)
-            return at;
+            return fraction;
     }
-    *value = end;
-    return end < 0.0 ? 1.0 : 0.0;
+    *value = end_value;
+    return end_value < 0.0 ? 1.0 : 0.0;
 }
 
-/* Return whether a watched event function k is larger than its uncertainty at a state; 1 for all other functions. */
-static int is_resolved(Integrator *run, double t, const double *y, const RhsOutputs *rhs, int k, const Parameters *p)
+/*
+ * Return whether a watched event function is larger than its uncertainty at the state y at time t (s), with outputs
+ * rhs. 1 for all other event functions. Also used by the audit.
+ */
+static int is_resolved(Integrator *run, double t, const double *y, const RhsOutputs *rhs, int event,
+    const Parameters *p)
 {
     double error[AT_LEAST_ONE(N_WATCHED)] = {0.0};
-    if (watched_as[k] < 0)
+    if (watched_as[event] < 0)
         return 1;
-    uncertainty(run, t, y, p, error);
-    return !(fabs(event_function(&run->discrete, rhs, k)) <= error[watched_as[k]]);
+    estimate_uncertainty(run, t, y, p, error);
+    return !(fabs(event_function(&run->discrete, rhs, event)) <= error[watched_as[event]]);
 }
 
-/* Return whether a watched event function k is larger than its uncertainty at a fraction of the step. */
-static int is_resolved_at(Integrator *run, const Step *step, double fraction, int k, const Parameters *p)
+/*
+ * Return whether a watched event function is larger than its uncertainty at a fraction of the step. 1 for all other
+ * functions, and if the evaluation fails.
+ */
+static int is_resolved_at(Integrator *run, const Step *step, double fraction, int event, const Parameters *p)
 {
     double y[N_Y], dy[N_Y];
     RhsOutputs rhs;
-    return watched_as[k] < 0 || state_at(run, step, fraction, p, y, dy, &rhs)
-        || is_resolved(run, step->t + fraction * step->h, y, &rhs, k, p);
+    return watched_as[event] < 0 || state_at(run, step, fraction, p, y, dy, &rhs)
+        || is_resolved(run, step->t + fraction * step->h, y, &rhs, event, p);
 }
 
 /*
- * Return the fraction of the first event that precedes `first`, at which an event was found. Event functions that no
- * stage shows negative are evaluated there and, if negative, located. `event` is updated.
+ * Return the fraction of the first event before the event found at the fraction `first`, and update *event to its
+ * number. Event functions that no stage shows negative are evaluated there; negative ones above their uncertainty are
+ * located, which is repeated at the new fraction. If there is none, return `first`. Called after the first event of a
+ * step is located.
  */
-static double event_before(Integrator *run, const Step *step, double first, const Parameters *p, int *event)
+static double find_earlier_event(Integrator *run, const Step *step, double first, const Parameters *p, int *event)
 {
-    for (int again = 0; again < N_EVENT_FUNCTIONS && first > 0.0; again++) {
-        const int slot = sample_at(run, step, first, *event, p);
-        int found = -1;
-        for (int k = 0; k < N_EVENT_FUNCTIONS && slot >= 0; k++)
-            if (run->roots.samples.event_function[slot][k] < 0.0 && k != *event && !is_ignored(run, step, k)
-                && !isfinite(bracket_begin(run, step, k).slope) && event_function(&run->discrete, &run->rhs, k) >= 0.0
+    for (int pass = 0; pass < N_EVENT_FUNCTIONS && first > 0.0; pass++) {
+        const int sample = get_dense_sample(run, step, first, *event, p);
+        int earlier = -1;
+        for (int k = 0; k < N_EVENT_FUNCTIONS && sample >= 0; k++)
+            if (run->roots.samples.event_function[sample][k] < 0.0 && k != *event && !is_ignored(run, step, k)
+                && !isfinite(get_bracket_begin(run, step, k).slope)
+                    && event_function(&run->discrete, &run->rhs, k) >= 0.0
                 && is_resolved_at(run, step, first, k, p))
-                found = k;
-        if (found < 0)
+                earlier = k;
+        if (earlier < 0)
             return first;
-        const Sample high = bracket_point_at(run, step, first, found, p);
-        const Bracket of = stage_bracket(step, found, bracket_begin(run, step, found), high);
-        const double s = locate_root(run, step, found, of, guess_zero(&of, n_interpolation_points(run, found)), p);
+        const Sample high = evaluate_bracket_point(run, step, first, earlier, p);
+        const Bracket of = build_stage_bracket(step, earlier, get_bracket_begin(run, step, earlier), high);
+        const double s = locate_event_in_step(run, step, earlier, of,
+            guess_zero(&of, count_interpolation_points(run, earlier)), p);
         if (!(s < first))
             return first;
         first = s;
-        *event = found;
+        *event = earlier;
     }
     return first;
 }
@@ -171,102 +191,112 @@ typedef struct {
 } Candidate;
 
 /*
- * Return whether event function k is negative somewhere in the step, and set `now` to its bracket. Zeros of a gap after
- * the fraction `until` may be omitted.
+ * Return whether an event function is negative somewhere in the step, and set *candidate to its bracket and the
+ * estimates of its zero. Zeros of a gap after max_fraction may be omitted. A function that is negative at the beginning
+ * is sampled for a return above zero; without one the event is at the beginning. Called for each event function that
+ * may have a zero in the step.
  */
-static int is_candidate(Integrator *run, Step *step, int k, const Parameters *p, double until, Candidate *now)
+static int has_event_candidate(Integrator *run, Step *step, int event, const Parameters *p, double max_fraction,
+    Candidate *candidate)
 {
-    double at_high;
-    Sample low = bracket_begin(run, step, k), end = {0.0, NAN, NAN};
-    const int is_gap = isfinite(low.slope), sampled = is_gap || is_contact_force_function(run, k);
-    const int candidates = is_gap ? has_zero(run, step, k, p, until, &low, &end)
-        : sampled ? has_force_zero(run, step, k, p, &low, &end) : 0;
-    const double high = sampled ? candidates * end.s : last_negative_stage(run, step, k, p, &at_high);
+    double value_high;
+    Sample low = get_bracket_begin(run, step, event), end = {0.0, NAN, NAN};
+    const int is_gap = isfinite(low.slope), sampled = is_gap || is_contact_force_function(run, event);
+    const int candidates = is_gap ? has_gap_zero(run, step, event, p, max_fraction, &low, &end)
+        : sampled ? has_force_zero(run, step, event, p, &low, &end) : 0;
+    const double high = sampled ? candidates * end.s : find_negative_fraction(run, step, event, p, &value_high);
     if (high == 0.0 || compute_dense_output(run, p, step))
         return 0;
-    if (watched_as[k] >= 0 && step->from[watched_as[k]] > 0.0) {
-        const Sample from = bracket_point_at(run, step, step->from[watched_as[k]], k, p);
-        if (from.f >= 0.0 || step->above[watched_as[k]] >= 0.0)
+    if (watched_as[event] >= 0 && step->from[watched_as[event]] > 0.0) {
+        const Sample from = evaluate_bracket_point(run, step, step->from[watched_as[event]], event, p);
+        if (from.f >= 0.0 || step->above[watched_as[event]] >= 0.0)
             low = from;
     }
-    if (watched_as[k] >= 0 && step->above[watched_as[k]] >= 0.0) /* negative within its uncertainty only */
+    if (watched_as[event] >= 0 && step->above[watched_as[event]] >= 0.0) /* negative within its uncertainty only */
         low.f = max_of(low.f, 0.0);
     for (int j = 1; j < 4 && !sampled && !(low.f >= 0.0); j++) { /* negative at the beginning: find a return */
-        const Sample part = bracket_point_at(run, step, 0.25 * j * high, k, p);
-        if (part.f >= 0.0)
-            low = part;
+        const Sample inner = evaluate_bracket_point(run, step, 0.25 * j * high, event, p);
+        if (inner.f >= 0.0)
+            low = inner;
     }
-    now->k = k;
+    candidate->k = event;
     if (!is_gap)
-        end = high < 1.0 ? bracket_point_at(run, step, high, k, p) : bracket_end(run, step, k);
-    now->of = stage_bracket(step, k, low, end);
-    now->guess = low.f >= 0.0 ? guess_zero(&now->of, n_interpolation_points(run, k)) : low.s;
-    now->about = low.f >= 0.0 ? clamp_to_bracket(now->guess, &now->of) : low.s;
+        end = high < 1.0 ? evaluate_bracket_point(run, step, high, event, p) : get_bracket_end(run, step, event);
+    candidate->of = build_stage_bracket(step, event, low, end);
+    candidate->guess = low.f >= 0.0 ? guess_zero(&candidate->of, count_interpolation_points(run, event)) : low.s;
+    candidate->about = low.f >= 0.0 ? clamp_to_bracket(candidate->guess, &candidate->of) : low.s;
     return 1;
 }
 
 /*
- * Return the first fraction of the step at which an event function ends it. `event`: its number, -1 if none (fraction
- * 1).
+ * Return the first fraction of the step at which an event function is negative, and its number *event; 1 and -1 if
+ * there is none. Candidates are located in the order of their estimated zeros. Functions that are not sampled are
+ * searched at that fraction as well (find_earlier_event()). Called by first_event() for each tried step.
  */
-static double first_crossing(Integrator *run, Step *step, const Parameters *p, int *event)
+static double find_first_crossing(Integrator *run, Step *step, const Parameters *p, int *event)
 {
-    double first = 1.0, until = 1.0; /* no event is later than that */
+    double first = 1.0, max_fraction = 1.0; /* no event is later than that */
     double at_end[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
     Candidate candidates[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
     int n = 0;
     *event = -1;
     evaluate_event_functions(&run->discrete, &step->rhs, at_end);
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++) {
-        const int quiet = k >= N_CLEARANCES && watched_as[k] < 0 && !is_contact_force_function(run, k)
+        const int is_clear = k >= N_CLEARANCES && watched_as[k] < 0 && !is_contact_force_function(run, k)
             && !(step->lowest[k] < 0.0) && !(at_end[k] < 0.0);
-        Candidate now;
+        Candidate candidate;
         int i = n;
-        if (quiet || is_ignored(run, step, k) || !is_candidate(run, step, k, p, until, &now))
+        if (is_clear || is_ignored(run, step, k) || !has_event_candidate(run, step, k, p, max_fraction, &candidate))
             continue;
-        for (n++; i > 0 && candidates[i - 1].about > now.about; i--)
+        for (n++; i > 0 && candidates[i - 1].about > candidate.about; i--)
             candidates[i] = candidates[i - 1];
-        candidates[i] = now;
+        candidates[i] = candidate;
         if (k < N_CLEARANCES)
-            until = min_of(until, now.of.at[1].s);
+            max_fraction = min_of(max_fraction, candidate.of.at[1].s);
     }
     for (int i = 0; i < n; i++) {
-        const Candidate *now = &candidates[i];
-        if (*event >= 0 && now->of.at[1].s > first && event_function_at(run, step, first, now->k, p) >= 0.0)
+        const Candidate *candidate = &candidates[i];
+        if (*event >= 0 && candidate->of.at[1].s > first
+            && evaluate_event_function_at(run, step, first, candidate->k, p) >= 0.0)
             continue; /* later than the event found so far */
         const double s =
-            now->of.at[0].f >= 0.0 ? locate_root(run, step, now->k, now->of, now->guess, p) : now->of.at[0].s;
+            candidate->of.at[0].f >= 0.0 ? locate_event_in_step(run, step, candidate->k, candidate->of,
+                candidate->guess, p)
+                : candidate->of.at[0].s;
         if (*event < 0 || s < first) {
             first = s;
-            *event = now->k;
+            *event = candidate->k;
         }
     }
-    return *event < 0 ? first : event_before(run, step, first, p, event);
+    return *event < 0 ? first : find_earlier_event(run, step, first, p, event);
 }
 
 /*
- * Return the first event of a step in contact that is far longer than the previous one. Event functions without bounds
- * may cross zero and return between its stages, and stages of stiff methods are inaccurate. The dense output is
- * therefore sampled up to the event at `fraction` that was already found.
+ * Return the fraction of the first event of a step that is far longer than the previous one, while a contact is closed.
+ * Event functions without bounds may cross zero and return between its stages, and stages of stiff methods are
+ * inaccurate. The dense output is therefore sampled up to the event already found at `fraction`, and *event is updated.
+ * Other steps, and steps of fixed length, return `fraction`.
  */
-static double first_event_of_long_step(Integrator *run, Step *step, double fraction, const Parameters *p, int *event)
+static double find_first_event_of_long_step(Integrator *run, Step *step, double fraction, const Parameters *p,
+    int *event)
 {
-    int closed = 0, hidden = 0;
+    int has_contact = 0, is_unbounded_function = 0;
     for (int i = 0; i < N_CLEARANCES; i++)
-        closed |= run->discrete.contact[i].closed;
-    if (!closed || !(fraction * step->h > LONG_STEP * run->control.last_step) || run->control.fixed > 0.0)
+        has_contact |= run->discrete.contact[i].closed;
+    if (!has_contact || !(fraction * step->h > LONG_STEP * run->control.last_step) || run->control.fixed > 0.0)
         return fraction;
-    for (int k = 0; k < N_EVENT_FUNCTIONS && !hidden; k++)
-        hidden = watched_as[k] < 0 && !isfinite(bracket_begin(run, step, k).slope) && !is_contact_force_function(run, k)
+    for (int k = 0; k < N_EVENT_FUNCTIONS && !is_unbounded_function; k++)
+        is_unbounded_function = watched_as[k] < 0 && !isfinite(get_bracket_begin(run, step, k).slope)
+            && !is_contact_force_function(run, k)
             && event_function(&run->discrete, &run->rhs, k) >= 0.0 && !is_ignored(run, step, k)
             && (step->method->stiff || !is_clear_of_zero(run, step, k, 0.0, p));
-    if (!hidden || compute_dense_output(run, p, step))
+    if (!is_unbounded_function || compute_dense_output(run, p, step))
         return fraction;
     for (int i = 1; i < N_INNER_SAMPLES; i++) {
-        int earlier = -1;
-        const double first = event_before(run, step, fraction * i / N_INNER_SAMPLES, p, &earlier);
-        if (earlier >= 0) {
-            *event = earlier;
+        int earlier_event = -1;
+        const double first = find_earlier_event(run, step, fraction * i / N_INNER_SAMPLES, p, &earlier_event);
+        if (earlier_event >= 0) {
+            *event = earlier_event;
             return first;
         }
     }
@@ -277,65 +307,70 @@ static double first_event_of_long_step(Integrator *run, Step *step, double fract
 enum { FAR_PLACES = 4 };
 
 /*
- * Evaluate user events at fraction s of a step, extrapolated linearly beyond its end. value: 0 for those below their
- * uncertainty. Returns a status.
+ * Evaluate the user-defined event functions at a fraction of a step into `values` (N_USER_EVENTS), 0 for those below
+ * their uncertainty. Beyond the end of the step (fraction > 1) the motion is extrapolated linearly. Return a status.
  */
-static int events_at(Integrator *run, const Step *step, double s, const Parameters *p, double *value)
+static int evaluate_user_events_at(Integrator *run, const Step *step, double fraction, const Parameters *p,
+    double *values)
 {
     double y[N_Y], dy[N_Y];
     RhsOutputs rhs;
-    if (s > 1.0)
-        return evaluate_events_ahead(run, step->t + step->h, (s - 1.0) * step->h, step->y, step->dy, p, value);
-    const int status = state_at(run, step, s, p, y, dy, &rhs);
+    if (fraction > 1.0)
+        return evaluate_events_ahead(run, step->t + step->h, (fraction - 1.0) * step->h, step->y, step->dy, p,
+            values);
+    const int status = state_at(run, step, fraction, p, y, dy, &rhs);
     if (!status)
-        evaluate_resolved_events(run, step->t + s * step->h, y, &rhs, p, value);
+        evaluate_resolved_events(run, step->t + fraction * step->h, y, &rhs, p, values);
     return status;
 }
 
 /*
- * Return whether user event i changes its sign at a pole instead of a zero. It does if its value is larger at the
- * located fraction than at the first later sample above its uncertainty. A function that jumps between finite values is
- * equally large at both. Samples are those of the dense output, because drives do not move linearly.
+ * Return whether a user-defined event function changes its sign at a pole instead of a zero, at a fraction of the step.
+ * It does if its value is larger there than at the first later sample above its uncertainty. A function that jumps
+ * between finite values is equally large at both. Samples are those of the dense output, because drives do not move
+ * linearly. Return 0 if the state cannot be evaluated. Called for a user-defined event that ends a step.
  */
-static int is_pole(Integrator *run, const Step *step, double fraction, int i, const Parameters *p)
+static int is_pole(Integrator *run, const Step *step, double fraction, int user_event, const Parameters *p)
 {
-    double y[N_Y], dy[N_Y], value[N_USER_EVENTS], ahead = event_time_tolerance(run, step);
+    double y[N_Y], dy[N_Y], value[N_USER_EVENTS], distance = compute_event_time_tolerance(run, step);
     RhsOutputs rhs;
     if (state_at(run, step, fraction, p, y, dy, &rhs))
         return 0;
-    for (int n = 0; n < FAR_PLACES && isfinite(rhs.event[i]); n++) {
-        ahead *= POLE_DISTANCE;
-        if (!events_at(run, step, fraction + ahead, p, value) && value[i] != 0.0)
-            return is_near_pole(rhs.event[i], value[i]);
+    for (int n = 0; n < FAR_PLACES && isfinite(rhs.event[user_event]); n++) {
+        distance *= POLE_DISTANCE;
+        if (!evaluate_user_events_at(run, step, fraction + distance, p, value) && value[user_event] != 0.0)
+            return is_near_pole(rhs.event[user_event], value[user_event]);
     }
-    return isinf(rhs.event[i]);
+    return isinf(rhs.event[user_event]);
 }
 #else
-/* Return 0: the scene has no user events. */
-static inline int is_pole(Integrator *run, const Step *step, double fraction, int i, const Parameters *p)
+/* Return 0: the scene has no user-defined events. */
+static inline int is_pole(Integrator *run, const Step *step, double fraction, int user_event, const Parameters *p)
 {
-    return (void)run, (void)step, (void)fraction, (void)i, (void)p, 0;
+    return (void)run, (void)step, (void)fraction, (void)user_event, (void)p, 0;
 }
 #endif
 
 /*
- * Return the first fraction of the step at which an event ends it, and its number `event` (-1: none, fraction 1).
- * Switching points passed without an event are determined first.
+ * Return the first fraction of a tried step at which an event ends it, and its number *event; 1 and -1 if there is
+ * none. Switching points that the step passes without an event are determined first; if an event precedes the end, none
+ * is passed. Also store whether a user-defined event is a pole. Called for each accepted attempt, before the step is
+ * shortened to the event.
  */
 static double first_event(Integrator *run, Step *step, const Parameters *p, int *event)
 {
-    const int passed = ignore_harmless_switches(run, step, p);
-    search_step(run, step, p);
-    double fraction = first_crossing(run, step, p, event);
-    if (*event >= 0 && passed) {
+    const int has_passed = ignore_harmless_switches(run, step, p);
+    find_watched_zeros(run, step, p);
+    double fraction = find_first_crossing(run, step, p, event);
+    if (*event >= 0 && has_passed) {
         /* the event ends the step: a passed switching point may lie after it */
         for (int k = 0; k < N_SWITCHES; k++)
             step->passed[k] = 0;
-        fraction = first_crossing(run, step, p, event);
+        fraction = find_first_crossing(run, step, p, event);
     }
-    fraction = first_event_of_long_step(run, step, fraction, p, event);
+    fraction = find_first_event_of_long_step(run, step, fraction, p, event);
     const int user_event = *event - (N_EVENT_FUNCTIONS - N_USER_EVENTS);
-    set_pole(run, user_event >= 0 && is_pole(run, step, fraction, user_event, p));
+    set_pole_flag(run, user_event >= 0 && is_pole(run, step, fraction, user_event, p));
     return fraction;
 }
 
@@ -343,37 +378,43 @@ static double first_event(Integrator *run, Step *step, const Parameters *p, int 
 static void start_roots(Integrator *run) { run->roots.crossed = run->roots.skip = -1; }
 
 /*
- * Set the resolution of event times, s, from the time `left` of the run, s. With fixed steps it does not depend on that
- * time, so that a resumed run repeats the uninterrupted one.
+ * Set the resolution of event times, s, from the time that is left of the run, s. With steps of fixed length it is a
+ * fraction of the step instead, so that a resumed run repeats the uninterrupted one. Called when a run begins or
+ * resumes.
  */
-static void set_time_resolution(Integrator *run, double left)
+static void set_time_resolution(Integrator *run, double time_left)
 {
-    run->roots.time_resolution = min_of(1e-12, run->control.fixed > 0.0 ? 1e-8 * run->control.fixed : 1e-11 * left);
+    run->roots.time_resolution = min_of(1e-12, run->control.fixed > 0.0 ? 1e-8 * run->control.fixed
+        : 1e-11 * time_left);
 }
 
 #define MIN_RATE_JUMP_TOL 1e-3 /* of a tolerance: smaller changes of a step by a switching point are ignored */
-/* Return the jump of the rates at a change of branch, in tolerances per second. before: rates of the old branch. */
-static double rate_jump(const Integrator *run, const double *before)
+/*
+ * Return the largest jump of the rates at a change of branch, in tolerances per second. dy_before (N_Y): rates of the
+ * previous branch at the same state.
+ */
+static double compute_rate_jump(const Integrator *run, const double *dy_before)
 {
-    double most = 0.0;
+    double largest = 0.0;
     for (int k = 0; k < N_Y; k++)
-        most = max_of(most, fabs(run->dy[k] - before[k]) * run->norm.weight[k]);
-    return most;
+        largest = max_of(largest, fabs(run->dy[k] - dy_before[k]) * run->norm.weight[k]);
+    return largest;
 }
 
 /*
  * Suppress a switching point in the next step if the motion crossed it twice within a short time, such as a journal at
- * rest in its film. The next step is as short as the time between the crossings, and the following ones grow. Both
- * branches meet there, or differ by rounding only, so that the frozen branch has a small error.
+ * rest in its film. Called at each change of branch. Both branches must meet there, or differ by rounding only
+ * (dy_before: rates of the previous branch). The next step is as short as the time between the crossings, and the
+ * following ones grow.
  */
-static void suppress_repeated_switch(Integrator *run, int switch_index, const double *before)
+static void suppress_repeated_switch(Integrator *run, int switch_index, const double *dy_before)
 {
     const double elapsed = run->t - run->roots.t_crossed;
     const double monitor = 20.0 * max_of(100.0 * run->roots.time_resolution, max_of(run->roots.monitor, elapsed));
     const int is_repeated = run->roots.crossed == switch_index && elapsed < 1e-3 * run->control.h
         && (meets[switch_index]
             || (run->control.fixed <= 0.0
-                && rate_jump(run, before) * max_of(monitor, run->control.h) < MIN_RATE_JUMP_TOL));
+                && compute_rate_jump(run, dy_before) * max_of(monitor, run->control.h) < MIN_RATE_JUMP_TOL));
     run->roots.skip = is_repeated ? switch_index : -1;
     run->roots.monitor = is_repeated ? monitor : 0.0;
     run->roots.crossed = switch_index;

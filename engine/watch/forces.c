@@ -17,23 +17,26 @@ enum { MAX_FORCE_SAMPLES = 20000, MIN_STAGES = 8 /* of a step that bound a force
 typedef struct {
     Sample middle, end;
     double error;
-} Sampled;
+} SampledPart;
 
 /*
- * Return whether event function k belongs to this file: that of a closed rigid contact, or of friction that no other
- * friction holds.
+ * Return whether the zeros of an event function are searched by this file: that of a closed rigid contact, or of a
+ * friction element that no other friction holds.
  */
-static int is_contact_force_function(const Integrator *run, int k)
+static int is_contact_force_function(const Integrator *run, int event)
 {
-    const int friction = k - N_CLEARANCES - N_SWITCHES;
-    if (k < N_CLEARANCES)
-        return !gives(k) && run->discrete.contact[k].closed;
+    const int friction = event - N_CLEARANCES - N_SWITCHES;
+    if (event < N_CLEARANCES)
+        return !gives(event) && run->discrete.contact[event].closed;
     return friction >= 0 && friction < N_FRICTIONS && run->discrete.mode[friction] != MODE_HELD;
 }
 
 #if N_FRICTIONS
-/* Return the error of slip velocity i that the tolerances of the velocities allow, m/s. */
-static double slip_tolerance(Integrator *run, int i, const Parameters *p)
+/*
+ * Return the error of a slip velocity that the tolerances of all velocities allow, m/s, by one evaluation for each
+ * velocity; 0 if it is not finite.
+ */
+static double compute_slip_tolerance(Integrator *run, int element, const Parameters *p)
 {
     double y[N_Y], dy[N_Y], sum = 0.0;
     RhsOutputs rhs;
@@ -41,88 +44,96 @@ static double slip_tolerance(Integrator *run, int i, const Parameters *p)
         memcpy(y, run->y, sizeof y);
         y[k] += 1.0 / run->norm.weight[k];
         if (!rates(run, run->t, y, p, dy, &rhs))
-            sum += fabs(rhs.friction[i].v - run->rhs.friction[i].v);
+            sum += fabs(rhs.friction[element].v - run->rhs.friction[element].v);
     }
     return isfinite(sum) ? sum : 0.0;
 }
 #endif
 
 /*
- * Return how far event function k may be below zero at the beginning of a step without an event. For a slip velocity
- * that leaves rest it is the rounding or the error of the step, m/s; otherwise 0.
+ * Return how far an event function may be below zero at the beginning of a step without an event. For a slip velocity
+ * that leaves rest it is the rounding or the error of the step, m/s; for all other functions 0. Used as the allowance
+ * of has_force_zero().
  */
-static double rounding_of_velocity(Integrator *run, int k, const Parameters *p)
+static double compute_velocity_rounding(Integrator *run, int event, const Parameters *p)
 {
 #if N_FRICTIONS
-    const int i = k - N_CLEARANCES - N_SWITCHES;
+    const int i = event - N_CLEARANCES - N_SWITCHES;
     const double mode = i >= 0 ? run->discrete.mode[i] : 0.0, v = i >= 0 ? run->rhs.friction[i].v : 0.0;
     if (mode != 0.0 && fabs(v) <= AT_REST && mode * run->rhs.friction[i].rate > 0.0)
-        return max_of(AT_REST, slip_tolerance(run, i, p));
+        return max_of(AT_REST, compute_slip_tolerance(run, i, p));
 #endif
-    return (void)run, (void)k, (void)p, 0.0;
+    return (void)run, (void)event, (void)p, 0.0;
 }
 
 /*
- * Collect a value at the beginning of a step, at its stages in the order of their nodes, and at its end. Returns the
- * number of samples in `all`, at most N_STAGES + 2.
+ * Collect samples of a function along a step in the order of their fractions: at the beginning, at its inner stages
+ * (`values`), and at the end. samples: the result, without slopes at stages. Return their number, at most N_STAGES + 2.
+ * Used for forces and event functions of explicit steps.
  */
-static int values_of_stages(const Step *step, Sample begin, Sample end, StageValues seen, Sample *all)
+static int collect_stage_samples(const Step *step, Sample begin, Sample end, StageValues values, Sample *samples)
 {
     int n = 1;
-    all[0] = begin;
+    samples[0] = begin;
     for (int i = 0; i < step->n_seen; i++) {
-        int at = n;
+        int position = n;
         if (!(step->node[i] > 0.0 && step->node[i] < 1.0))
             continue;
-        for (n++; all[at - 1].s > step->node[i]; at--)
-            all[at] = all[at - 1];
-        all[at] = (Sample){step->node[i], stage_value(seen, i), NAN};
+        for (n++; samples[position - 1].s > step->node[i]; position--)
+            samples[position] = samples[position - 1];
+        samples[position] = (Sample){step->node[i], stage_value(values, i), NAN};
     }
-    all[n++] = end;
+    samples[n++] = end;
     return n;
 }
 
 #if N_TERMS
 /*
- * Return whether a term of time alone may oscillate between samples at both ends and the middle of a part. By its
- * bounds, it may then leave the parabola through them by more than MAX_TERM_EXCESS of its range.
+ * Return whether a term of time alone may oscillate between samples at both ends and the middle of a part [begin, end]
+ * of the step. By its bounds, it may then leave the parabola through them by more than MAX_TERM_EXCESS of its range
+ * over the step, which is computed on the first call for the step.
  */
-static int may_oscillate_between(Step *step, double a, double b, const Parameters *p)
+static int may_oscillate_between(Step *step, double begin, double end, const Parameters *p)
 {
-    Range f[N_TERMS], low[N_TERMS], middle[N_TERMS], high[N_TERMS];
-    const double w = b - a;
+    Range term[N_TERMS], term_low[N_TERMS], term_middle[N_TERMS], term_high[N_TERMS];
+    const double width = end - begin;
     if (step->spread[0] < 0.0) {
-        terms_over(step->t, step->h, 0.0, 1.0, p, f);
+        bound_time_terms(step->t, step->h, 0.0, 1.0, p, term);
         for (int k = 0; k < N_TERMS; k++)
-            step->spread[k] = f[k].hi - f[k].lo;
+            step->spread[k] = term[k].hi - term[k].lo;
     }
-    terms_over(step->t, step->h, a, b, p, f);
-    terms_over(step->t, step->h, a, a, p, low);
-    terms_over(step->t, step->h, a + 0.5 * w, a + 0.5 * w, p, middle);
-    terms_over(step->t, step->h, b, b, p, high);
+    bound_time_terms(step->t, step->h, begin, end, p, term);
+    bound_time_terms(step->t, step->h, begin, begin, p, term_low);
+    bound_time_terms(step->t, step->h, begin + 0.5 * width, begin + 0.5 * width, p, term_middle);
+    bound_time_terms(step->t, step->h, end, end, p, term_high);
     for (int k = 0; k < N_TERMS; k++) {
-        const double slope = high[k].lo - low[k].lo, bend = fabs(low[k].lo - 2.0 * middle[k].lo + high[k].lo);
-        const double beyond = max_of(w * f[k].up - slope, slope - w * f[k].down) - 2.0 * bend;
-        if (!(beyond <= MAX_TERM_EXCESS * step->spread[k]))
+        const double slope = term_high[k].lo - term_low[k].lo,
+            second_difference = fabs(term_low[k].lo - 2.0 * term_middle[k].lo + term_high[k].lo);
+        const double excess = max_of(width * term[k].up - slope, slope - width * term[k].down)
+            - 2.0 * second_difference;
+        if (!(excess <= MAX_TERM_EXCESS * step->spread[k]))
             return 1;
     }
     return 0;
 }
 #else
 /* Return 0: the scene has no terms of time alone. */
-static int may_oscillate_between(Step *step, double a, double b, const Parameters *p)
+static int may_oscillate_between(Step *step, double begin, double end, const Parameters *p)
 {
-    return (void)step, (void)a, (void)b, (void)p, 0;
+    return (void)step, (void)begin, (void)end, (void)p, 0;
 }
 #endif
 
-/* Return whether a term of time alone may oscillate between neighbouring samples of the stages. */
-static int may_oscillate_between_stages(Step *step, const Sample *all, int n, const Parameters *p)
+/*
+ * Return whether a term of time alone may oscillate between neighbouring ones of n samples. The answer is computed once
+ * for each step and stored in step->swings.
+ */
+static int may_oscillate_between_stages(Step *step, const Sample *samples, int n, const Parameters *p)
 {
     if (step->swings < 0) {
         step->swings = may_oscillate_between(step, 0.0, 1.0, p);
         for (int i = 1, is_tested = step->swings; i < n && is_tested; i++) {
-            step->swings = may_oscillate_between(step, all[i - 1].s, all[i].s, p);
+            step->swings = may_oscillate_between(step, samples[i - 1].s, samples[i].s, p);
             is_tested = !step->swings;
         }
     }
@@ -130,112 +141,135 @@ static int may_oscillate_between_stages(Step *step, const Sample *all, int n, co
 }
 
 /*
- * Return a bound of the second derivative through n samples: BEND_SAFETY times the largest second difference quotient.
+ * Return a bound of the second derivative of a function given by n samples: BEND_SAFETY times the largest second
+ * difference quotient; 0 for n < 3.
  */
-static double max_second_derivative(const Sample *all, int n)
+static double bound_second_derivative(const Sample *samples, int n)
 {
-    double bend = 0.0;
+    double largest = 0.0;
     for (int i = 1; i + 1 < n; i++) {
-        const double left = (all[i].f - all[i - 1].f) / (all[i].s - all[i - 1].s);
-        const double right = (all[i + 1].f - all[i].f) / (all[i + 1].s - all[i].s);
-        bend = max_of(bend, 2.0 * BEND_SAFETY * fabs(right - left) / (all[i + 1].s - all[i - 1].s));
+        const double left = (samples[i].f - samples[i - 1].f) / (samples[i].s - samples[i - 1].s);
+        const double right = (samples[i + 1].f - samples[i].f) / (samples[i + 1].s - samples[i].s);
+        largest = max_of(largest, 2.0 * BEND_SAFETY * fabs(right - left) / (samples[i + 1].s - samples[i - 1].s));
     }
-    return bend;
+    return largest;
 }
 
 /*
- * Return whether the stages of a step show that event function k has no zero. Between neighbours a and b it is at least
- * min(f_a, f_b) - B w^2/8, where B bounds its second derivative, and at least the smaller one where it is monotone.
- * Values above -rest are not negative, until the function exceeds `rest`.
+ * Return whether the stages of a step show that an event function has no zero. Between neighbours a and b it is at
+ * least min(f_a, f_b) - B w^2/8, where B bounds its second derivative, and at least the smaller one where it is
+ * monotone. Values above -allowance are not negative, until the function exceeds `allowance`. Stages of stiff methods,
+ * or too few, decide for slip velocities only, by the range of the samples. Called before the dense output is bisected.
  */
-static int is_clear_of_zero(const Integrator *run, Step *step, int k, double rest, const Parameters *p)
+static int is_clear_of_zero(const Integrator *run, Step *step, int event, double allowance, const Parameters *p)
 {
-    Sample all[N_STAGES + 2];
+    Sample samples[N_STAGES + 2];
     const int n =
-        values_of_stages(step, bracket_begin(run, step, k), bracket_end(run, step, k), stage_values(step, k), all);
-    const int friction = k - N_CLEARANCES - N_SWITCHES;
-    double least = INFINITY, most = -INFINITY;
+        collect_stage_samples(step, get_bracket_begin(run, step, event), get_bracket_end(run, step, event),
+            stage_values(step, event), samples);
+    const int friction = event - N_CLEARANCES - N_SWITCHES;
+    double smallest = INFINITY, largest = -INFINITY;
     for (int i = 0; i < n; i++) {
-        least = min_of(least, all[i].f);
-        most = max_of(most, all[i].f);
+        smallest = min_of(smallest, samples[i].f);
+        largest = max_of(largest, samples[i].f);
     }
     if (step->method->stiff || n < MIN_STAGES) /* inaccurate or distant stages: for velocities only */
-        return friction >= 0 && friction < N_FRICTIONS && run->discrete.mode[friction] != 0.0 && least > most - least;
-    const double bend = max_second_derivative(all, n);
+        return friction >= 0 && friction < N_FRICTIONS && run->discrete.mode[friction] != 0.0
+            && smallest > largest - smallest;
+    const double bend = bound_second_derivative(samples, n);
     for (int i = 1; i < n; i++) {
-        const double w = all[i].s - all[i - 1].s, curve = bend * w * w;
-        const int monotone = fabs(all[i].f - all[i - 1].f) > 0.5 * curve;
-        rest = all[i - 1].f > rest ? 0.0 : rest;
-        if (!(min_of(all[i - 1].f, all[i].f) - (monotone ? 0.0 : 0.125 * curve) > -rest))
+        const double width = samples[i].s - samples[i - 1].s, deviation = bend * width * width;
+        const int monotone = fabs(samples[i].f - samples[i - 1].f) > 0.5 * deviation;
+        allowance = samples[i - 1].f > allowance ? 0.0 : allowance;
+        if (!(min_of(samples[i - 1].f, samples[i].f) - (monotone ? 0.0 : 0.125 * deviation) > -allowance))
             return 0;
     }
-    return (!(rest > 0.0) || all[n - 1].f >= -AT_REST) && !may_oscillate_between_stages(step, all, n, p);
+    return (!(allowance > 0.0) || samples[n - 1].f >= -AT_REST) && !may_oscillate_between_stages(step, samples, n, p);
 }
 
-/* Return the value at s of the parabola through both ends and the middle of a part. */
-static double parabola_at(Sample a, Sample middle, Sample b, double s)
+/*
+ * Return the value at a fraction of the step of the parabola through the samples at the begin, the middle and the end
+ * of a part.
+ */
+static double evaluate_parabola(Sample begin, Sample middle, Sample end, double fraction)
 {
-    const double u = 2.0 * (s - middle.s) / (b.s - a.s);
-    return middle.f + 0.5 * u * (b.f - a.f + u * (a.f - 2.0 * middle.f + b.f));
+    const double x = 2.0 * (fraction - middle.s) / (end.s - begin.s);
+    return middle.f + 0.5 * x * (end.f - begin.f + x * (begin.f - 2.0 * middle.f + end.f));
 }
 
-/* Return the minimum of the parabola between both ends of a part, and its largest slope there, `steepest`. */
-static double least_of_parabola(Sample a, Sample middle, Sample b, double *steepest)
+/*
+ * Return the minimum, between begin and end of a part, of the parabola through the samples there and in the middle.
+ * *steepest: its largest slope there, per fraction of the step.
+ */
+static double find_parabola_minimum(Sample begin, Sample middle, Sample end, double *steepest)
 {
-    const double slope = 0.5 * (b.f - a.f), bend = a.f - 2.0 * middle.f + b.f, u = -slope / bend;
-    const double least = min_of(a.f, min_of(middle.f, b.f));
-    *steepest = 2.0 * (slope + fabs(bend)) / (b.s - a.s);
-    return bend > 0.0 && fabs(u) < 1.0 ? min_of(least, middle.f + 0.5 * slope * u) : least;
+    const double slope = 0.5 * (end.f - begin.f), bend = begin.f - 2.0 * middle.f + end.f, x = -slope / bend;
+    const double least = min_of(begin.f, min_of(middle.f, end.f));
+    *steepest = 2.0 * (slope + fabs(bend)) / (end.s - begin.s);
+    return bend > 0.0 && fabs(x) < 1.0 ? min_of(least, middle.f + 0.5 * slope * x) : least;
 }
 
-/* Return the error of the parabolas of both halves of a part, from two new samples; infinite for long parts. */
-static double error_of_halves(Sample from, Sampled now, Sample left, Sample right)
+/*
+ * Return the error of the parabolas of both halves of a part that begins at the sample `begin`, by new samples in the
+ * middles of the halves. It is at least a fourth of the error of the whole part, and infinite for parts longer than
+ * COARSE.
+ */
+static double estimate_error_of_halves(Sample begin, SampledPart part, Sample left_middle, Sample right_middle)
 {
-    const double missed = max_of(fabs(left.f - parabola_at(from, now.middle, now.end, left.s)),
-        fabs(right.f - parabola_at(from, now.middle, now.end, right.s)));
-    const double known = isfinite(now.error) ? 0.25 * now.error : 0.0;
-    return now.end.s - from.s > COARSE ? INFINITY : max_of(known, ERROR_SAFETY * missed);
+    const double largest_difference = max_of(fabs(left_middle.f
+        - evaluate_parabola(begin, part.middle, part.end, left_middle.s)),
+        fabs(right_middle.f - evaluate_parabola(begin, part.middle, part.end, right_middle.s)));
+    const double min_error = isfinite(part.error) ? 0.25 * part.error : 0.0;
+    return part.end.s - begin.s > COARSE ? INFINITY : max_of(min_error, ERROR_SAFETY * largest_difference);
 }
 
-/* Return whether event function k has a zero in the step, and samples low, high that enclose the first one. */
-static int has_force_zero(Integrator *run, Step *step, int k, const Parameters *p, Sample *low, Sample *high)
+/*
+ * Return whether an event function of friction or of a closed rigid contact has a zero in the step, and samples low,
+ * high that enclose the first one. The stages decide if they can; otherwise the dense output is bisected on parts with
+ * parabolas and their errors. A slip velocity that leaves rest may be negative within its tolerance at first; if it is
+ * still negative at the end, it has reversed. Return 0 without dense output. Called for each such function of a tried
+ * step.
+ */
+static int has_force_zero(Integrator *run, Step *step, int event, const Parameters *p, Sample *low, Sample *high)
 {
-    const double close = 4.0 * event_time_tolerance(run, step);
-    double rest = rounding_of_velocity(run, k, p);
-    Sampled part[MAX_BISECTIONS + 1];
-    Sample from = bracket_begin(run, step, k);
+    const double min_width = 4.0 * compute_event_time_tolerance(run, step);
+    double allowance = compute_velocity_rounding(run, event, p);
+    SampledPart parts[MAX_BISECTIONS + 1];
+    Sample from = get_bracket_begin(run, step, event);
     double largest = fabs(from.f);
-    if (is_clear_of_zero(run, step, k, rest, p) || compute_dense_output(run, p, step))
+    if (is_clear_of_zero(run, step, event, allowance, p) || compute_dense_output(run, p, step))
         return 0;
-    part[0] = (Sampled){bracket_point_at(run, step, 0.5, k, p), bracket_end(run, step, k), INFINITY};
+    parts[0] = (SampledPart){evaluate_bracket_point(run, step, 0.5, event, p), get_bracket_end(run, step, event),
+        INFINITY};
     for (int n = 1, samples = 1; n > 0;) {
-        const Sampled now = part[n - 1];
-        const double w = now.end.s - from.s;
+        const SampledPart current = parts[n - 1];
+        const double width = current.end.s - from.s;
         double steepest;
-        rest = from.f > rest ? 0.0 : rest;
-        const double least = least_of_parabola(from, now.middle, now.end, &steepest) - now.error;
-        const int crosses = now.middle.f < -rest || now.end.f < -rest;
-        const int small = w < close || n > MAX_BISECTIONS || samples > MAX_FORCE_SAMPLES;
-        largest = max_of(largest, max_of(fabs(now.middle.f), fabs(now.end.f)));
-        if (crosses && (small || steepest + 4.0 * now.error / w < 0.0)) {
+        allowance = from.f > allowance ? 0.0 : allowance;
+        const double lower_bound = find_parabola_minimum(from, current.middle, current.end, &steepest) - current.error;
+        const int is_negative = current.middle.f < -allowance || current.end.f < -allowance;
+        const int is_small = width < min_width || n > MAX_BISECTIONS || samples > MAX_FORCE_SAMPLES;
+        largest = max_of(largest, max_of(fabs(current.middle.f), fabs(current.end.f)));
+        if (is_negative && (is_small || steepest + 4.0 * current.error / width < 0.0)) {
             *low = from;
-            *high = now.middle.f < -rest ? now.middle : now.end;
+            *high = current.middle.f < -allowance ? current.middle : current.end;
             return 1;
         }
-        if (small
-            || (least >= -rest - FORCE_ROUNDING * largest && !may_oscillate_between(step, from.s, now.end.s, p))) {
-            from = now.end;
+        if (is_small
+            || (lower_bound >= -allowance - FORCE_ROUNDING * largest
+                && !may_oscillate_between(step, from.s, current.end.s, p))) {
+            from = current.end;
             n--;
             continue;
         }
-        const Sample left = bracket_point_at(run, step, from.s + 0.25 * w, k, p);
-        const Sample right = bracket_point_at(run, step, now.end.s - 0.25 * w, k, p);
-        const double error = error_of_halves(from, now, left, right);
-        part[n - 1] = (Sampled){right, now.end, error};
-        part[n++] = (Sampled){left, now.middle, error};
+        const Sample left = evaluate_bracket_point(run, step, from.s + 0.25 * width, event, p);
+        const Sample right = evaluate_bracket_point(run, step, current.end.s - 0.25 * width, event, p);
+        const double error = estimate_error_of_halves(from, current, left, right);
+        parts[n - 1] = (SampledPart){right, current.end, error};
+        parts[n++] = (SampledPart){left, current.middle, error};
         samples += 2;
     }
-    *low = bracket_begin(run, step, k);
+    *low = get_bracket_begin(run, step, event);
     *high = from; /* a velocity within its tolerance has reversed */
-    return rest > 0.0 && from.f < -AT_REST;
+    return allowance > 0.0 && from.f < -AT_REST;
 }

@@ -7,36 +7,40 @@
 #define MAX_SWITCH_OVERSHOOT 1e-2  /* of a step, after a switching point, at most */
 #define HARMLESS_ERROR 1e-4    /* of the tolerance: change of a step by the inactive branch that is accepted */
 
-/* Evaluate the dense output at fraction s of the step: y[N_Y], not projected. */
-static void interpolate(const Integrator *run, const Step *step, double s, double *y)
+/*
+ * Evaluate the dense output at a fraction of the step, by the method of the step: y (N_Y), not projected onto the
+ * constraints. The dense output must have been computed.
+ */
+static void interpolate(const Integrator *run, const Step *step, double fraction, double *y)
 {
-    step->method->interpolate(run, step, s, y);
+    step->method->interpolate(run, step, fraction, y);
 }
 
 /*
- * Compute the projected state y, its rates dy and the right-hand side's outputs at fraction s of the step. Returns a
- * status.
+ * Compute the projected state y, its rates dy and the outputs rhs at a fraction of the step. The last sample after a
+ * zero is stored and returned without evaluation. Residual slips of sticking friction are removed. Return a status.
  */
 static int state_at(
-    Integrator *run, const Step *step, double s, const Parameters *p, double *y, double *dy, RhsOutputs *rhs)
+    Integrator *run, const Step *step, double fraction, const Parameters *p, double *y, double *dy, RhsOutputs *rhs)
 {
-    if (s == run->roots.samples.beyond) {
+    if (fraction == run->roots.samples.beyond) {
         memcpy(y, run->roots.samples.y, sizeof run->roots.samples.y);
         memcpy(dy, run->roots.samples.dy, sizeof run->roots.samples.dy);
         *rhs = run->roots.samples.rhs;
         return 0;
     }
-    interpolate(run, step, s, y);
-    const double t = step->t + s * step->h;
+    interpolate(run, step, fraction, y);
+    const double t = step->t + fraction * step->h;
     project_state(run, t, y, p);
     return evaluate_rates_at_rest(run, t, y, p, dy, rhs);
 }
 
 /*
- * Evaluate the contacts of joints with play at a state. Forces of rigid contacts follow from accelerations, so that
- * these scenes evaluate the whole right-hand side. Returns a status.
+ * Evaluate the contacts of joints with play at a state y and time t (s) into rhs. Forces of rigid contacts follow from
+ * accelerations, so that these scenes evaluate the whole right-hand side. The caller is polled. Return 0, STOPPED or
+ * another status.
  */
-static int play(Integrator *run, double t, const double *y, const Parameters *p, RhsOutputs *rhs)
+static int evaluate_contacts_at(Integrator *run, double t, const double *y, const Parameters *p, RhsOutputs *rhs)
 {
 #if N_RIGID
     double dy[N_Y];
@@ -50,33 +54,40 @@ static int play(Integrator *run, double t, const double *y, const Parameters *p,
 #endif
 }
 
-/* Evaluate the contacts of joints with play at fraction s of the step. Returns a status. */
-static int evaluate_contacts_in_step(Integrator *run, const Step *step, double s, const Parameters *p, RhsOutputs *rhs)
+/*
+ * Evaluate the contacts of joints with play at a fraction of the step into rhs. The stored last sample after a zero is
+ * copied if it is at that fraction. Scenes with sticking friction evaluate the whole right-hand side. Return a status.
+ */
+static int evaluate_contacts_in_step(Integrator *run, const Step *step, double fraction, const Parameters *p,
+    RhsOutputs *rhs)
 {
     double y[N_Y];
-    if (s == run->roots.samples.beyond) {
+    if (fraction == run->roots.samples.beyond) {
         *rhs = run->roots.samples.rhs;
         return 0;
     }
 #if N_FRICTIONS
     double dy[N_Y];
-    return state_at(run, step, s, p, y, dy, rhs);
+    return state_at(run, step, fraction, p, y, dy, rhs);
 #else
-    interpolate(run, step, s, y);
-    project_state(run, step->t + s * step->h, y, p);
-    return play(run, step->t + s * step->h, y, p, rhs);
+    interpolate(run, step, fraction, y);
+    project_state(run, step->t + fraction * step->h, y, p);
+    return evaluate_contacts_at(run, step->t + fraction * step->h, y, p, rhs);
 #endif
 }
 
-/* Return the rate of event function k per fraction of the step; NAN if the right-hand side does not contain it. */
-static double event_function_slope(const Integrator *run, const Step *step, const RhsOutputs *rhs, int k)
+/*
+ * Return the rate of an event function per fraction of the step. NAN if the outputs rhs do not contain it: that of a
+ * closed rigid contact, a switching point, friction or a user-defined event.
+ */
+static double compute_event_function_slope(const Integrator *run, const Step *step, const RhsOutputs *rhs, int event)
 {
-    if (k >= N_CLEARANCES || (run->discrete.contact[k].closed && !gives(k)))
+    if (event >= N_CLEARANCES || (run->discrete.contact[event].closed && !gives(event)))
         return NAN;
-    return (run->discrete.contact[k].closed ? step->h : -step->h) * rhs->clearance[k].deltadot;
+    return (run->discrete.contact[event].closed ? step->h : -step->h) * rhs->clearance[event].deltadot;
 }
 
-/* Discard the samples of the previous step. */
+/* Discard all stored samples of the dense output. Called when the dense output of a new step has been computed. */
 static void discard_samples(Integrator *run)
 {
     run->roots.samples.n = 0;
@@ -84,171 +95,198 @@ static void discard_samples(Integrator *run)
 }
 
 /*
- * Return the index of the stored sample at fraction s, -1 if there is none. joints_alone: whether a sample of the gaps
- * alone is sufficient.
+ * Return the index of the stored sample at a fraction of the step, -1 if there is none. gaps_only: whether a sample of
+ * joints with play alone is sufficient.
  */
-static int find_sample(const DenseSamples *stored, double s, int joints_alone)
+static int find_dense_sample(const DenseSamples *samples, double fraction, int gaps_only)
 {
-    for (int i = stored->n; i > 0 && i > stored->n - N_DENSE_SAMPLES; i--)
-        if (stored->fraction[(i - 1) % N_DENSE_SAMPLES] == s
-            && joints_alone >= stored->joints_alone[(i - 1) % N_DENSE_SAMPLES])
+    for (int i = samples->n; i > 0 && i > samples->n - N_DENSE_SAMPLES; i--)
+        if (samples->fraction[(i - 1) % N_DENSE_SAMPLES] == fraction
+            && gaps_only >= samples->joints_alone[(i - 1) % N_DENSE_SAMPLES])
             return (i - 1) % N_DENSE_SAMPLES;
     return -1;
 }
 
 /*
- * Store the event functions and slopes at fraction s of the step; joints_alone: those of joints with play only. Returns
- * the index of the sample.
+ * Store the event functions and slopes at a fraction of the step in place of the oldest sample, and return its index.
+ * rhs: outputs there; gaps_only: store those of joints with play only.
  */
-static int add_sample(Integrator *run, const Step *step, double s, const RhsOutputs *rhs, int joints_alone)
+static int add_dense_sample(Integrator *run, const Step *step, double fraction, const RhsOutputs *rhs, int gaps_only)
 {
-    const int slot = run->roots.samples.n++ % N_DENSE_SAMPLES;
-    run->roots.samples.fraction[slot] = s;
-    run->roots.samples.joints_alone[slot] = joints_alone;
-    for (int i = 0; i < (joints_alone ? N_CLEARANCES : N_EVENT_FUNCTIONS); i++)
-        run->roots.samples.event_function[slot][i] = event_function(&run->discrete, rhs, i);
+    const int index = run->roots.samples.n++ % N_DENSE_SAMPLES;
+    run->roots.samples.fraction[index] = fraction;
+    run->roots.samples.joints_alone[index] = gaps_only;
+    for (int i = 0; i < (gaps_only ? N_CLEARANCES : N_EVENT_FUNCTIONS); i++)
+        run->roots.samples.event_function[index][i] = event_function(&run->discrete, rhs, i);
     for (int i = 0; i < N_CLEARANCES; i++)
-        run->roots.samples.slope[slot][i] = event_function_slope(run, step, rhs, i);
-    return slot;
+        run->roots.samples.slope[index][i] = compute_event_function_slope(run, step, rhs, i);
+    return index;
 }
 
 /*
- * Return the index of the sample of all event functions at fraction s; evaluate it if it is not stored; -1: it failed.
- * The whole state is stored as well if event function k is negative there (k = -1: never).
+ * Return the index of the sample of all event functions at a fraction of the step. It is evaluated and stored if it is
+ * not known; -1 if that fails. The whole state is stored as well if event function `event` is negative there (event =
+ * -1: never).
  */
-static int sample_at(Integrator *run, const Step *step, double s, int k, const Parameters *p)
+static int get_dense_sample(Integrator *run, const Step *step, double fraction, int event, const Parameters *p)
 {
-    DenseSamples *stored = &run->roots.samples;
+    DenseSamples *samples = &run->roots.samples;
     double y[N_Y], dy[N_Y];
     RhsOutputs rhs;
-    int slot = find_sample(stored, s, 0);
-    if (slot >= 0 || state_at(run, step, s, p, y, dy, &rhs))
-        return slot;
-    slot = add_sample(run, step, s, &rhs, 0);
-    if (k >= 0 && stored->event_function[slot][k] < 0.0) {
-        stored->beyond = s;
-        memcpy(stored->y, y, sizeof y);
-        memcpy(stored->dy, dy, sizeof dy);
-        stored->rhs = rhs;
+    int index = find_dense_sample(samples, fraction, 0);
+    if (index >= 0 || state_at(run, step, fraction, p, y, dy, &rhs))
+        return index;
+    index = add_dense_sample(run, step, fraction, &rhs, 0);
+    if (event >= 0 && samples->event_function[index][event] < 0.0) {
+        samples->beyond = fraction;
+        memcpy(samples->y, y, sizeof y);
+        memcpy(samples->dy, dy, sizeof dy);
+        samples->rhs = rhs;
     }
-    return slot;
-}
-
-/* Return value and slope of event function k in the stored sample `slot`; NAN for slot -1. */
-static Sample bracket_point_of_sample(const DenseSamples *stored, int slot, double s, int k)
-{
-    return slot < 0 ? (Sample){s, NAN, NAN}
-        : (Sample){s, stored->event_function[slot][k], k < N_CLEARANCES ? stored->slope[slot][k] : NAN};
-}
-
-/* Return value and slope of event function k at fraction s of the step; NAN if they cannot be evaluated. */
-static Sample bracket_point_at(Integrator *run, const Step *step, double s, int k, const Parameters *p)
-{
-    const int slot = sample_at(run, step, s, k, p);
-    return bracket_point_of_sample(&run->roots.samples, slot, s, k);
-}
-
-/* Return the value of event function k at fraction s of the step. */
-static double event_function_at(Integrator *run, const Step *step, double s, int k, const Parameters *p)
-{
-    return bracket_point_at(run, step, s, k, p).f;
-}
-
-/* Return value and slope of event function k of a joint with play at fraction s, by evaluating the contacts alone. */
-static Sample gap_point_at(Integrator *run, const Step *step, double s, int k, const Parameters *p)
-{
-    int slot = find_sample(&run->roots.samples, s, 1);
-    RhsOutputs rhs;
-    if (slot < 0 && !evaluate_contacts_in_step(run, step, s, p, &rhs))
-        slot = add_sample(run, step, s, &rhs, 1);
-    return bracket_point_of_sample(&run->roots.samples, slot, s, k);
-}
-
-/* Return value and slope of event function k at the beginning of a step. */
-static Sample bracket_begin(const Integrator *run, const Step *step, int k)
-{
-    return (Sample){0.0, event_function(&run->discrete, &run->rhs, k), event_function_slope(run, step, &run->rhs, k)};
-}
-
-/* Return value and slope of event function k at the end of a step. */
-static Sample bracket_end(const Integrator *run, const Step *step, int k)
-{
-    return (Sample){1.0, event_function(&run->discrete, &step->rhs, k), event_function_slope(run, step, &step->rhs, k)};
+    return index;
 }
 
 /*
- * Return the bracket of event function k from low to high, with those two stages between them at which it is nearest to
- * zero.
+ * Return value and slope of an event function in the stored sample `index`, at a fraction of the step; NAN for index
+ * -1. Only gaps have a slope.
  */
-static Bracket stage_bracket(const Step *step, int k, Sample low, Sample high)
+static Sample get_bracket_point_of_sample(const DenseSamples *samples, int index, double fraction, int event)
 {
-    Sample nearest = {NAN, NAN, NAN}, next = nearest;
-    const StageValues seen = stage_values(step, k);
-    for (int i = 0; i < step->n_seen; i++) {
-        const Sample now = {step->node[i], stage_value(seen, i), NAN};
-        if (!(now.s > low.s && now.s < high.s && now.f == now.f))
-            continue;
-        if (!(fabs(now.f) >= fabs(nearest.f)))
-            next = nearest, nearest = now;
-        else if (!(fabs(now.f) >= fabs(next.f)))
-            next = now;
-    }
-    return (Bracket){{low, high, nearest, next}, 2 + (nearest.s == nearest.s) + (next.s == next.s)};
+    return index < 0 ? (Sample){fraction, NAN, NAN}
+        : (Sample){fraction, samples->event_function[index][event], event < N_CLEARANCES ? samples->slope[index][event]
+            : NAN};
 }
 
-/* Return the fraction of the step to which events are located: 4 ulp of the time, or the resolution of event times. */
-static double event_time_tolerance(const Integrator *run, const Step *step)
+/*
+ * Return value and slope of an event function at a fraction of the step, evaluated if no sample is stored there. NAN if
+ * the evaluation fails.
+ */
+static Sample evaluate_bracket_point(Integrator *run, const Step *step, double fraction, int event, const Parameters *p)
+{
+    const int index = get_dense_sample(run, step, fraction, event, p);
+    return get_bracket_point_of_sample(&run->roots.samples, index, fraction, event);
+}
+
+/* Return the value of an event function at a fraction of the step; NAN if it cannot be evaluated. */
+static double evaluate_event_function_at(Integrator *run, const Step *step, double fraction, int event,
+    const Parameters *p)
+{
+    return evaluate_bracket_point(run, step, fraction, event, p).f;
+}
+
+/*
+ * Return value and slope of the event function of a joint with play at a fraction of the step, by evaluating the
+ * contacts alone. NAN if that fails.
+ */
+static Sample evaluate_gap_point(Integrator *run, const Step *step, double fraction, int event, const Parameters *p)
+{
+    int index = find_dense_sample(&run->roots.samples, fraction, 1);
+    RhsOutputs rhs;
+    if (index < 0 && !evaluate_contacts_in_step(run, step, fraction, p, &rhs))
+        index = add_dense_sample(run, step, fraction, &rhs, 1);
+    return get_bracket_point_of_sample(&run->roots.samples, index, fraction, event);
+}
+
+/*
+ * Return value and slope of an event function at the beginning of a step, as its lower bracket end. The slope is NAN if
+ * it is not known.
+ */
+static Sample get_bracket_begin(const Integrator *run, const Step *step, int event)
+{
+    return (Sample){0.0, event_function(&run->discrete, &run->rhs, event),
+        compute_event_function_slope(run, step, &run->rhs, event)};
+}
+
+/*
+ * Return value and slope of an event function at the end of a step, as its upper bracket end. The slope is NAN if it is
+ * not known.
+ */
+static Sample get_bracket_end(const Integrator *run, const Step *step, int event)
+{
+    return (Sample){1.0, event_function(&run->discrete, &step->rhs, event),
+        compute_event_function_slope(run, step, &step->rhs, event)};
+}
+
+/*
+ * Return the bracket of an event function from low to high, with those two stages of the step between them at which it
+ * is nearest to zero. Stages without a finite value are left out, so that the bracket has two to four samples. Used for
+ * the first guess of the zero.
+ */
+static Bracket build_stage_bracket(const Step *step, int event, Sample low, Sample high)
+{
+    Sample nearest = {NAN, NAN, NAN}, second_nearest = nearest;
+    const StageValues stages = stage_values(step, event);
+    for (int i = 0; i < step->n_seen; i++) {
+        const Sample sample = {step->node[i], stage_value(stages, i), NAN};
+        if (!(sample.s > low.s && sample.s < high.s && sample.f == sample.f))
+            continue;
+        if (!(fabs(sample.f) >= fabs(nearest.f)))
+            second_nearest = nearest, nearest = sample;
+        else if (!(fabs(sample.f) >= fabs(second_nearest.f)))
+            second_nearest = sample;
+    }
+    return (Bracket){{low, high, nearest, second_nearest},
+        2 + (nearest.s == nearest.s) + (second_nearest.s == second_nearest.s)};
+}
+
+/*
+ * Return the fraction of the step to which events are located: the larger of 4 ulp of the time and the resolution of
+ * event times, over the step length.
+ */
+static double compute_event_time_tolerance(const Integrator *run, const Step *step)
 {
     return max_of(4.0 * DBL_EPSILON * fabs(step->t), run->roots.time_resolution) / step->h;
 }
 
 /*
- * Return whether event function k may be located after its zero: that of a compliant contact, or of a switching point
- * whose branches meet. Steps of fixed length and watched functions never are.
+ * Return whether an event function may be located a little after its zero: that of a compliant contact, or of a
+ * switching point whose branches meet. With steps of fixed length, and for watched functions, it may not.
  */
-static int may_be_located_after_zero(const Integrator *run, int k)
+static int may_be_located_after_zero(const Integrator *run, int event)
 {
-    const int switch_index = k - N_CLEARANCES;
-    if (run->control.fixed > 0.0 || watched_as[k] >= 0)
+    const int switch_index = event - N_CLEARANCES;
+    if (run->control.fixed > 0.0 || watched_as[event] >= 0)
         return 0;
-    return switch_index < 0 ? gives(k) : switch_index < N_SWITCHES && meets[switch_index];
+    return switch_index < 0 ? gives(event) : switch_index < N_SWITCHES && meets[switch_index];
 }
 
 /*
- * Return the largest fraction of a step by which a compliant contact may be located after its zero. Forces may begin
- * with a jump, and the length of a contact is not known before its onset. The step that finds the end is a part of the
- * contact, so that its limit is less strict.
+ * Return the largest fraction of a step by which the event of a compliant contact may be located after its zero. An
+ * onset has the stricter limit: forces may begin with a jump, and the length of a contact is not known before it. The
+ * step that finds the end is a part of the contact.
  */
-static double max_overshoot_of_contact(const Integrator *run, int k)
+static double compute_max_contact_overshoot(const Integrator *run, int joint)
 {
     const double tolerance = tolerance_of(run);
-    return run->discrete.contact[k].closed ? min_of(MAX_END_OVERSHOOT, tolerance * sqrt(tolerance))
+    return run->discrete.contact[joint].closed ? min_of(MAX_END_OVERSHOOT, tolerance * sqrt(tolerance))
         : min_of(ONSET_TIME_TOLERANCE, tolerance * tolerance);
 }
 
 /*
- * Return the tolerance to which event function k is located. At a switching point, the rates of both branches differ in
- * proportion to its function. The error of the frozen branch thus grows with the square of the distance. It is
- * step->harm tolerances at the end of the step.
+ * Return the tolerance to which the zero of an event function is located. Functions that must not be located after
+ * their zero have a width only; contacts have a largest overshoot. At a switching point, the rates of both branches
+ * differ in proportion to its function. The error of the frozen branch thus grows with the square of the distance. It
+ * is step->harm tolerances at the end of the step.
  */
-static ZeroTolerance event_function_tolerance(const Integrator *run, const Step *step, int k)
+static ZeroTolerance compute_zero_tolerance(const Integrator *run, const Step *step, int event)
 {
-    const double width = event_time_tolerance(run, step);
-    if (!may_be_located_after_zero(run, k))
+    const double width = compute_event_time_tolerance(run, step);
+    if (!may_be_located_after_zero(run, event))
         return (ZeroTolerance){.width = width};
-    if (k < N_CLEARANCES)
-        return (ZeroTolerance){width, max_overshoot_of_contact(run, k), INFINITY, 1.0};
+    if (event < N_CLEARANCES)
+        return (ZeroTolerance){width, compute_max_contact_overshoot(run, event), INFINITY, 1.0};
     return (ZeroTolerance){
-        width, MAX_SWITCH_OVERSHOOT, HARMLESS_ERROR * fabs(event_function(&run->discrete, &step->rhs, k)), step->harm};
+        width, MAX_SWITCH_OVERSHOOT, HARMLESS_ERROR * fabs(event_function(&run->discrete, &step->rhs, event)),
+            step->harm};
 }
 
 /*
- * Return the number of samples through which the zero of event function k is interpolated. A fourth one near a zero
- * that is located to rounding contains rounding only.
+ * Return the number of samples through which the zero of an event function is interpolated: MAX_POINTS, or one less for
+ * a zero that is located to rounding, near which a fourth sample contains rounding only.
  */
-static int n_interpolation_points(const Integrator *run, int k)
+static int count_interpolation_points(const Integrator *run, int event)
 {
-    return MAX_POINTS - !may_be_located_after_zero(run, k);
+    return MAX_POINTS - !may_be_located_after_zero(run, event);
 }
 
 /* Event function k of a step, whose zero is located. first: it has not been sampled yet. */
@@ -260,24 +298,32 @@ typedef struct {
 } EventFunctionOfStep;
 
 /*
- * Evaluate an event function at fraction s for locate_zero(). The first sample of a gap evaluates the contacts only,
- * because the whole state is needed at the last sample alone.
+ * Evaluate an event function at a fraction of the step into *sample, as the callback of locate_zero(). The first sample
+ * of a gap evaluates the contacts only, because the whole state is needed at the last sample alone. Return 0; a failure
+ * sets NAN.
  */
-static int evaluate_event_function(void *context, double s, Sample *now)
+static int evaluate_event_function(void *context, double fraction, Sample *sample)
 {
-    EventFunctionOfStep *of = context;
-    *now = of->first && of->k < N_CLEARANCES ? gap_point_at(of->run, of->step, s, of->k, of->p)
-        : bracket_point_at(of->run, of->step, s, of->k, of->p);
-    of->first = 0;
+    EventFunctionOfStep *search = context;
+    *sample = search->first && search->k < N_CLEARANCES
+        ? evaluate_gap_point(search->run, search->step, fraction, search->k, search->p)
+        : evaluate_bracket_point(search->run, search->step, fraction, search->k, search->p);
+    search->first = 0;
     return 0;
 }
 
-/* Return the first fraction at which event function k is negative, from its bracket and a guess. */
-static double locate_root(Integrator *run, const Step *step, int k, Bracket of, double guess, const Parameters *p)
+/*
+ * Return the first fraction of the step at which an event function is found negative, to its tolerance, from its
+ * bracket and a guess of the zero. That sample and its state are stored. Called for each event function whose bracket
+ * is known.
+ */
+static double locate_event_in_step(Integrator *run, const Step *step, int event, Bracket bracket, double guess,
+    const Parameters *p)
 {
-    EventFunctionOfStep event_function_of_step = {run, step, p, k, 1};
-    const ZeroTolerance tolerance = event_function_tolerance(run, step, k);
+    EventFunctionOfStep event_function_of_step = {run, step, p, event, 1};
+    const ZeroTolerance tolerance = compute_zero_tolerance(run, step, event);
     (void)locate_zero(
-        evaluate_event_function, &event_function_of_step, &tolerance, n_interpolation_points(run, k), guess, &of);
-    return of.at[1].s;
+        evaluate_event_function, &event_function_of_step, &tolerance, count_interpolation_points(run, event), guess,
+            &bracket);
+    return bracket.at[1].s;
 }

@@ -4,10 +4,13 @@
  * of an interval by more than a quarter of its range at all nodes.
  */
 
-/* Compute bounds of all terms of time over fractions a to b of the interval of length h from t on: out[N_TERMS]. */
-static void terms_over(double t, double h, double a, double b, const Parameters *p, Range *out)
+/*
+ * Compute bounds (N_TERMS) of all terms of time alone over the fractions `begin` to `end` of the interval of length h
+ * (s) from t (s) on.
+ */
+static void bound_time_terms(double t, double h, double begin, double end, const Parameters *p, Range *bounds)
 {
-    time_terms((Range){t + a * h, t + b * h, h, h, 0}, p, out);
+    time_terms((Range){t + begin * h, t + end * h, h, h, 0}, p, bounds);
 }
 
 #if N_PULSES
@@ -15,7 +18,7 @@ enum { MAX_NODES = 16, GAP_PARTS = 64, MAX_HARMLESS_CHECKS = 4 };
 #define MAX_UNSEEN_CHANGE 0.25 /* of a term's range at the nodes: allowed excess between them */
 
 /* Return whether the step is accurate at a fraction of it. sure: a term certainly changes there. */
-typedef int Harmless(void *context, double fraction, int sure);
+typedef int AccuracyTest(void *context, double fraction, int sure);
 
 /* A part of an interval between nodes; the excess of terms by their bounds, and the certain one in its middle. */
 typedef struct {
@@ -23,49 +26,59 @@ typedef struct {
 } GapPart;
 
 /*
- * Return the excess of the terms over a part of an interval. low, high: terms at both ends of the interval; slack:
- * allowed excess of each.
+ * Return the part [begin, end], fractions of an interval, with the largest excess of a term over its values at both
+ * ends of the interval between two nodes. term_low, term_high: terms at these ends; slack: allowed excess of each term.
+ * The excess is bounded, and certain in the middle of the part. Called for each part that find_undersampled_fraction()
+ * bisects.
  */
-static GapPart interval_part(double t, double h, double from, double to, const Range *low, const Range *high,
+static GapPart build_gap_part(double t, double h, double begin, double end, const Range *term_low,
+    const Range *term_high,
     const double *slack, const Parameters *p)
 {
-    GapPart part = {from, to, 0.0, 0.0};
-    Range f[N_TERMS], middle[N_TERMS];
-    terms_over(t, h, from, to, p, f);
-    terms_over(t, h, 0.5 * (from + to), 0.5 * (from + to), p, middle);
+    GapPart part = {begin, end, 0.0, 0.0};
+    Range bound[N_TERMS], middle[N_TERMS];
+    bound_time_terms(t, h, begin, end, p, bound);
+    bound_time_terms(t, h, 0.5 * (begin + end), 0.5 * (begin + end), p, middle);
     for (int k = 0; k < N_PULSES; k++) {
-        const double least = min_of(low[k].lo, high[k].lo) - slack[k], top = max_of(low[k].lo, high[k].lo) + slack[k];
-        const double excess = max_of(f[k].hi - top, least - f[k].lo);
+        const double lower = min_of(term_low[k].lo, term_high[k].lo) - slack[k],
+            upper = max_of(term_low[k].lo, term_high[k].lo) + slack[k];
+        const double excess = max_of(bound[k].hi - upper, lower - bound[k].lo);
         if (excess > part.most) {
             part.most = excess;
-            part.surely = max_of(middle[k].lo - top, least - middle[k].lo);
+            part.surely = max_of(middle[k].lo - upper, lower - middle[k].lo);
         }
     }
     return part;
 }
 
-/* Return whether every term is monotone from fraction a to b. */
-static int is_monotone(double t, double h, double a, double b, const Parameters *p)
+/*
+ * Return whether every term of time that may be a pulse is monotone over the fractions `begin` to `end` of the interval
+ * of length h (s) from t (s) on, by bounds of its slope.
+ */
+static int is_monotone(double t, double h, double begin, double end, const Parameters *p)
 {
-    Range f[N_TERMS];
-    int one_way = 1;
-    terms_over(t, h, a, b, p, f);
-    for (int k = 0; k < N_PULSES && one_way; k++)
-        one_way = f[k].down >= 0.0 || f[k].up <= 0.0;
-    return one_way;
+    Range bound[N_TERMS];
+    int monotone = 1;
+    bound_time_terms(t, h, begin, end, p, bound);
+    for (int k = 0; k < N_PULSES && monotone; k++)
+        monotone = bound[k].down >= 0.0 || bound[k].up <= 0.0;
+    return monotone;
 }
 
 /*
- * Return a fraction between nodes a and b at which a term acts unseen and the step is not accurate; 0: none. The part
- * with the largest excess is bisected first.
+ * Return a fraction between the neighbouring nodes `begin` and `end` at which a term of time acts although it is at
+ * rest at both, and the step is not accurate; 0: none. The part with the largest excess is bisected first.
+ * is_accurate(context, ...) is called at most MAX_HARMLESS_CHECKS times. term_low, term_high: terms at both nodes;
+ * slack: allowed excess of each.
  */
-static double undersampled_in_interval(double t, double h, double a, double b, const Range *low, const Range *high,
-    const double *slack, Harmless *harmless, void *context, const Parameters *p)
+static double find_undersampled_fraction(double t, double h, double begin, double end, const Range *term_low,
+    const Range *term_high,
+    const double *slack, AccuracyTest *is_accurate, void *context, const Parameters *p)
 {
     GapPart parts[GAP_PARTS + 1];
     int n = 0, n_checks = 0;
-    if (!is_monotone(t, h, a, b, p))
-        parts[n++] = interval_part(t, h, a, b, low, high, slack, p);
+    if (!is_monotone(t, h, begin, end, p))
+        parts[n++] = build_gap_part(t, h, begin, end, term_low, term_high, slack, p);
     while (n > 0) {
         int k = 0;
         for (int i = 1; i < n; i++)
@@ -76,43 +89,47 @@ static double undersampled_in_interval(double t, double h, double a, double b, c
             part.surely >= 0.5 * part.most || n == GAP_PARTS || !(part.from < middle && middle < part.to);
         if (!(part.most > 0.0) || n_checks == MAX_HARMLESS_CHECKS)
             return 0.0;
-        if (is_known && !harmless(context, middle, part.surely >= 0.5 * part.most))
+        if (is_known && !is_accurate(context, middle, part.surely >= 0.5 * part.most))
             return middle;
         n_checks += is_known;
         if (is_known) {
             parts[k] = parts[--n];
         } else {
-            parts[k] = interval_part(t, h, part.from, middle, low, high, slack, p);
-            parts[n++] = interval_part(t, h, middle, part.to, low, high, slack, p);
+            parts[k] = build_gap_part(t, h, part.from, middle, term_low, term_high, slack, p);
+            parts[n++] = build_gap_part(t, h, middle, part.to, term_low, term_high, slack, p);
         }
     }
     return 0.0;
 }
 
 /*
- * Return the first fraction of the interval of length h from t on at which a term acts unseen between n nodes (0 to 1),
- * and the step is not accurate; 0: none.
+ * Return the first fraction of the interval of length h (s) from t (s) on at which a term of time acts between its n
+ * nodes (0 to 1) without showing at them, and the step is not accurate there; 0: none. is_accurate(context, fraction,
+ * sure) decides the accuracy. Monotone terms show at both ends, so that 0 is returned at once. Called for steps of
+ * integrators and of kinematic analyses.
  */
-static double undersampled_term(double t, double h, const double *node, int n, Harmless *harmless, void *context,
+static double undersampled_term(double t, double h, const double *node, int n, AccuracyTest *is_accurate,
+    void *context,
     const Parameters *p)
 {
-    Range at[MAX_NODES][N_TERMS];
+    Range term_at[MAX_NODES][N_TERMS];
     double slack[N_PULSES], fraction = 0.0;
     if (is_monotone(t, h, 0.0, 1.0, p))
         return 0.0; /* its change shows at both ends */
     for (int i = 0; i < n; i++)
-        terms_over(t, h, node[i], node[i], p, at[i]);
+        bound_time_terms(t, h, node[i], node[i], p, term_at[i]);
     for (int k = 0; k < N_PULSES; k++) {
-        double least = INFINITY, most = -INFINITY;
+        double lower = INFINITY, upper = -INFINITY;
         for (int i = 0; i < n; i++) {
-            least = min_of(least, at[i][k].lo);
-            most = max_of(most, at[i][k].lo);
+            lower = min_of(lower, term_at[i][k].lo);
+            upper = max_of(upper, term_at[i][k].lo);
         }
-        slack[k] = MAX_UNSEEN_CHANGE * (most - least);
+        slack[k] = MAX_UNSEEN_CHANGE * (upper - lower);
     }
     for (int i = 1; i < n && fraction == 0.0; i++)
         fraction =
-            undersampled_in_interval(t, h, node[i - 1], node[i], at[i - 1], at[i], slack, harmless, context, p);
+            find_undersampled_fraction(t, h, node[i - 1], node[i], term_at[i - 1], term_at[i], slack, is_accurate,
+                context, p);
     return fraction;
 }
 #endif

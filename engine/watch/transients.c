@@ -11,22 +11,23 @@ typedef struct {
 
 /*
  * Return whether the right-hand side at a fraction of the step equals the rate of the dense output, within
- * HARMLESS_DEFECT tolerances over the step.
+ * HARMLESS_DEFECT tolerances over the step. Callback of undersampled_term(); context: a StepDefect; is_certain is
+ * not used. Return 0 if an evaluation fails, or if friction or a rigid contact may change its mode there.
  */
-static int satisfies_equations(void *context, double fraction, int sure)
+static int has_small_defect(void *context, double fraction, int is_certain)
 {
-    (void)sure;
+    (void)is_certain;
     const StepDefect *defect = context;
     Integrator *run = defect->run;
     Step *step = defect->step;
-    const double distance = 1e-4 * min_of(fraction, 1.0 - fraction);
-    double before[N_Y], y[N_Y], after[N_Y], dy[N_Y], most = 0.0;
+    const double offset = 1e-4 * min_of(fraction, 1.0 - fraction);
+    double before[N_Y], y[N_Y], after[N_Y], dy[N_Y], largest = 0.0;
     RhsOutputs rhs;
     if (compute_dense_output(run, defect->p, step))
         return 0;
-    interpolate(run, step, fraction - distance, before);
+    interpolate(run, step, fraction - offset, before);
     interpolate(run, step, fraction, y);
-    interpolate(run, step, fraction + distance, after);
+    interpolate(run, step, fraction + offset, after);
     if (rates(run, step->t + fraction * step->h, y, defect->p, dy, &rhs))
         return 0;
     /* friction or a rigid contact may change its mode before a motion begins */
@@ -34,19 +35,23 @@ static int satisfies_equations(void *context, double fraction, int sure)
         if (is_contact_force_function(run, k) && event_function(&run->discrete, &rhs, k) < 0.0)
             return 0;
     for (int k = 0; k < N_Y; k++)
-        most = max_of(most, fabs(step->h * dy[k] - (after[k] - before[k]) / (2.0 * distance)) * run->norm.weight[k]);
-    return most < HARMLESS_DEFECT;
+        largest = max_of(largest, fabs(step->h * dy[k]
+            - (after[k] - before[k]) / (2.0 * offset)) * run->norm.weight[k]);
+    return largest < HARMLESS_DEFECT;
 }
 
-/* Return the fraction at which a step misses a transient of a term of time; 0: nowhere. */
+/*
+ * Return the fraction at which a tried step misses a transient of a term of time alone, between the nodes of its error
+ * estimate; 0: nowhere. Called for each tried step; a step that misses one is repeated shorter.
+ */
 static double missed_transient(Integrator *run, Step *step, const Parameters *p)
 {
     StepDefect defect = {run, step, p};
     return undersampled_term(
-        step->t, step->h, step->method->error_nodes, step->method->n_error_nodes, satisfies_equations, &defect, p);
+        step->t, step->h, step->method->error_nodes, step->method->n_error_nodes, has_small_defect, &defect, p);
 }
 #else
-/* Return 0: the scene has no terms of time alone. */
+/* Return 0: the scene has no terms of time alone that may act between the stages. */
 static double missed_transient(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;

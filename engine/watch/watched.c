@@ -21,143 +21,170 @@ typedef struct {
     double whole_lower[N_WATCHED]; /* lower bound of the function over the whole step */
 } EventUncertainties;
 
-/* Compute the uncertainties of all watched functions in a step, unless they are known. */
+/*
+ * Compute the uncertainties of all watched functions in a step, by rounding and by one error tolerance, as the smaller
+ * ones of both its ends. Nothing is done if they are known. Called if the bounds of a function do not decide.
+ */
 static void estimate_uncertainties(
-    Integrator *run, const Step *step, EventUncertainties *uncertain, const Parameters *p)
+    Integrator *run, const Step *step, EventUncertainties *uncertainties, const Parameters *p)
 {
     double error[2 * N_X + 1], at_end[N_WATCHED];
-    if (uncertain->known)
+    if (uncertainties->known)
         return;
-    uncertain->known = 1;
+    uncertainties->known = 1;
     for (int k = 0; k < 2 * N_X; k++)
         error[k] = 1.0 / run->norm.weight[k];
-    uncertainty(run, step->t, run->y, p, uncertain->rounding);
-    error_of_watched(run, step->t, run->y, error, p, uncertain->tolerance);
-    uncertainty(run, step->t + step->h, step->y, p, at_end);
+    estimate_uncertainty(run, step->t, run->y, p, uncertainties->rounding);
+    estimate_watched_errors(run, step->t, run->y, error, p, uncertainties->tolerance);
+    estimate_uncertainty(run, step->t + step->h, step->y, p, at_end);
     for (int i = 0; i < N_WATCHED; i++)
-        uncertain->rounding[i] = min_of(uncertain->rounding[i], at_end[i]);
-    error_of_watched(run, step->t + step->h, step->y, error, p, at_end);
+        uncertainties->rounding[i] = min_of(uncertainties->rounding[i], at_end[i]);
+    estimate_watched_errors(run, step->t + step->h, step->y, error, p, at_end);
     for (int i = 0; i < N_WATCHED; i++)
-        uncertain->tolerance[i] = min_of(uncertain->tolerance[i], at_end[i]);
+        uncertainties->tolerance[i] = min_of(uncertainties->tolerance[i], at_end[i]);
 }
 
 /*
- * Compute the projected state y at fraction s of a step. If watched functions depend on time alone, y is that at the
- * beginning.
+ * Compute the projected state y (N_Y) at a fraction of a step, from the dense output. At the ends, and if watched
+ * functions depend on time alone, no evaluation is needed: y is then the state at the beginning or end.
  */
-static void watched_state(Integrator *run, const Step *step, double s, const Parameters *p, double *y)
+static void compute_watched_state(Integrator *run, const Step *step, double fraction, const Parameters *p, double *y)
 {
-    memcpy(y, s < 1.0 ? run->y : step->y, N_Y * sizeof *y);
+    memcpy(y, fraction < 1.0 ? run->y : step->y, N_Y * sizeof *y);
 #if WATCHES_STATE
-    if (s > 0.0 && s < 1.0) {
-        interpolate(run, step, s, y);
-        project_state(run, step->t + s * step->h, y, p);
+    if (fraction > 0.0 && fraction < 1.0) {
+        interpolate(run, step, fraction, y);
+        project_state(run, step->t + fraction * step->h, y, p);
     }
 #else
     (void)p;
 #endif
 }
 
-/* Return whether the value of watched function i at fraction s of a step is below its uncertainty there. */
-static int is_below_uncertainty(Integrator *run, const Step *step, double s, int i, double value, const Parameters *p)
+/*
+ * Return whether the value of a watched function at a fraction of a step is not larger than its uncertainty there.
+ * index: of the watched function.
+ */
+static int is_below_uncertainty(Integrator *run, const Step *step, double fraction, int index, double value,
+    const Parameters *p)
 {
     double y[N_Y], error[N_WATCHED];
-    watched_state(run, step, s, p, y);
-    uncertainty(run, step->t + s * step->h, y, p, error);
-    return fabs(value) <= error[i];
+    compute_watched_state(run, step, fraction, p, y);
+    estimate_uncertainty(run, step->t + fraction * step->h, y, p, error);
+    return fabs(value) <= error[index];
 }
 
 /*
- * Return whether watched function i is zero within its uncertainty over a part of length `width`. Both ends are within
- * rounding, and its bounds f are within the tolerance, or narrow with the part because interval arithmetic
- * overestimates them.
+ * Return whether a watched function is zero within its uncertainty over a part of length `width`. Its values at both
+ * ends are within rounding, and its bounds are within the tolerance, or narrow with the part because interval
+ * arithmetic overestimates them. Return 0 if the function may be undefined in the part.
  */
-static int is_held_at_zero(const EventUncertainties *uncertain, int i, Range f, double at_a, double at_b, double width)
+static int is_held_at_zero(const EventUncertainties *uncertainties, int index, Range bounds, double value_begin,
+    double value_end,
+    double width)
 {
-    return fabs(at_a) <= uncertain->rounding[i] && fabs(at_b) <= uncertain->rounding[i] && !f.partly
-        && (f.lo >= -uncertain->tolerance[i] || is_narrowing(f.lo, width, uncertain->whole_lower[i]));
+    return fabs(value_begin) <= uncertainties->rounding[index] && fabs(value_end) <= uncertainties->rounding[index]
+        && !bounds.partly
+        && (bounds.lo >= -uncertainties->tolerance[index]
+            || is_narrowing(bounds.lo, width, uncertainties->whole_lower[index]));
 }
 
-/* Evaluate all watched event functions at fraction s of a step: out[N_WATCHED]. */
-static void event_functions_at(Integrator *run, const Step *step, double s, const Parameters *p, double *out)
+/*
+ * Evaluate all watched event functions at a fraction of a step: values (N_WATCHED), multiplied by branch or sign. At
+ * the ends of the step the known outputs are used.
+ */
+static void evaluate_event_functions_at(Integrator *run, const Step *step, double fraction, const Parameters *p,
+    double *values)
 {
-    RhsOutputs rhs = s < 1.0 ? run->rhs : step->rhs;
-    if (s > 0.0 && s < 1.0) {
+    RhsOutputs rhs = fraction < 1.0 ? run->rhs : step->rhs;
+    if (fraction > 0.0 && fraction < 1.0) {
         double y[N_Y];
-        watched_state(run, step, s, p, y);
-        watched_functions(step->t + s * step->h, y, y + N_X, &run->discrete, p, &rhs);
+        compute_watched_state(run, step, fraction, p, y);
+        watched_functions(step->t + fraction * step->h, y, y + N_X, &run->discrete, p, &rhs);
     }
     for (int i = 0; i < N_WATCHED; i++)
-        out[i] = event_function(&run->discrete, &rhs, watched[i]);
+        values[i] = event_function(&run->discrete, &rhs, watched[i]);
 }
 
 #if WATCHES_STATE
-/* Expand the dense output y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))), the form of all methods, into powers of s. */
-static void expand_dense_output(const Integrator *run, const Step *step, DensePolynomial *powers)
+/*
+ * Expand the dense output y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))), the form of all methods, into powers of the
+ * fraction s of the step, for coordinates and velocities. polynomial: coefficients, degree, time and length of the
+ * step. Called once for each step that is searched.
+ */
+static void expand_dense_output(const Integrator *run, const Step *step, DensePolynomial *polynomial)
 {
     const int degree = step->method->degree;
-    powers->t = step->t, powers->h = step->h, powers->degree = degree;
+    polynomial->t = step->t, polynomial->h = step->h, polynomial->degree = degree;
     for (int i = 0; i < 2 * N_X; i++) {
         double c[N_DENSE + 1] = {step->dense[degree - 1][i]};
         for (int k = degree - 1; k >= 0; k--) {
-            const int turned = step->method->turned >> k & 1; /* times 1 - s instead of s */
+            const int has_factor_one_minus_s = step->method->turned >> k & 1; /* times 1 - s instead of s */
             for (int j = degree - k; j > 0; j--)
-                c[j] = turned ? c[j] - c[j - 1] : c[j - 1];
-            c[0] = (turned ? c[0] : 0.0) + (k > 0 ? step->dense[k - 1][i] : run->y[i]);
+                c[j] = has_factor_one_minus_s ? c[j] - c[j - 1] : c[j - 1];
+            c[0] = (has_factor_one_minus_s ? c[0] : 0.0) + (k > 0 ? step->dense[k - 1][i] : run->y[i]);
         }
         for (int j = 0; j <= degree; j++)
-            powers->power[j][i] = c[j];
+            polynomial->power[j][i] = c[j];
     }
 }
 
 /*
- * Compute bounds y of the state over fractions a to b of a step: the polynomial about the middle, each power by its own
- * bounds.
+ * Compute bounds y (2 N_X) of coordinates and velocities, and of their slopes, over the fractions `begin` to `end` of a
+ * step. The polynomial is shifted to the middle of the part, and each power is bounded by itself.
  */
-static void bound_state(const DensePolynomial *powers, double a, double b, Range *y)
+static void bound_state(const DensePolynomial *polynomial, double begin, double end, Range *y)
 {
-    const double middle = 0.5 * (a + b), reach = 0.5 * (b - a);
+    const double middle = 0.5 * (begin + end), half_width = 0.5 * (end - begin);
     for (int i = 0; i < 2 * N_X; i++) {
-        double c[N_DENSE + 1], lo = 0.0, hi = 0.0, slope = 0.0, power = 1.0;
-        for (int j = 0; j <= powers->degree; j++)
-            c[j] = powers->power[j][i];
-        for (int k = 0; k < powers->degree; k++)
-            for (int j = powers->degree - 1; j >= k; j--)
+        double c[N_DENSE + 1], lower = 0.0, upper = 0.0, slope = 0.0, power = 1.0;
+        for (int j = 0; j <= polynomial->degree; j++)
+            c[j] = polynomial->power[j][i];
+        for (int k = 0; k < polynomial->degree; k++)
+            for (int j = polynomial->degree - 1; j >= k; j--)
                 c[j] += middle * c[j + 1];
-        for (int j = 1; j <= powers->degree; j++) {
+        for (int j = 1; j <= polynomial->degree; j++) {
             slope += j > 1 ? j * fabs(c[j]) * power : 0.0;
-            power *= reach;
-            lo += power * (j % 2 ? -fabs(c[j]) : min_of(c[j], 0.0));
-            hi += power * (j % 2 ? fabs(c[j]) : max_of(c[j], 0.0));
+            power *= half_width;
+            lower += power * (j % 2 ? -fabs(c[j]) : min_of(c[j], 0.0));
+            upper += power * (j % 2 ? fabs(c[j]) : max_of(c[j], 0.0));
         }
-        y[i] = (Range){c[0] + lo, c[0] + hi, c[1] - slope, c[1] + slope, 0};
+        y[i] = (Range){c[0] + lower, c[0] + upper, c[1] - slope, c[1] + slope, 0};
     }
 }
 
 #endif
-/* Compute bounds of all watched event functions from bounds of time and state: out[N_WATCHED]. */
-static void event_functions_of_ranges(const Integrator *run, Range t, const Range *y, const Parameters *p, Range *out)
+/*
+ * Compute bounds (N_WATCHED) of all watched event functions, multiplied by branch or sign, from bounds of time t and of
+ * the state y.
+ */
+static void bound_event_functions_by_ranges(const Integrator *run, Range t, const Range *y, const Parameters *p,
+    Range *bounds)
 {
-    watched_ranges(t, y, y + N_X, &run->discrete, p, out);
+    watched_ranges(t, y, y + N_X, &run->discrete, p, bounds);
     for (int i = 0; i < N_WATCHED; i++) {
         const int k = watched[i] - N_CLEARANCES;
         const double branch =
             k < N_SWITCHES ? run->discrete.branch[k] : run->discrete.event_sign[k - N_SWITCHES - N_FRICTIONS];
-        out[i] = range_times(only(branch), out[i]);
+        bounds[i] = range_times(only(branch), bounds[i]);
     }
 }
 
-/* Compute bounds of all watched event functions over fractions a to b of the step. */
-static void event_function_ranges(
-    const Integrator *run, const DensePolynomial *powers, double a, double b, const Parameters *p, Range *out)
+/*
+ * Compute bounds (N_WATCHED) of all watched event functions over the fractions `begin` to `end` of a step, from its
+ * dense output. Called for each part that is bisected.
+ */
+static void bound_event_functions(
+    const Integrator *run, const DensePolynomial *polynomial, double begin, double end, const Parameters *p,
+    Range *bounds)
 {
     const Range t = {
-        powers->t + a * powers->h, powers->t + b * powers->h, powers->h, powers->h, 0};
+        polynomial->t + begin * polynomial->h, polynomial->t + end * polynomial->h, polynomial->h, polynomial->h, 0};
     Range y[2 * N_X + 1] = { {0} };
 #if WATCHES_STATE
-    bound_state(powers, a, b, y);
+    bound_state(polynomial, begin, end, y);
 #endif
-    event_functions_of_ranges(run, t, y, p, out);
+    bound_event_functions_by_ranges(run, t, y, p, bounds);
 }
 
 /* The search along a step: its dense output, and all event functions at the beginning of the current part. */
@@ -171,112 +198,130 @@ typedef struct {
 } WatchedStep;
 
 /*
- * Return zero_verdict() of watched function i over a part up to b. at_b: its value there, set to 0 if it is below its
- * uncertainty.
+ * Classify a watched function over a part of length `width` up to the fraction `end`, as zero_verdict() does: 1 a
+ * zero, 0 none, -1 to be halved. index: of the function; bounds: over the part; *value_end: its value at the end, set
+ * to 0 if it is below its uncertainty. A function that is held at zero has none. Parts over which a user-defined event
+ * may be undefined are halved until its NaN is recorded. is_small: the part is not halved further.
  */
-static int classify_event_function(WatchedStep *of, int i, Range f, double b, double width, int small, double *at_b)
+static int classify_event_function(WatchedStep *search, int index, Range bounds, double end, double width, int is_small,
+    double *value_end)
 {
-    const int event = watched[i] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
-    int result = zero_verdict(f, of->at_a[i], *at_b, width, small);
+    const int event = watched[index] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
+    int result = zero_verdict(bounds, search->at_a[index], *value_end, width, is_small);
     if (width == 1.0)
-        of->uncertain.whole_lower[i] = f.lo;
-    if (result > 0 && is_below_uncertainty(of->run, of->step, b, i, *at_b, of->p)) {
-        *at_b = 0.0;
-        result = zero_verdict(f, of->at_a[i], 0.0, width, small);
+        search->uncertain.whole_lower[index] = bounds.lo;
+    if (result > 0 && is_below_uncertainty(search->run, search->step, end, index, *value_end, search->p)) {
+        *value_end = 0.0;
+        result = zero_verdict(bounds, search->at_a[index], 0.0, width, is_small);
     }
     if (result < 0) {
-        estimate_uncertainties(of->run, of->step, &of->uncertain, of->p);
-        result = -!is_held_at_zero(&of->uncertain, i, f, of->at_a[i], *at_b, width);
+        estimate_uncertainties(search->run, search->step, &search->uncertain, search->p);
+        result = -!is_held_at_zero(&search->uncertain, index, bounds, search->at_a[index], *value_end, width);
     }
-    return f.partly && !small && event >= 0 && !of->run->events.no_number[event] ? -1 : result;
+    return bounds.partly && !is_small && event >= 0 && !search->run->events.no_number[event] ? -1 : result;
 }
 
-/* Classify a part of a step for halve_parts(): 1 if a watched function has its first zero in it, stored in the step. */
-static int classify_event_functions(void *context, double a, double b, int small)
+/*
+ * Classify the part [begin, end] of a step, as the callback of halve_parts(): 1 if a watched function has its first
+ * zero in it, 0 if none has, -1 if the part is to be halved. A zero stores its bracket in the step. User-defined events
+ * that are NaN at the end of the part are recorded. context: a WatchedStep; is_small: the part is not halved further.
+ */
+static int classify_event_functions(void *context, double begin, double end, int is_small)
 {
-    WatchedStep *of = context;
-    Integrator *run = of->run;
-    Step *step = of->step;
-    Range f[N_WATCHED];
-    double at_b[N_WATCHED];
-    int found = 0;
-    event_functions_at(run, step, b, of->p, at_b);
-    event_function_ranges(run, &of->powers, a, b, of->p, f);
+    WatchedStep *search = context;
+    Integrator *run = search->run;
+    Step *step = search->step;
+    Range bounds[N_WATCHED];
+    double values_end[N_WATCHED];
+    int has_zero = 0;
+    evaluate_event_functions_at(run, step, end, search->p, values_end);
+    bound_event_functions(run, &search->powers, begin, end, search->p, bounds);
     for (int i = 0; i < N_WATCHED; i++) {
         const int event = watched[i] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
-        const int result = classify_event_function(of, i, f[i], b, b - a, small, &at_b[i]);
+        const int result = classify_event_function(search, i, bounds[i], end, end - begin, is_small, &values_end[i]);
         if (result < 0)
             return -1;
-        if (event >= 0 && isnan(at_b[i]))
-            record_nan_event(run, event, step->t + b * step->h);
+        if (event >= 0 && isnan(values_end[i]))
+            record_nan_event(run, event, step->t + end * step->h);
         if (result) {
-            step->from[i] = a;
-            step->to[i] = b;
+            step->from[i] = begin;
+            step->to[i] = end;
             step->above[i] =
-                of->at_a[i] < 0.0 && is_below_uncertainty(run, step, a, i, of->at_a[i], of->p) ? 0.0 : of->at_a[i];
-            step->below[i] = at_b[i];
-            found = 1;
+                search->at_a[i] < 0.0 && is_below_uncertainty(run, step, begin, i, search->at_a[i], search->p) ? 0.0
+                    : search->at_a[i];
+            step->below[i] = values_end[i];
+            has_zero = 1;
         }
     }
-    if (!found)
-        memcpy(of->at_a, at_b, sizeof at_b);
-    return found;
+    if (!has_zero)
+        memcpy(search->at_a, values_end, sizeof values_end);
+    return has_zero;
 }
 
 #if WATCHES_STATE
 /*
  * Return whether no watched function can be negative between the stages of an explicit step. Bounds of the state are
- * the range of the stages, extended by a quarter; they decide most steps.
+ * the range of the stages, extended by a quarter; they decide most steps. Functions that are held at zero count as not
+ * negative. Called by find_watched_zeros() before the dense output is bounded.
  */
-static int is_clear(Integrator *run, const Step *step, EventUncertainties *uncertain, const Parameters *p)
+static int is_clear_by_stages(Integrator *run, const Step *step, EventUncertainties *uncertainties, const Parameters *p)
 {
-    Range f[N_WATCHED], y[2 * N_X + 1] = { {0} };
+    Range bounds[N_WATCHED], y[2 * N_X + 1] = { {0} };
     const Range t = {step->t, step->t + step->h, -INFINITY, INFINITY, 0};
     for (int k = 0; k < 2 * N_X; k++) {
-        const double least = min_of(step->least[k], min_of(run->y[k], step->y[k]));
-        const double most = max_of(step->most[k], max_of(run->y[k], step->y[k])), beyond = 0.25 * (most - least);
-        y[k] = (Range){least - beyond, most + beyond, -INFINITY, INFINITY, 0};
+        const double lower = min_of(step->least[k], min_of(run->y[k], step->y[k]));
+        const double upper = max_of(step->most[k], max_of(run->y[k], step->y[k])), beyond = 0.25 * (upper - lower);
+        y[k] = (Range){lower - beyond, upper + beyond, -INFINITY, INFINITY, 0};
     }
-    event_functions_of_ranges(run, t, y, p, f);
+    bound_event_functions_by_ranges(run, t, y, p, bounds);
     for (int i = 0; i < N_WATCHED; i++) {
         const double from = event_function(&run->discrete, &run->rhs, watched[i]);
         const double to = event_function(&run->discrete, &step->rhs, watched[i]);
-        if (f[i].lo >= 0.0 && !f[i].partly && !(to < 0.0))
+        if (bounds[i].lo >= 0.0 && !bounds[i].partly && !(to < 0.0))
             continue;
-        estimate_uncertainties(run, step, uncertain, p);
-        if (!is_held_at_zero(uncertain, i, f[i], from, to, 1.0))
+        estimate_uncertainties(run, step, uncertainties, p);
+        if (!is_held_at_zero(uncertainties, i, bounds[i], from, to, 1.0))
             return 0;
     }
     return 1;
 }
 
 #endif
-/* Find the first zero of the watched functions along an accepted step. step->from and step->to enclose it; 0: none. */
-static void search_step(Integrator *run, Step *step, const Parameters *p)
+/*
+ * Find the first zero of the watched functions along a tried step. step->from and step->to of each function enclose it;
+ * 0: none. If bounds by the stages exclude zeros, or without dense output, nothing is searched. Called by
+ * first_event().
+ */
+static void find_watched_zeros(Integrator *run, Step *step, const Parameters *p)
 {
-    WatchedStep of = {.run = run, .step = step, .p = p, .powers = {.t = step->t, .h = step->h}};
+    WatchedStep search = {.run = run, .step = step, .p = p, .powers = {.t = step->t, .h = step->h}};
     for (int i = 0; i < N_WATCHED; i++)
         step->from[i] = step->to[i] = 0.0;
 #if WATCHES_STATE
-    if ((!step->method->stiff && is_clear(run, step, &of.uncertain, p)) || compute_dense_output(run, p, step))
+    if ((!step->method->stiff && is_clear_by_stages(run, step, &search.uncertain, p))
+        || compute_dense_output(run, p, step))
         return;
-    expand_dense_output(run, step, &of.powers);
+    expand_dense_output(run, step, &search.powers);
 #endif
-    event_functions_at(run, step, 0.0, p, of.at_a);
-    (void)halve_parts(0.0, 1.0, 4.0 * event_time_tolerance(run, step), classify_event_functions, &of);
+    evaluate_event_functions_at(run, step, 0.0, p, search.at_a);
+    (void)halve_parts(0.0, 1.0, 4.0 * compute_event_time_tolerance(run, step), classify_event_functions, &search);
 }
 
-/* Return 0: bounds resolve every step. */
+/* Return 0: bounds of the watched functions resolve every step. */
 static int is_unresolved(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;
     return 0;
 }
 
-/* Return the fraction at which watched function i is first negative, and its value; 0: nowhere. */
-static double first_negative_sample(const Integrator *run, const Step *step, int i, const Parameters *p, double *value)
+/*
+ * Return the fraction of the step at which a watched function is first negative, as find_watched_zeros() has found it,
+ * and its value there in *value; 0: nowhere. index: of the watched function.
+ */
+static double find_first_negative_sample(const Integrator *run, const Step *step, int index, const Parameters *p,
+    double *value)
 {
     (void)run, (void)p;
-    *value = step->below[i];
-    return step->to[i];
+    *value = step->below[index];
+    return step->to[index];
 }

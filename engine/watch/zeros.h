@@ -65,41 +65,45 @@ typedef int EvaluateEventFunction(void *context, double s, Sample *now);
 typedef int ClassifyPart(void *context, double a, double b, int small);
 
 /*
- * Return s at f = 0 of the polynomial s(f) through n samples of different f (inverse interpolation, Neville's scheme).
+ * Return the location at f = 0 of the polynomial s(f) through n samples of different f, at most MAX_POINTS (inverse
+ * interpolation, Neville's scheme).
  */
-static inline double inverse_zero(const Sample *place, int n)
+static inline double find_zero_by_inverse_interpolation(const Sample *samples, int n)
 {
-    double s[MAX_POINTS];
+    double estimate[MAX_POINTS];
     for (int i = 0; i < n; i++)
-        s[i] = place[i].s;
+        estimate[i] = samples[i].s;
     for (int m = 1; m < n; m++)
         for (int i = 0; i + m < n; i++)
-            s[i] = (place[i].f * s[i + 1] - place[i + m].f * s[i]) / (place[i].f - place[i + m].f);
-    return s[0];
+            estimate[i] = (samples[i].f * estimate[i + 1] - samples[i + m].f * estimate[i]) / (samples[i].f
+                - samples[i + m].f);
+    return estimate[0];
 }
 
 /*
- * Return a zero, between both ends of a bracket, of the cubic that has their values and slopes. If a third sample is
- * finite and far enough from both ends, use the polynomial of degree 4 that has its value as well.
+ * Return the location of a zero, between both ends of a bracket, of the cubic that has their values and slopes. If the
+ * third sample is finite and far enough from both ends, use the polynomial of degree 4 that has its value as well.
+ * Newton's method with bisection.
  */
-static inline double hermite_zero(Sample low, Sample high, Sample third)
+static inline double find_hermite_zero(Sample low, Sample high, Sample third)
 {
-    const double w = high.s - low.s, a = low.f, b = high.f - a, r = w * low.slope, r_end = w * high.slope;
-    const double c = 3.0 * b - 2.0 * r - r_end, d = r + r_end - 2.0 * b, x = (third.s - low.s) / w, v = (1.0 - x) * x;
-    const double less = third.f - (a + x * (r + x * (c + x * d))); /* than the cubic there */
-    const double e = isfinite(third.f) && fabs(v) > MIN_THIRD_DISTANCE ? less / (v * v) : 0.0;
-    double from = 0.0, to = 1.0, u = -a / b;
-    for (int i = 0; i < 60 && to - from > DBL_EPSILON; i++) {
+    const double w = high.s - low.s, a = low.f, b = high.f - a, slope_low = w * low.slope, slope_high = w * high.slope;
+    const double c = 3.0 * b - 2.0 * slope_low - slope_high, d = slope_low + slope_high - 2.0 * b,
+        x = (third.s - low.s) / w, v = (1.0 - x) * x;
+    const double difference = third.f - (a + x * (slope_low + x * (c + x * d))); /* than the cubic there */
+    const double e = isfinite(third.f) && fabs(v) > MIN_THIRD_DISTANCE ? difference / (v * v) : 0.0;
+    double left = 0.0, right = 1.0, u = -a / b;
+    for (int i = 0; i < 60 && right - left > DBL_EPSILON; i++) {
         const double back = 1.0 - u, bend = u * back;
-        const double f = a + u * (r + u * (c + u * d)) + e * bend * bend;
-        const double f_u = r + u * (2.0 * c + 3.0 * u * d) + 2.0 * e * bend * (back - u), before = u;
+        const double f = a + u * (slope_low + u * (c + u * d)) + e * bend * bend;
+        const double f_u = slope_low + u * (2.0 * c + 3.0 * u * d) + 2.0 * e * bend * (back - u), before = u;
         if (f >= 0.0)
-            from = u;
+            left = u;
         else
-            to = u;
+            right = u;
         u -= f / f_u;
-        if (!(u > from && u < to))
-            u = 0.5 * (from + to);
+        if (!(u > left && u < right))
+            u = 0.5 * (left + right);
         if (fabs(u - before) < 1e-5) /* Newton's next step is its square */
             break;
     }
@@ -107,163 +111,174 @@ static inline double hermite_zero(Sample low, Sample high, Sample third)
 }
 
 /*
- * Return the estimated location of the zero of a bracket: by a Hermite polynomial if slopes are known, else by inverse
- * interpolation through at most `n_points` samples.
+ * Return the estimated location of the zero of a bracket: by a Hermite polynomial if both slopes are known, else by
+ * inverse interpolation through at most n_points of its samples. It may lie outside of the bracket.
  */
-static inline double guess_zero(const Bracket *of, int n_points)
+static inline double guess_zero(const Bracket *bracket, int n_points)
 {
-    const Sample low = of->at[0], high = of->at[1];
+    const Sample low = bracket->at[0], high = bracket->at[1];
     if (isfinite(low.f + low.slope + high.f + high.slope))
-        return hermite_zero(low, high, of->n > 2 ? of->at[2] : (Sample){NAN, NAN, NAN});
-    return inverse_zero(of->at, of->n < n_points ? of->n : n_points);
+        return find_hermite_zero(low, high, bracket->n > 2 ? bracket->at[2] : (Sample){NAN, NAN, NAN});
+    return find_zero_by_inverse_interpolation(bracket->at, bracket->n < n_points ? bracket->n : n_points);
 }
 
-/* Return a guess of the zero if it lies within the bracket, else the middle of the bracket. */
-static inline double clamp_to_bracket(double guess, const Bracket *of)
+/* Return a guess of the zero if it lies strictly within the bracket, else the middle of the bracket, also for NaN. */
+static inline double clamp_to_bracket(double guess, const Bracket *bracket)
 {
-    const double low = of->at[0].s, high = of->at[1].s;
+    const double low = bracket->at[0].s, high = bracket->at[1].s;
     return guess > low && guess < high ? guess : 0.5 * (low + high);
 }
 
 /*
- * Return the largest allowed distance of the location after the zero, which is near `about`. The slope of the function
- * is estimated as the steepest one from there to the known samples.
+ * Return the largest distance after the zero, estimated at `guess`, at which it may be located within the tolerance.
+ * The slope of the function is estimated as the steepest one from there to the known samples. 0 if the tolerance allows
+ * no distance.
  */
-static inline double distance_beyond(const Bracket *of, const ZeroTolerance *near, double about)
+static inline double compute_distance_beyond(const Bracket *bracket, const ZeroTolerance *tolerance, double guess)
 {
-    const double s = clamp_to_bracket(about, of);
-    double falls = 0.0;
-    for (int i = 0; i < of->n && near->beyond > 0.0; i++)
-        falls = max_of(falls, fabs(of->at[i].f / (of->at[i].s - s)));
-    return min_of(near->beyond, sqrt(near->harmless / (near->harm * falls)));
+    const double location = clamp_to_bracket(guess, bracket);
+    double steepest = 0.0;
+    for (int i = 0; i < bracket->n && tolerance->beyond > 0.0; i++)
+        steepest = max_of(steepest, fabs(bracket->at[i].f / (bracket->at[i].s - location)));
+    return min_of(tolerance->beyond, sqrt(tolerance->harmless / (tolerance->harm * steepest)));
 }
 
 /*
  * Locate the zero of a bracket to a tolerance, by zeros of interpolants, and by bisection if they do not halve the
- * bracket. guess: the first location to evaluate; NAN: the middle. n_points: number of samples for inverse
- * interpolation; 2 for a function of which only the sign is known. `of` is narrowed; its upper end, with f < 0, is the
- * location. Returns a status.
+ * bracket. evaluate(context, s, &sample): the function; guess: the first location to evaluate, NAN: the middle.
+ * n_points: number of samples for inverse interpolation; 2 for a function of which only the sign is known. The bracket
+ * is narrowed; its upper end, with f < 0, is the location. Return 0, or the status with which `evaluate` ended the
+ * search.
  */
-static inline int locate_zero(EvaluateEventFunction *evaluate, void *context, const ZeroTolerance *near, int n_points,
-    double guess, Bracket *of)
+static inline int locate_zero(EvaluateEventFunction *evaluate, void *context, const ZeroTolerance *tolerance,
+    int n_points,
+    double guess, Bracket *bracket)
 {
-    double width = INFINITY, before = INFINITY;
+    double width = INFINITY, width_before = INFINITY;
     for (int i = 0;; i++) {
-        const double from = of->at[0].s, to = of->at[1].s;
-        double s = i ? guess_zero(of, n_points) : guess;
-        const double distance = distance_beyond(of, near, s), close = max_of(distance, near->width);
-        if (!(to - from > close))
+        const double low = bracket->at[0].s, high = bracket->at[1].s;
+        double s = i ? guess_zero(bracket, n_points) : guess;
+        const double distance = compute_distance_beyond(bracket, tolerance, s),
+            min_distance = max_of(distance, tolerance->width);
+        if (!(high - low > min_distance))
             return 0;
-        if (!(s > from && s < to) || (i >= FAST_EVALUATIONS && to - from > 0.5 * before))
-            s = 0.5 * (from + to);
-        else if (s - from < 2.0 * close)
-            s = min_of(from + 0.9 * (to - from), s + 0.75 * close);
+        if (!(s > low && s < high) || (i >= FAST_EVALUATIONS && high - low > 0.5 * width_before))
+            s = 0.5 * (low + high);
+        else if (s - low < 2.0 * min_distance)
+            s = min_of(low + 0.9 * (high - low), s + 0.75 * min_distance);
         else if (distance > 0.0)
-            s += min_of(0.5 * distance, 0.9 * (to - s));
-        else if (to - s < 2.0 * close)
-            s = max_of(to - 0.9 * (to - from), s - 0.75 * close);
-        if (!(s > from && s < to))
+            s += min_of(0.5 * distance, 0.9 * (high - s));
+        else if (high - s < 2.0 * min_distance)
+            s = max_of(high - 0.9 * (high - low), s - 0.75 * min_distance);
+        if (!(s > low && s < high))
             return 0; /* nothing lies between */
-        before = width;
-        width = to - from;
-        Sample now = {s, NAN, NAN};
-        const int status = evaluate(context, s, &now), end = now.f >= 0.0 ? 0 : 1;
+        width_before = width;
+        width = high - low;
+        Sample sample = {s, NAN, NAN};
+        const int status = evaluate(context, s, &sample), replaced = sample.f >= 0.0 ? 0 : 1;
         if (status)
             return status;
         /* df/ds there, or the mean slope from the bracket's lower end to there */
-        const double slope = isfinite(now.slope) ? now.slope : (now.f - of->at[0].f) / (s - from);
-        const int reached = now.f < 0.0 && now.f >= slope * distance;
-        of->n = of->n < MAX_POINTS ? of->n + 1 : MAX_POINTS;
-        of->at[3] = of->at[2];
-        of->at[2] = of->at[end];
-        of->at[end] = now;
-        if (reached)
+        const double slope = isfinite(sample.slope) ? sample.slope : (sample.f - bracket->at[0].f) / (s - low);
+        const int is_located = sample.f < 0.0 && sample.f >= slope * distance;
+        bracket->n = bracket->n < MAX_POINTS ? bracket->n + 1 : MAX_POINTS;
+        bracket->at[3] = bracket->at[2];
+        bracket->at[2] = bracket->at[replaced];
+        bracket->at[replaced] = sample;
+        if (is_located)
             return 0;
     }
 }
 
-/* Classify the parts of an interval from a to b in order, by bisection. Return 1 if a part ends the search, else 0. */
-static inline int halve_parts(double a, double b, double width, ClassifyPart *judge, void *context)
+/*
+ * Classify the parts of an interval from `begin` to `end` in order, by bisection: classify(context, begin, end,
+ * is_small) returns 1, 0 or -1 (ClassifyPart). Parts of at most `width`, beyond DEEPEST halvings or MAX_PARTS_SEEN
+ * parts are small: they are not halved. Return 1 if a part ends the search, else 0.
+ */
+static inline int halve_parts(double begin, double end, double width, ClassifyPart *classify, void *context)
 {
-    double end[DEEPEST + 2] = {b};
-    for (int n = 1, seen = 0; n > 0;) {
-        const double middle = a + 0.5 * (end[n - 1] - a);
-        const int small = end[n - 1] - a <= width || n > DEEPEST || ++seen > MAX_PARTS_SEEN
-            || !(a < middle && middle < end[n - 1]);
-        const int result = judge(context, a, end[n - 1], small);
+    double ends[DEEPEST + 2] = {end};
+    for (int n_ends = 1, n_parts = 0; n_ends > 0;) {
+        const double middle = begin + 0.5 * (ends[n_ends - 1] - begin);
+        const int is_small = ends[n_ends - 1] - begin <= width || n_ends > DEEPEST || ++n_parts > MAX_PARTS_SEEN
+            || !(begin < middle && middle < ends[n_ends - 1]);
+        const int result = classify(context, begin, ends[n_ends - 1], is_small);
         if (result > 0)
             return 1;
         if (result < 0)
-            end[n++] = middle;
+            ends[n_ends++] = middle;
         else
-            a = end[--n];
+            begin = ends[--n_ends];
     }
     return 0;
 }
 
 /*
- * Decide by bounds whether a function has a zero in a part. f: bounds of its values and slopes; at_a, at_b: values at
- * both ends; width: length of the part in the unit of the slopes. Return 1 if it is negative at the end and not before,
- * 0 if it is negative nowhere, -1 if that is not known (never for a `small` part). Bounds contain rounding errors: the
- * sign computed at the end has priority.
+ * Decide by bounds whether a function has a zero in a part. bounds: of its values and slopes; value_begin, value_end:
+ * values at both ends; width: length of the part in the unit of the slopes. Return 1 if it is negative at the end and
+ * not before, 0 if it is negative nowhere, -1 if that is not known (never if is_small). Bounds contain rounding errors:
+ * the sign computed at the end has priority.
  */
-static inline int zero_verdict(Range f, double at_a, double at_b, double width, int small)
+static inline int zero_verdict(Range bounds, double value_begin, double value_end, double width, int is_small)
 {
-    if (is_empty(f) || (f.lo >= 0.0 && !(at_b < 0.0)))
+    if (is_empty(bounds) || (bounds.lo >= 0.0 && !(value_end < 0.0)))
         return 0;
-    if (small)
-        return at_b < 0.0;
-    if (f.partly)
+    if (is_small)
+        return value_end < 0.0;
+    if (bounds.partly)
         return -1;
-    if (f.down >= 0.0 || f.up <= 0.0)
-        return at_b < 0.0;
+    if (bounds.down >= 0.0 || bounds.up <= 0.0)
+        return value_end < 0.0;
     /* the lowest that a function of these slopes between these ends may reach */
-    const double lowest = at_a + f.down * (at_b - at_a - f.up * width) / (f.down - f.up);
-    return at_a >= 0.0 && at_b >= 0.0 && lowest >= 0.0 ? 0 : -1;
+    const double lowest = value_begin + bounds.down
+        * (value_end - value_begin - bounds.up * width) / (bounds.down - bounds.up);
+    return value_begin >= 0.0 && value_end >= 0.0 && lowest >= 0.0 ? 0 : -1;
 }
 
 /*
  * Return whether a lower bound over a fraction `width` of an interval is negative only because interval arithmetic
- * overestimates. It is if the bound has narrowed with the part, as for a function without a zero. whole: the lower
- * bound over the whole interval.
+ * overestimates. It is if the bound has narrowed with the part, as for a function without a zero. whole_lower: the
+ * lower bound over the whole interval. Parts longer than NARROWING_WIDTH return 0.
  */
-static inline int is_narrowing(double lo, double width, double whole)
+static inline int is_narrowing(double lower, double width, double whole_lower)
 {
-    return width <= NARROWING_WIDTH && lo >= 4.0 * width * whole;
+    return width <= NARROWING_WIDTH && lower >= 4.0 * width * whole_lower;
 }
 
 /* Return whether a change of sign is a pole: the function is larger at it than POLE_DISTANCE tolerances further on. */
 static inline int is_near_pole(double here, double further) { return isinf(here) || fabs(here) > 2.0 * fabs(further); }
 
 /*
- * Return whether user event i has crossed zero to `value` in a direction that counts. `branch`: the last sign of its
- * function (1 or -1; 0: none yet), updated. A value of zero keeps the sign.
+ * Return whether a user-defined event function has crossed zero to `value` in a direction that counts as an event.
+ * *sign: the last sign of the function (1 or -1; 0: none yet), updated. A value of zero keeps the sign; a first sign is
+ * no event.
  */
-static inline int event_crosses(int i, signed char *branch, double value)
+static inline int event_crosses(int event, signed char *sign, double value)
 {
-    const int from = *branch, to = (value > 0.0) - (value < 0.0);
-    if (to)
-        *branch = (signed char)to;
-    return from * to < 0 && event_direction[i] * to >= 0;
+    const int sign_before = *sign, sign_now = (value > 0.0) - (value < 0.0);
+    if (sign_now)
+        *sign = (signed char)sign_now;
+    return sign_before * sign_now < 0 && event_direction[event] * sign_now >= 0;
 }
 
 #if N_WATCHED && KNOWN_BOUNDS
 /*
- * Estimate by how much errors of n positions and velocities (q_error, v_error) change each watched function. out:
- * N_WATCHED half widths of its bounds; 0 where they include a pole.
+ * Estimate by how much errors of positions and velocities (q_error, v_error, n_coordinates each) change each watched
+ * function: uncertainty (N_WATCHED), half widths of its bounds. 0 where the bounds include a pole. The time has an
+ * error of 4 ulp.
  */
 static inline void error_by_bounds(double t, const double *q, const double *v, const double *q_error,
-    const double *v_error, int n, const DiscreteState *discrete, const Parameters *p, double *out)
+    const double *v_error, int n_coordinates, const DiscreteState *discrete, const Parameters *p, double *uncertainty)
 {
-    Range at_q[N_Q + N_X], at_v[N_Q + N_X], f[N_WATCHED];
-    const double rounded = 4.0 * DBL_EPSILON * fabs(t);
-    for (int k = 0; k < n; k++) {
-        at_q[k] = (Range){q[k] - q_error[k], q[k] + q_error[k], 0.0, 0.0, 0};
-        at_v[k] = (Range){v[k] - v_error[k], v[k] + v_error[k], 0.0, 0.0, 0};
+    Range q_bounds[N_Q + N_X], v_bounds[N_Q + N_X], bounds[N_WATCHED];
+    const double t_error = 4.0 * DBL_EPSILON * fabs(t);
+    for (int k = 0; k < n_coordinates; k++) {
+        q_bounds[k] = (Range){q[k] - q_error[k], q[k] + q_error[k], 0.0, 0.0, 0};
+        v_bounds[k] = (Range){v[k] - v_error[k], v[k] + v_error[k], 0.0, 0.0, 0};
     }
-    watched_ranges((Range){t - rounded, t + rounded, 0.0, 0.0, 0}, at_q, at_v, discrete, p, f);
+    watched_ranges((Range){t - t_error, t + t_error, 0.0, 0.0, 0}, q_bounds, v_bounds, discrete, p, bounds);
     for (int i = 0; i < N_WATCHED; i++)
-        out[i] = isfinite(f[i].hi - f[i].lo) ? 0.5 * (f[i].hi - f[i].lo) : 0.0;
+        uncertainty[i] = isfinite(bounds[i].hi - bounds[i].lo) ? 0.5 * (bounds[i].hi - bounds[i].lo) : 0.0;
 }
 #endif
 

@@ -102,8 +102,8 @@ def test_events_that_are_rounding(method: str, tmp_path: Path) -> None:
     """Fault 07: velocities that stick are not put at rest and have no uncertainty: changes of their sign are events."""
     right = loader(tmp_path)(STUCK)
     assert not reported(right, 2.5, method=method)
-    known = "    error_of_watched(run, t, y, error, p, out);\n"
-    exact = "    for (int i = 0; i < N_WATCHED; i++)\n        out[i] = 0.0;\n"
+    known = "    estimate_watched_errors(run, t, y, error, p, change);\n"
+    exact = "    for (int i = 0; i < N_WATCHED; i++)\n        change[i] = 0.0;\n"
     drifts = ("engine/run/slips.c", "fabs(v) <= MIN_SLIP", "fabs(v) <= INFINITY")
     wrong = mutant(right, tmp_path, ("engine/run/uncertainty.c", known, exact), drifts)
     assert "check event" in reported(wrong, 2.5, method=method)

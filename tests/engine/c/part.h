@@ -6,7 +6,7 @@
 #include "engine/engine.c"
 #include <stdio.h>
 
-#pragma weak absolute_accelerations
+#pragma weak compute_absolute_accelerations
 #pragma weak accept_state
 #pragma weak constraints
 #pragma weak drives_jump
@@ -21,7 +21,7 @@
 #pragma weak same_start
 #pragma weak start_values
 #pragma weak to_absolute
-#pragma weak velocity_residuals
+#pragma weak compute_velocity_residuals
 #pragma weak velocity_rhs
 
 static int failures;

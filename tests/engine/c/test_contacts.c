@@ -9,7 +9,7 @@ static void changes(double t, double deltadot)
 {
     run.t = t;
     run.rhs.clearance[0].deltadot = deltadot;
-    cross_contact(&run, 0, min_approach_speed(&p, 0));
+    toggle_contact(&run, 0, min_approach_speed(&p, 0));
 }
 
 static void begins_and_ends(void)
@@ -31,9 +31,11 @@ static void begins_and_ends(void)
     /* a run that begins deep in its wall is in contact, and one that begins beside it is free */
     run.discrete.contact[0].closed = 0;
     run.rhs.clearance[0] = (Clearance){.delta = 0.5, .deltadot = -3.0};
-    CHECK(begin_contacts_of_start(&run, &p) && run.discrete.contact[0].closed && contacts->open[0].deltadot == 3.0);
+    CHECK(initialize_compliant_contacts(&run, &p) && run.discrete.contact[0].closed
+        && contacts->open[0].deltadot == 3.0);
     run.rhs.clearance[0].delta = -0.5;
-    CHECK(begin_contacts_of_start(&run, &p) && !run.discrete.contact[0].closed && !begin_contacts_of_start(&run, &p));
+    CHECK(initialize_compliant_contacts(&run, &p) && !run.discrete.contact[0].closed
+        && !initialize_compliant_contacts(&run, &p));
     run.contacts.n_impacts = 1;
     changes(8.0, 1.0);
 }
@@ -41,11 +43,11 @@ static void begins_and_ends(void)
 static void peaks(void)
 {
     double height;
-    CHECK(cubic_maximum(0.0, 1.0, 0.0, -1.0, &height) == 0.5 && CLOSE(height, 0.25, 1e-16)); /* s (1 - s) */
-    raise_force(&run, 0, 1.0, 5.0);
-    raise_force(&run, 0, 2.0, 4.0);
+    CHECK(find_cubic_maximum(0.0, 1.0, 0.0, -1.0, &height) == 0.5 && CLOSE(height, 0.25, 1e-16)); /* s (1 - s) */
+    update_peak_force(&run, 0, 1.0, 5.0);
+    update_peak_force(&run, 0, 2.0, 4.0);
     CHECK(run.contacts.F_peak[0] == 5.0 && run.contacts.t_peak[0] == 1.0);
-    raise_contact_force(&run, 0, 2.0, 4.0);
+    update_contact_peak_force(&run, 0, 2.0, 4.0);
     CHECK(run.contacts.open[0].F_peak == 4.0 && run.contacts.open[0].t_peak == 2.0);
 
     /* deltadot/deltadot_minus of a contact that lasts, outside of [-1, 1] once */
@@ -62,9 +64,9 @@ static void lists(void)
 {
     double numbers[N_IMPACT_COLUMNS * (LISTED_IMPACTS + 1)];
     int joints[LISTED_IMPACTS + 1];
-    raise_force(&run, 0, 3.25, 9.0);
-    raise_eccentricity(&run, 0, 0.75);
-    CHECK(!list_contact(&run, &(Impact){3.0, 3.5, 1.0, 9.0, 3.25, 0}));
+    update_peak_force(&run, 0, 3.25, 9.0);
+    update_largest_eccentricity(&run, 0, 0.75);
+    CHECK(!append_contact(&run, &(Impact){3.0, 3.5, 1.0, 9.0, 3.25, 0}));
     CHECK(run.contacts.n_impacts == 2 && run.contacts.F_peak[0] == 9.0 && run.contacts.e_max[0] == 0.75);
     CHECK(gudgeon_run_impacts(&run, 0, 1, numbers, joints) == 1); /* the oldest first */
     CHECK(CLOSE(numbers[IMPACT_t_off], 7.5, 1e-14) && run.contacts.n_impacts == 1);
@@ -74,17 +76,18 @@ static void lists(void)
 
     /* an impulse is added to the last one of the same joint at the same time */
     const Impact bounce = {run.t, run.t, 1.0, 2.0, run.t, 0};
-    CHECK(!list_impact(&run, &bounce, 0, 1) && !list_impact(&run, &bounce, 1, 0));
+    CHECK(!append_impact(&run, &bounce, 0, 1) && !append_impact(&run, &bounce, 1, 0));
     CHECK(run.contacts.n_impacts == 1 && run.contacts.impacts[0].F_peak == 4.0);
     while (run.contacts.n_impacts < LISTED_IMPACTS)
-        CHECK(!list_contact(&run, &bounce));
-    CHECK(has_full_lists(&run) && list_contact(&run, &bounce) == CHATTERING && run.contacts.n_impacts == LISTED_IMPACTS);
+        CHECK(!append_contact(&run, &bounce));
+    CHECK(has_full_lists(&run) && append_contact(&run, &bounce) == CHATTERING
+        && run.contacts.n_impacts == LISTED_IMPACTS);
 }
 
 int main(void)
 {
     const double latched[N_DISCRETE] = {NAN};
-    start_contacts(&run, 0.0, latched);
+    initialize_contacts(&run, 0.0, latched);
     CHECK(run.contacts.e_max[0] == -INFINITY && run.contacts.ratio_min == INFINITY);
     begins_and_ends();
     peaks();
