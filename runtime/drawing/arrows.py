@@ -31,37 +31,48 @@ class Arrows:
     on: str = ""
 
 
-def arrows(role: str, vectors: Mapping[str, tuple[Array, Array]], unit: str, pen: float, largest: float) -> Arrows:
-    """Return the arrows of vectors (SI) by name, each a position and a vector; the magnitude `largest` has the length
-    LONGEST.
+def arrows(
+    role: str, vectors: Mapping[str, tuple[Array, Array]], si_unit: str, unit_length: float, max_magnitude: float
+) -> Arrows:
+    """Return the arrows of vectors given as name: (position, vector), with a reference arrow of a round value.
+
+    A vector of the magnitude `max_magnitude` (SI) is LONGEST units long; `unit_length` is a unit in m. Very short
+    arrows are left out; without a positive magnitude there are none.
     """
-    if not largest > 0.0:
+    if not max_magnitude > 0.0:
         return Arrows(role, (), 0.0, "")
-    metres, shapes = LONGEST * pen / largest, list[Shape]()
-    for name, (place, vector) in vectors.items():
-        length = metres * float(np.hypot(*vector))
-        if length > 1e-3 * pen:
+    metres_per_unit, shapes = LONGEST * unit_length / max_magnitude, list[Shape]()
+    for name, (position, vector) in vectors.items():
+        length = metres_per_unit * float(np.hypot(*vector))
+        if length > 1e-3 * unit_length:
             shapes += arrow(
-                f"{role} {name}", role, place, place + metres * vector, min(0.85 * HEAD * pen, 0.6 * length)
+                f"{role} {name}",
+                role,
+                position,
+                position + metres_per_unit * vector,
+                min(0.85 * HEAD * unit_length, 0.6 * length),
             )
-    reference = round_number(largest)
-    factor, text = scale(reference, unit)
-    return Arrows(role, tuple(shapes), metres * reference, f"{reference * factor:g} {text}")
+    reference = round_number(max_magnitude)
+    factor, text = scale(reference, si_unit)
+    return Arrows(role, tuple(shapes), metres_per_unit * reference, f"{reference * factor:g} {text}")
 
 
-def round_number(most: float) -> float:
-    """Return the largest of 1, 2 or 5 times a power of ten that does not exceed `most`."""
-    power = 10.0 ** np.floor(np.log10(most))
-    return float(max(x for x in (1.0, 2.0, 5.0) if x * power <= most * (1.0 + 1e-12)) * power)
+def round_number(limit: float) -> float:
+    """Return the largest of 1, 2 or 5 times a power of ten that does not exceed a positive `limit`."""
+    power = 10.0 ** np.floor(np.log10(limit))
+    return float(max(x for x in (1.0, 2.0, 5.0) if x * power <= limit * (1.0 + 1e-12)) * power)
 
 
 def velocities_of(posture: Posture) -> Iterator[tuple[str, tuple[Array, Array]]]:
-    """Yield name, position and velocity (m/s) of each point on a body's outline and of its centre of mass."""
+    """Yield (name, (position, velocity)) of each point on a body's outline and of each centre of mass, in m and m/s.
+
+    Nothing is yielded for a posture without velocities.
+    """
     if posture.v is None:
         return
     for body, info in posture.bodies.items():
-        middle, rates = posture.centre(body), posture.v[info.index : info.index + 3]
+        centre, rates = posture.centre(body), posture.v[info.index : info.index + 3]
         for name in dict.fromkeys([*anchors(posture, body), f"{body}.com"]):
             if name in posture.points:
-                arm = place_of(posture.source, posture.p, posture.q, posture.points[name]) - middle
-                yield name, (middle + arm, rates[:2] + rates[2] * np.array([-arm[1], arm[0]]))
+                lever = place_of(posture.source, posture.p, posture.q, posture.points[name]) - centre
+                yield name, (centre + lever, rates[:2] + rates[2] * np.array([-lever[1], lever[0]]))

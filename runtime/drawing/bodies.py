@@ -17,85 +17,98 @@ BLOCK = (2.1, 1.25)  # half length and width of a slider, in units
 SLOT, STRIP = 1.0, 0.55  # half widths: of a slotted link, of a bar that guides
 
 
-def bodies(posture: Posture, plan: Plan, loose: frozenset[str] = frozenset()) -> Iterator[Shape]:
-    """Yield the shapes of every body of a scene; `loose` bodies have a different colour."""
+def bodies(posture: Posture, plan: Plan, unconnected: frozenset[str] = frozenset()) -> Iterator[Shape]:
+    """Yield the outlines of every body of a scene, closed lines, and dots of its named points.
+
+    Bodies in `unconnected` have the colour of an error.
+    """
     for tint, body in enumerate(posture.bodies):
         for role, outline in _outlines(posture, plan, body):
-            yield Line(f"body {body}", "loose" if body in loose and role == "body" else role, outline, True, tint)
+            yield Line(f"body {body}", "loose" if body in unconnected and role == "body" else role, outline, True, tint)
         yield from _point_marks(posture, plan, body, tint)
 
 
 def _outlines(posture: Posture, plan: Plan, body: str) -> Iterator[tuple[str, Array]]:
-    """Yield role and closed outline of a body: its link or plate, its guides for other bodies, its blocks."""
-    u, places = plan.unit, distinct(anchors(posture, body).values())
-    guided, blocks = [], []
+    """Yield role and closed outline (N, 2) of a body: its link or plate, its guides for other bodies, its blocks.
+
+    A body with a guide or block that has points at one place only is drawn without link or plate.
+    """
+    unit, positions = plan.unit, distinct(anchors(posture, body).values())
+    guide_parts, block_parts = [], []
     for part in sliding(posture):
         guide, slider = map(body_of, guide_and_slider(part))
         if guide == body:
-            guided.append(part)
+            guide_parts.append(part)
         if slider == body and is_block(part):
-            blocks.append(part)
-    if not ((blocks or guided) and _is_held_once(posture, body)):
-        yield "body", rounded(places, u if len(places) > 1 else 1.6 * u)
-    for part in guided:
+            block_parts.append(part)
+    if not ((block_parts or guide_parts) and _has_one_position(posture, body)):
+        yield "body", rounded(positions, unit if len(positions) > 1 else 1.6 * unit)
+    for part in guide_parts:
         ends = guide_ends(posture, plan, part)
-        if gap := gap_of(posture, part, u):
-            yield "guide", rounded(ends, BLOCK[1] * u + gap + 0.55 * u)
-            yield "channel", rounded(ends, BLOCK[1] * u + gap)
+        if wall_gap := gap_of(posture, part, unit):
+            yield "guide", rounded(ends, BLOCK[1] * unit + wall_gap + 0.55 * unit)
+            yield "channel", rounded(ends, BLOCK[1] * unit + wall_gap)
         else:
-            yield "body", rounded(ends, (STRIP if is_block(part) else SLOT + 0.55) * u)
-    for part in blocks:
-        yield "body", rectangle(axis_of(posture, part)[2], axes_of(posture, part)[1], BLOCK[0] * u, BLOCK[1] * u)
+            yield "body", rounded(ends, (STRIP if is_block(part) else SLOT + 0.55) * unit)
+    for part in block_parts:
+        yield "body", rectangle(axis_of(posture, part)[2], axes_of(posture, part)[1], BLOCK[0] * unit, BLOCK[1] * unit)
 
 
-def _is_held_once(posture: Posture, body: str) -> bool:
-    """Return whether a body has joints and named points at one place only."""
+def _has_one_position(posture: Posture, body: str) -> bool:
+    """Return whether all joints and named points of a body are at one position."""
     names = [name for name in anchors(posture, body) if not name.endswith(".com")]
     return len(distinct(posture.place(name) for name in names)) < 2
 
 
 def guide_ends(posture: Posture, plan: Plan, part: PartInfo) -> list[Array]:
-    """Return both ends of a slot or guide bar, as far as the slider travels.
+    """Return both ends of a slot or guide bar, two points (2,) in m, as far as the slider travels.
 
-    A bar extends to the body's own point, as does a slot that is not on one of the body's links.
+    They extend to the body's own point on the line, except for a slot on one of the body's links.
     """
-    on, along, _ = axis_of(posture, part)
-    low, high = plan.travel[part.name]
-    more = (BLOCK[0] + 0.6 if is_block(part) else 1.6) * plan.unit
-    low, high = low - more, high + more
+    line_point, axis, _ = axis_of(posture, part)
+    low_coordinate, high_coordinate = plan.travel[part.name]
+    overhang = (BLOCK[0] + 0.6 if is_block(part) else 1.6) * plan.unit
+    low_coordinate, high_coordinate = low_coordinate - overhang, high_coordinate + overhang
     guide = body_of(guide_and_slider(part)[0])
-    if is_block(part) or not _lies_on_link(posture, guide, on + low * along, on + high * along):
-        low, high = min(low, 0.0), max(high, 0.0)
-    return [on + low * along, on + high * along]
+    if is_block(part) or not _lies_on_link(
+        posture, guide, line_point + low_coordinate * axis, line_point + high_coordinate * axis
+    ):
+        low_coordinate, high_coordinate = min(low_coordinate, 0.0), max(high_coordinate, 0.0)
+    return [line_point + low_coordinate * axis, line_point + high_coordinate * axis]
 
 
 def _lies_on_link(posture: Posture, body: str, *ends: Array) -> bool:
-    """Return whether a slot lies on the link between two points of its body."""
-    places = distinct(anchors(posture, body).values())
-    for k, a in enumerate(places):
-        for b in places[:k]:
-            span = b - a
-            shares = [float((end - a) @ span / (span @ span)) for end in ends]
-            away = [float(np.hypot(*(end - a - s * span))) for end, s in zip(ends, shares, strict=True)]
-            if max(away) < 1e-3 * float(np.hypot(*span)) and min(shares) < 1.0 and max(shares) > 0.0:
+    """Return whether the ends of a slot lie on the straight link between two points of its body.
+
+    The slot may extend beyond the link, but must overlap it.
+    """
+    positions = distinct(anchors(posture, body).values())
+    for k, begin in enumerate(positions):
+        for end_point in positions[:k]:
+            span = end_point - begin
+            fractions = [float((end - begin) @ span / (span @ span)) for end in ends]
+            distances = [
+                float(np.hypot(*(end - begin - fraction * span))) for end, fraction in zip(ends, fractions, strict=True)
+            ]
+            if max(distances) < 1e-3 * float(np.hypot(*span)) and min(fractions) < 1.0 and max(fractions) > 0.0:
                 return True
     return False
 
 
 def _point_marks(posture: Posture, plan: Plan, body: str, tint: int) -> Iterator[Shape]:
-    """Yield a small dot for each named point that no joint or element uses."""
-    held = {end for part in posture.source.parts for end in part.ends}
+    """Yield a small dot for each named point of a body that no joint, drive or force element uses."""
+    used_points = {end for part in posture.source.parts for end in part.ends}
     for name in posture.points:
         owner, _, point = name.partition(".")
-        if owner == body and name not in held and point not in ("head", "tail", "origin", "com"):
+        if owner == body and name not in used_points and point not in ("head", "tail", "origin", "com"):
             yield Disc(f"point {name}", "mark", posture.place(name), 0.22 * plan.unit, tint)
 
 
 def labels_of_bodies(posture: Posture, plan: Plan) -> Iterator[Label]:
-    """Yield the labels of bodies at the middle of their points, and of marked points."""
+    """Yield the label of each body at the mean of its points, then the labels of named points that have a dot."""
     for body in posture.bodies:
-        places = distinct(anchors(posture, body).values())
-        middle = np.mean(places, axis=0)
-        yield Label(f"body {body}", "body", body, middle, 1.2 * plan.unit)
+        positions = distinct(anchors(posture, body).values())
+        mean_position = np.mean(positions, axis=0)
+        yield Label(f"body {body}", "body", body, mean_position, 1.2 * plan.unit)
     for shape in (shape for body in posture.bodies for shape in _point_marks(posture, plan, body, 0)):
         yield Label(shape.part, "point", shape.part.rpartition(".")[2], shape.centre, 0.4 * plan.unit)  # type: ignore[union-attr]

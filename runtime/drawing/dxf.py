@@ -34,39 +34,39 @@ APART = 0.1  # of the widest sketch, between two
 
 
 def as_dxf(sketches: Sequence[Sketch], titles: Sequence[str]) -> bytes:
-    """Return a DXF file (ASCII, R2010, $INSUNITS millimetres), always the same bytes for the same sketches.
+    """Return sketches as the bytes of one DXF file (ASCII, R2010, millimetres), always the same for the same sketches.
 
-    The first sketch has the ground's axes; others are to its right with their titles. Raises GudgeonError without
-    ezdxf, ValueError for a coordinate that is not finite.
+    The first sketch has the ground's axes; the others are to its right, with `titles` above. An empty title is left
+    out. Raises ValueError for a coordinate that is not finite.
     """
-    with _no_dates():
+    with _suppress_dates():
         document = ezdxf.new(VERSION, units=MILLIMETRES)
         document.header["$MEASUREMENT"] = 1
-        space, layers = document.modelspace(), _Layers(document)
-        pitch = (1.0 + APART) * max(float(sketch.high[0] - sketch.low[0]) for sketch in sketches)
+        modelspace, layers = document.modelspace(), _Layers(document)
+        distance = (1.0 + APART) * max(float(sketch.high[0] - sketch.low[0]) for sketch in sketches)
         for k, (sketch, title) in enumerate(zip(sketches, titles, strict=True)):
-            moved = np.array([k * pitch, 0.0])
-            _draw(space, layers, sketch, moved)
+            offset = np.array([k * distance, 0.0])
+            _draw_sketch(modelspace, layers, sketch, offset)
             if title:
-                at = moved + [sketch.low[0], sketch.high[1] + 2.0 * sketch.unit]
-                _draw_text(space, title, at, sketch.unit, {"layer": layers("titles", 0)})
-        known = document.classes
-        known.add_required_classes(document.dxfversion)
-        known.classes = dict(sorted(known.classes.items()))  # ezdxf takes them from sets, in an order by hash
+                position = offset + [sketch.low[0], sketch.high[1] + 2.0 * sketch.unit]
+                _draw_text(modelspace, title, position, sketch.unit, {"layer": layers("titles", 0)})
+        classes = document.classes
+        classes.add_required_classes(document.dxfversion)
+        classes.classes = dict(sorted(classes.classes.items()))  # ezdxf takes them from sets, in an order by hash
         out = io.StringIO()
         document.write(out)
     return out.getvalue().encode(document.output_encoding)
 
 
 @contextmanager
-def _no_dates() -> Iterator[None]:
-    """Make ezdxf write no times and random identifiers within this context."""
-    before = ezdxf.options.write_fixed_meta_data_for_testing
+def _suppress_dates() -> Iterator[None]:
+    """Make ezdxf write no times and random identifiers within this context; the previous setting is restored."""
+    previous_setting = ezdxf.options.write_fixed_meta_data_for_testing
     ezdxf.options.write_fixed_meta_data_for_testing = True
     try:
         yield
     finally:
-        ezdxf.options.write_fixed_meta_data_for_testing = before
+        ezdxf.options.write_fixed_meta_data_for_testing = previous_setting
 
 
 class _Layers:
@@ -77,13 +77,16 @@ class _Layers:
         self._table, self._names = document.layers, dict[str, str]()
 
     def __call__(self, part: str, tint: int) -> str:
-        """Return the layer of a part, created on first use."""
+        """Return the name of the layer of a part, created with the colour of the body `tint` on first use.
+
+        Forbidden characters are replaced, and a number is added to a name that another part uses.
+        """
         if part not in self._names:
-            expected = one_line(part).translate(FORBIDDEN)[:LONGEST].strip() or "drawing"
-            name, count = expected, 1
+            valid_name = one_line(part).translate(FORBIDDEN)[:LONGEST].strip() or "drawing"
+            name, count = valid_name, 1
             while name in self._table:
                 count += 1
-                name = f"{expected} {count}"
+                name = f"{valid_name} {count}"
             colour = EDGES[tint % len(EDGES)] if part.startswith("body ") else "#222222"
             self._table.add(name, true_color=_as_dxf_colour(colour))
             self._names[part] = name
@@ -95,42 +98,52 @@ def _as_dxf_colour(code: str) -> int:
     return rgb2int((int(code[1:3], 16), int(code[3:5], 16), int(code[5:7], 16)))
 
 
-def _draw(space: Modelspace, layers: _Layers, sketch: Sketch, moved: Array) -> None:
-    """Draw the outlines of a sketch in the order of painting, without fill, and its names."""
+def _draw_sketch(modelspace: Modelspace, layers: _Layers, sketch: Sketch, offset: Array) -> None:
+    """Draw the outlines of a sketch in the order of painting, without fill, and its names.
+
+    `offset` (2,) in m is added to all positions.
+    """
     for shape in sorted(sketch.shapes, key=lambda shape: ROLES[shape.role].order):
-        look: dict[str, str | int] = {"layer": layers(shape.part, shape.tint)}
+        attributes: dict[str, str | int] = {"layer": layers(shape.part, shape.tint)}
         edge = colour_of(ROLES[shape.role].edge, shape.tint)
         if edge.startswith("#"):
-            look |= {"true_color": _as_dxf_colour(edge)}
+            attributes |= {"true_color": _as_dxf_colour(edge)}
         if isinstance(shape, Disc):
-            centre, (radius, _) = _in_millimetres(shape.centre + moved, np.array([shape.radius, 0.0]))
-            space.add_circle(centre, radius, dxfattribs=look)
+            centre, (radius, _) = _convert_to_millimetres(shape.centre + offset, np.array([shape.radius, 0.0]))
+            modelspace.add_circle(centre, radius, dxfattribs=attributes)
         else:
-            _draw_line(space, shape, moved, look)
+            _draw_line(modelspace, shape, offset, attributes)
     for label in sketch.labels:
-        way = np.radians(label.way)
-        at = label.place + moved + (label.clear + sketch.unit) * np.array([np.cos(way), np.sin(way)])
+        angle = np.radians(label.way)
+        position = label.place + offset + (label.clear + sketch.unit) * np.array([np.cos(angle), np.sin(angle)])
         colour = NAMES[label.role][0]
-        look = {"layer": layers(label.part, 0)}
+        attributes = {"layer": layers(label.part, 0)}
         if colour.startswith("#"):
-            look |= {"true_color": _as_dxf_colour(colour)}
-        _draw_text(space, label.text, at, sketch.unit, look)
+            attributes |= {"true_color": _as_dxf_colour(colour)}
+        _draw_text(modelspace, label.text, position, sketch.unit, attributes)
 
 
-def _draw_line(space: Modelspace, shape: Line, moved: Array, look: dict[str, str | int]) -> None:
-    """Draw a polyline."""
-    space.add_lwpolyline(_in_millimetres(*(shape.points + moved)), close=shape.closed, dxfattribs=look)
+def _draw_line(modelspace: Modelspace, shape: Line, offset: Array, attributes: dict[str, str | int]) -> None:
+    """Draw a polyline in millimetres, moved by `offset` (m)."""
+    modelspace.add_lwpolyline(
+        _convert_to_millimetres(*(shape.points + offset)), close=shape.closed, dxfattribs=attributes
+    )
 
 
-def _draw_text(space: Modelspace, text: str, at: Array, height: float, look: dict[str, str | int]) -> None:
-    """Draw a text with its left middle at a position."""
-    ((x, y),) = _in_millimetres(at)
-    made = space.add_text(one_line(text), height=SCALE * height, dxfattribs=look)
-    made.set_placement((x, y), align=TextEntityAlignment.MIDDLE_LEFT)
+def _draw_text(
+    modelspace: Modelspace, text: str, position: Array, height: float, attributes: dict[str, str | int]
+) -> None:
+    """Draw a text in one line with the middle of its left edge at a position (m); `height` is in m."""
+    ((x, y),) = _convert_to_millimetres(position)
+    entity = modelspace.add_text(one_line(text), height=SCALE * height, dxfattribs=attributes)
+    entity.set_placement((x, y), align=TextEntityAlignment.MIDDLE_LEFT)
 
 
-def _in_millimetres(*points: Array) -> list[tuple[float, float]]:
-    """Return positions in millimetres. Raises ValueError unless they are finite."""
+def _convert_to_millimetres(*points: Array) -> list[tuple[float, float]]:
+    """Return positions (2,) in m as pairs in millimetres.
+
+    Raises ValueError unless all are finite.
+    """
     if not np.isfinite(points).all():
         raise ValueError("a coordinate is not finite")
     return [(SCALE * float(x), SCALE * float(y)) for x, y in points]

@@ -22,77 +22,99 @@ MOVES = 1e-6  # fraction of the largest motion below which there is none
 
 
 def gaps(closure: Closure, posture: Posture) -> tuple[list[Shape], list[Label]]:
-    """Return red lines across the gaps of a linkage that does not close, with their lengths; open angles as text
-    only.
+    """Return red lines across the gaps of a linkage that does not close, and labels with the residuals of all open
+    joints.
+
+    Reported are residuals above OPEN times the largest one. A length without a line and an angle have a label only.
     """
     residual = closure.residual(posture.q)
     scaled = np.abs(residual / closure.row_scale)
-    worst = float(scaled.max(initial=0.0))
+    max_residual = float(scaled.max(initial=0.0))
     open_rows: dict[str, list[int]] = {}
-    for k, owner in enumerate(closure.owners):
-        if worst > 0.0 and scaled[k] > OPEN * worst:
-            open_rows.setdefault(owner, []).append(k)
+    for row, owner in enumerate(closure.owners):
+        if max_residual > 0.0 and scaled[row] > OPEN * max_residual:
+            open_rows.setdefault(owner, []).append(row)
     shapes, labels = list[Shape](), list[Label]()
-    for owner, rows in open_rows.items():
+    for owner, row_indices in open_rows.items():
         for part in posture.parts_named(owner):
-            lengths = [residual[k] for k in rows if closure.units[k] == "m"]
-            angles = [residual[k] for k in rows if closure.units[k] == "rad"]
-            line = _gap_line(posture, part, lengths) if lengths else None
-            if line is not None:
-                shapes.append(Line(f"gap {owner}", "gap", line))
-                lengths, place = [float(np.hypot(*(line[1] - line[0])))], line.mean(axis=0)
-            elif lengths:
-                place = type_of(part).symbol.place(JointAt(posture, part))
+            part_lengths = [residual[row] for row in row_indices if closure.units[row] == "m"]
+            angles = [residual[row] for row in row_indices if closure.units[row] == "rad"]
+            gap_line = _gap_line(posture, part, part_lengths) if part_lengths else None
+            if gap_line is not None:
+                shapes.append(Line(f"gap {owner}", "gap", gap_line))
+                part_lengths, position = [float(np.hypot(*(gap_line[1] - gap_line[0])))], gap_line.mean(axis=0)
+            elif part_lengths:
+                position = type_of(part).symbol.place(JointAt(posture, part))
             else:
-                place = pivot(posture, part)
-            texts = [lengths_text(length) for length in lengths] + [f"{np.degrees(angle):.3g}°" for angle in angles]
-            labels.append(Label(f"gap {owner}", "gap", f"{owner}: {', '.join(texts)}", place, way=90.0))
+                position = pivot(posture, part)
+            texts = [lengths_text(length) for length in part_lengths] + [
+                f"{np.degrees(angle):.3g}°" for angle in angles
+            ]
+            labels.append(Label(f"gap {owner}", "gap", f"{owner}: {', '.join(texts)}", position, way=90.0))
     return shapes, labels
 
 
 def _gap_line(posture: Posture, part: PartInfo, lengths: list[float]) -> Array | None:
-    """Return the line from the actual to the required end of a joint or driven length, (2, 2); None if no line shows
-    it.
+    """Return the line from the actual to the required end of a joint, driven coordinate or driven distance, (2, 2), in
+    m.
+
+    `lengths` are the residuals in m. Returns None for a joint whose symbol has no such line.
     """
     if part.section == "joints":
         gap = type_of(part).symbol.gap
         return np.array(gap(JointAt(posture, part), lengths)) if gap else None
     if part.kind == "coordinate":
         k = "xy".index(part.options["coordinate"])
-        place = posture.place(part.ends[0])
-        return np.array([place, place - lengths[0] * np.eye(2)[k]])
-    a, b = (posture.place(end) for end in part.ends)
-    return np.array([a + (float(np.hypot(*(b - a))) - lengths[0]) * unit_vector(b - a), b])
+        point = posture.place(part.ends[0])
+        return np.array([point, point - lengths[0] * np.eye(2)[k]])
+    begin, end = (posture.place(name) for name in part.ends)
+    return np.array([begin + (float(np.hypot(*(end - begin))) - lengths[0]) * unit_vector(end - begin), end])
 
 
 def freedoms(
-    closure: Closure, posture: Posture, unit: float, loose: tuple[str, ...]
+    closure: Closure, posture: Posture, unit: float, unconnected: tuple[str, ...]
 ) -> tuple[list[Shape], list[Label]]:
-    """Return arrows along the free motions of bodies of the closed linkage, and labels for `loose` bodies."""
+    """Return arrows along the free motions of the bodies of a closed linkage, and labels.
+
+    The names of bodies in `unconnected` get the label "nothing holds NAME". `unit` is half a bar's width in m.
+    """
     motions = free_motions(closure.linkage, closure.p, posture.q, closure.t)
-    size = float(np.abs(motions * np.where(closure.is_angle, closure.size, 1.0)[:, None]).max(initial=0.0))
+    max_motion = float(np.abs(motions * np.where(closure.is_angle, closure.size, 1.0)[:, None]).max(initial=0.0))
     shapes, labels = list[Shape](), list[Label]()
     for body, info in posture.bodies.items():
-        own = motions[info.index : info.index + 3]
-        found = list(_motion_arrows(own, posture.centre(body), body, unit, MOVES * size, closure.size))
-        shapes += found
-        if body in loose:
+        body_motions = motions[info.index : info.index + 3]
+        body_shapes = list(
+            _motion_arrows(body_motions, posture.centre(body), body, unit, MOVES * max_motion, closure.size)
+        )
+        shapes += body_shapes
+        if body in unconnected:
             labels.append(Label(f"free {body}", "free", f"nothing holds {body}", posture.centre(body), 1.5 * unit))
     return shapes, labels
 
 
-def _motion_arrows(motions: Array, centre: Array, body: str, unit: float, least: float, size: float) -> Iterator[Shape]:
-    """Yield double arrows along each direction in which the centre of a body is free, and around it if the body can
-    rotate.
+def _motion_arrows(
+    motions: Array, centre: Array, body: str, unit: float, min_motion: float, size: float
+) -> Iterator[Shape]:
+    """Yield double arrows along each direction in which the centre of a body can move, and a round arrow for a
+    rotation.
+
+    `motions` (3, k) are the body's parts of k free motions. A motion below `min_motion` (m) counts as none; `size` (m)
+    converts angles. With one free direction, no round arrow is drawn.
     """
-    part, head = f"free {body}", HEAD * unit
-    directions, values, _ = np.linalg.svd(motions[:2], full_matrices=False)
-    moving = [way for way, value in zip(directions.T, values, strict=True) if value > least]
-    if len(moving) > 1:
-        moving = [np.array([1.0, 0.0]), np.array([0.0, 1.0])]
-    for way in moving:
+    part, head_length = f"free {body}", HEAD * unit
+    directions, singular_values, _ = np.linalg.svd(motions[:2], full_matrices=False)
+    free_directions = [
+        direction
+        for direction, singular_value in zip(directions.T, singular_values, strict=True)
+        if singular_value > min_motion
+    ]
+    if len(free_directions) > 1:
+        free_directions = [np.array([1.0, 0.0]), np.array([0.0, 1.0])]
+    for direction in free_directions:
         for sign in (1.0, -1.0):
-            yield from arrow(part, "free", centre + sign * unit * way, centre + sign * REACH * unit * way, head)
-    alone = not moving or len(moving) > 1
-    if alone and float(np.abs(motions[2]).max(initial=0.0)) * size > least:
-        yield from round_arrow(part, "free", centre, 3.4 * unit, True, head)
+            yield from arrow(
+                part, "free", centre + sign * unit * direction, centre + sign * REACH * unit * direction, head_length
+            )
+    shows_rotation = not free_directions or len(free_directions) > 1
+    if shows_rotation and float(np.abs(motions[2]).max(initial=0.0)) * size > min_motion:
+        yield from round_arrow(part, "free", centre, 3.4 * unit, True, head_length)

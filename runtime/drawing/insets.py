@@ -25,108 +25,139 @@ def eccentricity(posture: Posture, joint: str) -> Array:
 
 
 def in_contact(posture: Posture) -> frozenset[str]:
-    """Return the joints with play and the corners whose surfaces overlap, e ≥ c; joints with a film only never do."""
-    reach = {name: float(posture.p[joint.clearance]) for name, joint in posture.clearances.items() if joint.dry}
-    found = (name for name, c in reach.items() if float(np.hypot(*eccentricity(posture, name))) >= c)
-    return frozenset(found) | in_walls(posture)
+    """Return the joints and the slider corners with play whose surfaces overlap, by name.
+
+    A joint overlaps if its eccentricity is at least its clearance. Joints that only have a film never do.
+    """
+    clearances = {name: float(posture.p[joint.clearance]) for name, joint in posture.clearances.items() if joint.dry}
+    joints = (
+        name for name, clearance in clearances.items() if float(np.hypot(*eccentricity(posture, name))) >= clearance
+    )
+    return frozenset(joints) | in_walls(posture)
 
 
 def magnification(posture: Posture, joint: str, unit: float) -> float:
-    """Return the magnification of an inset over the drawing, with two digits, so that its clearance or gap fits."""
-    share = APART if joint in posture.guides else 1.0 - JOURNAL
-    expected = RADIUS * share * unit / posture.play(joint)
-    step = 10.0 ** (np.floor(np.log10(expected)) - 1.0)
-    return float(np.floor(expected / step) * step)
+    """Return the factor by which an inset magnifies the drawing, rounded down to two digits.
+
+    With it, the clearance or gap of the joint fits the inset. `unit` is half a bar's width in m.
+    """
+    fraction = APART if joint in posture.guides else 1.0 - JOURNAL
+    exact_factor = RADIUS * fraction * unit / posture.play(joint)
+    step = 10.0 ** (np.floor(np.log10(exact_factor)) - 1.0)
+    return float(np.floor(exact_factor / step) * step)
 
 
 def insets(
     posture: Posture,
     unit: float,
-    low: Array,
-    high: Array,
+    lower_corner: Array,
+    upper_corner: Array,
     touching: frozenset[str] = frozenset(),
     touched: frozenset[str] = frozenset(),
 ) -> Iterator[tuple[list[Shape], Label, str]]:
-    """Yield shapes, label and note of the inset of each joint with play.
+    """Yield shapes, label and note of the inset of each joint with play that is not visible to scale.
 
     Insets are in columns to the right of the box, or in rows below a box that is too low. Gap and eccentricity are to
     scale; radii and a slider's lengths are not. `touching`: joints and corners in contact, drawn red; `touched`: those
     that were in contact since the previous picture, with a red bearing or wall.
     """
     radius = RADIUS * unit
-    played = dict.fromkeys(joint.joint for joint in posture.source.clearances)
-    shown = [name for name in played if not is_wide(posture, name, unit)]
-    for joint, centre in zip(shown, _place_insets(len(shown), radius, low, high), strict=True):
-        c, times = posture.play(joint), magnification(posture, joint, unit)
+    joint_names = dict.fromkeys(joint.joint for joint in posture.source.clearances)
+    inset_joints = [name for name in joint_names if not is_wide(posture, name, unit)]
+    for joint, centre in zip(
+        inset_joints, _place_insets(len(inset_joints), radius, lower_corner, upper_corner), strict=True
+    ):
+        clearance, factor = posture.play(joint), magnification(posture, joint, unit)
         draw_inset = _draw_slider if joint in posture.guides else _draw_journal
-        shapes, ratio, below = draw_inset(posture, joint, centre, radius, touching, touched - touching)
-        text_of_name = f"{joint} ×{times:g}, e/c = {ratio:.2f}"
-        factor, text = scale(c, "m")
-        what, each = ("gap", " on each side") if joint in posture.guides else ("clearance", "")
-        note = f"{joint}: {what} {c * factor:.4g} {text}{each}, drawn ×{times:g}"
-        dashed = DASHED * (joint == next((name for name in shown if name in posture.clearances), ""))
-        yield shapes, Label(f"inset {joint}", "inset", text_of_name, centre - [0.0, below], 0.0, 270.0), note + dashed
+        shapes, eccentricity_ratio, label_distance = draw_inset(
+            posture, joint, centre, radius, touching, touched - touching
+        )
+        label_text = f"{joint} ×{factor:g}, e/c = {eccentricity_ratio:.2f}"
+        unit_factor, unit_text = scale(clearance, "m")
+        quantity, suffix = ("gap", " on each side") if joint in posture.guides else ("clearance", "")
+        note = f"{joint}: {quantity} {clearance * unit_factor:.4g} {unit_text}{suffix}, drawn ×{factor:g}"
+        remark = DASHED * (joint == next((name for name in inset_joints if name in posture.clearances), ""))
+        yield (
+            shapes,
+            Label(f"inset {joint}", "inset", label_text, centre - [0.0, label_distance], 0.0, 270.0),
+            note + remark,
+        )
 
 
 def _draw_journal(
     posture: Posture, joint: str, centre: Array, radius: float, touching: frozenset[str], touched: frozenset[str]
 ) -> tuple[list[Shape], float, float]:
-    """Return shapes of a journal in its bearing, e/c, and the distance of the name below the centre."""
-    c, times = posture.play(joint), magnification(posture, joint, radius / RADIUS)
-    e = eccentricity(posture, joint)
-    part, hole = f"inset {joint}", c * times + JOURNAL * radius
-    at = centre + times * e
+    """Return shapes of a journal in its bearing, the eccentricity ratio, and the distance of the label below the centre
+    (m).
+
+    `radius` is that of the inset in m. The bearing is red if `joint` is in `touched`, the journal if it is in
+    `touching`.
+    """
+    clearance, factor = posture.play(joint), magnification(posture, joint, radius / RADIUS)
+    eccentricity_vector = eccentricity(posture, joint)
+    part, hole_radius = f"inset {joint}", clearance * factor + JOURNAL * radius
+    journal_centre = centre + factor * eccentricity_vector
     shapes: list[Shape] = [
-        Disc(part, "touched" if joint in touched else "bearing", centre, 1.16 * hole),
-        Disc(part, "hole", centre, hole),
-        Disc(part, "touching" if joint in touching else "journal", at, JOURNAL * radius),
-        Disc(part, "clearance", centre, c * times),
-        Line(part, "scale", np.array([centre, at])),
+        Disc(part, "touched" if joint in touched else "bearing", centre, 1.16 * hole_radius),
+        Disc(part, "hole", centre, hole_radius),
+        Disc(part, "touching" if joint in touching else "journal", journal_centre, JOURNAL * radius),
+        Disc(part, "clearance", centre, clearance * factor),
+        Line(part, "scale", np.array([centre, journal_centre])),
     ]
-    return shapes, float(np.hypot(*e)) / c, 1.2 * hole
+    return shapes, float(np.hypot(*eccentricity_vector)) / clearance, 1.2 * hole_radius
 
 
 def _draw_slider(
     posture: Posture, joint: str, centre: Array, radius: float, touching: frozenset[str], touched: frozenset[str]
 ) -> tuple[list[Shape], float, float]:
-    """Return shapes of a slider in its guide, largest e/c of its corners, and the distance of the name below the
-    centre.
+    """Return shapes of a slider in its guide, the largest e/c of its corners, and the distance of the label below the
+    centre (m).
 
-    Two walls are along the axis. The corners are as far from them as in the mechanism, magnified.
+    The two walls are along the axis; a wall or corner in contact is red. Gaps between corners and walls are magnified.
     """
-    c, times = posture.play(joint), magnification(posture, joint, radius / RADIUS)
-    _, along, _ = axis_of(posture, next(posture.parts_named(joint)))
-    part, across, found = f"inset {joint}", turned(along), corners(posture, joint)
-    beyond = HIGH * radius + c * times + WALL * radius
+    clearance, factor = posture.play(joint), magnification(posture, joint, radius / RADIUS)
+    _, axis, _ = axis_of(posture, next(posture.parts_named(joint)))
+    part, normal, corner_approaches = f"inset {joint}", turned(axis), corners(posture, joint)
+    wall_distance = HIGH * radius + clearance * factor + WALL * radius
     shapes: list[Shape] = []
-    for side, word in ((1.0, "upper"), (-1.0, "lower")):
-        red = any(name in touched for name in found if word in name)
-        wall = rectangle(centre + side * beyond * across, along, 1.16 * radius, WALL * radius)
-        shapes.append(Line(part, "touched" if red else "bearing", wall, True))
-    places = {
+    for sign, wall_name in ((1.0, "upper"), (-1.0, "lower")):
+        is_red = any(name in touched for name in corner_approaches if wall_name in name)
+        wall = rectangle(centre + sign * wall_distance * normal, axis, 1.16 * radius, WALL * radius)
+        shapes.append(Line(part, "touched" if is_red else "bearing", wall, True))
+    corner_positions = {
         name: centre
-        + (LONG if "front" in name else -LONG) * radius * along
-        + (1.0 if "upper" in name else -1.0) * (HIGH * radius + times * e) * across
-        for name, e in found.items()
+        + (LONG if "front" in name else -LONG) * radius * axis
+        + (1.0 if "upper" in name else -1.0) * (HIGH * radius + factor * approach) * normal
+        for name, approach in corner_approaches.items()
     }
-    upper, lower = ([at for name, at in places.items() if word in name] for word in ("upper", "lower"))
+    upper, lower = (
+        [position for name, position in corner_positions.items() if wall_name in name]
+        for wall_name in ("upper", "lower")
+    )
     shapes.append(Line(part, "journal", np.array([*upper, *reversed(lower)]), True))
-    for name, at in places.items():
-        shapes.append(Disc(part, "touching" if name in touching else "journal", at, DOT * radius))
-    below = 1.16 * abs(along[1]) * radius + abs(across[1]) * (beyond + WALL * radius) + 0.2 * radius
-    return shapes, max(found.values()) / c, float(below)
+    for name, position in corner_positions.items():
+        shapes.append(Disc(part, "touching" if name in touching else "journal", position, DOT * radius))
+    label_distance = 1.16 * abs(axis[1]) * radius + abs(normal[1]) * (wall_distance + WALL * radius) + 0.2 * radius
+    return shapes, max(corner_approaches.values()) / clearance, float(label_distance)
 
 
-def _place_insets(n: int, radius: float, low: Array, high: Array) -> Iterator[Array]:
-    """Yield the centres of n insets."""
-    count = max(1, int((high[1] - low[1]) / (3.1 * radius)))
-    width = float(high[0] - low[0])
-    pitch = max(3.6 * radius, min(5.5 * radius, width / max(n, 1)))
-    across = max(1, int(width / pitch))
+def _place_insets(n: int, radius: float, lower_corner: Array, upper_corner: Array) -> Iterator[Array]:
+    """Yield the centres of n insets of a radius (m) outside of the box from `lower_corner` to `upper_corner`.
+
+    They are in columns to the right of the box, or in rows below it if more fit there.
+    """
+    n_rows = max(1, int((upper_corner[1] - lower_corner[1]) / (3.1 * radius)))
+    width = float(upper_corner[0] - lower_corner[0])
+    spacing = max(3.6 * radius, min(5.5 * radius, width / max(n, 1)))
+    n_columns = max(1, int(width / spacing))
     for k in range(n):
-        if n > count and across > count:
-            row, column = divmod(k, across)
-            yield np.array([low[0] + 1.8 * radius + pitch * column, low[1] - (1.6 + 3.1 * row) * radius])
+        if n > n_rows and n_columns > n_rows:
+            row, column = divmod(k, n_columns)
+            yield np.array(
+                [lower_corner[0] + 1.8 * radius + spacing * column, lower_corner[1] - (1.6 + 3.1 * row) * radius]
+            )
         else:
-            column, row = divmod(k, count)
-            yield np.array([high[0] + (2.0 + 3.2 * column) * radius, high[1] - (1.25 + 3.1 * row) * radius])
+            column, row = divmod(k, n_rows)
+            yield np.array(
+                [upper_corner[0] + (2.0 + 3.2 * column) * radius, upper_corner[1] - (1.25 + 3.1 * row) * radius]
+            )

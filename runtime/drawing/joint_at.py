@@ -58,8 +58,9 @@ class JointAt:
         return self.posture.direction(self.part, key, body)
 
     def centre(self, k: int, carrier: str) -> Array:
-        """Return the pivot of the first (0) or second (1) body on a body `carrier`; without a pivot the joint's
-        point.
+        """Return the pivot of one body of the joint on the body `carrier`, (2,), in m.
+
+        `k` is 0 for the first body and 1 for the second. Without a pivot it is the joint's point on that body.
         """
         body = self.bodies[k]
         pivot = pivot_between(self.posture, body, carrier)
@@ -98,23 +99,27 @@ def sliding(posture: Posture) -> Iterator[PartInfo]:
 
 
 def guide_and_slider(part: PartInfo) -> tuple[str, str]:
-    """Return the guiding point and the sliding point of a joint with a line.
+    """Return the names of the guiding point and of the sliding point of a sliding joint.
 
-    If the other body is the ground and the joint keeps the angle, the ground guides.
+    They are exchanged if the ground would slide and the joint keeps the angle, so that the ground guides.
     """
-    slides, (first, second) = type_of(part).slides, part.ends
+    slides, (first_end, second_end) = type_of(part).slides, part.ends
     assert slides is not None
-    guide, slider = (first, second) if slides.guide == "first" else (second, first)
-    turns_round = type_of(part).keeps_angle and body_of(slider) == GROUND
-    return (slider, guide) if turns_round else (guide, slider)
+    guide, slider = (first_end, second_end) if slides.guide == "first" else (second_end, first_end)
+    is_exchanged = type_of(part).keeps_angle and body_of(slider) == GROUND
+    return (slider, guide) if is_exchanged else (guide, slider)
 
 
 def axis_of(posture: Posture, part: PartInfo) -> tuple[Array, Array, Array]:
-    """Return a point on the line of a sliding joint, its direction (unit vector), and the sliding point."""
+    """Return a point on the line of a sliding joint, its direction (unit vector), and the sliding point, each (2,).
+
+    Points are in m. The direction belongs to the body that the joint's kind declares as the guide, also if
+    `guide_and_slider` exchanges the points.
+    """
     slides, (guide, slider) = type_of(part).slides, guide_and_slider(part)
     assert slides is not None
-    holder = body_of(part.ends[0 if slides.guide == "first" else 1])
-    return posture.place(guide), posture.direction(part, slides.direction, holder), posture.place(slider)
+    axis_body = body_of(part.ends[0 if slides.guide == "first" else 1])
+    return posture.place(guide), posture.direction(part, slides.direction, axis_body), posture.place(slider)
 
 
 def has_rail(part: PartInfo) -> bool:
@@ -127,10 +132,10 @@ def is_block(part: PartInfo) -> bool:
     return type_of(part).keeps_angle
 
 
-def pivot_between(posture: Posture, body: str, other: str) -> PartInfo | None:
-    """Return the first joint by which two bodies rotate relative to each other; None without one."""
+def pivot_between(posture: Posture, body: str, other_body: str) -> PartInfo | None:
+    """Return the first joint of the file that lets two bodies rotate relative to each other, or None."""
     for joint in posture.parts("joints"):
-        if type_of(joint).is_pivot and {body, other} <= set(map(body_of, joint.ends)):
+        if type_of(joint).is_pivot and {body, other_body} <= set(map(body_of, joint.ends)):
             return joint
     return None
 
@@ -141,18 +146,26 @@ def gap_of(posture: Posture, part: PartInfo, unit: float) -> float:
 
 
 def axes_of(posture: Posture, part: PartInfo) -> tuple[Array, Array]:
-    """Return the directions of guide and slider, unit vectors; the ground is the guide if it is one of the bodies."""
+    """Return the drawn directions of guide and slider of a sliding joint, two unit vectors.
+
+    Both are equal without play. With play they differ by the tilt of the slider; the ground counts as the guide if it
+    is one of the bodies.
+    """
     _, second = map(body_of, part.ends)
-    _, along, _ = axis_of(posture, part)
+    _, axis, _ = axis_of(posture, part)
     if part.name not in posture.guides:
-        return along, along
+        return axis, axis
     tilt = _tilt_in_guide(posture, part)
-    tilted = math.cos(tilt) * along + math.sin(tilt) * turned(along)
-    return (tilted, along) if second == GROUND else (along, tilted)
+    tilted_axis = math.cos(tilt) * axis + math.sin(tilt) * turned(axis)
+    return (tilted_axis, axis) if second == GROUND else (axis, tilted_axis)
 
 
 def _tilt_in_guide(posture: Posture, part: PartInfo) -> float:
-    """Return the angle of the second body relative to its mounting angle in the first, rad, within ±π."""
+    """Return the tilt of the slider of a joint with play, in rad, within ±π.
+
+    It is the angle of the second body relative to the first, less the mounting angle `angle` of the file, or the
+    direction of `axis` if there is none.
+    """
     first, second = map(body_of, part.ends)
     address = f"joints.{part.name}.angle"
     if posture.has(address):
@@ -163,16 +176,25 @@ def _tilt_in_guide(posture: Posture, part: PartInfo) -> float:
 
 
 def corners(posture: Posture, joint: str) -> Mapping[str, float]:
-    """Return by name how much nearer to its wall each corner is than in the middle of the guide, m."""
+    """Return how much nearer to its wall each corner of a slider is than in the middle of its guide, in m, by corner.
+
+    `joint` is the name of a sliding joint with play. A corner touches its wall where the value reaches the play.
+    """
     part = next(posture.parts_named(joint))
     first, second = part.ends
-    (_, along, _), tilt = axis_of(posture, part), _tilt_in_guide(posture, part)
-    offset = float((posture.place(second) - posture.place(first)) @ turned(along))
-    return {one.name: corner_approach(posture.source, posture.p, one, offset, tilt) for one in posture.guides[joint]}
+    (_, axis, _), tilt = axis_of(posture, part), _tilt_in_guide(posture, part)
+    offset = float((posture.place(second) - posture.place(first)) @ turned(axis))
+    return {
+        corner.name: corner_approach(posture.source, posture.p, corner, offset, tilt)
+        for corner in posture.guides[joint]
+    }
 
 
 def in_walls(posture: Posture) -> frozenset[str]:
-    """Return the corners that penetrate their walls."""
+    """Return the names of the corners of all sliders with play that touch or penetrate their walls."""
     return frozenset(
-        name for joint in posture.guides for name, e in corners(posture, joint).items() if e >= posture.play(joint)
+        name
+        for joint in posture.guides
+        for name, approach in corners(posture, joint).items()
+        if approach >= posture.play(joint)
     )

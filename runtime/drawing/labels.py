@@ -51,9 +51,9 @@ class Names(Artist):
         self.texts = [self._make_text(label, size) for label in sketch.labels]
 
     def _make_text(self, label: Label, size: float) -> Text:
-        """Return the text artist of a label."""
-        word, weight = NAMES[label.role]
-        colour = colour_of(word, self.order.get(label.part, 0)) if word in ("edge",) else word
+        """Return the text artist of a label, centred and without position, in the style of its role."""
+        colour_name, weight = NAMES[label.role]
+        colour = colour_of(colour_name, self.order.get(label.part, 0)) if colour_name in ("edge",) else colour_name
         text = Text(
             0.0,
             0.0,
@@ -71,7 +71,10 @@ class Names(Artist):
         return text
 
     def draw(self, renderer: Any) -> None:
-        """Place and paint the names."""
+        """Place and paint all names, their leader lines, and a note if names were left out.
+
+        matplotlib calls it when it draws the figure. Nothing is painted without axes or if the artist is hidden.
+        """
         if not self.get_visible() or self.axes is None:
             return
         self.place(renderer)
@@ -80,49 +83,52 @@ class Names(Artist):
             line.draw(renderer)
         for text in self.texts:
             text.draw(renderer)
-        if left := sum(not text.get_visible() for text in self.texts):
-            self._omission_note(left).draw(renderer)
+        if n_omitted := sum(not text.get_visible() for text in self.texts):
+            self._omission_note(n_omitted).draw(renderer)
         renderer.close_group("names")
         self.stale = False
 
     def place(self, renderer: Any) -> None:
-        """Find a position for each name, and a leader line for distant ones."""
+        """Find a position for each name in pixels, and create leader lines for distant names.
+
+        Sets `beside`, `boxes` and `leads`, and hides texts without a position.
+        """
         axes: Any = self.axes
         figure, to_pixels = axes.get_figure(root=True), axes.transData.transform
         point = figure.dpi / 72.0
-        room = np.array(axes.get_window_extent(renderer).extents)
+        picture_box = np.array(axes.get_window_extent(renderer).extents)
         metre = float(np.hypot(*(to_pixels((1.0, 0.0)) - to_pixels((0.0, 0.0)))))
-        halves = {}
+        half_sizes = {}
         for text, label in zip(self.texts, self.sketch.labels, strict=True):
             text.set_figure(figure)
             text.set_position((0.0, 0.0))
             extent = text.get_window_extent(renderer)
-            halves[label.part] = 0.5 * np.array([extent.width, extent.height])
-        self.beside = place_names(self.sketch, halves, self.held, to_pixels, metre, point, room)
+            half_sizes[label.part] = 0.5 * np.array([extent.width, extent.height])
+        self.beside = place_names(self.sketch, half_sizes, self.held, to_pixels, metre, point, picture_box)
         self.leads, self.boxes = [], {}
         for text, label in zip(self.texts, self.sketch.labels, strict=True):
             text.set_visible(label.part in self.beside)
             if label.part not in self.beside:
                 continue
-            at, half, clear = to_pixels(label.place), halves[label.part], label.clear * metre
-            middle = at + self.beside[label.part]
+            anchor, half_size, clear = to_pixels(label.place), half_sizes[label.part], label.clear * metre
+            middle = anchor + self.beside[label.part]
             text.set_position((float(middle[0]), float(middle[1])))
-            self.boxes[label.part] = tuple([*(middle - half), *(middle + half)])
-            if needs_leader(at, middle, half, clear, point):
-                self.leads.append(self._lead_line(at, middle, half, clear))
+            self.boxes[label.part] = tuple([*(middle - half_size), *(middle + half_size)])
+            if needs_leader(anchor, middle, half_size, clear, point):
+                self.leads.append(self._lead_line(anchor, middle, half_size, clear))
 
     def _omission_note(self, count: int) -> Text:
         """Return a text for the upper right corner that names were left out."""
         axes: Any = self.axes
-        message = f"{count} name{'' if count == 1 else 's'} left out: there is no room"
-        text = Text(1.0, 1.0, message, size=7.0, color="#888888", ha="right", va="bottom", transform=axes.transAxes)
+        note = f"{count} name{'' if count == 1 else 's'} left out: there is no room"
+        text = Text(1.0, 1.0, note, size=7.0, color="#888888", ha="right", va="bottom", transform=axes.transAxes)
         text.set_figure(axes.get_figure(root=True))
         return text
 
-    def _lead_line(self, at: Array, middle: Array, half: Array, clear: float) -> Line2D:
-        """Return the leader line of a name."""
+    def _lead_line(self, anchor: Array, text_centre: Array, half_size: Array, clearance: float) -> Line2D:
+        """Return the leader line of a name as an artist in pixels, with the arguments of `leader_line`."""
         axes: Any = self.axes
-        ends = leader_line(at, middle, half, clear).reshape(2, 2)
+        ends = leader_line(anchor, text_centre, half_size, clearance).reshape(2, 2)
         line = Line2D(*ends.T, color="#999999", lw=0.5, transform=None)
         line.set_figure(axes.get_figure(root=True))
         return line
@@ -130,49 +136,72 @@ class Names(Artist):
 
 def place_names(
     sketch: Sketch,
-    halves: Mapping[str, Array],
-    held: Mapping[str, tuple[float, float]],
+    half_sizes: Mapping[str, Array],
+    previous_offsets: Mapping[str, tuple[float, float]],
     to_pixels: Any,
     metre: float,
     point: float,
-    room: Array,
+    picture_box: Array,
 ) -> dict[str, tuple[float, float]]:
-    """Return the offset of the middle of each name from its part, in pixels; without names that find no position.
+    """Return the offset of the middle of each name from its part, in pixels, by part.
 
-    halves: half of each name's width and height. held: offsets of the previous picture, which a name keeps while it
-    overlaps no other name and is within the `room`. metre, point: their size in pixels.
+    `half_sizes`: half of each name's width and height. `previous_offsets`: offsets of the previous picture, which a
+    name keeps while it overlaps no other name and is within `picture_box`. `metre`, `point`: their size in pixels. A
+    name without a free position is left out.
     """
-    offsets, boxes_so_far, leads = dict[str, tuple[float, float]](), np.zeros((0, 4)), np.zeros((0, 4))
-    lines: Array | None = None
+    offsets, occupied_boxes, leader_lines = dict[str, tuple[float, float]](), np.zeros((0, 4)), np.zeros((0, 4))
+    shape_segments: Array | None = None
     for label in sketch.labels:
-        at, half, clear = to_pixels(label.place), halves[label.part], label.clear * metre
-        middle = at + held.get(label.part, (0.0, 0.0))
-        box = np.array([[*(middle - half), *(middle + half)]])
-        if label.part not in held or overlapping(box, boxes_so_far).any() or not _is_within(box, room)[0]:
-            lines = obstacles(sketch.shapes, to_pixels) if lines is None else lines
-            found = best_place(at, half, label.way, clear, point, lines, boxes_so_far, room, leads)
-            if found is None:
+        anchor, half_size, clearance = to_pixels(label.place), half_sizes[label.part], label.clear * metre
+        text_centre = anchor + previous_offsets.get(label.part, (0.0, 0.0))
+        box = np.array([[*(text_centre - half_size), *(text_centre + half_size)]])
+        if (
+            label.part not in previous_offsets
+            or overlapping(box, occupied_boxes).any()
+            or not _is_within(box, picture_box)[0]
+        ):
+            shape_segments = obstacles(sketch.shapes, to_pixels) if shape_segments is None else shape_segments
+            position = best_place(
+                anchor,
+                half_size,
+                label.way,
+                clearance,
+                point,
+                shape_segments,
+                occupied_boxes,
+                picture_box,
+                leader_lines,
+            )
+            if position is None:
                 continue
-            middle = found
-            box = np.array([[*(middle - half), *(middle + half)]])
-            if needs_leader(at, middle, half, clear, point):
-                leads = np.vstack([leads, leader_line(at, middle, half, clear)])  # which later names avoid
-        offsets[label.part] = float(middle[0] - at[0]), float(middle[1] - at[1])
-        boxes_so_far = np.vstack([boxes_so_far, box])
+            text_centre = position
+            box = np.array([[*(text_centre - half_size), *(text_centre + half_size)]])
+            if needs_leader(anchor, text_centre, half_size, clearance, point):
+                leader_lines = np.vstack(
+                    [leader_lines, leader_line(anchor, text_centre, half_size, clearance)]
+                )  # which later names avoid
+        offsets[label.part] = float(text_centre[0] - anchor[0]), float(text_centre[1] - anchor[1])
+        occupied_boxes = np.vstack([occupied_boxes, box])
     return offsets
 
 
-def leader_line(at: Array, middle: Array, half: Array, clear: float) -> Array:
-    """Return the leader line from the edge of a part to that of its name, a segment (1, 4)."""
-    edge = np.clip(at, middle - half, middle + half)
-    begin = at + clear * (edge - at) / max(float(np.hypot(*(edge - at))), clear, 1e-300)
-    return np.array([[*begin, *edge]])
+def leader_line(anchor: Array, text_centre: Array, half_size: Array, clearance: float) -> Array:
+    """Return the leader line from the edge of a part to the box of its name, a segment (1, 4) in pixels.
+
+    The part is a circle of radius `clearance` around `anchor`, the name a box of `half_size` around `text_centre`.
+    """
+    edge = np.clip(anchor, text_centre - half_size, text_centre + half_size)
+    start = anchor + clearance * (edge - anchor) / max(float(np.hypot(*(edge - anchor))), clearance, 1e-300)
+    return np.array([[*start, *edge]])
 
 
-def needs_leader(at: Array, middle: Array, half: Array, clear: float, point: float) -> bool:
-    """Return whether a name is so far from its part that it needs a leader line."""
-    edge = np.clip(at, middle - half, middle + half)
-    return float(np.hypot(*(edge - at))) - clear > LED * point
+def needs_leader(anchor: Array, text_centre: Array, half_size: Array, clearance: float, point: float) -> bool:
+    """Return whether a name is more than LED points from its part, so that it needs a leader line.
+
+    Arguments as for `leader_line`, in pixels; `point` is the size of a point.
+    """
+    edge = np.clip(anchor, text_centre - half_size, text_centre + half_size)
+    return float(np.hypot(*(edge - anchor))) - clearance > LED * point
 
 
 def gid(kind: str, part: str) -> str:
@@ -181,13 +210,13 @@ def gid(kind: str, part: str) -> str:
 
 
 def obstacles(shapes: Sequence[Shape], to_pixels: Any) -> Array:
-    """Return all lines of shapes as segments in pixels, (S, 4)."""
-    found = [to_pixels(points) for points in _outlines(shapes)]
-    return np.vstack([np.hstack([points[:-1], points[1:]]) for points in found]) if found else np.zeros((0, 4))
+    """Return the outlines of all shapes as segments in pixels, (S, 4); circles as 16 segments."""
+    polylines = [to_pixels(points) for points in _outlines(shapes)]
+    return np.vstack([np.hstack([points[:-1], points[1:]]) for points in polylines]) if polylines else np.zeros((0, 4))
 
 
 def _outlines(shapes: Sequence[Shape]) -> Iterator[Array]:
-    """Yield the outline of each shape as points."""
+    """Yield the outline of each shape as points (N, 2) in m: a closed line or a disc ends at its first point."""
     for shape in shapes:
         if isinstance(shape, Disc):
             yield arc(shape.centre, shape.radius, 0.0, 2.0 * np.pi, 17)
@@ -196,84 +225,94 @@ def _outlines(shapes: Sequence[Shape]) -> Iterator[Array]:
 
 
 def best_place(
-    at: Array,
-    half: Array,
+    anchor: Array,
+    half_size: Array,
     direction: float,
-    clear: float,
+    clearance: float,
     point: float,
-    lines: Array,
-    boxes_so_far: Array,
-    room: Array,
-    leads: Array,
+    shape_segments: Array,
+    occupied_boxes: Array,
+    picture_box: Array,
+    leader_lines: Array,
 ) -> Array | None:
-    """Return the best position of the middle of a name, pixels; None if there is none.
+    """Return the best position of the middle of a name in pixels, (2,); None if every one overlaps a name or leaves the
+    picture.
 
-    It is the nearest one on no line and no other name, with a leader line that crosses no name or leader line;
-    otherwise the one with the fewest crossings. `half` is half the name's size, `room` the picture's box, `leads` the
-    leader lines so far.
+    It is the nearest position without crossings of lines, names or leader lines, or else the one with the fewest. Rings
+    around `anchor` are searched, beginning with `direction` (degrees). `half_size` is half the name's size,
+    `leader_lines` (L, 4) those of earlier names.
     """
     angles = np.radians([direction, *ORDER])
-    ways = np.column_stack([np.cos(angles), np.sin(angles)])
-    fallback, fewest = at, np.inf
+    unit_vectors = np.column_stack([np.cos(angles), np.sin(angles)])
+    fallback, fewest = anchor, np.inf
     for ring in RINGS:
-        reach = clear + ring * point
-        middles = at + ways * (reach + half)
-        if ring == RINGS[0] and clear * point > 0.0:
-            middles = np.vstack([at, middles])
-        boxes = np.hstack([middles - half - GAP * point, middles + half + GAP * point])
-        free = ~overlapping(boxes, boxes_so_far).any(axis=1) & _is_within(boxes, room)
-        hits = np.array(
+        radius = clearance + ring * point
+        middles = anchor + unit_vectors * (radius + half_size)
+        if ring == RINGS[0] and clearance * point > 0.0:
+            middles = np.vstack([anchor, middles])
+        boxes = np.hstack([middles - half_size - GAP * point, middles + half_size + GAP * point])
+        is_free = ~overlapping(boxes, occupied_boxes).any(axis=1) & _is_within(boxes, picture_box)
+        crossings = np.array(
             [
-                crossing(box, lines) + CROSSED * crossing(box, leads) if ok else np.inf
-                for box, ok in zip(boxes, free, strict=True)
+                crossing(box, shape_segments) + CROSSED * crossing(box, leader_lines) if is_allowed else np.inf
+                for box, is_allowed in zip(boxes, is_free, strict=True)
             ]
         )
-        for j in np.flatnonzero(free):
-            if len(boxes_so_far) and needs_leader(at, middles[j], half, clear, point):
-                back = leader_line(at, middles[j], half, clear)
-                under = sum(crossing(box, back) for box in boxes_so_far + LEFT_FREE * point * np.array([-1, -1, 1, 1]))
-                hits[j] += CROSSED * (under + sum(_segments_cross(back[0], one) for one in leads))
-        costs = hits + 0.02 * ring
+        for j in np.flatnonzero(is_free):
+            if len(occupied_boxes) and needs_leader(anchor, middles[j], half_size, clearance, point):
+                leader = leader_line(anchor, middles[j], half_size, clearance)
+                n_crossed = sum(
+                    crossing(box, leader) for box in occupied_boxes + LEFT_FREE * point * np.array([-1, -1, 1, 1])
+                )
+                crossings[j] += CROSSED * (
+                    n_crossed + sum(_segments_cross(leader[0], other_line) for other_line in leader_lines)
+                )
+        costs = crossings + 0.02 * ring
         k = int(np.argmin(costs))
-        if hits[k] == 0.0:
+        if crossings[k] == 0.0:
             return middles[k]
         if costs[k] < fewest:
             fallback, fewest = middles[k], costs[k]
     return fallback if np.isfinite(fewest) else None
 
 
-def overlapping(boxes: Array, others: Array) -> NDArray[np.bool_]:
-    """Return which boxes (B, 4) overlap which others (T, 4), (B, T)."""
-    a, b = boxes[:, None], others[None]
-    across = (a[..., 0] < b[..., 2]) & (b[..., 0] < a[..., 2])
-    return np.asarray(across & (a[..., 1] < b[..., 3]) & (b[..., 1] < a[..., 3]), dtype=bool)
+def overlapping(boxes: Array, other_boxes: Array) -> NDArray[np.bool_]:
+    """Return a matrix (B, T) that is true where a box (B, 4) overlaps another box (T, 4)."""
+    a, b = boxes[:, None], other_boxes[None]
+    overlaps_in_x = (a[..., 0] < b[..., 2]) & (b[..., 0] < a[..., 2])
+    return np.asarray(overlaps_in_x & (a[..., 1] < b[..., 3]) & (b[..., 1] < a[..., 3]), dtype=bool)
 
 
-def _is_within(boxes: Array, room: Array) -> NDArray[np.bool_]:
-    """Return which boxes (B, 4) are within the room (4,)."""
-    return np.asarray((boxes[:, :2] >= room[:2]).all(axis=1) & (boxes[:, 2:] <= room[2:]).all(axis=1), dtype=bool)
+def _is_within(boxes: Array, picture_box: Array) -> NDArray[np.bool_]:
+    """Return which boxes (B, 4) are entirely within `picture_box` (4,), as (B,)."""
+    return np.asarray(
+        (boxes[:, :2] >= picture_box[:2]).all(axis=1) & (boxes[:, 2:] <= picture_box[2:]).all(axis=1), dtype=bool
+    )
 
 
-def _segments_cross(one: Array, other: Array) -> bool:
-    """Return whether two segments, (4,), cross."""
+def _segments_cross(first: Array, second: Array) -> bool:
+    """Return whether two segments (4,) cross in their interiors."""
 
-    def side(line: Array, point: Array) -> float:
-        """Return the signed area that a point and a line span."""
-        along, to = line[2:] - line[:2], point - line[:2]
-        return float(along[0] * to[1] - along[1] * to[0])
+    def compute_signed_area(line: Array, point: Array) -> float:
+        """Return the signed area of the parallelogram of a segment and the vector from its start to a point."""
+        direction, offset = line[2:] - line[:2], point - line[:2]
+        return float(direction[0] * offset[1] - direction[1] * offset[0])
 
-    return all(side(a, b[:2]) * side(a, b[2:]) < 0.0 for a, b in ((one, other), (other, one)))
+    return all(
+        compute_signed_area(a, b[:2]) * compute_signed_area(a, b[2:]) < 0.0
+        for a, b in ((first, second), (second, first))
+    )
 
 
 def crossing(box: Array, lines: Array) -> float:
-    """Return the number of segments (S, 4) that meet a box (Liang and Barsky)."""
+    """Return the number of segments (S, 4) that meet a box (4,), by the method of Liang and Barsky."""
     start, span = lines[:, :2], lines[:, 2:] - lines[:, :2]
     with np.errstate(all="ignore"):
-        one, other = (box[:2] - start) / span, (box[2:] - start) / span
-    near, far = np.minimum(one, other), np.maximum(one, other)
-    still = span == 0.0
-    within = (start >= box[:2]) & (start <= box[2:])
-    near = np.where(still, np.where(within, -np.inf, np.inf), near)
-    far = np.where(still, np.where(within, np.inf, -np.inf), far)
-    enters, leaves = np.maximum(near.max(axis=1), 0.0), np.minimum(far.min(axis=1), 1.0)
-    return float((enters <= leaves).sum())
+        t_low, t_high = (box[:2] - start) / span, (box[2:] - start) / span
+    t_enter, t_leave = np.minimum(t_low, t_high), np.maximum(t_low, t_high)
+    is_parallel = span == 0.0
+    is_inside = (start >= box[:2]) & (start <= box[2:])
+    t_enter = np.where(is_parallel, np.where(is_inside, -np.inf, np.inf), t_enter)
+    t_leave = np.where(is_parallel, np.where(is_inside, np.inf, -np.inf), t_leave)
+    entry, exits = np.maximum(t_enter.max(axis=1), 0.0), np.minimum(t_leave.min(axis=1), 1.0)
+    return float((entry <= exits).sum())

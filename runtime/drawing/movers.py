@@ -26,79 +26,106 @@ def draw_drives_and_forces(posture: Posture, plan: Plan) -> Iterator[Shape]:
     for part in posture.parts("drives"):
         yield from _DRIVES[part.kind](posture, plan, part)
     for part in posture.parts("forces"):
-        yield from _FORCES.get(part.kind, _draw_unknown)(posture, plan, part)
+        yield from _FORCES.get(part.kind, _draw_generic_element)(posture, plan, part)
 
 
-def labels_of_drives_and_forces(posture: Posture, plan: Plan, still: bool) -> Iterator[Label]:
-    """Yield the label of each drive and force element; in a `still` picture a zero load says so."""
+def labels_of_drives_and_forces(posture: Posture, plan: Plan, shows_zero_loads: bool) -> Iterator[Label]:
+    """Yield the label of each drive, then of each force element.
+
+    With `shows_zero_loads`, a force or torque whose load is zero has the label "NAME = 0".
+    """
     for part in (*posture.parts("drives"), *posture.parts("forces")):
         kind = part.section[:-1]
-        way = 45.0
+        direction = 45.0
         if part.kind in ("distance", "spring_damper"):
-            place, clear = 0.5 * (posture.place(part.ends[0]) + posture.place(part.ends[1])), 1.2
+            position, clearance = 0.5 * (posture.place(part.ends[0]) + posture.place(part.ends[1])), 1.2
         elif part.kind == "coordinate" and part.options["coordinate"] != "theta":
-            (place, side), clear = _arrow_place(posture, plan, part), 0.5
-            way = float(np.degrees(np.arctan2(side[1], side[0])))
+            (position, direction_vector), clearance = _find_arrow_position(posture, plan, part), 0.5
+            direction = float(np.degrees(np.arctan2(direction_vector[1], direction_vector[0])))
         elif part.kind == "force":
-            span = _force_vector(posture, plan, part)
-            place, clear = posture.place(part.ends[0]) + 0.5 * span, 0.5 if span.any() else 1.2
-            way = float(np.degrees(np.arctan2(span[0], -span[1]))) if span.any() else way
+            arrow_vector = _compute_arrow_vector(posture, plan, part)
+            position, clearance = posture.place(part.ends[0]) + 0.5 * arrow_vector, 0.5 if arrow_vector.any() else 1.2
+            direction = (
+                float(np.degrees(np.arctan2(arrow_vector[0], -arrow_vector[1]))) if arrow_vector.any() else direction
+            )
         elif part.kind == "dry_friction":
-            place, clear = posture.place(part.ends[1]), 2.0
+            position, clearance = posture.place(part.ends[1]), 2.0
         else:
-            place = pivot(posture, part)
-            clear = RADII[part.kind]
-        nothing = still and part.kind in ("force", "torque") and not np.any(posture.loads.get(part.name, 1.0))
-        text = f"{part.name} = 0" if nothing else part.name
-        yield Label(f"{kind} {part.name}", kind, text, place, clear * plan.unit, way)
+            position = pivot(posture, part)
+            clearance = RADII[part.kind]
+        is_zero = (
+            shows_zero_loads and part.kind in ("force", "torque") and not np.any(posture.loads.get(part.name, 1.0))
+        )
+        text = f"{part.name} = 0" if is_zero else part.name
+        yield Label(f"{kind} {part.name}", kind, text, position, clearance * plan.unit, direction)
 
 
 def arrow(part: str, role: str, tail: Array, tip: Array, head: float) -> Iterator[Shape]:
-    """Yield line and head of a straight arrow; the line ends within the head."""
-    along = unit_vector(tip - tail)
-    yield Line(part, role, np.array([tail, tip - 0.8 * head * along]))
-    yield Line(part, f"{role} head", arrow_head(tip, along, head), True)
+    """Yield line and head of a straight arrow from `tail` to `tip`; the line ends within the head.
+
+    `head` is the length of the head in m. The head has the role "ROLE head".
+    """
+    direction = unit_vector(tip - tail)
+    yield Line(part, role, np.array([tail, tip - 0.8 * head * direction]))
+    yield Line(part, f"{role} head", arrow_head(tip, direction, head), True)
 
 
-def round_arrow(part: str, role: str, centre: Array, radius: float, left: bool, head: float) -> Iterator[Shape]:
-    """Yield line and head of an arrow around a point, counterclockwise if `left`."""
-    begin, end = np.radians([-25.0, 195.0]) if left else np.radians([205.0, -15.0])
-    bow = arc(centre, radius, float(begin), float(end), 33)
-    at = arc(centre, radius, float(end), float(end), 1)[0]
-    along = turned(unit_vector(at - centre)) * (1.0 if left else -1.0)
-    yield Line(part, role, bow)
-    yield Line(part, f"{role} head", arrow_head(at + 0.9 * head * along, along, head), True)
+def round_arrow(
+    part: str, role: str, centre: Array, radius: float, is_counterclockwise: bool, head_length: float
+) -> Iterator[Shape]:
+    """Yield line and head of an arrow along an arc of 220° around a point.
+
+    It turns counterclockwise if `is_counterclockwise`, else clockwise. `radius` and `head_length` are in m.
+    """
+    start_angle, end_angle = np.radians([-25.0, 195.0]) if is_counterclockwise else np.radians([205.0, -15.0])
+    points = arc(centre, radius, float(start_angle), float(end_angle), 33)
+    arc_end = arc(centre, radius, float(end_angle), float(end_angle), 1)[0]
+    tangent = turned(unit_vector(arc_end - centre)) * (1.0 if is_counterclockwise else -1.0)
+    yield Line(part, role, points)
+    yield Line(part, f"{role} head", arrow_head(arc_end + 0.9 * head_length * tangent, tangent, head_length), True)
 
 
 def pivot(posture: Posture, part: PartInfo) -> Array:
-    """Return the point about which a body turns: its pin on the other body or the ground, else its centre of mass."""
-    joint, turning = _find_pivot(posture, part)
+    """Return the point about which the body of a drive or force element turns, (2,), in m.
+
+    It is a joint between the body and the other one or the ground, or else the body's centre of mass.
+    """
+    joint, body = _find_pivot(posture, part)
     if joint is not None:
-        return posture.place(next(end for end in joint.ends if body_of(end) == turning))
-    return posture.centre(turning) if turning in posture.bodies else np.zeros(2)
+        return posture.place(next(end for end in joint.ends if body_of(end) == body))
+    return posture.centre(body) if body in posture.bodies else np.zeros(2)
 
 
 def arcs(posture: Posture) -> dict[str, float]:
-    """Return the radius in units of the arrow or spiral spring around each pin that has one."""
-    found = dict[str, float]()
+    """Return the radius, in units, of the largest arrow or spiral spring around each joint that has one, by joint.
+
+    Used to place the joints' names outside of them.
+    """
+    radii = dict[str, float]()
     for part in (*posture.parts("drives"), *posture.parts("forces")):
         if part.kind in RADII and part.options.get("coordinate", "theta") == "theta":
             joint, _ = _find_pivot(posture, part)
             if joint is not None:
-                found[joint.name] = max(found.get(joint.name, 0.0), RADII[part.kind])
-    return found
+                radii[joint.name] = max(radii.get(joint.name, 0.0), RADII[part.kind])
+    return radii
 
 
 def _find_pivot(posture: Posture, part: PartInfo) -> tuple[PartInfo | None, str]:
-    """Return the joint about which a body turns, None without one, and the body."""
+    """Return the joint about which the body of a drive or force element turns, None without one, and the body's name.
+
+    The body is the first one that is not the ground; the joint connects it with the element's other body or the ground.
+    """
     bodies = [body_of(end) for end in part.ends]
-    turning = next((body for body in bodies if body != GROUND), bodies[0])
-    other = next((body for body in bodies if body != turning), GROUND)
-    return pivot_between(posture, turning, other), turning
+    turning_body = next((body for body in bodies if body != GROUND), bodies[0])
+    other_body = next((body for body in bodies if body != turning_body), GROUND)
+    return pivot_between(posture, turning_body, other_body), turning_body
 
 
 def _draw_angle_drive(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
-    """Yield the arrow of a driven angle in the direction of its rate."""
+    """Yield the arrow of a driven angle around its pivot, counterclockwise if the angle grows.
+
+    The rate is that of the first body relative to the second; an unknown rate counts as growing.
+    """
     rate = posture.omega(body_of(part.ends[0]))
     rate -= posture.omega(body_of(part.ends[1])) if len(part.ends) > 1 else 0.0
     centre, u = pivot(posture, part), plan.unit
@@ -106,109 +133,134 @@ def _draw_angle_drive(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[
 
 
 def _draw_coordinate_drive(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
-    """Yield the arrow of a driven coordinate in the direction of its rate."""
+    """Yield the arrow of a driven coordinate in the direction of its rate.
+
+    An angle is drawn like an angle drive. An unknown rate counts as positive.
+    """
     if (axis := part.options["coordinate"]) == "theta":
         yield from _draw_angle_drive(posture, plan, part)
         return
-    k = posture.bodies[body_of(part.ends[0])].index + "xy".index(axis)
-    along = np.eye(2)["xy".index(axis)] * (-1.0 if posture.v is not None and posture.v[k] < 0.0 else 1.0)
-    (at, _), half = _arrow_place(posture, plan, part), 0.5 * ARROW * plan.unit * along
-    yield from arrow(f"drive {part.name}", "drive", at - half, at + half, HEAD * plan.unit)
+    index = posture.bodies[body_of(part.ends[0])].index + "xy".index(axis)
+    direction = np.eye(2)["xy".index(axis)] * (-1.0 if posture.v is not None and posture.v[index] < 0.0 else 1.0)
+    (middle, _), half_arrow = _find_arrow_position(posture, plan, part), 0.5 * ARROW * plan.unit * direction
+    yield from arrow(f"drive {part.name}", "drive", middle - half_arrow, middle + half_arrow, HEAD * plan.unit)
 
 
-def _arrow_place(posture: Posture, plan: Plan, part: PartInfo) -> tuple[Array, Array]:
-    """Return the middle of a driven coordinate's arrow, and its side (unit vector): above or to the left.
+def _find_arrow_position(posture: Posture, plan: Plan, part: PartInfo) -> tuple[Array, Array]:
+    """Return the middle of a driven coordinate's arrow (2,), in m, and its offset direction, a unit vector: above or to
+    the left.
 
-    For a body that the ground guides, the arrow is next to the block, away from the ground.
+    For a body that slides on the ground along the coordinate, the arrow is next to the block, away from the ground.
     """
     axis = np.eye(2)["xy".index(part.options["coordinate"])]
-    place, side = posture.place(part.ends[0]), turned(axis)
+    position, normal = posture.place(part.ends[0]), turned(axis)
     for joint in sliding(posture):
         if joint.name in plan.ways and body_of(part.ends[0]) in map(body_of, joint.ends):
-            _, along, slider = axis_of(posture, joint)
-            if abs(float(along @ axis)) > ALONG:
-                place, side = slider, -side if float(plan.ways[joint.name] @ side) > 0.0 else side
-    return place + 2.0 * plan.unit * side, side
+            _, line_direction, slider = axis_of(posture, joint)
+            if abs(float(line_direction @ axis)) > ALONG:
+                position, normal = slider, -normal if float(plan.ways[joint.name] @ normal) > 0.0 else normal
+    return position + 2.0 * plan.unit * normal, normal
 
 
 def _draw_cylinder(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
-    """Yield barrel and piston rod of a driven distance."""
+    """Yield the symbol of a driven distance: a hydraulic cylinder with barrel, piston, rod, and a pin at each end."""
     name, u = f"drive {part.name}", plan.unit
-    a, b = (posture.place(end) for end in part.ends)
-    along, span = unit_vector(b - a), float(np.hypot(*(b - a)))
+    begin, end = (posture.place(point) for point in part.ends)
+    axis, length = unit_vector(end - begin), float(np.hypot(*(end - begin)))
     yield from _draw_ground_ends(posture, part, name, plan)
-    yield Line(name, "piston", np.array([a + 0.5 * span * along, b]))
-    yield Line(name, "barrel", rectangle(a + 0.34 * span * along, along, 0.27 * span, 0.85 * u), True)
-    yield Line(name, "drive", np.array([a, a + 0.07 * span * along]))
-    head = a + 0.5 * span * along
-    yield Line(name, "piston", np.array([head - 0.85 * u * turned(along), head + 0.85 * u * turned(along)]))
-    yield from (Disc(name, "pin", place, 0.8 * PIN * u) for place in (a, b))
+    yield Line(name, "piston", np.array([begin + 0.5 * length * axis, end]))
+    yield Line(name, "barrel", rectangle(begin + 0.34 * length * axis, axis, 0.27 * length, 0.85 * u), True)
+    yield Line(name, "drive", np.array([begin, begin + 0.07 * length * axis]))
+    head = begin + 0.5 * length * axis
+    yield Line(name, "piston", np.array([head - 0.85 * u * turned(axis), head + 0.85 * u * turned(axis)]))
+    yield from (Disc(name, "pin", position, 0.8 * PIN * u) for position in (begin, end))
 
 
 def _draw_ground_ends(posture: Posture, part: PartInfo, name: str, plan: Plan) -> Iterator[Shape]:
-    """Yield a wall at each end on the ground that no joint draws."""
-    joined = {end for joint in posture.parts("joints") if not has_rail(joint) for end in joint.ends}
+    """Yield a hatched wall at each end of a drive or force element on the ground where no joint draws the ground."""
+    joint_ends = {end for joint in posture.parts("joints") if not has_rail(joint) for end in joint.ends}
     for end in part.ends:
-        if body_of(end) == GROUND and end not in joined:
+        if body_of(end) == GROUND and end not in joint_ends:
             yield from ground_wall(name, posture.place(end), plan.ways[part.name], plan.unit)
 
 
 def _draw_spring_damper(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
-    """Yield a spring, a damper, or both in parallel, between two points."""
+    """Yield a spring, a damper, or both in parallel, between the two points of an element.
+
+    An element without stiffness and damping is drawn as a spring. Between coincident points only dots are drawn. Next
+    to a ground rail, both symbols are on the side away from the ground.
+    """
     name, u = f"force {part.name}", plan.unit
-    a, b = (posture.place(end) for end in part.ends)
+    begin, end = (posture.place(point) for point in part.ends)
     yield from _draw_ground_ends(posture, part, name, plan)
-    yield from (Disc(name, "mark", place, 0.26 * u) for place in (a, b))
-    if float(np.hypot(*(b - a))) < 1e-6 * u:
+    yield from (Disc(name, "mark", position, 0.26 * u) for position in (begin, end))
+    if float(np.hypot(*(end - begin))) < 1e-6 * u:
         return
-    springs, damps = (posture.number(f"forces.{part.name}.{what}") != 0.0 for what in ("stiffness", "damping"))
-    aside = 1.15 * u * turned(unit_vector(b - a)) if springs and damps else np.zeros(2)
-    ground = _ground_side(posture, plan, part, a, b)
-    if springs and damps and ground is not None:  # both next to the rail
-        aside = -1.15 * u * ground
-        a, b, ends = a + aside, b + aside, (a, b)
+    has_spring, has_damper = (posture.number(f"forces.{part.name}.{key}") != 0.0 for key in ("stiffness", "damping"))
+    offset = 1.15 * u * turned(unit_vector(end - begin)) if has_spring and has_damper else np.zeros(2)
+    ground_side = _find_ground_side(posture, plan, part, begin, end)
+    if has_spring and has_damper and ground_side is not None:  # both next to the rail
+        offset = -1.15 * u * ground_side
+        begin, end, attachments = begin + offset, end + offset, (begin, end)
     else:
-        ends = a, b
-    if springs or not damps:
-        free = posture.number(f"forces.{part.name}.free_length") or float(np.hypot(*(b - a)))
-        teeth = int(np.clip(round(0.35 * free / u), 4, 14))
-        coil = zigzag(a + 0.12 * (b - a), a + 0.88 * (b - a), 0.9 * u, teeth, 0.12 if damps else 0.05)
-        coil = np.vstack([a, coil + aside, b]) if not damps else coil + aside
-        yield Line(name, "spring", coil)
-    if damps:
-        yield from _draw_damper(name, a + 0.12 * (b - a) - aside, a + 0.88 * (b - a) - aside, u)
-    if springs and damps:
-        for end, share in zip(ends, (0.12, 0.88), strict=True):
-            beam = a + share * (b - a)
-            yield Line(name, "spring", np.array([beam - aside, beam + aside]))
-            yield Line(name, "spring", np.array([end, ends[0] + share * (b - a)]))
+        attachments = begin, end
+    if has_spring or not has_damper:
+        free_length = posture.number(f"forces.{part.name}.free_length") or float(np.hypot(*(end - begin)))
+        teeth = int(np.clip(round(0.35 * free_length / u), 4, 14))
+        points = zigzag(
+            begin + 0.12 * (end - begin), begin + 0.88 * (end - begin), 0.9 * u, teeth, 0.12 if has_damper else 0.05
+        )
+        points = np.vstack([begin, points + offset, end]) if not has_damper else points + offset
+        yield Line(name, "spring", points)
+    if has_damper:
+        yield from _draw_damper(name, begin + 0.12 * (end - begin) - offset, begin + 0.88 * (end - begin) - offset, u)
+    if has_spring and has_damper:
+        for attachment, fraction in zip(attachments, (0.12, 0.88), strict=True):
+            beam_centre = begin + fraction * (end - begin)
+            yield Line(name, "spring", np.array([beam_centre - offset, beam_centre + offset]))
+            yield Line(name, "spring", np.array([attachment, attachments[0] + fraction * (end - begin)]))
 
 
-def _ground_side(posture: Posture, plan: Plan, part: PartInfo, a: Array, b: Array) -> Array | None:
-    """Return the side of the ground (unit vector) if an element lies along the rail of its body; else None."""
-    held = {body_of(end) for end in part.ends}
+def _find_ground_side(posture: Posture, plan: Plan, part: PartInfo, begin: Array, end: Array) -> Array | None:
+    """Return the direction of the ground, a unit vector, if an element lies along the rail of the joint between its
+    bodies.
+
+    Returns None otherwise. `begin` and `end` are the element's points.
+    """
+    bodies = {body_of(end) for end in part.ends}
     for joint in sliding(posture):
-        if has_rail(joint) and joint.name in plan.ways and held == {body_of(end) for end in joint.ends}:
-            on, along, _ = axis_of(posture, joint)
-            if max(abs(float((place - on) @ turned(along))) for place in (a, b)) < plan.unit:
+        if has_rail(joint) and joint.name in plan.ways and bodies == {body_of(end) for end in joint.ends}:
+            line_point, axis, _ = axis_of(posture, joint)
+            if max(abs(float((point - line_point) @ turned(axis))) for point in (begin, end)) < plan.unit:
                 return plan.ways[joint.name]
     return None
 
 
-def _draw_damper(name: str, a: Array, b: Array, u: float) -> Iterator[Shape]:
-    """Yield a piston in a cylinder that is open on one side."""
-    along, middle = unit_vector(b - a), 0.5 * (a + b)
-    across = 0.75 * u * turned(along)
-    deep = min(1.6 * u, 0.3 * float(np.hypot(*(b - a))))
-    bottom, top = middle - deep * along, middle + deep * along
-    yield Line(name, "spring", np.array([top + across, bottom + across, bottom - across, top - across]))
-    yield Line(name, "spring", np.array([a, bottom]))
-    yield Line(name, "spring", np.array([middle, b]))
-    yield Line(name, "piston", np.array([middle - 0.85 * across, middle + 0.85 * across]))
+def _draw_damper(name: str, begin: Array, end: Array, unit: float) -> Iterator[Shape]:
+    """Yield the symbol of a damper between two points: a piston in a cylinder that is open on one side."""
+    axis, middle = unit_vector(end - begin), 0.5 * (begin + end)
+    half_width = 0.75 * unit * turned(axis)
+    half_length = min(1.6 * unit, 0.3 * float(np.hypot(*(end - begin))))
+    cylinder_bottom, cylinder_top = middle - half_length * axis, middle + half_length * axis
+    yield Line(
+        name,
+        "spring",
+        np.array(
+            [
+                cylinder_top + half_width,
+                cylinder_bottom + half_width,
+                cylinder_bottom - half_width,
+                cylinder_top - half_width,
+            ]
+        ),
+    )
+    yield Line(name, "spring", np.array([begin, cylinder_bottom]))
+    yield Line(name, "spring", np.array([middle, end]))
+    yield Line(name, "piston", np.array([middle - 0.85 * half_width, middle + 0.85 * half_width]))
 
 
 def _draw_spiral_spring(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
-    """Yield a spiral spring around a pivot."""
+    """Yield a spiral spring of 2.25 turns around the pivot of a rotational spring or damper."""
     angle, centre = np.linspace(0.0, 4.5 * np.pi, 90), pivot(posture, part)
     radius = plan.unit * np.linspace(0.6, WOUND, len(angle))
     yield Line(
@@ -217,24 +269,28 @@ def _draw_spiral_spring(posture: Posture, plan: Plan, part: PartInfo) -> Iterato
 
 
 def _draw_torque(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
-    """Yield the arrow of a torque in its direction."""
-    left = posture.loads.get(part.name, (1.0, 0.0))[0] >= 0.0
-    centre, u = pivot(posture, part), plan.unit
-    yield from round_arrow(f"force {part.name}", "force", centre, LOADED * u, left, HEAD * u)
+    """Yield the round arrow of a torque around its pivot; clockwise only if the torque is negative."""
+    is_counterclockwise = posture.loads.get(part.name, (1.0, 0.0))[0] >= 0.0
+    centre, unit = pivot(posture, part), plan.unit
+    yield from round_arrow(f"force {part.name}", "force", centre, LOADED * unit, is_counterclockwise, HEAD * unit)
 
 
 def _draw_force(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
     """Yield the arrow of a force that begins at its point; a ring if the force is zero or unknown."""
-    name, u, place = f"force {part.name}", plan.unit, posture.place(part.ends[0])
-    span = _force_vector(posture, plan, part)
-    if not span.any():
-        yield Disc(name, "no force", place, 0.9 * u)
+    name, unit, point = f"force {part.name}", plan.unit, posture.place(part.ends[0])
+    arrow_vector = _compute_arrow_vector(posture, plan, part)
+    if not arrow_vector.any():
+        yield Disc(name, "no force", point, 0.9 * unit)
         return
-    yield from arrow(name, "force", place, place + span, min(HEAD * u, 0.6 * float(np.hypot(*span))))
+    yield from arrow(name, "force", point, point + arrow_vector, min(HEAD * unit, 0.6 * float(np.hypot(*arrow_vector))))
 
 
-def _force_vector(posture: Posture, plan: Plan, part: PartInfo) -> Array:
-    """Return a force's arrow from tail to tip, m of the drawing; 0 if the force is zero or unknown."""
+def _compute_arrow_vector(posture: Posture, plan: Plan, part: PartInfo) -> Array:
+    """Return the drawn vector of a force from tail to tip, (2,), in m of the drawing; 0 if the force is zero or
+    unknown.
+
+    Its length is proportional to the force if the plan has a scale, otherwise the same for all forces.
+    """
     load = np.array(posture.loads.get(part.name, (0.0, 0.0)))
     if not (np.isfinite(load).all() and load.any()):
         return np.zeros(2)
@@ -242,23 +298,29 @@ def _force_vector(posture: Posture, plan: Plan, part: PartInfo) -> Array:
 
 
 def _draw_dry_friction(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
-    """Yield a rough line under the second body's point, and an arrow along a moving surface."""
+    """Yield a rough line under the second body's point, and for a moving surface the arrow of its speed."""
     name, u = f"force {part.name}", plan.unit
-    along = posture.direction(part, "direction", body_of(part.ends[0]))
-    down = -turned(along) if turned(along)[1] >= 0.0 else turned(along)
-    at = posture.place(part.ends[1]) + BLOCK[1] * u * down
-    rough = zigzag(at - 2.0 * u * along, at + 2.0 * u * along, 0.3 * u, 7, 0.0)
-    yield Line(name, "rough", rough - 0.1 * u * down)
+    line_direction = posture.direction(part, "direction", body_of(part.ends[0]))
+    down = -turned(line_direction) if turned(line_direction)[1] >= 0.0 else turned(line_direction)
+    centre = posture.place(part.ends[1]) + BLOCK[1] * u * down
+    points = zigzag(centre - 2.0 * u * line_direction, centre + 2.0 * u * line_direction, 0.3 * u, 7, 0.0)
+    yield Line(name, "rough", points - 0.1 * u * down)
     if (speed := posture.number(f"forces.{part.name}.speed")) != 0.0:
-        way, low = along * np.sign(speed), at + 2.3 * u * down
-        yield from arrow(name, "force", low - 0.5 * ARROW * u * way, low + 0.5 * ARROW * u * way, HEAD * u)
+        direction, arrow_centre = line_direction * np.sign(speed), centre + 2.3 * u * down
+        yield from arrow(
+            name,
+            "force",
+            arrow_centre - 0.5 * ARROW * u * direction,
+            arrow_centre + 0.5 * ARROW * u * direction,
+            HEAD * u,
+        )
 
 
-def _draw_unknown(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
-    """Yield a line with a dot at each end for an element without a symbol."""
-    places = [posture.place(end) for end in part.ends]
-    yield Line(f"force {part.name}", "spring", np.array(places))
-    yield from (Disc(f"force {part.name}", "mark", place, 0.3 * plan.unit) for place in places)
+def _draw_generic_element(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+    """Yield a line with a dot at each end, for a force element of a kind without a symbol."""
+    positions = [posture.place(end) for end in part.ends]
+    yield Line(f"force {part.name}", "spring", np.array(positions))
+    yield from (Disc(f"force {part.name}", "mark", position, 0.3 * plan.unit) for position in positions)
 
 
 _DRIVES = {"angle": _draw_angle_drive, "coordinate": _draw_coordinate_drive, "distance": _draw_cylinder}
@@ -272,6 +334,6 @@ _FORCES = {
 
 
 def gravity_of(posture: Posture) -> Array | None:
-    """Return the direction of gravity; None without gravity."""
+    """Return the direction of gravity, a unit vector in ground axes; None without gravity."""
     g = np.array([posture.number("gravity.x"), posture.number("gravity.y")])
     return unit_vector(g) if float(np.hypot(*g)) > 0.0 else None

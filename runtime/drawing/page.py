@@ -26,129 +26,156 @@ def page(
     times: Sequence[float],
     seconds: float,
     width: float,
-    beside: Mapping[str, tuple[float, float]],
-    halves: Mapping[str, Array],
+    label_offsets: Mapping[str, tuple[float, float]],
+    half_sizes: Mapping[str, Array],
 ) -> str:
-    """Return the HTML text of an animation.
+    """Return the HTML text of an animation of a motion.
 
-    `sketches` share one box; those at `times` (s) of the run play within `seconds`. `width` is in pixels, `beside` the
-    first offset of the middle of each name from its part, in pixels, y up, `halves` half the size of each name.
+    `sketches` share one box; those at `times` (s) of the run play within `seconds`. `width` is in pixels.
+    `label_offsets` are the first offsets of names from their parts in pixels, y up; names without one are left out.
+    `half_sizes` are half the size of each name.
     """
     first = sketches[0]
     scale = width / float(first.high[0] - first.low[0])
     height = scale * float(first.high[1] - first.low[1])
 
-    def at(points: Array) -> Array:
+    def to_pixels(points: Array) -> Array:
         """Return points in pixels of the SVG."""
         return (points - first.low) * [scale, -scale] + [0.0, height]
 
     styles: Styles = {}
-    kinds = _identifiers_in_order(sketches)
-    frames = [_make_frame(sketch, kinds, at, scale, styles) for sketch in sketches]
-    names = [label for label in first.labels if label.part in beside]
-    parts = [label.part for label in names]
-    offsets_by_picture = _track_names(sketches, beside, halves, scale)
-    places = [_name_places(sketch, parts, at, now) for sketch, now in zip(sketches, offsets_by_picture, strict=True)]
+    identifiers = _identifiers_in_order(sketches)
+    frames = [_make_frame(sketch, identifiers, to_pixels, scale, styles) for sketch in sketches]
+    labels = [label for label in first.labels if label.part in label_offsets]
+    label_parts = [label.part for label in labels]
+    offsets_by_picture = _track_names(sketches, label_offsets, half_sizes, scale)
+    label_positions = [
+        _label_positions(sketch, label_parts, to_pixels, offsets)
+        for sketch, offsets in zip(sketches, offsets_by_picture, strict=True)
+    ]
     data = {
-        "times": [round(t, 9) for t in times],
+        "times": [round(time, 9) for time in times],
         "seconds": seconds,
         "styles": [_style_of(*key) for key in styles],
         "frames": _encode_changes(frames),
-        "places": _encode_changes(places),
+        "places": _encode_changes(label_positions),
     }
-    texts = "".join(_name_element(label.text, label.role, label.part, first) for label in names)
-    paths = "".join(f'<path id="{name}"/>' for name in kinds)
-    note = "<br>".join(escape(note) for note in first.notes)
+    name_elements = "".join(_name_element(label.text, label.role, label.part, first) for label in labels)
+    path_elements = "".join(f'<path id="{name}"/>' for name in identifiers)
+    notes = "<br>".join(escape(notes) for notes in first.notes)
     encoded = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
-    slots = {
+    replacements = {
         "TITLE": escape(title),
-        "NOTE": note,
+        "NOTE": notes,
         "WIDTH": f"{width:.0f}",
         "HEIGHT": f"{height:.0f}",
-        "PATHS": paths,
-        "NAMES": texts,
+        "PATHS": path_elements,
+        "NAMES": name_elements,
         "DATA": encoded,
     }
     return re.sub(
-        f"@({'|'.join(slots)})@", lambda found: slots[found[1]], PAGE
+        f"@({'|'.join(replacements)})@", lambda match: replacements[match[1]], PAGE
     )  # in one go: a title may hold such a word
 
 
 def _shapes_by_identifier(sketch: Sketch) -> dict[str, Shape]:
-    """Return the shapes of a sketch by an identifier that is the same in all pictures."""
-    counts, found = dict[str, int](), dict[str, Shape]()
+    """Return the shapes of a sketch by an identifier that is the same in all pictures of a motion.
+
+    The identifier is made of the part and, from its second shape on, a number.
+    """
+    counts, shapes_by_identifier = dict[str, int](), dict[str, Shape]()
     for shape in sketch.shapes:
         k = counts[shape.part] = counts.get(shape.part, 0) + 1
-        found[gid("", shape.part) + (f"-{k}" if k > 1 else "")] = shape
-    return found
+        shapes_by_identifier[gid("", shape.part) + (f"-{k}" if k > 1 else "")] = shape
+    return shapes_by_identifier
 
 
 def _identifiers_in_order(sketches: Sequence[Sketch]) -> list[str]:
-    """Return all identifiers in the order of painting."""
+    """Return the identifiers of all shapes of all sketches, in the order of painting."""
     order = {
         name: ROLES[shape.role].order
         for sketch in reversed(sketches)
         for name, shape in _shapes_by_identifier(sketch).items()
     }
-    first = [name for name in _shapes_by_identifier(sketches[0]) if name in order]
-    return sorted([*first, *(name for name in order if name not in first)], key=lambda name: order[name])
+    first_identifiers = [name for name in _shapes_by_identifier(sketches[0]) if name in order]
+    return sorted(
+        [*first_identifiers, *(name for name in order if name not in first_identifiers)], key=lambda name: order[name]
+    )
 
 
-def _make_frame(sketch: Sketch, kinds: Sequence[str], at: Any, scale: float, styles: Styles) -> list[Any]:
-    """Return [path data, style] of each identifier; "" for one that is absent."""
-    shapes, found = _shapes_by_identifier(sketch), list[Any]()
-    for name in kinds:
+def _make_frame(sketch: Sketch, identifiers: Sequence[str], to_pixels: Any, scale: float, styles: Styles) -> list[Any]:
+    """Return [path data, index of the style] for each identifier; "" for a shape that this sketch does not have.
+
+    New styles are added to `styles`.
+    """
+    shapes, frame = _shapes_by_identifier(sketch), list[Any]()
+    for name in identifiers:
         shape = shapes.get(name)
         if shape is None:
-            found.append("")
+            frame.append("")
             continue
         style = styles.setdefault((shape.role, shape.tint % len(TINTS)), len(styles))
-        found.append([_path_data(shape, at, scale), style])
-    return found
+        frame.append([_path_data(shape, to_pixels, scale), style])
+    return frame
 
 
-def _path_data(shape: Shape, at: Any, scale: float) -> str:
-    """Return SVG path data, to a tenth of a pixel."""
+def _path_data(shape: Shape, to_pixels: Any, scale: float) -> str:
+    """Return the SVG path data of a shape, to a tenth of a pixel; `scale` is in pixels per metre."""
     if isinstance(shape, Disc):
-        (x, y), r = at(shape.centre), round(shape.radius * scale, 1)  # rounded once: both arcs are half a circle
+        (x, y), r = to_pixels(shape.centre), round(shape.radius * scale, 1)  # rounded once: both arcs are half a circle
         return f"M{x - r:.1f} {y:.1f}a{r:.1f} {r:.1f} 0 1 0 {2 * r:.1f} 0a{r:.1f} {r:.1f} 0 1 0 {-2 * r:.1f} 0z"
-    text = "L".join(f"{x:.1f} {y:.1f}" for x, y in at(shape.points))
+    text = "L".join(f"{x:.1f} {y:.1f}" for x, y in to_pixels(shape.points))
     return f"M{text}{'z' if shape.closed else ''}"
 
 
 def _style_of(role: str, tint: int) -> str:
-    """Return the CSS of a role."""
-    look = ROLES[role]
-    dashes = f";stroke-dasharray:{' '.join(f'{x:g}' for x in look.dashes)}" if look.dashes else ""
-    width = look.width * PIXELS / 72.0
-    return f"stroke:{colour_of(look.edge, tint)};fill:{colour_of(look.face, tint)};stroke-width:{width:.2f}{dashes}"
+    """Return the CSS of a role for shapes with the colours of body `tint`."""
+    role_style = ROLES[role]
+    dashes = f";stroke-dasharray:{' '.join(f'{x:g}' for x in role_style.dashes)}" if role_style.dashes else ""
+    width = role_style.width * PIXELS / 72.0
+    edge, face = colour_of(role_style.edge, tint), colour_of(role_style.face, tint)
+    return f"stroke:{edge};fill:{face};stroke-width:{width:.2f}{dashes}"
 
 
 def _track_names(
-    sketches: Sequence[Sketch], beside: Mapping[str, tuple[float, float]], halves: Mapping[str, Array], scale: float
+    sketches: Sequence[Sketch],
+    label_offsets: Mapping[str, tuple[float, float]],
+    half_sizes: Mapping[str, Array],
+    scale: float,
 ) -> Iterator[Mapping[str, tuple[float, float]]]:
-    """Yield the offsets of names for each picture; a name without room keeps its previous offset."""
-    low, room = sketches[0].low, scale * np.array([*np.zeros(2), *(sketches[0].high - sketches[0].low)])
+    """Yield the offset of each name from its part for each picture, in pixels, by part.
+
+    A name without room keeps its previous offset. Names without an offset in `label_offsets` are left out.
+    """
+    lower_corner, picture_box = sketches[0].low, scale * np.array([*np.zeros(2), *(sketches[0].high - sketches[0].low)])
     for sketch in sketches:
-        named = replace(sketch, labels=tuple(label for label in sketch.labels if label.part in beside))
-        found = place_names(named, halves, beside, lambda x: scale * (np.asarray(x) - low), scale, PIXELS / 72.0, room)
-        beside = {**beside, **found}
-        yield beside
+        labelled_sketch = replace(sketch, labels=tuple(label for label in sketch.labels if label.part in label_offsets))
+        new_offsets = place_names(
+            labelled_sketch,
+            half_sizes,
+            label_offsets,
+            lambda points: scale * (np.asarray(points) - lower_corner),
+            scale,
+            PIXELS / 72.0,
+            picture_box,
+        )
+        label_offsets = {**label_offsets, **new_offsets}
+        yield label_offsets
 
 
-def _name_places(
-    sketch: Sketch, parts: Sequence[str], at: Any, offsets: Mapping[str, tuple[float, float]]
+def _label_positions(
+    sketch: Sketch, parts: Sequence[str], to_pixels: Any, offsets: Mapping[str, tuple[float, float]]
 ) -> list[list[Any]]:
-    """Return the middles of names in pixels, and texts that change."""
-    labels, found = {label.part: label for label in sketch.labels}, list[list[Any]]()
+    """Return [x, y] of the middle of each name in pixels; of an inset also its text, which changes."""
+    labels, positions = {label.part: label for label in sketch.labels}, list[list[Any]]()
     for part in parts:
-        x, y = np.round(at(labels[part].place) + np.array(offsets[part]) * [1.0, -1.0], 1)
-        found.append([float(x), float(y), *([labels[part].text] if labels[part].role == "inset" else [])])
-    return found
+        x, y = np.round(to_pixels(labels[part].place) + np.array(offsets[part]) * [1.0, -1.0], 1)
+        positions.append([float(x), float(y), *([labels[part].text] if labels[part].role == "inset" else [])])
+    return positions
 
 
 def _name_element(text: str, role: str, part: str, sketch: Sketch) -> str:
-    """Return the SVG text element of a name."""
+    """Return the SVG text element of a name, without position, in the style of its role."""
     colour, weight = NAMES[role]
     tint = next((shape.tint for shape in sketch.shapes if shape.part == part), 0)
     colour = EDGES[tint % len(EDGES)] if colour == "edge" else colour
@@ -157,11 +184,11 @@ def _name_element(text: str, role: str, part: str, sketch: Sketch) -> str:
 
 
 def _encode_changes(frames: Sequence[Sequence[Any]]) -> list[list[Any]]:
-    """Return each frame as its differences from the previous one: 0 for no change."""
-    found = [list(frames[0])]
-    for before, now in zip(frames, frames[1:], strict=False):
-        found.append([0 if x == y else y for x, y in zip(before, now, strict=True)])
-    return found
+    """Return each frame with 0 for each entry that the previous frame has too; the first frame is complete."""
+    encoded = [list(frames[0])]
+    for previous, frame in zip(frames, frames[1:], strict=False):
+        encoded.append([0 if old == new else new for old, new in zip(previous, frame, strict=True)])
+    return encoded
 
 
 PAGE = """<!DOCTYPE html>

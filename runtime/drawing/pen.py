@@ -57,28 +57,34 @@ class Pen(JointAt):
         """Add a circle with a radius in m."""
         self.shapes.append(Disc(self.name, role, centre, radius, tint))
 
-    def box(self, role: str, centre: Array, along: Array, length: float, width: float) -> None:
-        """Add a rectangle with half its length and width in units."""
-        self.line(role, list(rectangle(centre, along, length * self.unit, width * self.unit)), True)
+    def box(self, role: str, centre: Array, axis: Array, length: float, width: float) -> None:
+        """Add a rectangle with half its length, along the unit vector `axis`, and half its width in units."""
+        self.line(role, list(rectangle(centre, axis, length * self.unit, width * self.unit)), True)
 
-    def pin(self, place: Array, size: float = 1.0) -> None:
-        """Add a pin with a size as a fraction of the usual one."""
-        self.disc("pin", place, size * PIN * self.unit)
+    def pin(self, position: Array, size: float = 1.0) -> None:
+        """Add a pin; `size` is a fraction of the usual size."""
+        self.disc("pin", position, size * PIN * self.unit)
 
     def stand(self) -> None:
-        """Add the triangle and the ground under a point on the ground; nothing if neither body is the ground."""
+        """Add the triangle and the hatched ground under each end of the joint on the ground.
+
+        Nothing is added if neither body is the ground.
+        """
         for end in self.part.ends if self.on_ground else ():
             if body_of(end) == GROUND:
-                place, way = self.posture.place(end), self.plan.ways[self.part.name]
-                self.shapes.extend(_draw_stand(self.name, place, way, self.unit))
+                position, direction = self.posture.place(end), self.plan.ways[self.part.name]
+                self.shapes.extend(_draw_stand(self.name, position, direction, self.unit))
 
-    def wall(self, place: Array) -> None:
+    def wall(self, position: Array) -> None:
         """Add the ground at a fixed point; nothing if neither body is the ground."""
         if self.on_ground:
-            self.shapes.extend(ground_wall(self.name, place, self.plan.ways[self.part.name], self.unit, 2.0))
+            self.shapes.extend(ground_wall(self.name, position, self.plan.ways[self.part.name], self.unit, 2.0))
 
     def bearing(self) -> None:
-        """Add the stand of a pin; with play also the hole around it, to scale if that is wide."""
+        """Add the stand of a pin, and for a joint with play the hole around its first point.
+
+        A clearance that is visible to scale is drawn as a circle of its radius instead, without a stand.
+        """
         posture, name = self.posture, self.part.name
         has_play = name in posture.clearances
         if has_play and is_wide(posture, name, self.unit):
@@ -89,55 +95,77 @@ class Pen(JointAt):
             self.disc("worn", self.first, WORN * self.unit)
 
     def rail(self, below: float, side: float = 1.0) -> None:
-        """Add the ground under a slider over its travel, at a distance `below` from the line (m), hatched.
+        """Add the hatched ground under a slider over its whole travel.
 
-        With `side` −1 the ground is above.
+        `below` is its distance from the slider's line in m. With `side` −1 the ground is on the other side of the line.
         """
-        on, along, name = self.on_line, self.along, self.part.name
+        line_point, axis, name = self.on_line, self.along, self.part.name
         if name in self.posture.guides:
-            along = axes_of(self.posture, self.part)[0]
-        low, high = self.plan.travel[name]
-        more, way = (2.0 * BLOCK[0] + 0.4) * self.unit * along, side * self.plan.ways[name]
-        a, b = on + low * along - more + below * way, on + high * along + more + below * way
-        self.line("rail", [a, b])
-        for stroke in hatching(a, b, way, 0.95 * self.unit):
+            axis = axes_of(self.posture, self.part)[0]
+        min_travel, max_travel = self.plan.travel[name]
+        overhang, ground_direction = (2.0 * BLOCK[0] + 0.4) * self.unit * axis, side * self.plan.ways[name]
+        begin, end = (
+            line_point + min_travel * axis - overhang + below * ground_direction,
+            line_point + max_travel * axis + overhang + below * ground_direction,
+        )
+        self.line("rail", [begin, end])
+        for stroke in hatching(begin, end, ground_direction, 0.95 * self.unit):
             self.line("hatch", list(stroke))
 
     def guide(self) -> None:
-        """Add the guide of a block: the ground's rails, or the axis of the guiding body, which the block hides."""
+        """Add the guide of a block: rails of the ground, or the axis line of the guiding body.
+
+        Rails are on one side without play, on both sides with play. The axis line lies under the block.
+        """
         if not self.on_ground:
             self.line("axis", guide_ends(self.posture, self.plan, self.part))
             return
-        gap = gap_of(self.posture, self.part, self.unit)
-        for side in (1.0, -1.0) if gap else (1.0,):
-            self.rail(BLOCK[1] * self.unit + gap, side)
+        wall_gap = gap_of(self.posture, self.part, self.unit)
+        for sign in (1.0, -1.0) if wall_gap else (1.0,):
+            self.rail(BLOCK[1] * self.unit + wall_gap, sign)
 
     def slot(self) -> None:
         """Add the slot in the guiding body, as long as the travel."""
         self.line("slot", list(rounded(guide_ends(self.posture, self.plan, self.part), SLOT * self.unit)), True)
 
     def wheel(self, k: int, centre: Array, radius: float, is_ring: bool = False) -> None:
-        """Add a wheel of the first (0) or second (1) body: its pitch circle (m) with a spoke, or a ring with its
+        """Add a wheel of the first (0) or second (1) body: its pitch circle and a spoke that shows its rotation.
+
+        `radius` is in m. With `is_ring` the wheel has teeth inside: a rim is added outside, and the spoke lies in the
         rim.
         """
-        body, order = self.bodies[k], list(self.posture.bodies)
-        tint = order.index(body) if body in order else 0
+        body, names = self.bodies[k], list(self.posture.bodies)
+        tint = names.index(body) if body in names else 0
         if is_ring:
             self.disc("rim", centre, radius + 1.2 * self.unit, tint)
         self.disc("ring" if is_ring else "wheel", centre, radius, tint)
-        spoke, reach = self.axis_of_body(k), (radius, radius + 1.2 * self.unit) if is_ring else (0.0, radius)
-        self.line("spoke", [centre + r * spoke for r in reach], tint=tint)
+        direction, spoke_radii = self.axis_of_body(k), (radius, radius + 1.2 * self.unit) if is_ring else (0.0, radius)
+        self.line("spoke", [centre + r * direction for r in spoke_radii], tint=tint)
 
 
-def ground_wall(part: str, place: Array, into: Array, u: float, half: float = 1.5) -> Iterator[Shape]:
-    """Yield a hatched line through a point that is fixed to the ground."""
-    a, b = place - half * u * turned(into), place + half * u * turned(into)
-    yield Line(part, "rail", np.array([a, b]))
-    yield from (Line(part, "hatch", stroke) for stroke in hatching(a, b, into, 0.95 * u))
+def ground_wall(
+    part: str, position: Array, ground_direction: Array, unit: float, half_length: float = 1.5
+) -> Iterator[Shape]:
+    """Yield a hatched line through a point that is fixed to the ground.
+
+    `part` owns the shapes, `ground_direction` is a unit vector, `unit` is half a bar's width in m, `half_length` is in
+    units.
+    """
+    begin, end = (
+        position - half_length * unit * turned(ground_direction),
+        position + half_length * unit * turned(ground_direction),
+    )
+    yield Line(part, "rail", np.array([begin, end]))
+    yield from (Line(part, "hatch", stroke) for stroke in hatching(begin, end, ground_direction, 0.95 * unit))
 
 
-def _draw_stand(part: str, place: Array, direction: Array, u: float) -> Iterator[Shape]:
-    """Yield the triangle and the ground under a pin."""
-    foot, across = place + STAND * u * direction, turned(direction)
-    yield Line(part, "stand", np.array([place, foot - 1.25 * u * across, foot + 1.25 * u * across]), True)
-    yield from ground_wall(part, foot, direction, u, 1.9)
+def _draw_stand(part: str, pin: Array, direction: Array, unit: float) -> Iterator[Shape]:
+    """Yield the triangle from a pin to the ground, and the hatched ground under it.
+
+    `direction` is the unit vector from the pin to the ground, `unit` half a bar's width in m.
+    """
+    ground_point, tangent = pin + STAND * unit * direction, turned(direction)
+    yield Line(
+        part, "stand", np.array([pin, ground_point - 1.25 * unit * tangent, ground_point + 1.25 * unit * tangent]), True
+    )
+    yield from ground_wall(part, ground_point, direction, unit, 1.9)

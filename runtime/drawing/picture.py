@@ -30,17 +30,21 @@ STYLE = {"font.size": 9, "text.usetex": False, "svg.hashsalt": "gudgeon", "path.
 _LACKS = re.compile(r"Glyph (\d+) .*missing from font")
 
 
-def draw_on(ax: Axes, sketch: Sketch, faint: bool = False) -> None:
-    """Draw a sketch on axes and set their limits; `faint` in grey, as a background."""
-    seen = Counter[str]()
+def draw_on(ax: Axes, sketch: Sketch, is_background: bool = False) -> None:
+    """Draw the shapes and names of a sketch on matplotlib axes, set their limits and hide the frame.
+
+    With `is_background`, all shapes but paths are grey and lie under the others. Each patch gets an identifier of its
+    part.
+    """
+    shape_counts = Counter[str]()
     for shape in sorted(sketch.shapes, key=lambda shape: ROLES[shape.role].order):
         role = ROLES[shape.role]
-        pale = faint and not shape.role.startswith("path")
-        patch = _make_patch(shape, role, pale)
-        patch.set_zorder(role.order - (2.0 if pale else 0.0))
-        seen[shape.part] += 1
-        message = gid("", shape.part)
-        patch.set_gid(message if seen[shape.part] == 1 else f"{message}-{seen[shape.part]}")
+        is_grey = is_background and not shape.role.startswith("path")
+        patch = _make_patch(shape, role, is_grey)
+        patch.set_zorder(role.order - (2.0 if is_grey else 0.0))
+        shape_counts[shape.part] += 1
+        identifier = gid("", shape.part)
+        patch.set_gid(identifier if shape_counts[shape.part] == 1 else f"{identifier}-{shape_counts[shape.part]}")
         ax.add_artist(patch)  # limits are set below: add_patch would look for them shape by shape
     if sketch.labels:
         names = Names(sketch, 8.0 if len(sketch.labels) <= FEW else 7.0)
@@ -50,82 +54,116 @@ def draw_on(ax: Axes, sketch: Sketch, faint: bool = False) -> None:
     ax.set_axis_off()
 
 
-def _make_patch(shape: Shape, role: Role, pale: bool) -> Patch:
-    """Return the matplotlib patch of a shape; `pale` in grey."""
+def _make_patch(shape: Shape, role: Role, is_grey: bool) -> Patch:
+    """Return the matplotlib patch of a shape in the style `role`; in grey if `is_grey`."""
     edge, face = colour_of(role.edge, shape.tint), colour_of(role.face, shape.tint)
-    look: dict[str, Any] = {"ec": edge, "fc": face, "lw": role.width, "joinstyle": "round", "capstyle": "round"}
+    style: dict[str, Any] = {"ec": edge, "fc": face, "lw": role.width, "joinstyle": "round", "capstyle": "round"}
     if role.dashes:
-        look |= {"ls": (0.0, role.dashes)}
-    if pale:
-        look |= {"ec": "#bbbbbb" if edge != "none" else edge, "fc": "#f4f4f4" if face != "none" else face}
+        style |= {"ls": (0.0, role.dashes)}
+    if is_grey:
+        style |= {"ec": "#bbbbbb" if edge != "none" else edge, "fc": "#f4f4f4" if face != "none" else face}
     if isinstance(shape, Disc):
-        return Circle((float(shape.centre[0]), float(shape.centre[1])), shape.radius, **look)
+        return Circle((float(shape.centre[0]), float(shape.centre[1])), shape.radius, **style)
     if not shape.closed:
-        look["fc"] = "none"
-    return Polygon(shape.points, closed=shape.closed, **look)
+        style["fc"] = "none"
+    return Polygon(shape.points, closed=shape.closed, **style)
 
 
-def size_of(sketch: Sketch, largest: float = LARGEST) -> tuple[float, float]:
-    """Return width and height in inches that suit a sketch."""
+def size_of(sketch: Sketch, max_length: float = LARGEST) -> tuple[float, float]:
+    """Return width and height in inches that suit a sketch.
+
+    The longer side is `max_length`, but grows up to MOST so that half a bar's width is at least LEAST_UNIT.
+    """
     width, height = (float(x) for x in sketch.high - sketch.low)
-    scale = max(largest, min(MOST, LEAST_UNIT * max(width, height) / sketch.unit)) / max(width, height)
+    scale = max(max_length, min(MOST, LEAST_UNIT * max(width, height) / sketch.unit)) / max(width, height)
     return max(SMALLEST, width * scale), max(0.75 * SMALLEST, height * scale)
 
 
 def figure_of(sketches: Sequence[Sketch], titles: Sequence[str], caption: str) -> Figure:
-    """Return a figure of one sketch, or of several side by side with titles."""
-    columns = min(len(sketches), 3 if len(sketches) != 4 else 2)
-    rows = -(-len(sketches) // columns)
-    sizes = [size_of(sketch, LARGEST if columns == 1 else 5.0) for sketch in sketches]
-    width, height = max(w for w, _ in sizes), max(h for _, h in sizes)
-    lines = len(textwrap.wrap(caption, int(PER_INCH * columns * width)))
-    head, foot = 0.25 + 0.17 * lines, 0.17 * max(len(sketch.notes) for sketch in sketches) + 0.05
+    """Return a figure of one sketch, or of several in two or three columns with titles, under a caption.
+
+    The notes of each sketch are below it. All pictures have the same size in inches.
+    """
+    n_columns = min(len(sketches), 3 if len(sketches) != 4 else 2)
+    n_rows = -(-len(sketches) // n_columns)
+    picture_sizes = [size_of(sketch, LARGEST if n_columns == 1 else 5.0) for sketch in sketches]
+    width, height = max(w for w, _ in picture_sizes), max(h for _, h in picture_sizes)
+    n_lines = len(textwrap.wrap(caption, int(PER_INCH * n_columns * width)))
+    title_height, notes_height = 0.25 + 0.17 * n_lines, 0.17 * max(len(sketch.notes) for sketch in sketches) + 0.05
     with matplotlib.rc_context(STYLE):
-        pitch = width + APART * (columns > 1)
-        picture = Figure(figsize=(columns * pitch, rows * (height + head * (rows * columns > 1) + foot) + head))
-        across, down = picture.get_size_inches()
+        column_width = width + APART * (n_columns > 1)
+        figure = Figure(
+            figsize=(
+                n_columns * column_width,
+                n_rows * (height + title_height * (n_rows * n_columns > 1) + notes_height) + title_height,
+            )
+        )
+        figure_width, figure_height = figure.get_size_inches()
         for k, (sketch, title) in enumerate(zip(sketches, titles, strict=True)):
-            row, column = divmod(k, columns)
-            top = down - head - row * (height + foot + head) - head * (rows * columns > 1)
-            ax = picture.add_axes((column * pitch / across, (top - height) / down, width / across, height / down))
+            row, column = divmod(k, n_columns)
+            picture_top = (
+                figure_height
+                - title_height
+                - row * (height + notes_height + title_height)
+                - title_height * (n_rows * n_columns > 1)
+            )
+            ax = figure.add_axes(
+                (
+                    column * column_width / figure_width,
+                    (picture_top - height) / figure_height,
+                    width / figure_width,
+                    height / figure_height,
+                )
+            )
             draw_on(ax, sketch)
             if title:
                 ax.set_title(title, fontsize=9)
             note = "\n".join(sketch.notes)
-            place = ((column * pitch + 0.12) / across, (top - height - 0.02) / down)
-            picture.text(*place, note, fontsize=7.5, va="top", color="#444444", parse_math=False)
-        width = int(PER_INCH * across)
-        picture.suptitle(
-            figure_title(caption, width), x=0.1 / across, y=1.0 - 0.1 / down, ha="left", va="top", fontsize=10.5
+            position = ((column * column_width + 0.12) / figure_width, (picture_top - height - 0.02) / figure_height)
+            figure.text(*position, note, fontsize=7.5, va="top", color="#444444", parse_math=False)
+        width = int(PER_INCH * figure_width)
+        figure.suptitle(
+            figure_title(caption, width),
+            x=0.1 / figure_width,
+            y=1.0 - 0.1 / figure_height,
+            ha="left",
+            va="top",
+            fontsize=10.5,
         )
-    return picture
+    return figure
 
 
 @contextmanager
 def report_missing_glyphs() -> Iterator[None]:
-    """Report characters that the font lacks once for a picture, instead of once for each layout."""
-    with warnings.catch_warnings(record=True) as message:
+    """Replace matplotlib's warnings about characters that the font lacks by one warning within this context.
+
+    Other warnings are issued again at the end of the context.
+    """
+    with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         yield
-    lacking = dict.fromkeys(found[1] for w in message if (found := _LACKS.match(str(w.message))))
-    for w in message:
+    missing_codes = dict.fromkeys(match[1] for w in caught if (match := _LACKS.match(str(w.message))))
+    for w in caught:
         if not _LACKS.match(str(w.message)):
             warnings.warn_explicit(w.message, w.category, w.filename, w.lineno)
-    if lacking:
-        signs = "".join(chr(int(sign)) for sign in lacking)
+    if missing_codes:
+        characters = "".join(chr(int(code)) for code in missing_codes)
         hint = "matplotlib.rcParams['font.family'] names another"
-        warnings.warn(f"the font has no sign for {signs}: {hint}", stacklevel=4)
+        warnings.warn(f"the font has no sign for {characters}: {hint}", stacklevel=4)
 
 
 def as_bytes(picture: Figure, suffix: str, dpi: int = 120) -> bytes:
-    """Return an SVG, PNG or PDF without date or version, always the same bytes for the same picture."""
+    """Return a figure as the bytes of an SVG, PNG or PDF file, always the same for the same figure.
+
+    `suffix` is ".svg", ".png" or ".pdf". Date and version are left out. Raises KeyError for any other suffix.
+    """
     out = io.BytesIO()
-    kind = suffix.removeprefix(".")
+    file_format = suffix.removeprefix(".")
     metadata = {
         "svg": {"Date": None, "Creator": None},
         "png": {"Software": None},
         "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
-    }[kind]
+    }[file_format]
     with matplotlib.rc_context(STYLE), report_missing_glyphs():
-        picture.savefig(out, format=kind, metadata=metadata, dpi=dpi)
+        picture.savefig(out, format=file_format, metadata=metadata, dpi=dpi)
     return out.getvalue()

@@ -59,18 +59,22 @@ class Posture:
 
     @cached_property
     def held(self) -> Mapping[str, tuple[str, ...]]:
-        """Names of the points of each body that joints or elements use or the file names, in this order."""
-        used = [end for part in self.source.parts if _joins_points(part) for end in part.ends]
-        used += [name for name in self.points if name.partition(".")[2] not in ("origin", "com")]
-        found = dict[str, list[str]]()
-        for name in dict.fromkeys(used):
-            found.setdefault(body_of(name), []).append(name)
-        return {body: tuple(names) for body, names in found.items()}
+        """Names of the points of each body that are drawn, by body.
+
+        First the ends of joints, drives and force elements that join points, then named points of the file other than
+        origin and com. A body without such points is absent.
+        """
+        end_names = [end for part in self.source.parts if _joins_points(part) for end in part.ends]
+        end_names += [name for name in self.points if name.partition(".")[2] not in ("origin", "com")]
+        names_by_body = dict[str, list[str]]()
+        for name in dict.fromkeys(end_names):
+            names_by_body.setdefault(body_of(name), []).append(name)
+        return {body: tuple(names) for body, names in names_by_body.items()}
 
     @cached_property
     def _slots(self) -> Mapping[str, int]:
         """Index of each parameter by address."""
-        return {slot.address: k for k, slot in enumerate(self.source.slots)}
+        return {parameter.address: k for k, parameter in enumerate(self.source.slots)}
 
     @cached_property
     def clearances(self) -> Mapping[str, ClearanceInfo]:
@@ -79,22 +83,32 @@ class Posture:
 
     @cached_property
     def guides(self) -> Mapping[str, tuple[ClearanceInfo, ...]]:
-        """Corners of the sliders with play by joint."""
-        corners = [one for one in self.source.clearances if one.at_wall]
-        return {name: tuple(one for one in corners if one.joint == name) for name in self.source.guides}
+        """Contacts of the four corners of each slider with play, by the name of the joint."""
+        corners = [contact for contact in self.source.clearances if contact.at_wall]
+        return {name: tuple(contact for contact in corners if contact.joint == name) for name in self.source.guides}
 
     def play(self, joint: str) -> float:
-        """Return the radial clearance of a joint with play, or the gap on each side of a guide, m."""
-        return float(self.p[next(one.clearance for one in self.source.clearances if one.joint == joint)])
+        """Return the radial clearance of a joint with play, or the gap on each side of a guide, in m.
 
-    def slider(self, joint: ClearanceInfo) -> tuple[str, float, float, float]:
-        """Return the guide's address, half the slider's length and height, and the radius of its corners (m), for a
-        corner.
+        `joint` is the name in the file. Raises StopIteration for a joint without play.
         """
-        return slider_of(self.source, self.p, joint)
+        return float(
+            self.p[next(clearance.clearance for clearance in self.source.clearances if clearance.joint == joint)]
+        )
+
+    def slider(self, corner: ClearanceInfo) -> tuple[str, float, float, float]:
+        """Return the guide's address, half the length and half the height of a slider, and the radius of its corners,
+        all in m.
+
+        `corner` is one of the contacts in `guides`.
+        """
+        return slider_of(self.source, self.p, corner)
 
     def parts(self, section: str, *kinds: str) -> Iterator[PartInfo]:
-        """Yield the parts of a section of the file, of some kinds or of all."""
+        """Yield the joints, drives or force elements of the scene, in the order of the file.
+
+        `section` is "joints", "drives" or "forces"; `kinds` are the kinds to yield, by default all.
+        """
         for part in self.source.parts:
             if part.section == section and (not kinds or part.kind in kinds):
                 yield part
@@ -109,7 +123,10 @@ class Posture:
         return {}
 
     def place(self, point: str) -> Array:
-        """Return the position of a point in ground axes, (2,), m; the origin for the ground itself."""
+        """Return the position of a point in ground axes, (2,), in m; the origin if the scene has no point of that name.
+
+        `point` is a name such as "L1.head". The position is cached in this posture.
+        """
         if point not in self._places:
             info = self.points.get(point)
             self._places[point] = place_of(self.source, self.p, self.q, info) if info is not None else np.zeros(2)
@@ -125,7 +142,7 @@ class Posture:
         return float(self.q[self.bodies[body].index + 2]) if body in self.bodies else 0.0
 
     def omega(self, body: str) -> float:
-        """Return the angular velocity of a body, rad/s; 0 if it is not known."""
+        """Return the angular velocity of a body in rad/s; 0 for the ground and in a posture without velocities."""
         if self.v is None or body not in self.bodies:
             return 0.0
         return float(self.v[self.bodies[body].index + 2])
@@ -136,25 +153,31 @@ class Posture:
 
     def has(self, address: str) -> bool:
         """Return whether the file specifies a value at an address."""
-        return address in self._slots or any(one.address == address for one in self.source.written)
+        return address in self._slots or any(entry.address == address for entry in self.source.written)
 
     def direction(self, part: PartInfo, key: str, body: str) -> Array:
-        """Return a vector of a part, given in the axes of a body, as a unit vector in ground axes, (2,)."""
+        """Return a vector of a joint or force element as a unit vector in ground axes, (2,).
+
+        The file gives the vector under `key` in the axes of `body`. The result is (1, 0) if the vector is zero.
+        """
         x, y = (self.number(f"{part.section}.{part.name}.{key}.{axis}") for axis in "xy")
-        size, angle = float(np.hypot(x, y)), self.theta(body)
-        if not size > 0.0:
+        length, angle = float(np.hypot(x, y)), self.theta(body)
+        if not length > 0.0:
             return np.array([1.0, 0.0])
         c, s = np.cos(angle), np.sin(angle)
-        return np.array([c * x - s * y, s * x + c * y]) / size
+        return np.array([c * x - s * y, s * x + c * y]) / length
 
 
 def type_of(joint: PartInfo) -> JointType:
-    """Return the declaration of a joint's kind."""
+    """Return the declaration of a joint's kind; UNKNOWN for a kind that this version does not have."""
     return joint_types().get(joint.kind, UNKNOWN)
 
 
 def _joins_points(part: PartInfo) -> bool:
-    """Return whether the ends of a part are points rather than bodies."""
+    """Return whether a joint, drive or force element connects points; otherwise it connects bodies.
+
+    A drive or force element of an unknown kind counts as one that connects points.
+    """
     if part.section == "joints":
         return type_of(part).joins == "points"
     kinds = DRIVES if part.section == "drives" else element_types()
@@ -162,11 +185,14 @@ def _joins_points(part: PartInfo) -> bool:
 
 
 def directions(part: PartInfo) -> list[str]:
-    """Return the keys of a joint or force element that are directions: vectors without a dimension."""
+    """Return the keys of a joint's or force element's vectors without a dimension, which are directions.
+
+    A drive has none, nor has a force element of an unknown kind.
+    """
     fields = type_of(part).fields if part.section == "joints" else ()
     if part.section == "forces" and part.kind in element_types():
         fields = element_types()[part.kind].fields
-    return [own.name for own in fields if own.kind == VECTOR and own.dimension == DIMENSIONLESS]
+    return [item.name for item in fields if item.kind == VECTOR and item.dimension == DIMENSIONLESS]
 
 
 def body_of(end: str) -> str:
@@ -175,20 +201,27 @@ def body_of(end: str) -> str:
 
 
 def anchors(posture: Posture, body: str) -> dict[str, Array]:
-    """Return the points of a body's outline by name: ends of joints, drives, forces and bars, and named points.
+    """Return the positions (2,) in m of the points on a body's outline, by name.
 
-    If there are fewer than two, the centre of mass is added.
+    They are the ends of joints, drives and force elements, and the named points. If fewer than two positions differ,
+    the centre of mass is added as "BODY.com".
     """
-    found = {name: posture.place(name) for name in posture.held.get(body, ())}
-    if len(distinct(found.values())) < 2:
-        found[f"{body}.com"] = posture.centre(body)
-    return found
+    positions = {name: posture.place(name) for name in posture.held.get(body, ())}
+    if len(distinct(positions.values())) < 2:
+        positions[f"{body}.com"] = posture.centre(body)
+    return positions
 
 
-def distinct(places: object) -> list[Array]:
-    """Return the positions without repetitions, in their order."""
-    found: list[Array] = []
-    for place in places:  # type: ignore[attr-defined]
-        if all(float(np.linalg.norm(place - other)) > 1e-9 * (1.0 + float(np.linalg.norm(place))) for other in found):
-            found.append(place)
-    return found
+def distinct(positions: object) -> list[Array]:
+    """Return positions (2,) without repetitions, in their order.
+
+    Positions are equal if they differ by less than 1e-9 of 1 m plus their distance from the origin.
+    """
+    unique: list[Array] = []
+    for position in positions:  # type: ignore[attr-defined]
+        if all(
+            float(np.linalg.norm(position - earlier)) > 1e-9 * (1.0 + float(np.linalg.norm(position)))
+            for earlier in unique
+        ):
+            unique.append(position)
+    return unique

@@ -45,24 +45,31 @@ class Carrier:
     by: int = -1
 
     def frame(self, posture: Posture) -> tuple[Array, Array, float]:
-        """Return r_P (2,), A (2, 2) and s at a posture."""
-        at, q, p = posture.place(self.point) if self.point else np.zeros(2), posture.q, posture.p
+        """Return origin r_P (2,) in m, rotation matrix A (2, 2) and length s of the carrier at a posture.
+
+        The matrix is the identity if the direction that defines φ is a zero vector.
+        """
+        origin, q, p = posture.place(self.point) if self.point else np.zeros(2), posture.q, posture.p
         x, y = 1.0, 0.0
-        kind, *which = self.turn or ("",)
+        kind, *arguments = self.turn or ("",)
         if kind == "body":
-            x, y = np.cos(q[which[0]]), np.sin(q[which[0]])
+            x, y = np.cos(q[arguments[0]]), np.sin(q[arguments[0]])
         elif kind == "axis":
-            x, y = (float(p[k]) if k >= 0 else 0.0 for k in which[:2])
-            if which[2] >= 0:
-                c, s = np.cos(q[which[2]]), np.sin(q[which[2]])
+            x, y = (float(p[k]) if k >= 0 else 0.0 for k in arguments[:2])
+            if arguments[2] >= 0:
+                c, s = np.cos(q[arguments[2]]), np.sin(q[arguments[2]])
                 x, y = c * x - s * y, s * x + c * y
         elif kind == "pair":
-            x, y = posture.place(which[0]) - at
+            x, y = posture.place(arguments[0]) - origin
         elif kind == "load":
-            x, y = posture.loads.get(which[0], (0.0, 0.0))
-        size = float(np.hypot(x, y))
-        c, s = (x / size, y / size) if size > 0.0 else (1.0, 0.0)
-        return at, np.array([[c, -s], [s, c]]), 0.0 if self.by == -1 else size if self.by == -2 else float(p[self.by])
+            x, y = posture.loads.get(arguments[0], (0.0, 0.0))
+        length = float(np.hypot(x, y))
+        c, s = (x / length, y / length) if length > 0.0 else (1.0, 0.0)
+        return (
+            origin,
+            np.array([[c, -s], [s, c]]),
+            0.0 if self.by == -1 else length if self.by == -2 else float(p[self.by]),
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,16 +83,18 @@ class Carried:
     off: float = 0.0  # m: how far it is off at the worst posture that was tried
 
     def at(self, posture: Posture) -> Shape:
-        """Return the shape at a posture."""
-        places = np.empty((len(self.carriers), 2))
+        """Return the shape moved to a posture: points of a line, or centre and radius of a disc."""
+        positions = np.empty((len(self.carriers), 2))
         for carrier in dict.fromkeys(self.carriers):
-            at, turn, s = carrier.frame(posture)
-            own = [k for k, one in enumerate(self.carriers) if one == carrier]
-            places[own] = at + (self.offsets[own, :2] + s * self.offsets[own, 2:]) @ turn.T
+            origin, rotation, s = carrier.frame(posture)
+            point_indices = [k for k, other in enumerate(self.carriers) if other == carrier]
+            positions[point_indices] = (
+                origin + (self.offsets[point_indices, :2] + s * self.offsets[point_indices, 2:]) @ rotation.T
+            )
         if isinstance(self.shape, Disc):
             r0, r1, k = self.radius
-            return replace(self.shape, centre=places[0], radius=r0 + (r1 * float(posture.p[k]) if k >= 0 else 0.0))
-        return replace(self.shape, points=places)
+            return replace(self.shape, centre=positions[0], radius=r0 + (r1 * float(posture.p[k]) if k >= 0 else 0.0))
+        return replace(self.shape, points=positions)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,15 +112,17 @@ class Rig:
         """Larger side of the box, m."""
         return float((self.sketch.high - self.sketch.low).max())
 
-    def json(self, digits: float = 1e-2 * EXACT) -> dict[str, Any]:
-        """Return the data for drawing.js; numbers are integers in units of `digits` of the size, and runs of one
-        carrier are joined.
+    def json(self, resolution: float = 1e-2 * EXACT) -> dict[str, Any]:
+        """Return the data for drawing.js as a dictionary that JSON can hold.
+
+        Lengths are integers in units of `resolution` times the size of the drawing. Successive points of a shape with
+        one carrier are joined to one list.
         """
-        step = digits * self.size
+        step = resolution * self.size
         order = {
             carrier: k
             for k, carrier in enumerate(
-                dict.fromkeys([*(one for shape in self.shapes for one in shape.carriers), *self.labels])
+                dict.fromkeys([*(carrier for shape in self.shapes for carrier in shape.carriers), *self.labels])
             )
         }
         return {
@@ -120,142 +131,198 @@ class Rig:
             "high": self.sketch.high.tolist(),
             "unit": self.sketch.unit,
             "carriers": [[carrier.point, list(carrier.turn), carrier.by] for carrier in order],
-            "shapes": [_encode_shape(one, order, step) for one in self.shapes],
+            "shapes": [_encode_shape(shape, order, step) for shape in self.shapes],
             "labels": [
-                [order[carrier], *_as_integers(place, step)]
-                for carrier, place in zip(self.labels, self.places, strict=True)
+                [order[carrier], *_as_integers(offset, step)]
+                for carrier, offset in zip(self.labels, self.places, strict=True)
             ],
         }
 
 
-def _encode_shape(carried: Carried, order: dict[Carrier, int], step: float) -> list[Any]:
-    """Return a shape as [part, role, tint, closed or radius, carrier, [numbers], carrier, [numbers], …]."""
-    shape, runs, before = carried.shape, list[Any](), None
+def _encode_shape(carried: Carried, carrier_indices: dict[Carrier, int], step: float) -> list[Any]:
+    """Return a shape for JSON: [part, role, tint, closed or radius, carrier, [integers], carrier, [integers], …].
+
+    A line has 0 or 1 for closed, a disc [r₀, r₁, k]. Integers are offsets in units of `step` (m).
+    """
+    shape, encoded_points, previous_carrier = carried.shape, list[Any](), None
     for carrier, offset in zip(carried.carriers, carried.offsets, strict=True):
-        if carrier != before:
-            runs += [order[carrier], []]
-        runs[-1] += _as_integers(offset if carrier.by != -1 else offset[:2], step)
-        before = carrier
+        if carrier != previous_carrier:
+            encoded_points += [carrier_indices[carrier], []]
+        encoded_points[-1] += _as_integers(offset if carrier.by != -1 else offset[:2], step)
+        previous_carrier = carrier
     r0, r1, k = carried.radius
     closed: Any = [round(r0 / step), r1, k] if isinstance(shape, Disc) else int(shape.closed)
-    return [shape.part, shape.role, shape.tint, closed, *runs]
+    return [shape.part, shape.role, shape.tint, closed, *encoded_points]
 
 
-def _as_integers(numbers: Array, step: float) -> list[int]:
-    """Return numbers as integers in units of `step`."""
-    return [round(float(x) / step) for x in numbers]
+def _as_integers(lengths: Array, step: float) -> list[int]:
+    """Return lengths as integers in units of `step`, rounded."""
+    return [round(float(x) / step) for x in lengths]
 
 
 def make_rig(postures: Sequence[Posture], plan: Plan | None = None) -> Rig:
-    """Return the rig for the postures of a motion; the first is drawn, and insets are left out.
+    """Return the rig for the postures of a motion: the drawing of the first one, with a carrier for each point.
 
-    It has every shape of the first posture, and drives' arrows in their direction there. A point that no carrier
-    reproduces to EXACT has the nearest one, with the error `off`.
+    Insets are left out, and drives' arrows keep their direction of the first posture. A point that no carrier
+    reproduces to EXACT gets the nearest carrier; the error is stored as `off`.
     """
     plan = plan or make_plan(postures)
     postures = [replace(posture, v=postures[0].v) for posture in postures]
     box = room_of_all(postures, [plan])
-    drawn = [make_sketch(postures[0], plan, box=box, inset=False, still=False)]
-    real = list(postures[:: max(1, len(postures) // 6)][:8])
-    tried = [*real, *_vary_postures(real, float((box[1] - box[0]).max()))]
-    drawn += [make_sketch(posture, plan, box=box, inset=False, still=False) for posture in tried[1:]]
-    places = [{key: shape for key, shape in _numbered_shapes(sketch)} for sketch in drawn]
-    size, found = float((box[1] - box[0]).max()), dict[tuple[str, int], Carried]()
-    parts = dict.fromkeys(shape.part for shape in drawn[0].shapes)
+    sketches = [make_sketch(postures[0], plan, box=box, inset=False, still=False)]
+    motion_postures = list(postures[:: max(1, len(postures) // 6)][:8])
+    trial_postures = [*motion_postures, *_vary_postures(motion_postures, float((box[1] - box[0]).max()))]
+    sketches += [make_sketch(posture, plan, box=box, inset=False, still=False) for posture in trial_postures[1:]]
+    shapes_by_key = [{key: shape for key, shape in _numbered_shapes(sketch)} for sketch in sketches]
+    size, carried_by_key = float((box[1] - box[0]).max()), dict[tuple[str, int], Carried]()
+    parts = dict.fromkeys(shape.part for shape in sketches[0].shapes)
     for part in parts:
-        mine = [(key, shape) for key, shape in _numbered_shapes(drawn[0]) if shape.part == part]
-        ways = _CarrierSearch(tried, list(_candidates(tried[0], part)), EXACT * size, len(real))
-        for key, shape in mine:
-            found[key] = ways.carry(shape, [at.get(key) for at in places])
-    shapes = sorted((found[key] for key, _ in _numbered_shapes(drawn[0])), key=lambda one: ROLES[one.shape.role].order)
-    names = [_carry_label(tried, drawn, k, EXACT * size, len(real)) for k in range(len(drawn[0].labels))]
-    labels, offsets = tuple(carrier for carrier, _ in names), np.array([offset for _, offset in names])
-    return Rig(tuple(shapes), drawn[0], labels, offsets.reshape(-1, 4))
+        part_shapes = [(key, shape) for key, shape in _numbered_shapes(sketches[0]) if shape.part == part]
+        search = _CarrierSearch(
+            trial_postures, list(_candidates(trial_postures[0], part)), EXACT * size, len(motion_postures)
+        )
+        for key, shape in part_shapes:
+            carried_by_key[key] = search.carry(
+                shape, [shapes_of_posture.get(key) for shapes_of_posture in shapes_by_key]
+            )
+    shapes = sorted(
+        (carried_by_key[key] for key, _ in _numbered_shapes(sketches[0])),
+        key=lambda carried: ROLES[carried.shape.role].order,
+    )
+    label_carriers = [
+        _carry_label(trial_postures, sketches, k, EXACT * size, len(motion_postures))
+        for k in range(len(sketches[0].labels))
+    ]
+    labels, offsets = (
+        tuple(carrier for carrier, _ in label_carriers),
+        np.array([offset for _, offset in label_carriers]),
+    )
+    return Rig(tuple(shapes), sketches[0], labels, offsets.reshape(-1, 4))
 
 
 def _carry_label(
-    tried: Sequence[Posture], drawn: Sequence[Sketch], k: int, exact: float, real: int
+    postures: Sequence[Posture], sketches: Sequence[Sketch], k: int, tolerance: float, n_motion: int
 ) -> tuple[Carrier, Array]:
-    """Return carrier and offsets of a name, which moves with its part."""
-    label = drawn[0].labels[k]
-    ways = _CarrierSearch(tried, list(_candidates(tried[0], label.part)), exact, real)
-    spots = [Disc(label.part, "mark", sketch.labels[k].place, 1.0) for sketch in drawn]
-    carried = ways.carry(spots[0], list(spots))
+    """Return carrier and offsets (4,) of the k-th name, which moves with its part.
+
+    `sketches` are the drawings of `postures`, of which the first `n_motion` belong to the motion. `tolerance` is in m.
+    """
+    label = sketches[0].labels[k]
+    search = _CarrierSearch(postures, list(_candidates(postures[0], label.part)), tolerance, n_motion)
+    label_positions = [Disc(label.part, "mark", sketch.labels[k].place, 1.0) for sketch in sketches]
+    carried = search.carry(label_positions[0], list(label_positions))
     return carried.carriers[0], carried.offsets[0]
 
 
 def _numbered_shapes(sketch: Sketch) -> Iterator[tuple[tuple[str, int], Shape]]:
-    """Yield the shapes with their part and number in the part."""
+    """Yield each shape of a sketch with its key: the part and the shape's number within the part, from 0."""
     counts = dict[str, int]()
     for shape in sketch.shapes:
         counts[shape.part] = counts.get(shape.part, -1) + 1
         yield (shape.part, counts[shape.part]), shape
 
 
-def _vary_postures(real: Sequence[Posture], size: float) -> Iterator[Posture]:
-    """Yield postures with separated bodies and other lengths, which show the carrier of each shape."""
-    source, chance = real[0].source, np.random.default_rng(SEED)
-    lengths = {k for point in source.points for k in (point.x, point.y) if k >= 0}
-    lengths |= {k for k, slot in enumerate(source.slots) if slot.unit == "m" or slot.address.endswith((".x", ".y"))}
-    angle = np.zeros(len(source.coordinates), dtype=bool)
-    angle[[body.index + 2 for body in source.bodies]] = True
-    for far, share, count in TRIED:
-        for k in range(count):
-            posture, moved = real[k % len(real)], np.array(sorted(lengths), dtype=int)
+def _vary_postures(postures: Sequence[Posture], size: float) -> Iterator[Posture]:
+    """Yield additional postures with separated bodies, other lengths and other loads, by which carriers are
+    distinguished.
+
+    Positions, parameters in m and loads change at random with a fixed seed, so that the postures are always the same.
+    `size` is that of the drawing in m.
+    """
+    source, random_generator = postures[0].source, np.random.default_rng(SEED)
+    length_parameters = {i for point in source.points for i in (point.x, point.y) if i >= 0}
+    length_parameters |= {
+        i
+        for i, parameter in enumerate(source.slots)
+        if parameter.unit == "m" or parameter.address.endswith((".x", ".y"))
+    }
+    is_angle = np.zeros(len(source.coordinates), dtype=bool)
+    is_angle[[body.index + 2 for body in source.bodies]] = True
+    for position_change, length_change, count in TRIED:
+        for i in range(count):
+            posture, length_indices = postures[i % len(postures)], np.array(sorted(length_parameters), dtype=int)
             q, p = posture.q.copy(), posture.p.copy()
-            q += far * chance.uniform(-1.0, 1.0, len(q)) * np.where(angle, 2.0, size)
-            p[moved] *= 1.0 + share * chance.uniform(-1.0, 1.0, len(moved))
+            q += position_change * random_generator.uniform(-1.0, 1.0, len(q)) * np.where(is_angle, 2.0, size)
+            p[length_indices] *= 1.0 + length_change * random_generator.uniform(-1.0, 1.0, len(length_indices))
             loads = {
-                name: (x + far * chance.normal() * abs(x + y), y + far * chance.normal() * abs(x + y))
+                name: (
+                    x + position_change * random_generator.normal() * abs(x + y),
+                    y + position_change * random_generator.normal() * abs(x + y),
+                )
                 for name, (x, y) in posture.loads.items()
             }
             yield Posture(source, p, q, posture.t, posture.v, loads)
 
 
 def _candidates(posture: Posture, part: str) -> Iterator[Carrier]:
-    """Yield the possible carriers of a part's shapes, the simplest first."""
+    """Yield the possible carriers of a part's shapes, the simplest first.
+
+    `part` is a kind and a name, such as "body L1". The order is: fixed points, points with a rotation, pairs of points
+    with their distance, then carriers with a length of the file.
+    """
     source, kind = posture.source, part.partition(" ")[0]
     name = part.partition(" ")[2]
-    about = [one for one in source.parts if (name in map(body_of, one.ends) if kind == "body" else one.name == name)]
-    about = about if kind in ("body", "joint", "drive", "force", "point") else []
-    ends = list(dict.fromkeys(end for one in about for end in one.ends if kind != "body" or body_of(end) == name))
+    parts = [
+        item for item in source.parts if (name in map(body_of, item.ends) if kind == "body" else item.name == name)
+    ]
+    parts = parts if kind in ("body", "joint", "drive", "force", "point") else []
+    ends = list(dict.fromkeys(end for item in parts for end in item.ends if kind != "body" or body_of(end) == name))
     bodies = list(dict.fromkeys([body_of(end) for end in ends] + ([name] if kind == "body" else [])))
     if kind == "point":
         bodies, ends = [body_of(name)], [name]
-    held = [end for body in bodies for end in posture.held.get(body, ()) if body != GROUND]
+    outline_points = [end for body in bodies for end in posture.held.get(body, ()) if body != GROUND]
     points = [
-        name for name in dict.fromkeys([*ends, *held, *(f"{body}.com" for body in bodies)]) if name in posture.points
+        name
+        for name in dict.fromkeys([*ends, *outline_points, *(f"{body}.com" for body in bodies)])
+        if name in posture.points
     ]
     turns: list[tuple[Any, ...]] = [()]
     turns += [("body", posture.bodies[body].index + 2) for body in bodies if body in posture.bodies]
-    turns += _axis_directions(posture, about) + [("load", one.name) for one in about if one.kind == "force"]
-    place = {slot.address: k for k, slot in enumerate(source.slots)}
-    turns += [("axis", place.get("gravity.x", -1), place.get("gravity.y", -1), -1)] if kind == "gravity" else []
+    turns += _axis_directions(posture, parts) + [("load", item.name) for item in parts if item.kind == "force"]
+    parameter_indices = {parameter.address: k for k, parameter in enumerate(source.slots)}
+    turns += (
+        [("axis", parameter_indices.get("gravity.x", -1), parameter_indices.get("gravity.y", -1), -1)]
+        if kind == "gravity"
+        else []
+    )
     yield from (Carrier("", turn) for turn in turns)
     yield from (Carrier(point, turn) for turn in turns for point in points)
-    yield from (Carrier(one, ("pair", other), -2) for one, other in permutations(points, 2))
-    numbers = [
+    yield from (Carrier(item, ("pair", second), -2) for item, second in permutations(points, 2))
+    length_indices = [
         k
-        for address, k in place.items()
-        for one in about
-        if address.startswith(f"{one.section}.{one.name}.") and source.slots[k].unit == "m"
+        for address, k in parameter_indices.items()
+        for item in parts
+        if address.startswith(f"{item.section}.{item.name}.") and source.slots[k].unit == "m"
     ]
-    numbers += [one.clearance for one in source.clearances if one.at_wall and one.joint in (x.name for x in about)]
-    for k in dict.fromkeys(numbers):
+    length_indices += [
+        item.clearance
+        for item in source.clearances
+        if item.at_wall and item.joint in (item_part.name for item_part in parts)
+    ]
+    for k in dict.fromkeys(length_indices):
         yield from (Carrier(point, turn, k) for turn in turns for point in points)
-        yield from (Carrier(one, ("pair", other), k) for one, other in permutations(points, 2))
+        yield from (Carrier(item, ("pair", second), k) for item, second in permutations(points, 2))
 
 
 def _axis_directions(posture: Posture, parts: Sequence[Any]) -> list[tuple[Any, ...]]:
-    """Return the directions of the parts' axes in the frames of both of their bodies."""
-    place, found = {slot.address: k for k, slot in enumerate(posture.source.slots)}, list[tuple[Any, ...]]()
+    """Return the angles of carriers for the directions of parts' axes: ("axis", index of x, index of y, index in q).
+
+    There is one in the frame of each of the two bodies of a part. Directions whose components are all absent from the
+    parameters are left out.
+    """
+    parameter_indices, turns = (
+        {parameter.address: k for k, parameter in enumerate(posture.source.slots)},
+        list[tuple[Any, ...]](),
+    )
     for part in parts:
         for key in directions(part):
-            which = [place.get(f"{part.section}.{part.name}.{key}.{axis}", -1) for axis in "xy"]
-            if max(which) >= 0:
-                indices = [posture.bodies[b].index + 2 if b in posture.bodies else -1 for b in map(body_of, part.ends)]
-                found += [("axis", *which, index) for index in dict.fromkeys(indices)]
-    return found
+            component_indices = [parameter_indices.get(f"{part.section}.{part.name}.{key}.{axis}", -1) for axis in "xy"]
+            if max(component_indices) >= 0:
+                indices = [
+                    posture.bodies[body].index + 2 if body in posture.bodies else -1 for body in map(body_of, part.ends)
+                ]
+                turns += [("axis", *component_indices, index) for index in dict.fromkeys(indices)]
+    return turns
 
 
 class _CarrierSearch:
@@ -263,59 +330,96 @@ class _CarrierSearch:
     parameters.
     """
 
-    def __init__(self, postures: Sequence[Posture], carriers: Sequence[Carrier], exact: float, real: int) -> None:
-        """Evaluate the frames of the carriers at all postures."""
-        self.postures, self.carriers, self.exact, self.real = postures, carriers, exact, real
+    def __init__(
+        self, postures: Sequence[Posture], carriers: Sequence[Carrier], tolerance: float, n_motion: int
+    ) -> None:
+        """Evaluate the frames of the carriers at all postures; the first `n_motion` belong to the motion, `tolerance`
+        is in m.
+        """
+        self.postures, self.carriers, self.exact, self.real = postures, carriers, tolerance, n_motion
         self.frames = [[carrier.frame(posture) for posture in postures] for carrier in carriers]
 
-    def carry(self, shape: Shape, seen: Sequence[Shape | None]) -> Carried:
-        """Return the shape with the first carrier of each point that reproduces it, or the nearest one."""
-        first = _points_of(shape)
-        same = [
+    def carry(self, shape: Shape, shapes: Sequence[Shape | None]) -> Carried:
+        """Return the shape with the first carrier of each point that reproduces it within the tolerance, else the best
+        one.
+
+        `shapes` are its drawings at all postures, None where it is absent. If too few have the same number of points,
+        only the first is used.
+        """
+        points = _points_of(shape)
+        indices = [
             k
-            for k, other in enumerate(seen)
-            if other is not None and type(other) is type(shape) and len(_points_of(other)) == len(first)
+            for k, candidate in enumerate(shapes)
+            if candidate is not None and type(candidate) is type(shape) and len(_points_of(candidate)) == len(points)
         ]
-        same = same if len(same) >= FEW else list(range(1))
-        x = np.array([_points_of(seen[k]) for k in same])  # type: ignore[arg-type]
-        best, off = np.zeros(len(first), dtype=int), np.full(len(first), np.inf)
-        offsets, rank = np.zeros((len(first), 4)), np.full(len(first), np.inf)
-        for c in range(len(self.carriers)):
-            if not (rank > self.exact).any():
+        indices = indices if len(indices) >= FEW else list(range(1))
+        positions = np.array([_points_of(shapes[k]) for k in indices])  # type: ignore[arg-type]
+        best_carriers, best_errors = np.zeros(len(points), dtype=int), np.full(len(points), np.inf)
+        offsets, best_ranks = np.zeros((len(points), 4)), np.full(len(points), np.inf)
+        for index in range(len(self.carriers)):
+            if not (best_ranks > self.exact).any():
                 break
-            found, missed, worst = self._fit_carrier(c, x, same)
-            better = (rank > self.exact) & (missed < (1.0 - 1e-6) * rank)
-            best[better], rank[better], off[better] = c, missed[better], worst[better]
-            offsets[better] = found[better]
-        carriers = tuple(self.carriers[c] for c in best)
-        return Carried(shape, carriers, offsets, self._fit_radius(shape, seen), float(off.max(initial=0.0)))
+            fitted, rank, errors = self._fit_carrier(index, positions, indices)
+            is_better = (best_ranks > self.exact) & (rank < (1.0 - 1e-6) * best_ranks)
+            best_carriers[is_better], best_ranks[is_better], best_errors[is_better] = (
+                index,
+                rank[is_better],
+                errors[is_better],
+            )
+            offsets[is_better] = fitted[is_better]
+        carriers = tuple(self.carriers[index] for index in best_carriers)
+        return Carried(shape, carriers, offsets, self._fit_radius(shape, shapes), float(best_errors.max(initial=0.0)))
 
-    def _fit_carrier(self, c: int, x: Array, same: Sequence[int]) -> tuple[Array, Array, Array]:
-        """Return c₀ and c₁ (N, 4) of all points for a carrier, its rank, and its error (N,), m."""
-        frames = [self.frames[c][k] for k in same]
-        y = np.array([(here - at) @ turn for here, (at, turn, _) in zip(x, frames, strict=True)])
+    def _fit_carrier(self, index: int, positions: Array, posture_indices: Sequence[int]) -> tuple[Array, Array, Array]:
+        """Return offsets c₀, c₁ (N, 4), ranks (N,) and largest errors (N,) in m of all points for one carrier.
+
+        A rank is the error, plus 1000 times the error at postures of the motion if that exceeds the tolerance. The
+        search prefers smaller ranks. `positions` (K, N, 2) belong to `posture_indices`.
+        """
+        frames = [self.frames[index][k] for k in posture_indices]
+        local_points = np.array(
+            [
+                (points_at_posture - origin) @ rotation
+                for points_at_posture, (origin, rotation, _) in zip(positions, frames, strict=True)
+            ]
+        )
         s = np.array([s for *_, s in frames])
-        slope = np.zeros_like(y[0])
-        if self.carriers[c].by != -1 and np.ptp(s) > 0.0:
-            slope = np.tensordot(s - s.mean(), y - y.mean(axis=0), 1) / float(((s - s.mean()) ** 2).sum())
-        offset = y[0] - s[0] * slope
-        away = np.linalg.norm(y - offset - s[:, None, None] * slope, axis=2)
-        worst, real = away.max(axis=0), away[[k for k, which in enumerate(same) if which < self.real]].max(axis=0)
+        slope = np.zeros_like(local_points[0])
+        if self.carriers[index].by != -1 and np.ptp(s) > 0.0:
+            slope = np.tensordot(s - s.mean(), local_points - local_points.mean(axis=0), 1) / float(
+                ((s - s.mean()) ** 2).sum()
+            )
+        offset = local_points[0] - s[0] * slope
+        errors = np.linalg.norm(local_points - offset - s[:, None, None] * slope, axis=2)
+        max_errors, motion_errors = (
+            errors.max(axis=0),
+            errors[[k for k, posture_index in enumerate(posture_indices) if posture_index < self.real]].max(axis=0),
+        )
         # where nothing explains it at other lengths, it is right at least at the file's
-        return np.hstack([offset, slope]), np.where(real > self.exact, 1e3 * real, 0.0) + worst, worst
+        return (
+            np.hstack([offset, slope]),
+            np.where(motion_errors > self.exact, 1e3 * motion_errors, 0.0) + max_errors,
+            max_errors,
+        )
 
-    def _fit_radius(self, shape: Shape, seen: Sequence[Shape | None]) -> tuple[float, float, int]:
-        """Return r₀, r₁ and the index k of the parameter that a disc's radius depends on."""
+    def _fit_radius(self, shape: Shape, shapes: Sequence[Shape | None]) -> tuple[float, float, int]:
+        """Return r₀, r₁ and parameter index k of a disc's radius r₀ + r₁ p[k]; index −1 for a constant radius.
+
+        The constant radius is also returned if no single parameter explains all drawings. For a line the result is (0,
+        0, −1).
+        """
         if not isinstance(shape, Disc):
             return 0.0, 0.0, -1
-        radii = np.array([other.radius if isinstance(other, Disc) else shape.radius for other in seen])
+        radii = np.array(
+            [drawn_shape.radius if isinstance(drawn_shape, Disc) else shape.radius for drawn_shape in shapes]
+        )
         if np.ptp(radii) <= self.exact:
             return shape.radius, 0.0, -1
         p = np.array([posture.p for posture in self.postures])
         for k in np.flatnonzero(np.ptp(p[:, : len(self.postures[0].source.slots)], axis=0) > 0.0):
-            one = (radii[-1] - radii[0]) / (p[-1, k] - p[0, k]) if p[-1, k] != p[0, k] else 0.0
-            if np.abs(radii - radii[0] - one * (p[:, k] - p[0, k])).max() <= self.exact:
-                return float(radii[0] - one * p[0, k]), float(one), int(k)
+            slope = (radii[-1] - radii[0]) / (p[-1, k] - p[0, k]) if p[-1, k] != p[0, k] else 0.0
+            if np.abs(radii - radii[0] - slope * (p[:, k] - p[0, k])).max() <= self.exact:
+                return float(radii[0] - slope * p[0, k]), float(slope), int(k)
         return shape.radius, 0.0, -1
 
 

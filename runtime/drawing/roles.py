@@ -90,7 +90,7 @@ NAMES: Mapping[str, tuple[str, str]] = {
 }
 
 
-def colour_of(word: str, tint: int) -> str:
-    """Return a colour; for "tint" and "edge" that of a body by its number, "none" for ""."""
-    by_turns = {"tint": TINTS, "edge": EDGES}.get(word)
-    return by_turns[tint % len(by_turns)] if by_turns else word or "none"
+def colour_of(colour_name: str, tint: int) -> str:
+    """Return the CSS colour of a colour's name; for "tint" and "edge" that of the body `tint`, "none" for ""."""
+    palette = {"tint": TINTS, "edge": EDGES}.get(colour_name)
+    return palette[tint % len(palette)] if palette else colour_name or "none"

@@ -82,80 +82,112 @@ def arc(centre: Array, radius: float, begin: float, end: float, count: int = 25)
 
 
 def hull(points: Sequence[Array]) -> Array:
-    """Return the corners of the convex hull, counterclockwise (Andrew's monotone chain), from the first of the points
-    on.
-    """
-    ordered = sorted({(float(x), float(y)) for x, y in points})
-    if len(ordered) < 3:
-        return np.array(list(dict.fromkeys((float(x), float(y)) for x, y in points)))
-    size = max(abs(x) for pair in (ordered[0], ordered[-1]) for x in pair) + 1e-300
+    """Return the corners of the convex hull (N, 2), counterclockwise, by Andrew's monotone chain.
 
-    def half(these: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
-        """Return the lower or upper chain of the hull."""
+    The list begins with the first of `points` that is a corner. Fewer than three different points are returned as they
+    are.
+    """
+    sorted_points = sorted({(float(x), float(y)) for x, y in points})
+    if len(sorted_points) < 3:
+        return np.array(list(dict.fromkeys((float(x), float(y)) for x, y in points)))
+    size = max(abs(x) for point in (sorted_points[0], sorted_points[-1]) for x in point) + 1e-300
+
+    def half(points_in_order: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
+        """Return the lower or upper chain of the hull without its last point, for points sorted by x, ascending or
+        descending.
+        """
         chain: list[tuple[float, float]] = []
-        for x, y in these:
+        for x, y in points_in_order:
             while len(chain) > 1:
-                (ax, ay), (bx, by) = chain[-2:]
-                if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 1e-12 * size * size:
+                (x0, y0), (x1, y1) = chain[-2:]
+                if (x1 - x0) * (y - y0) - (y1 - y0) * (x - x0) > 1e-12 * size * size:
                     break
                 chain.pop()
             chain.append((x, y))
         return chain[:-1]
 
-    corners = [*half(ordered), *half(reversed(ordered))]
-    first = next((corners.index(at) for at in ((float(x), float(y)) for x, y in points) if at in corners), 0)
+    corners = [*half(sorted_points), *half(reversed(sorted_points))]
+    first = next(
+        (corners.index(corner) for corner in ((float(x), float(y)) for x, y in points) if corner in corners), 0
+    )
     return np.array(corners[first:] + corners[:first])
 
 
 def rounded(points: Sequence[Array], radius: float) -> Array:
-    """Return the hull of discs about the points: for two a link, for more a plate with round corners."""
+    """Return the outline (N, 2) of the convex hull of discs around points, all with one radius in m.
+
+    It is a circle for one point, a link for two, and a plate with round corners for more.
+    """
     corners = hull(points)
     if len(corners) == 1:
         return arc(corners[0], radius, 0.0, 2.0 * np.pi, 37)[:-1]
     edges = np.roll(corners, -1, axis=0) - corners
     normals = np.arctan2(-edges[:, 0], edges[:, 1])  # outwards, of the edge that leaves each corner
-    outline, count = [], 3 + round(12.0 * np.pi / len(corners))  # of each corner: the same for every shape of a plate
+    outline, n_points = (
+        [],
+        3 + round(12.0 * np.pi / len(corners)),
+    )  # of each corner: the same for every shape of a plate
     for k, corner in enumerate(corners):
-        begin = float(normals[k - 1])
-        turn = float((normals[k] - begin) % (2.0 * np.pi))
-        outline.append(arc(corner, radius, begin, begin + turn, count))
+        start_angle = float(normals[k - 1])
+        angle = float((normals[k] - start_angle) % (2.0 * np.pi))
+        outline.append(arc(corner, radius, start_angle, start_angle + angle, n_points))
     return np.concatenate(outline)
 
 
-def rectangle(centre: Array, along: Array, length: float, width: float) -> Array:
-    """Return the corners of a rectangle; `along` is a unit vector, the sizes are halves."""
-    a, b = length * along, width * turned(along)
-    return np.array([centre - a - b, centre + a - b, centre + a + b, centre - a + b])
+def rectangle(centre: Array, axis: Array, length: float, width: float) -> Array:
+    """Return the corners (4, 2) of a rectangle; `axis` is a unit vector, `length` and `width` are halves, in m."""
+    half_length_vector, half_width_vector = length * axis, width * turned(axis)
+    return np.array(
+        [
+            centre - half_length_vector - half_width_vector,
+            centre + half_length_vector - half_width_vector,
+            centre + half_length_vector + half_width_vector,
+            centre - half_length_vector + half_width_vector,
+        ]
+    )
 
 
-def hatching(a: Array, b: Array, into: Array, length: float) -> list[Array]:
-    """Return short oblique strokes from a line to the side `into`, the symbol of the ground."""
-    span = b - a
-    along = unit_vector(span)
-    reach = float(np.hypot(*span))
-    count = max(2, round(reach / (0.62 * length)))
-    lean = 0.75 * length * (into - along)
-    first = min(0.12, 0.75 * length / max(reach, 1e-300))  # as far as the first one leans
-    return [np.array([foot, foot + lean]) for foot in a + np.linspace(first, 1.0, count)[:, None] * span]
+def hatching(begin: Array, end: Array, direction: Array, length: float) -> list[Array]:
+    """Return short oblique strokes, each (2, 2), along the line from `begin` to `end`: the symbol of the ground.
+
+    They lie on the side of the unit vector `direction`. `length` (m) sets their size and spacing; there are at least
+    two.
+    """
+    span = end - begin
+    tangent = unit_vector(span)
+    line_length = float(np.hypot(*span))
+    count = max(2, round(line_length / (0.62 * length)))
+    stroke_vector = 0.75 * length * (direction - tangent)
+    first_fraction = min(0.12, 0.75 * length / max(line_length, 1e-300))  # as far as the first one leans
+    return [
+        np.array([start, start + stroke_vector])
+        for start in begin + np.linspace(first_fraction, 1.0, count)[:, None] * span
+    ]
 
 
-def zigzag(a: Array, b: Array, height: float, teeth: int = 6, ends: float = 0.2) -> Array:
-    """Return the polyline of a spring; `ends` is the fraction of straight wire at either end."""
-    across = turned(unit_vector(b - a)) * height
-    shares = np.linspace(ends, 1.0 - ends, 2 * teeth + 2)
-    sides = np.array([0.0, *([1.0, -1.0] * teeth), 0.0])
-    body = a + shares[:, None] * (b - a) + sides[:, None] * across
-    return np.vstack([a, body, b])
+def zigzag(begin: Array, end: Array, height: float, teeth: int = 6, straight_fraction: float = 0.2) -> Array:
+    """Return the polyline (N, 2) of a spring between two points.
+
+    `height` is the amplitude in m, `teeth` the number of periods, `straight_fraction` the fraction of straight wire at
+    each end.
+    """
+    amplitude_vector = turned(unit_vector(end - begin)) * height
+    fractions = np.linspace(straight_fraction, 1.0 - straight_fraction, 2 * teeth + 2)
+    offsets = np.array([0.0, *([1.0, -1.0] * teeth), 0.0])
+    zigzag_points = begin + fractions[:, None] * (end - begin) + offsets[:, None] * amplitude_vector
+    return np.vstack([begin, zigzag_points, end])
 
 
-def arrow_head(tip: Array, along: Array, size: float) -> Array:
-    """Return a slender triangle with its tip in the direction `along`."""
-    side = 0.38 * size * turned(along)
-    return np.array([tip, tip - size * along + side, tip - size * along - side])
+def arrow_head(tip: Array, direction: Array, size: float) -> Array:
+    """Return the corners (3, 2) of a slender triangle with its tip at `tip`, in the unit vector `direction`; `size` is
+    its length in m.
+    """
+    half_width_vector = 0.38 * size * turned(direction)
+    return np.array([tip, tip - size * direction + half_width_vector, tip - size * direction - half_width_vector])
 
 
 def box_of(shapes: Iterable[Shape]) -> tuple[Array, Array]:
-    """Return the low and high corner of the box of all shapes."""
+    """Return the lower left and upper right corner of the box that contains all shapes, (2,) each, in m."""
     lows, highs = [], []
     for shape in shapes:
         if isinstance(shape, Disc):

@@ -41,66 +41,82 @@ def make_sketch(
 
     With a `box` from `room_of_all` the drawing has the same box as others of a motion; names of a picture that is not
     `still` contain no values that change. `touching`: joints with play in contact, None: those that overlap; `touched`:
-    those in contact since the previous picture. `inset` False leaves insets out. `loose` bodies have no joint that
-    holds them.
+    those in contact since the previous picture. `inset` False leaves insets out. Bodies in `loose` have the colour of
+    an error.
     """
     plan = plan or make_plan([posture])
     more = [*more, *(shape for kind in arrows for shape in kind.shapes)]
-    shapes = [*bodies(posture, plan, loose), *joints(posture, plan), *draw_drives_and_forces(posture, plan), *more]
+    shapes = [
+        *bodies(posture, plan, loose),
+        *joints(posture, plan),
+        *draw_drives_and_forces(posture, plan),
+        *more,
+    ]
     low, high = box or room_of(shapes, plan)
-    names = [*labels_of_bodies(posture, plan), *labels_of_joints(posture, plan, arcs(posture))]
-    names = [*labels, *names, *labels_of_drives_and_forces(posture, plan, still)]
+    all_labels = [*labels_of_bodies(posture, plan), *labels_of_joints(posture, plan, arcs(posture))]
+    all_labels = [*labels, *all_labels, *labels_of_drives_and_forces(posture, plan, still)]
     touching = in_contact(posture) if touching is None else touching
-    notes, corner, annotations = list[str](), high.copy(), list[Shape]()
-    for own, label, note in insets(posture, plan.unit, low, high, touching, touched) if inset else ():
-        annotations += own
-        names, notes = [*names, label], [*notes, note]
-        corner = np.maximum(corner, box_of(own)[1] + 1.5 * plan.unit)
-        low = np.minimum(low, [low[0], float(box_of(own)[0][1]) - 3.0 * plan.unit])
-    for own_shapes, label in _draw_references(posture, plan, low, high, arrows):
-        annotations += own_shapes
-        names.append(label)
+    notes, upper_corner, annotations = list[str](), high.copy(), list[Shape]()
+    for inset_shapes, label, note in insets(posture, plan.unit, low, high, touching, touched) if inset else ():
+        annotations += inset_shapes
+        all_labels, notes = [*all_labels, label], [*notes, note]
+        upper_corner = np.maximum(upper_corner, box_of(inset_shapes)[1] + 1.5 * plan.unit)
+        low = np.minimum(low, [low[0], float(box_of(inset_shapes)[0][1]) - 3.0 * plan.unit])
+    for reference_shapes, label in _draw_references(posture, plan, low, high, arrows):
+        annotations += reference_shapes
+        all_labels.append(label)
     low = np.minimum(low, box_of(annotations)[0] - 0.8 * plan.unit)
-    return Sketch((*shapes, *annotations), tuple(names), low, corner, plan.unit, tuple(notes))
+    return Sketch((*shapes, *annotations), tuple(all_labels), low, upper_corner, plan.unit, tuple(notes))
 
 
 def room_of(shapes: Sequence[Shape], plan: Plan) -> tuple[Array, Array]:
     """Return the box of shapes with a margin for names."""
-    low, high = box_of(shapes)
-    return low - MARGIN * plan.unit, high + MARGIN * plan.unit
+    lower_corner, upper_corner = box_of(shapes)
+    return lower_corner - MARGIN * plan.unit, upper_corner + MARGIN * plan.unit
 
 
 def room_of_all(postures: Sequence[Posture], plans: Sequence[Plan]) -> tuple[Array, Array]:
-    """Return the box of all positions of a motion, or of several assemblies, with one plan for all or one each."""
-    each = zip(postures, plans if len(plans) > 1 else [plans[0]] * len(postures), strict=True)
-    boxes = [room_of([*bodies(x, plan), *joints(x, plan), *draw_drives_and_forces(x, plan)], plan) for x, plan in each]
+    """Return the lower and upper corner of the box that contains the drawings of several postures, in m.
+
+    `plans` is one plan for all postures, or one for each.
+    """
+    postures_and_plans = zip(postures, plans if len(plans) > 1 else [plans[0]] * len(postures), strict=True)
+    boxes = [
+        room_of([*bodies(posture, plan), *joints(posture, plan), *draw_drives_and_forces(posture, plan)], plan)
+        for posture, plan in postures_and_plans
+    ]
     return np.min([low for low, _ in boxes], axis=0), np.max([high for _, high in boxes], axis=0)
 
 
 def _draw_references(
-    posture: Posture, plan: Plan, low: Array, high: Array, arrows: Sequence[Arrows]
+    posture: Posture, plan: Plan, lower_corner: Array, upper_corner: Array, arrows: Sequence[Arrows]
 ) -> Iterator[tuple[list[Shape], Label]]:
-    """Yield shapes and label of gravity in the upper left corner, of the scale below, and of an arrow for each scale of
-    arrows.
+    """Yield shapes and label of each reference: gravity, the scale of lengths, and a reference arrow for each kind of
+    arrow.
+
+    Gravity is in the upper left corner of the box, if there is gravity. The scale is below the box, the arrows below
+    the scale.
     """
-    u = plan.unit
-    if (down := gravity_of(posture)) is not None:
-        middle = np.array([low[0] + 1.5 * u, high[1] - 2.5 * u])
-        shapes = list(arrow("gravity", "gravity", middle - 2.0 * u * down, middle + 2.0 * u * down, HEAD * u))
-        yield shapes, Label("gravity", "gravity", "g", middle, 0.6 * u, 0.0)
-    across = high - low
-    length = round_number(min(0.22 * float(across.max()), 0.6 * float(across[0])))
-    begin = np.array([low[0] + 0.5 * u, low[1] - 1.0 * u])
-    end = begin + [length, 0.0]
-    tick = np.array([0.0, 0.5 * u])
-    bar = np.array([begin + tick, begin - tick, begin, end, end + tick, end - tick])
-    yield [Line("scale", "scale", bar)], Label("scale", "scale", length_text(length), end, 0.6 * u, 0.0)
+    unit = plan.unit
+    if (gravity := gravity_of(posture)) is not None:
+        centre = np.array([lower_corner[0] + 1.5 * unit, upper_corner[1] - 2.5 * unit])
+        shapes = list(
+            arrow("gravity", "gravity", centre - 2.0 * unit * gravity, centre + 2.0 * unit * gravity, HEAD * unit)
+        )
+        yield shapes, Label("gravity", "gravity", "g", centre, 0.6 * unit, 0.0)
+    box_size = upper_corner - lower_corner
+    length = round_number(min(0.22 * float(box_size.max()), 0.6 * float(box_size[0])))
+    start = np.array([lower_corner[0] + 0.5 * unit, lower_corner[1] - 1.0 * unit])
+    end = start + [length, 0.0]
+    tick = np.array([0.0, 0.5 * unit])
+    bar = np.array([start + tick, start - tick, start, end, end + tick, end - tick])
+    yield [Line("scale", "scale", bar)], Label("scale", "scale", length_text(length), end, 0.6 * unit, 0.0)
     for k, kind in enumerate(kind for kind in arrows if kind.length > 0.0):
-        tail = begin - [0.0, 2.6 * u * (k + 1)]
+        tail = start - [0.0, 2.6 * unit * (k + 1)]
         tip = tail + [kind.length, 0.0]
         yield (
-            list(arrow(f"scale {kind.role}", kind.role, tail, tip, HEAD * u)),
-            Label(f"scale {kind.role}", "scale", f"{kind.role}{kind.on}: {kind.text}", tip, 0.6 * u, 0.0),
+            list(arrow(f"scale {kind.role}", kind.role, tail, tip, HEAD * unit)),
+            Label(f"scale {kind.role}", "scale", f"{kind.role}{kind.on}: {kind.text}", tip, 0.6 * unit, 0.0),
         )
 
 
@@ -110,21 +126,25 @@ def length_text(length: float) -> str:
 
 
 def joints(posture: Posture, plan: Plan) -> Iterator[Shape]:
-    """Yield the shapes of all joints by their symbols."""
+    """Yield the shapes of all joints, drawn by the symbols of their kinds."""
     for part in posture.parts("joints"):
         pen = Pen(posture, part, plan)
         type_of(part).symbol.draw(pen)
         yield from pen.shapes
 
 
-def labels_of_joints(posture: Posture, plan: Plan, arcs: Mapping[str, float]) -> Iterator[Label]:
-    """Yield the label of each joint, outside of the `arcs` of arrows around it: radii in units by joint."""
+def labels_of_joints(posture: Posture, plan: Plan, arrow_radii: Mapping[str, float]) -> Iterator[Label]:
+    """Yield the label of each joint, outside of the arrows around it.
+
+    `arrow_radii` are the radii in units of these arrows, by joint. The label of a joint on a rail lies beyond the
+    ground.
+    """
     for part in posture.parts("joints"):
         symbol = type_of(part).symbol
-        place = symbol.place(JointAt(posture, part))
-        clear, way = max(symbol.clear, arcs.get(part.name, 0.0)), 45.0
+        position = symbol.place(JointAt(posture, part))
+        clearance, angle = max(symbol.clear, arrow_radii.get(part.name, 0.0)), 45.0
         if has_rail(part) and part.name in plan.ways:  # beyond the ground, where nothing slides
             x, y = plan.ways[part.name]
-            clear, way = BLOCK[1] + 1.2, float(np.degrees(np.arctan2(y, x)))
-            clear += gap_of(posture, part, plan.unit) / plan.unit
-        yield Label(f"joint {part.name}", "joint", part.name, place, clear * plan.unit, way)
+            clearance, angle = BLOCK[1] + 1.2, float(np.degrees(np.arctan2(y, x)))
+            clearance += gap_of(posture, part, plan.unit) / plan.unit
+        yield Label(f"joint {part.name}", "joint", part.name, position, clearance * plan.unit, angle)

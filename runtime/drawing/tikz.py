@@ -16,24 +16,27 @@ from matplotlib.figure import Figure  # isort: skip  (labels.py says where it is
 WIDEST, HIGHEST = 6.3, 5.0  # inches on the page
 
 
-def tikz_of(sketch: Sketch, escaped: Callable[[str], str]) -> str:
-    """Return a tikzpicture; `escaped` converts a name to LaTeX without commands."""
+def tikz_of(sketch: Sketch, escape_latex: Callable[[str], str]) -> str:
+    """Return a sketch as the text of a tikzpicture with definitions of its colours.
+
+    It is at most WIDEST by HIGHEST inches. `escape_latex` converts a name to LaTeX without commands.
+    """
     width, height = size_of(sketch, WIDEST)
-    shrunk = min(1.0, WIDEST / width, HIGHEST / height)
-    width, height = width * shrunk, height * shrunk
-    picture = Figure(figsize=(width, height), dpi=72)
-    draw_on(picture.add_axes((0.0, 0.0, 1.0, 1.0)), sketch)
-    picture.draw_without_rendering()
-    to_points = picture.axes[0].transData.transform  # pixels at 72 to the inch are TeX's bp
+    shrink_factor = min(1.0, WIDEST / width, HIGHEST / height)
+    width, height = width * shrink_factor, height * shrink_factor
+    figure = Figure(figsize=(width, height), dpi=72)
+    draw_on(figure.add_axes((0.0, 0.0, 1.0, 1.0)), sketch)
+    figure.draw_without_rendering()
+    to_points = figure.axes[0].transData.transform  # pixels at 72 to the inch are TeX's bp
     colours = _Colours()
     lines = [
         _draw_path(shape, to_points, colours) for shape in sorted(sketch.shapes, key=lambda s: ROLES[s.role].order)
     ]
-    names = next((artist for artist in picture.axes[0].get_children() if isinstance(artist, Names)), None)
-    lines += list(_draw_names(names, sketch, to_points, colours, escaped)) if names is not None else []
-    box = rf"\useasboundingbox (0,0) rectangle ({72.0 * width:.1f},{72.0 * height:.1f});"
+    names = next((artist for artist in figure.axes[0].get_children() if isinstance(artist, Names)), None)
+    lines += list(_draw_names(names, sketch, to_points, colours, escape_latex)) if names is not None else []
+    bounding_box = rf"\useasboundingbox (0,0) rectangle ({72.0 * width:.1f},{72.0 * height:.1f});"
     begin = r"\begin{tikzpicture}[x=1bp, y=1bp, line join=round, line cap=round]"
-    return "\n".join((*colours.defined(), begin, box, *lines, r"\end{tikzpicture}"))
+    return "\n".join((*colours.defined(), begin, bounding_box, *lines, r"\end{tikzpicture}"))
 
 
 class _Colours:
@@ -55,20 +58,29 @@ class _Colours:
 
 
 def _draw_path(shape: Shape, to_points: Callable[[Array], Array], colours: _Colours) -> str:
-    """Return the path of a line or circle in the style of its role."""
+    """Return the TikZ command of a line or circle in the style of its role.
+
+    `to_points` converts metres to points; `colours` collects the colours that need a definition.
+    """
     role = ROLES[shape.role]
     edge, face = colour_of(role.edge, shape.tint), colour_of(role.face, shape.tint)
-    filled = face != "none" and (isinstance(shape, Disc) or shape.closed)
-    look = [f"line width={role.width:g}bp", "draw=" + colours(edge), *([f"fill={colours(face)}"] if filled else [])]
+    is_filled = face != "none" and (isinstance(shape, Disc) or shape.closed)
+    options = [
+        f"line width={role.width:g}bp",
+        "draw=" + colours(edge),
+        *([f"fill={colours(face)}"] if is_filled else []),
+    ]
     if role.dashes:
-        on_off = zip(role.dashes, ("on", "off") * len(role.dashes), strict=False)
-        look.append("dash pattern=" + " ".join(f"{word} {length * role.width:.2f}bp" for length, word in on_off))
+        dash_lengths = zip(role.dashes, ("on", "off") * len(role.dashes), strict=False)
+        options.append(
+            "dash pattern=" + " ".join(f"{state} {length * role.width:.2f}bp" for length, state in dash_lengths)
+        )
     if isinstance(shape, Disc):
         centre, rim = to_points(shape.centre), to_points(shape.centre + [shape.radius, 0.0])
-        message = f"{_coordinates(centre)} circle[radius={rim[0] - centre[0]:.2f}]"
+        path_text = f"{_coordinates(centre)} circle[radius={rim[0] - centre[0]:.2f}]"
     else:
-        message = " -- ".join([*map(_coordinates, to_points(shape.points)), *(["cycle"] if shape.closed else [])])
-    return rf"\path[{', '.join(look)}] {message};"
+        path_text = " -- ".join([*map(_coordinates, to_points(shape.points)), *(["cycle"] if shape.closed else [])])
+    return rf"\path[{', '.join(options)}] {path_text};"
 
 
 def _coordinates(point: Sequence[float] | Array) -> str:
@@ -77,18 +89,27 @@ def _coordinates(point: Sequence[float] | Array) -> str:
 
 
 def _draw_names(
-    names: Names, sketch: Sketch, to_points: Callable[[Array], Array], colours: _Colours, escaped: Callable[[str], str]
+    names: Names,
+    sketch: Sketch,
+    to_points: Callable[[Array], Array],
+    colours: _Colours,
+    escape_latex: Callable[[str], str],
 ) -> Iterator[str]:
-    """Yield the nodes of names that were placed, with a thin leader line for distant ones."""
+    """Yield the TikZ nodes of names that were placed, with a thin leader line for names far from their parts.
+
+    Names that matplotlib left out are left out here.
+    """
     for label, text in zip(sketch.labels, names.texts, strict=True):
         if label.part not in names.beside or not text.get_visible():
             continue
-        place = to_points(label.place)
-        middle = place + names.beside[label.part]
-        word, weight = NAMES[label.role]
-        colour = colours(colour_of(word, names.order.get(label.part, 0)) if word == "edge" else word)
-        if float(abs(middle - place).max()) > 2.0 * LED:
-            yield rf"\path[line width=.4bp, draw=gray] {_coordinates(place)} -- {_coordinates(middle)};"
+        position = to_points(label.place)
+        text_centre = position + names.beside[label.part]
+        colour_name, weight = NAMES[label.role]
+        colour = colours(
+            colour_of(colour_name, names.order.get(label.part, 0)) if colour_name == "edge" else colour_name
+        )
+        if float(abs(text_centre - position).max()) > 2.0 * LED:
+            yield rf"\path[line width=.4bp, draw=gray] {_coordinates(position)} -- {_coordinates(text_centre)};"
         font = r"\bfseries" if weight == "bold" else r"\itshape" if label.role == "joint" else ""
-        look = rf"inner sep=1bp, text={colour}, font=\sffamily\scriptsize{font}"
-        yield rf"\node[{look}] at {_coordinates(middle)} {{{escaped(one_line(label.text))}}};"
+        options = rf"inner sep=1bp, text={colour}, font=\sffamily\scriptsize{font}"
+        yield rf"\node[{options}] at {_coordinates(text_centre)} {{{escape_latex(one_line(label.text))}}};"

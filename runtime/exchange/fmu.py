@@ -42,42 +42,51 @@ FILE_DATE = (1980, 1, 1, 0, 0, 0)  # date of all files in the archive, so that t
 
 
 def write_fmu(simulation: Simulation, target: str | os.PathLike[str]) -> None:
-    """Write the FMU of a scene. Raises BuildError if the C does not compile, BadValueError for scenes with contours."""
+    """Write the FMU of a scene to a file.
+
+    Raises BuildError if the C does not compile, BadValueError for scenes with contours or user-defined C, OutputError
+    if writing fails.
+    """
     write_bytes(target, fmu_bytes(simulation))
 
 
 def fmu_bytes(simulation: Simulation) -> bytes:
-    """Return the FMU as the bytes of a zip archive. Without a compiler it contains the sources only.
+    """Return the FMU of a scene as the bytes of a zip archive, always the same for the same scene.
 
-    Raises as `write_fmu`.
+    Without a compiler it contains the sources only. Raises as `write_fmu`.
     """
     source = simulation.source
     if source.contours or source.cdef:
         raise BadValueError("a scene whose bearings have contours does not go into an FMU: they are no numbers of it")
     name = re.sub(r"\W", "_", f"{source.mechanism}_{source.scene}", flags=re.ASCII)
-    own = {path: text for path, text in source.files.items() if path not in (README, "lanes.c")}  # not called by an FMU
-    texts = {**own, **_engine_texts(), "fmu.h": _header_text(simulation)}
+    scene_files = {
+        path: text for path, text in source.files.items() if path not in (README, "lanes.c")
+    }  # not called by an FMU
+    sources = {**scene_files, **_engine_texts(), "fmu.h": _header_text(simulation)}
     files = {
         "modelDescription.xml": description(source, name).encode(),
         "sources/buildDescription.xml": build(name).encode(),
-        **{f"sources/{path}": text.encode() for path, text in texts.items()},
-        f"sources/{README}": _readme_text(source, name, own).encode(),
+        **{f"sources/{path}": text.encode() for path, text in sources.items()},
+        f"sources/{README}": _readme_text(source, name, scene_files).encode(),
     }
     if compiler.is_there():
         files[f"binaries/{_platform_name()}/{name}{'.dylib' if sys.platform == 'darwin' else '.so'}"] = _compile_binary(
-            texts
+            sources
         )
-    room = io.BytesIO()
-    with zipfile.ZipFile(room, "w", zipfile.ZIP_DEFLATED) as archive:
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         for path, data in files.items():
             archive.writestr(zipfile.ZipInfo(path, FILE_DATE), data, zipfile.ZIP_DEFLATED)
-    return room.getvalue()
+    return buffer.getvalue()
 
 
-def _readme_text(source: KernelSource, name: str, own: Mapping[str, str]) -> str:
-    """Return the README of the folder `sources`; own: the scene's files in it."""
+def _readme_text(source: KernelSource, name: str, scene_files: Mapping[str, str]) -> str:
+    """Return the README of the folder `sources`, with the lines of the scene's README about its files.
+
+    `scene_files` are the scene's files in the FMU, `name` is the model identifier.
+    """
     lines = [line for line in source.files.get(README, "").splitlines() if line.startswith("- `")]
-    message = [line for line in lines if line.split("`")[1] in own]
+    listed_lines = [line for line in lines if line.split("`")[1] in scene_files]
     flags = "-O1 -std=c11 -ffp-contract=off -fPIC -shared -fvisibility=hidden -I."
     return "\n".join(
         [
@@ -85,7 +94,7 @@ def _readme_text(source: KernelSource, name: str, own: Mapping[str, str]) -> str
             "",
             f"C that gudgeon wrote for the mechanism `{source.mechanism}`, scene `{source.scene}`, and its engine. SI.",
             "",
-            *message,
+            *listed_lines,
             "- `fmu.h`: numbers, start and variables of this scene, as the FMU's functions read them",
             "- `engine/fmi/fmi3.c`: these functions; the rest of `engine` are time loops, methods, contacts, events",
             "",
@@ -110,42 +119,58 @@ def _platform_name() -> str:
     return f"{machine}-{'darwin' if sys.platform == 'darwin' else 'linux'}"
 
 
-def _compile_binary(texts: Mapping[str, str]) -> bytes:
-    """Compile the sources and return the shared library, for any processor of this architecture. Raises BuildError."""
+def _compile_binary(sources: Mapping[str, str]) -> bytes:
+    """Compile the sources, by path, and return the bytes of the shared library, for any processor of this architecture.
+
+    Raises BuildError with the compiler's message.
+    """
     command = compiler.find_compiler()
     with tempfile.TemporaryDirectory(prefix="gudgeon-fmu-") as folder:
-        for path, text in texts.items():
+        for path, text in sources.items():
             file = Path(folder, path)
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_text(text, encoding="utf-8")
-        line = [*command, *compiler.flags(True, command), *compiler.link_flags(), "-fvisibility=hidden", "-I.", *UNITS]
-        done = subprocess.run(
-            [*line, "-o", "made", "-lm"], cwd=folder, env=compiler.plain(), capture_output=True, text=True
+        command_line = [
+            *command,
+            *compiler.flags(True, command),
+            *compiler.link_flags(),
+            "-fvisibility=hidden",
+            "-I.",
+            *UNITS,
+        ]
+        process = subprocess.run(
+            [*command_line, "-o", "made", "-lm"], cwd=folder, env=compiler.plain(), capture_output=True, text=True
         )
-        if done.returncode:
-            raise BuildError(f"the C compiler failed (exit status {done.returncode}):\n  {done.stderr.strip()[:2000]}")
+        if process.returncode:
+            raise BuildError(
+                f"the C compiler failed (exit status {process.returncode}):\n  {process.stderr.strip()[:2000]}"
+            )
         return Path(folder, "made").read_bytes()
 
 
 def _header_text(simulation: Simulation) -> str:
-    """Return the text of fmu.h, the tables of this scene that engine/fmi/fmi3.c reads."""
+    """Return the text of fmu.h, the tables of this scene that engine/fmi/fmi3.c reads.
+
+    They are constants, default parameters, the start, indices and outputs, and the tables of conditions. The start is
+    assembled at the file's values.
+    """
     source, compiled = simulation.source, simulation.compiled
     start = simulation.start()
     methods = {rtol: (first_method(source, rtol), stiff_method(source, rtol)) for rtol in (2.0 * FINE, 0.5 * FINE)}
-    (begins, stiff), (begins_fine, stiff_fine) = methods.values()
+    (first_method_name, stiff_method_name), (first_method_fine, stiff_method_fine) = methods.values()
     gains = [source.place[name] for name in GAINS if name in source.place]
-    sizes, plays = size_places(source), [joint.clearance for joint in source.clearances]
+    sizes, clearance_indices = size_places(source), [joint.clearance for joint in source.clearances]
     angles = [int(x) for x in integrated_angles(source)] if source.tree or source.formulation == "full" else []
-    places = [(part, column) for _, _, part, column, _ in outputs(source)]
+    output_columns = [(part, column) for _, _, part, column, _ in outputs(source)]
     defines: dict[str, object] = {
         "FMU_TOKEN": f'"{token(source)}"',
         "FMU_SLOTS": max(len(source.slots), 1),
         "FMU_NUMBERS": max(compiled.n_p, 1),
         "FMU_SLOTS_USED": len(source.slots),
-        "FMU_OUTPUTS": len(places),
+        "FMU_OUTPUTS": len(output_columns),
         "FMU_GAINS": len(gains),
         "FMU_SIZES": len(sizes),
-        "FMU_PLAYS": len(plays),
+        "FMU_PLAYS": len(clearance_indices),
         "FMU_RTOL": repr(RTOL),
         "FMU_FINE": repr(FINE),
         "FMU_FILM": int(any(joint.film for joint in source.clearances)),
@@ -153,10 +178,10 @@ def _header_text(simulation: Simulation) -> str:
         "FMU_BEYOND": int(bool(compiled.beyond)),
         "FMU_REACH": repr(REACH),
         "FMU_AUTOMATIC": int(not source.explicit),
-        "FMU_BEGINS": f'"{begins}"',
-        "FMU_STIFF": f'"{stiff}"',
-        "FMU_BEGINS_FINE": f'"{begins_fine}"',
-        "FMU_STIFF_FINE": f'"{stiff_fine}"',
+        "FMU_BEGINS": f'"{first_method_name}"',
+        "FMU_STIFF": f'"{stiff_method_name}"',
+        "FMU_BEGINS_FINE": f'"{first_method_fine}"',
+        "FMU_STIFF_FINE": f'"{stiff_method_fine}"',
         "FMU_EXCHANGE": int(not exchange_obstacle(source)),
         "FMU_CONDITIONS": len(conditions(source)),
         "FMU_JUMPS": len(jumps(source)),
@@ -165,45 +190,52 @@ def _header_text(simulation: Simulation) -> str:
     lines = ["/* What the FMU's functions must know of this scene. */", "#define FMU_AT_LEAST(n) ((n) > 0 ? (n) : 1)"]
     lines += [f"#define {name} {value}" for name, value in defines.items()]
     lines += [
-        _c_array("double", "fmu_defaults", [repr(float(slot.default)) for slot in source.slots]),
+        _c_array("double", "fmu_defaults", [repr(float(parameter.default)) for parameter in source.slots]),
         _c_array("double", "fmu_start", [repr(float(x)) for x in (*start.q, *start.v)]),
         _c_array("int", "fmu_gains", gains),
-        _c_array("int", "fmu_plays", plays),
+        _c_array("int", "fmu_plays", clearance_indices),
         _c_array("int", "fmu_sizes", [f"{{{x}, {y}}}" for x, y in sizes], "[2]"),
         _c_array("unsigned char", "fmu_is_angle", angles),
         _c_array("int", "fmu_jumps", jumps(source)),
-        _c_array("int", "fmu_outputs", [f"{{{part}, {column}}}" for part, column in places], "[2]"),
+        _c_array("int", "fmu_outputs", [f"{{{part}, {column}}}" for part, column in output_columns], "[2]"),
     ]
     return "\n".join([*lines, *_condition_tables(source)]) + "\n"
 
 
 def _condition_tables(source: KernelSource) -> list[str]:
-    """Return the C tables of parameters and of their conditions.
+    """Return the C tables of a scene's parameters, of their conditions, of the parameters in bounds, and of joints with
+    play.
 
     A condition relates a parameter to a constant plus a sum of other parameters (conditions.c).
     """
-    slots = [
-        f"{{{_c_string(slot.address)}, {_c_string(slot.unit)}, {int(slot.follows)}, {int(bool(slot.words))}}}"
-        for slot in source.slots
+    parameter_rows = [
+        f"{{{_c_string(parameter.address)}, {_c_string(parameter.unit)}, {int(parameter.follows)},"
+        f" {int(bool(parameter.words))}}}"
+        for parameter in source.slots
     ]
-    rows: list[str] = []
-    bounds: list[int] = []
-    for one in conditions(source):
-        number = 0.0 if isinstance(one.bound, str) else float(one.bound)
-        message = _c_string(f"{one.message}; expected {expected(source, one.address)}")
-        place = source.place[one.address]
-        rows.append(f'{{{place}, {len(bounds)}, {len(one.addresses)}, "{one.relation}", {number!r}, {message}}}')
-        bounds += [source.place[address] for address in one.addresses]
+    condition_rows: list[str] = []
+    bound_indices: list[int] = []
+    for condition in conditions(source):
+        constant = 0.0 if isinstance(condition.bound, str) else float(condition.bound)
+        message_literal = _c_string(f"{condition.message}; expected {expected(source, condition.address)}")
+        index = source.place[condition.address]
+        condition_rows.append(
+            f"{{{index}, {len(bound_indices)}, {len(condition.addresses)},"
+            f' "{condition.relation}", {constant!r}, {message_literal}}}'
+        )
+        bound_indices += [source.place[address] for address in condition.addresses]
     return [
         _c_array(
-            "struct { const char *address, *unit; int follows, chosen; }", "fmu_slots", slots or ['{"", "", 0, 0}']
+            "struct { const char *address, *unit; int follows, chosen; }",
+            "fmu_slots",
+            parameter_rows or ['{"", "", 0, 0}'],
         ),
         _c_array(
             "struct { int slot, first, count; const char *relation; double bound; const char *message; }",
             "fmu_conditions",
-            rows or ['{0, 0, 0, "<", 0.0, ""}'],
+            condition_rows or ['{0, 0, 0, "<", 0.0, ""}'],
         ),
-        _c_array("int", "fmu_bounds", bounds),
+        _c_array("int", "fmu_bounds", bound_indices),
         _c_array("char *const", "fmu_joints", [_c_string(joint.name) for joint in source.clearances]),
     ]
 
@@ -213,9 +245,12 @@ def _c_string(text: str) -> str:
     return json.dumps(text, ensure_ascii=False)
 
 
-def _c_array(kind: str, name: str, values: Sequence[object], more: str = "") -> str:
-    """Return a static array of C; `more`: further dimensions. An empty array gets one element that is not read."""
-    cells = [str(value) for value in values] or ["{0, 0}" if more else "0"]
-    rows = [", ".join(cells[k : k + 8]) for k in range(0, len(cells), 8)]
-    body = ",\n    ".join(rows)
-    return f"static const {kind} {name}[]{more} = {{\n    {body}}};"
+def _c_array(c_type: str, name: str, values: Sequence[object], dimensions: str = "") -> str:
+    """Return the definition of a static array of C with eight elements a line.
+
+    `dimensions` are further dimensions, such as "[2]". An empty array gets one element that is not read.
+    """
+    elements = [str(value) for value in values] or ["{0, 0}" if dimensions else "0"]
+    rows = [", ".join(elements[k : k + 8]) for k in range(0, len(elements), 8)]
+    body_text = ",\n    ".join(rows)
+    return f"static const {c_type} {name}[]{dimensions} = {{\n    {body_text}}};"

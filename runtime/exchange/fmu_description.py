@@ -53,46 +53,55 @@ UNITS = ("scene.c", "engine/engine.c", "engine/fmi/fmi3.c")  # C files that are 
 
 
 def outputs(source: KernelSource) -> Iterator[tuple[str, str, int, int, str]]:
-    """Yield name, unit, part, column and meaning of each series that is a column of an array.
+    """Yield name, unit, array, column and meaning of each series that is a column of an array.
 
-    part: index into PARTS, or -1 for the states of contacts.
+    array: index into PARTS, or -1 for the states of contacts. Series that redundancy leaves indeterminate are left out.
     """
-    open_ = {f"{name}.{last}" for name in source.indeterminate for last in ("Fx", "Fy", "M", "torque", "force")}
-    open_ |= {f"lambda.{row.name}" for row in source.rows if row.owner in source.indeterminate}
+    indeterminate_names = {
+        f"{name}.{component}" for name in source.indeterminate for component in ("Fx", "Fy", "M", "torque", "force")
+    }
+    indeterminate_names |= {f"lambda.{row.name}" for row in source.rows if row.owner in source.indeterminate}
     for name, series in catalogue(source).items():
-        if name in open_:
+        if name in indeterminate_names:
             continue
         if series.stored is not None:
-            part, column = series.stored
+            array, column = series.stored
         elif series.evaluated is not None:
-            part, index = series.evaluated
+            array, index = series.evaluated
             row, column = index if len(index) == 2 else (0, index[0])
-            column += row * WIDTHS.get(part, 0)
+            column += row * WIDTHS.get(array, 0)
         else:
             continue
-        yield name, series.unit, -1 if part == "state" else PARTS.index(part), column, series.meaning
+        yield name, series.unit, -1 if array == "state" else PARTS.index(array), column, series.meaning
 
 
 def _bound_attributes(source: KernelSource, address: str) -> str:
-    """Return the XML attributes of a parameter: its description, and constant bounds. FMI has no other conditions."""
-    message = expected(source, address)
-    found = f" description={quoteattr(f'expected {message}')}" if message else ""
-    for name, relation, best in (("min", ">=", max), ("max", "<=", min)):
-        own = [c.bound for c in conditions(source) if c.address == address and c.relation == relation]
-        numbers = [bound for bound in own if not isinstance(bound, str)]
-        found += f' {name}="{best(numbers)!r}"' if numbers else ""
-    return found
+    """Return the XML attributes of a parameter: its description, and min and max of its constant conditions.
+
+    Other conditions cannot be written in FMI; the description lists them. Returns "" without conditions.
+    """
+    condition_text = expected(source, address)
+    attributes = f" description={quoteattr(f'expected {condition_text}')}" if condition_text else ""
+    for name, relation, tightest in (("min", ">=", max), ("max", "<=", min)):
+        bounds = [
+            condition.bound
+            for condition in conditions(source)
+            if condition.address == address and condition.relation == relation
+        ]
+        constant_bounds = [bound for bound in bounds if not isinstance(bound, str)]
+        attributes += f' {name}="{tightest(constant_bounds)!r}"' if constant_bounds else ""
+    return attributes
 
 
 def parameters(source: KernelSource) -> Iterator[tuple[int, str, str, float]]:
-    """Yield index, address, unit and default of each parameter that can be set; choices by a word are left out."""
-    for k, slot in enumerate(source.slots):
-        if not slot.words:
-            yield k, slot.address, slot.unit, slot.default
+    """Yield index, address, unit and default of each parameter that an FMU can set; choices of a name are left out."""
+    for k, parameter in enumerate(source.slots):
+        if not parameter.words:
+            yield k, parameter.address, parameter.unit, parameter.default
 
 
 def exchange_obstacle(source: KernelSource) -> str:
-    """Return why a scene supports co-simulation only, or "" if an importer may integrate it too."""
+    """Return the reason why a scene supports co-simulation only, or "" if an importer may integrate it too."""
     if source.degrees_of_freedom == 0:
         return "no freedom is left: it follows its drives"
     if source.frictions or source.rigid:
@@ -107,20 +116,30 @@ def exchange_obstacle(source: KernelSource) -> str:
 
 
 def states(source: KernelSource) -> list[tuple[str, str]]:
-    """Return name and unit of each state of model exchange: coordinates, their velocities, the works."""
+    """Return (name, unit) of each state of model exchange: coordinates, their velocities, the works.
+
+    The list is empty for a scene that supports co-simulation only.
+    """
     if exchange_obstacle(source):
         return []
     names = source.tree if source.formulation == "reduced" else source.coordinates
     angles = integrated_angles(source)
-    found = [(f"state.{name}", "rad" if angle else "m") for name, angle in zip(names, angles, strict=True)]
-    found += [(f"der(state.{name})", "rad/s" if angle else "m/s") for name, angle in zip(names, angles, strict=True)]
-    return found + [(f"state.work.{kind}", "J") for kind in WORK_NAMES]
+    position_states = [
+        (f"state.{name}", "rad" if is_angle else "m") for name, is_angle in zip(names, angles, strict=True)
+    ]
+    position_states += [
+        (f"der(state.{name})", "rad/s" if is_angle else "m/s") for name, is_angle in zip(names, angles, strict=True)
+    ]
+    return position_states + [(f"state.work.{kind}", "J") for kind in WORK_NAMES]
 
 
 def token(source: KernelSource) -> str:
-    """Return the instantiation token by which a library recognizes its description."""
-    parts = [source.mechanism, source.scene, *(part for item in sorted(source.files.items()) for part in item)]
-    return "{" + sha256("\0".join(parts).encode()).hexdigest()[:32] + "}"
+    """Return the instantiation token by which a library recognizes its description.
+
+    It is a hash of mechanism, scene and generated C.
+    """
+    texts = [source.mechanism, source.scene, *(text for item in sorted(source.files.items()) for text in item)]
+    return "{" + sha256("\0".join(texts).encode()).hexdigest()[:32] + "}"
 
 
 def _rate_unit(unit: str) -> str:
@@ -134,20 +153,33 @@ def _unit_attribute(unit: str) -> str:
 
 
 def _unit_elements(names: set[str]) -> list[str]:
-    """Return XML of each unit with the exponents of kg, m, s and rad."""
-    found = []
+    """Return an XML element of each unit, with the exponents of kg, m, s and rad; without a unit "" is left out.
+
+    A unit with fractional exponents has its name only.
+    """
+    elements = []
     for name in sorted(names - {""}):
-        parsed = parse_unit(name)
-        of = parsed[0].dimension if parsed else DIMENSIONLESS
-        exponents = {"kg": of.mass, "m": of.length, "s": of.time, "rad": Fraction(name.startswith("rad"))}
-        base = "".join(f' {si}="{e}"' for si, e in exponents.items() if e)
-        whole = all(e.denominator == 1 for e in exponents.values())
-        found.append(f"    <Unit name={quoteattr(name)}>{f'<BaseUnit{base}/>' if whole else ''}</Unit>")
-    return found
+        parsed_unit = parse_unit(name)
+        dimension = parsed_unit[0].dimension if parsed_unit else DIMENSIONLESS
+        exponents = {
+            "kg": dimension.mass,
+            "m": dimension.length,
+            "s": dimension.time,
+            "rad": Fraction(name.startswith("rad")),
+        }
+        base_attributes = "".join(f' {si_unit}="{exponent}"' for si_unit, exponent in exponents.items() if exponent)
+        is_integral = all(exponent.denominator == 1 for exponent in exponents.values())
+        elements.append(
+            f"    <Unit name={quoteattr(name)}>{f'<BaseUnit{base_attributes}/>' if is_integral else ''}</Unit>"
+        )
+    return elements
 
 
 def _variable_elements(source: KernelSource) -> Iterator[str]:
-    """Yield XML of each variable: time, tolerance, parameters, outputs, states with their rates, event indicators."""
+    """Yield the XML element of each variable, with its value reference.
+
+    The order is time, tolerance, parameters, outputs, states with their rates, event indicators.
+    """
     yield (
         f'    <Float64 name="time" valueReference="{VR_TIME}" causality="independent" variability="continuous"'
         ' unit="s"/>'
@@ -175,52 +207,66 @@ def _variable_elements(source: KernelSource) -> Iterator[str]:
         yield _local_variable(name, VR_INDICATORS + k, unit)
 
 
-def _local_variable(name: str, reference: int, unit: str, more: str = "") -> str:
-    """Return XML of a local variable; more: further attributes."""
+def _local_variable(name: str, reference: int, unit: str, attributes: str = "") -> str:
+    """Return the XML element of a local variable; `attributes` are further XML attributes."""
     return (
         f'    <Float64 name={quoteattr(name)} valueReference="{reference}" causality="local" variability="continuous"'
-        f' initial="calculated"{more}{_unit_attribute(unit)}/>'
+        f' initial="calculated"{attributes}{_unit_attribute(unit)}/>'
     )
 
 
 def jumps(source: KernelSource) -> list[int]:
-    """Return the indices of switching points whose branches may differ in value there.
+    """Return the indices of switching points at which a value may jump, because the branches may differ there.
 
-    The branches of contact laws meet at their switching points.
+    They are read from the header of the scene. Branches of contact laws meet, so that they are left out. Empty for
+    co-simulation only.
     """
     if exchange_obstacle(source):
         return []
-    meets = re.findall(r" meets\[\] = \{(.*?)\}", source.files[HEADER], re.DOTALL)[0].split(",")
-    return [k for k in range(sizes(source)["N_SWITCHES"]) if int(meets[k]) == 0]
+    meets_flags = re.findall(r" meets\[\] = \{(.*?)\}", source.files[HEADER], re.DOTALL)[0].split(",")
+    return [k for k in range(sizes(source)["N_SWITCHES"]) if int(meets_flags[k]) == 0]
 
 
 def indicators(source: KernelSource) -> list[tuple[str, str]]:
-    """Return name and unit of each event indicator: penetrations, then switching functions."""
+    """Return (name, unit) of each event indicator: penetrations of joints with play, then switching functions.
+
+    The list is empty for a scene that supports co-simulation only.
+    """
     if exchange_obstacle(source):
         return []
-    corners = [(f"corner {k + 1}", "") for k in range(len(jumps(source)))]
-    return [(f"{joint.name}.indicator", "m") for joint in source.clearances] + corners
+    switching_functions = [(f"corner {k + 1}", "") for k in range(len(jumps(source)))]
+    return [(f"{joint.name}.indicator", "m") for joint in source.clearances] + switching_functions
 
 
 def _structure_elements(source: KernelSource) -> Iterator[str]:
-    """Yield XML of the model structure: outputs, derivatives, initial unknowns, event indicators."""
-    message, integrated = len(list(outputs(source))), len(states(source))
-    rates = range(VR_RATES, VR_RATES + integrated)
-    found = {"Output": range(VR_OUTPUTS, VR_OUTPUTS + message), "ContinuousStateDerivative": rates}
-    for kind, places in found.items():
-        yield from (f'    <{kind} valueReference="{place}"/>' for place in places)
-    for places in (found["Output"], range(VR_STATES, VR_STATES + integrated), found["ContinuousStateDerivative"]):
-        yield from (f'    <InitialUnknown valueReference="{place}"/>' for place in places)
+    """Yield the XML elements of the model structure: outputs, derivatives, initial unknowns, event indicators."""
+    n_outputs, n_states = len(list(outputs(source))), len(states(source))
+    rate_references = range(VR_RATES, VR_RATES + n_states)
+    references_by_kind = {
+        "Output": range(VR_OUTPUTS, VR_OUTPUTS + n_outputs),
+        "ContinuousStateDerivative": rate_references,
+    }
+    for kind, references in references_by_kind.items():
+        yield from (f'    <{kind} valueReference="{reference}"/>' for reference in references)
+    for references in (
+        references_by_kind["Output"],
+        range(VR_STATES, VR_STATES + n_states),
+        references_by_kind["ContinuousStateDerivative"],
+    ):
+        yield from (f'    <InitialUnknown valueReference="{reference}"/>' for reference in references)
     yield from (f'    <EventIndicator valueReference="{VR_INDICATORS + k}"/>' for k in range(len(indicators(source))))
 
 
 def description(source: KernelSource, name: str) -> str:
-    """Return the text of modelDescription.xml; name: the model identifier."""
-    integrated = {unit for _, unit in states(source)}
+    """Return the text of modelDescription.xml; `name` is the model identifier.
+
+    Model exchange is left out for a scene that supports co-simulation only.
+    """
+    state_units = {unit for _, unit in states(source)}
     units = {unit for _, unit, *_ in outputs(source)} | {unit for _, _, unit, _ in parameters(source)} | {"s"}
-    units |= integrated | {_rate_unit(unit) for unit in integrated}
+    units |= state_units | {_rate_unit(unit) for unit in state_units}
     title = quoteattr(source.title or source.mechanism)
-    slopes = ' providesDirectionalDerivatives="true"'
+    derivative_attribute = ' providesDirectionalDerivatives="true"'
     return "\n".join(
         [
             '<?xml version="1.0" encoding="UTF-8"?>',
@@ -229,9 +275,9 @@ def description(source: KernelSource, name: str) -> str:
             *(
                 [
                     f'  <ModelExchange modelIdentifier="{name}" needsCompletedIntegratorStep="true"',
-                    f'    canGetAndSetFMUState="true" canSerializeFMUState="true"{slopes}/>',
+                    f'    canGetAndSetFMUState="true" canSerializeFMUState="true"{derivative_attribute}/>',
                 ]
-                if integrated
+                if state_units
                 else []
             ),
             f'  <CoSimulation modelIdentifier="{name}" canHandleVariableCommunicationStepSize="true"',
@@ -253,7 +299,7 @@ def description(source: KernelSource, name: str) -> str:
 
 
 def build(name: str) -> str:
-    """Return the text of sources/buildDescription.xml; name: the model identifier."""
+    """Return the text of sources/buildDescription.xml, which lists the C files; `name` is the model identifier."""
     return "\n".join(
         [
             '<?xml version="1.0" encoding="UTF-8"?>',

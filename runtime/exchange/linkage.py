@@ -26,10 +26,13 @@ class Body:
     com: Point | None = None
 
     def placed(self, first: str, second: str, distance: float, angle: float) -> Point:
-        """Return the position at `distance` from the first point, at `angle` (rad) from the direction to the second."""
-        (x, y), (u, v) = self.local[first], self.local[second]
-        along = math.atan2(v - y, u - x) + angle
-        return x + distance * math.cos(along), y + distance * math.sin(along)
+        """Return the position at `distance` from the first point, at `angle` (rad) from the direction to the second.
+
+        Both points are of this body; positions are in its own frame.
+        """
+        (x_first, y_first), (x_second, y_second) = self.local[first], self.local[second]
+        direction = math.atan2(y_second - y_first, x_second - x_first) + angle
+        return x_first + distance * math.cos(direction), y_first + distance * math.sin(direction)
 
 
 @dataclass
@@ -75,30 +78,36 @@ class Linkage:
     holders: dict[str, list[Body]] = field(default_factory=dict)  # bodies of each point; written by `add` and `hold`
 
     def add(self, body: Body) -> Body:
-        """Add a body. Raises InputError if it has fewer than two points, or if the first two coincide."""
+        """Add a body, and return it.
+
+        Raises InputError if it has fewer than two points, or if the first two coincide.
+        """
         if len(body.local) < 2:
             raise InputError(f"link {body.name}: it holds {len(body.local)} joints, expected two at least")
-        (x, y), (u, v) = list(body.local.values())[:2]
-        if not math.hypot(u - x, v - y) > 0.0:
+        (x_first, y_first), (x_second, y_second) = list(body.local.values())[:2]
+        if not math.hypot(x_second - x_first, y_second - y_first) > 0.0:
             raise InputError(f"link {body.name}: its first two joints are at one place")
         self.bodies.append(body)
         for point in body.local:
             self.holders.setdefault(point, []).append(body)
         return body
 
-    def hold(self, body: Body, point: str, place: Point) -> None:
-        """Add a point to a body, at `place` in the body's frame."""
+    def hold(self, body: Body, point: str, position: Point) -> None:
+        """Add a point to a body at a position in the body's frame; a point that it has is moved."""
         if point not in body.local:
             self.holders.setdefault(point, []).append(body)
-        body.local[point] = place
+        body.local[point] = position
 
     def holding(self, *points: str) -> Body | None:
         """Return the first body that contains all of these points, or None."""
-        fewest = min((self.holders.get(point, []) for point in points), key=len)
-        return next((body for body in fewest if all(point in body.local for point in points)), None)
+        candidates = min((self.holders.get(point, []) for point in points), key=len)
+        return next((body for body in candidates if all(point in body.local for point in points)), None)
 
     def bar(self, first: str, second: str, length: float) -> Body | None:
-        """Return the body that contains both points, or add a bar; None if both are points of the ground."""
+        """Return the first body that contains both points, or else add a bar of this length and return it.
+
+        Returns None if both are points of the ground.
+        """
         if first in self.ground and second in self.ground:
             return None
         if body := self.holding(first, second):

@@ -32,24 +32,27 @@ class _Names:
         self.kinds, self.found = kinds, dict[Hashable, str]()
         self.used, self.tried = set[str](), dict[str, int]()
 
-    def of(self, key: Hashable, wish: str) -> str:
-        """Return the name of a thing, as similar to `wish` as the format allows; the same key gives the same name."""
+    def of(self, key: Hashable, suggestion: str) -> str:
+        """Return a unique valid name for a thing, as similar to `suggestion` as the format allows.
+
+        The same key gives the same name. Names are shortened, and a number is added to a used one.
+        """
         if key not in self.found:
-            latin = unicodedata.normalize("NFKD", wish[: 10 * MAX_WISH]).encode("ascii", "ignore").decode()
-            plain = re.sub(r"[\W_]+", "_", latin)[:MAX_WISH].strip("_")
-            if not self._is_legal(plain):
-                plain = f"x_{plain}".rstrip("_")
-            free, k = plain, self.tried.get(plain, 1)
-            while free in self.used or not self._is_legal(free):
-                k += 1
-                free = f"{plain}_{k}"
-            self.tried[plain] = k
-            self.used.add(free)
-            self.found[key] = free
+            ascii_name = unicodedata.normalize("NFKD", suggestion[: 10 * MAX_WISH]).encode("ascii", "ignore").decode()
+            valid_name = re.sub(r"[\W_]+", "_", ascii_name)[:MAX_WISH].strip("_")
+            if not self._is_legal(valid_name):
+                valid_name = f"x_{valid_name}".rstrip("_")
+            unused_name, number = valid_name, self.tried.get(valid_name, 1)
+            while unused_name in self.used or not self._is_legal(unused_name):
+                number += 1
+                unused_name = f"{valid_name}_{number}"
+            self.tried[valid_name] = number
+            self.used.add(unused_name)
+            self.found[key] = unused_name
         return self.found[key]
 
     def _is_legal(self, name: str) -> bool:
-        """Return whether the format allows the name."""
+        """Return whether the format allows the name for all kinds of this set."""
         try:
             for kind in self.kinds:
                 check_name(name, kind, None)
@@ -65,7 +68,7 @@ class _Writer:
         """Reserve the names of all bodies and drives."""
         self.linkage, self.unit = linkage, linkage.unit
         self.points, self.names = _Names("point"), _Names(*KINDS)
-        self.shapes = {id(body): _bar_axes(body) for body in linkage.bodies}
+        self.shapes = {id(body): _convert_to_bar_axes(body) for body in linkage.bodies}
         for body in linkage.bodies:
             self.named(body)
         self.rates = [self.names.of(("rate", k), "omega") for k in range(len(linkage.drives))]
@@ -83,90 +86,96 @@ class _Writer:
         return f"{_number(x)} {self.unit}"
 
     def place(self, body: Body, point: str) -> str:
-        """Return how a joint refers to a point of a body: "rod.head"."""
-        ends = dict(zip(islice(body.local, 2), ENDS, strict=True))
-        return f"{self.named(body)}.{ends[point] if point in ends else self.point(point)}"
+        """Return how a joint refers to a point of a body: "rod.head"; the first two points are tail and head."""
+        names_of_ends = dict(zip(islice(body.local, 2), ENDS, strict=True))
+        return f"{self.named(body)}.{names_of_ends[point] if point in names_of_ends else self.point(point)}"
 
     def body(self, body: Body) -> str:
-        """Return the line of a body: length, mass, inertia, centre of mass, points."""
+        """Return the line of a body: length, mass, inertia, centre of mass, points.
+
+        Without a mass it is a bar of LINE_MASS. A moment of inertia that is not known is that of a slender bar.
+        """
         length, points, com = self.shapes[id(body)]
         mass = body.mass if body.mass is not None else LINE_MASS * length * _unit_in_metres(self.unit)
         inertia = body.inertia
         if inertia is None and com is not None:  # "auto" is that of a bar whose centre of mass is in its middle
             inertia = mass * (length * _unit_in_metres(self.unit)) ** 2 / 12.0
-        inertias = "auto" if inertia is None else f"{_number(inertia)} kg*m^2"
-        parts = [f"length: {self.length(length)}", f"mass: {_number(mass)} kg", f"inertia: {inertias}"]
+        inertia_text = "auto" if inertia is None else f"{_number(inertia)} kg*m^2"
+        entries = [f"length: {self.length(length)}", f"mass: {_number(mass)} kg", f"inertia: {inertia_text}"]
         if com is not None:
-            parts.append(f"com: [{self.length(com[0])}, {self.length(com[1])}]")
+            entries.append(f"com: [{self.length(com[0])}, {self.length(com[1])}]")
         if points:
-            own = (f"{self.point(p)}: [{self.length(x)}, {self.length(y)}]" for p, (x, y) in points.items())
-            parts.append(f"points: {{{', '.join(own)}}}")
-        return f"  {self.named(body)}: {{{', '.join(parts)}}}"
+            point_entries = (f"{self.point(p)}: [{self.length(x)}, {self.length(y)}]" for p, (x, y) in points.items())
+            entries.append(f"points: {{{', '.join(point_entries)}}}")
+        return f"  {self.named(body)}: {{{', '.join(entries)}}}"
 
     def joints(self) -> list[str]:
         """Return the lines of all joints.
 
         A revolute joint connects the first body of a point, or the ground, with every other body of the point. Points
-        on lines become `point_on_line` joints.
+        on lines become `point_on_line` joints. Raises InputError for a line without direction or body.
         """
         lines = []
         for point in self.linkage.points():
             holders = [self.place(body, point) for body in self.linkage.holders.get(point, [])]
             if point in self.linkage.ground:
                 holders.insert(0, f"ground.{self.point(point)}")
-            for k, other in enumerate(holders[1:]):
-                name = self.names.of(("joint", point, k), point if k == 0 else f"{point}_{k + 1}")
-                lines.append(f"  {name}: {{revolute: [{holders[0]}, {other}]}}")
-        for k, line in enumerate(self.linkage.lines):
+            for index, other_end in enumerate(holders[1:]):
+                name = self.names.of(("joint", point, index), point if index == 0 else f"{point}_{index + 1}")
+                lines.append(f"  {name}: {{revolute: [{holders[0]}, {other_end}]}}")
+        for index, line in enumerate(self.linkage.lines):
             body, carrier = self.linkage.holding(line.point), line.body
             if body is None:
                 raise InputError(f"joint {line.point}: it keeps to a line, and no link holds it")
-            on = self.place(carrier, line.through) if carrier else f"ground.{self.point(line.through)}"
-            x, y = _turn_direction(carrier, line.direction) if carrier else line.direction
-            size = math.hypot(x, y)
-            if not size > 0.0:
+            line_point = self.place(carrier, line.through) if carrier else f"ground.{self.point(line.through)}"
+            x, y = _convert_direction(carrier, line.direction) if carrier else line.direction
+            length = math.hypot(x, y)
+            if not length > 0.0:
                 raise InputError(f"joint {line.point}: the line to which it keeps has no direction")
-            direction = f"[{_number(x / size)}, {_number(y / size)}]"
-            points = f"[{self.place(body, line.point)}, {on}]"
-            name = self.names.of(("line", k), f"{line.point}_slot")
+            direction = f"[{_number(x / length)}, {_number(y / length)}]"
+            points = f"[{self.place(body, line.point)}, {line_point}]"
+            name = self.names.of(("line", index), f"{line.point}_slot")
             lines.append(f"  {name}: {{point_on_line: {points}, direction: {direction}}}")
         return lines
 
     def angle(self, body: Body | None) -> float | None:
-        """Return the initial angle of a bar in rad; 0 for the ground, None if a position is unknown."""
+        """Return the initial angle of a bar in rad; 0 for the ground (None), None if a position is unknown."""
         if body is None:
             return 0.0
         ends = [self.linkage.positions.get(point) for point in islice(body.local, 2)]
         if None in ends:
             return None
-        (x, y), (u, v) = ends  # type: ignore[misc]
-        return math.atan2(v - y, u - x)
+        (x_tail, y_tail), (x_head, y_head) = ends  # type: ignore[misc]
+        return math.atan2(y_head - y_tail, x_head - x_tail)
 
     def text(self) -> str:
-        """Return the whole file."""
+        """Return the whole text of the mechanism file.
+
+        Comments at its head list what was assumed: masses, units and the notes of the linkage.
+        """
         linkage = self.linkage
         notes = list(dict.fromkeys(linkage.notes))
         if any(body.mass is None for body in linkage.bodies):
             notes.append(f"masses are not in it: bars of {LINE_MASS:g} kg/m stand for them")
         if not linkage.measured:
             notes.append("it has no units: lengths are taken for metres")
-        message = "".join(f"# {note[0].upper()}{note[1:]}.\n" for note in map(_comment_text, notes))
+        comments = "".join(f"# {note[0].upper()}{note[1:]}.\n" for note in map(_comment_text, notes))
         name = _Names("mechanism").of("", linkage.name)
-        out = [HEAD.format(title=_comment_text(linkage.name), notes=message, name=name)]
+        texts = [HEAD.format(title=_comment_text(linkage.name), notes=comments, name=name)]
         if linkage.gravity is not None:
-            out.append(f"gravity: [{_number(linkage.gravity[0])}, {_number(linkage.gravity[1])} m/s^2]\n")
+            texts.append(f"gravity: [{_number(linkage.gravity[0])}, {_number(linkage.gravity[1])} m/s^2]\n")
         if linkage.drives:
-            driven = zip(self.rates, linkage.drives, strict=True)
-            rates = (f"  {name}: {_number(drive.rate)} 1/s" for name, drive in driven)
-            out += ["\nparameters:\n", *(f"{line}\n" for line in rates)]
-        out += ["\nbodies:\n", *(f"{self.body(body)}\n" for body in linkage.bodies)]
+            names_and_drives = zip(self.rates, linkage.drives, strict=True)
+            rates = (f"  {name}: {_number(drive.rate)} 1/s" for name, drive in names_and_drives)
+            texts += ["\nparameters:\n", *(f"{line}\n" for line in rates)]
+        texts += ["\nbodies:\n", *(f"{self.body(body)}\n" for body in linkage.bodies)]
         joints = self.joints()
         if ground := self._ground():
-            places = (f"{self.point(p)}: [{self.length(x)}, {self.length(y)}]" for p, (x, y) in ground)
-            out += [f"\nground: {{{', '.join(places)}}}\n"]
+            point_entries = (f"{self.point(point)}: [{self.length(x)}, {self.length(y)}]" for point, (x, y) in ground)
+            texts += [f"\nground: {{{', '.join(point_entries)}}}\n"]
         if joints:
-            out += ["\njoints:\n", *(f"{line}\n" for line in joints)]
-        return "".join([*out, *self._motion()])
+            texts += ["\njoints:\n", *(f"{line}\n" for line in joints)]
+        return "".join([*texts, *self._motion()])
 
     def _ground(self) -> list[tuple[str, Point]]:
         """Return the points of the ground that bodies or lines use."""
@@ -174,39 +183,45 @@ class _Writer:
         return [(p, place) for p, place in self.linkage.ground.items() if p in used]
 
     def _motion(self) -> list[str]:
-        """Return the lines of the drives, which begin at the initial angles, and the guesses of the other angles."""
-        out, driven = [], set[int]()
+        """Return the lines of the drives, which begin at the initial angles, and the guesses of the other bodies'
+        angles.
+        """
+        lines, driven_ids = [], set[int]()
         for k, (rate, drive) in enumerate(zip(self.rates, self.linkage.drives, strict=True)):
-            name, other = self.named(drive.body), drive.relative_to
-            target = f"[{name}, {self.named(other)}]" if other else name
-            if not other:
-                driven.add(id(drive.body))
+            name, other_body = self.named(drive.body), drive.relative_to
+            target = f"[{name}, {self.named(other_body)}]" if other_body else name
+            if not other_body:
+                driven_ids.add(id(drive.body))
             motor = self.names.of(("drive", k), f"{name}_motor")
-            out.append(f"  {motor}: {{angle: {target}, value: {self._value(drive, rate)}}}\n")
-        out = ["\ndrives:\n", *out] if out else []
+            lines.append(f"  {motor}: {{angle: {target}, value: {self._value(drive, rate)}}}\n")
+        lines = ["\ndrives:\n", *lines] if lines else []
         guesses = [
             f"{self.named(body)}.theta: {_number(math.degrees(angle))} deg"
             for body in self.linkage.bodies
-            if id(body) not in driven and (angle := self.angle(body)) is not None
+            if id(body) not in driven_ids and (angle := self.angle(body)) is not None
         ]
-        return [*out, *([f"\nstart:\n  guess: {{{', '.join(guesses)}}}\n"] if guesses else [])]
+        return [*lines, *([f"\nstart:\n  guess: {{{', '.join(guesses)}}}\n"] if guesses else [])]
 
     def _value(self, drive: Drive, rate: str) -> str:
-        """Return the expression of a drive: a constant rate, or a triangle wave between the ends of an arc."""
+        """Return the expression of a drive: a constant rate, or a triangle wave between the ends of an arc.
+
+        `rate` is the name of the parameter. The start angle is moved into the arc by whole turns; raises InputError if
+        it lies outside.
+        """
         ends = self.angle(drive.body), self.angle(drive.relative_to)
-        first = 0.0 if None in ends else ends[0] - ends[1]  # type: ignore[operator]
+        start_angle = 0.0 if None in ends else ends[0] - ends[1]  # type: ignore[operator]
         if drive.arc is None:
-            return f"{_number(math.degrees(first))} deg + {rate} * t"
+            return f"{_number(math.degrees(start_angle))} deg + {rate} * t"
         low, high = drive.arc
-        turns = math.ceil((low - first) / math.tau - 1e-9)
-        first = max(first + turns * math.tau, low)
-        if first > high + 1e-9:
+        n_turns = math.ceil((low - start_angle) / math.tau - 1e-9)
+        start_angle = max(start_angle + n_turns * math.tau, low)
+        if start_angle > high + 1e-9:
             raise InputError(
-                f"link {drive.body.name}: at {math.degrees(first):g}° it lies outside its arc from"
+                f"link {drive.body.name}: at {math.degrees(start_angle):g}° it lies outside its arc from"
                 f" {math.degrees(low):g}° to {math.degrees(high):g}°"
             )
-        to, width, over = (_number(math.degrees(x)) for x in (high, high - low, first - low))
-        return f"{to} deg - abs(mod({over} deg + {rate} * t, 2 * {width} deg) - {width} deg)"
+        high_text, width_text, offset_text = (_number(math.degrees(x)) for x in (high, high - low, start_angle - low))
+        return f"{high_text} deg - abs(mod({offset_text} deg + {rate} * t, 2 * {width_text} deg) - {width_text} deg)"
 
 
 def mechanism_text(linkage: Linkage) -> str:
@@ -216,26 +231,33 @@ def mechanism_text(linkage: Linkage) -> str:
     return _Writer(linkage).text()
 
 
-def _bar_axes(body: Body) -> tuple[float, dict[str, Point], Point | None]:
-    """Return the length of the bar between the first two points, the other points and the centre of mass in its
-    axes."""
-    (x, y), (u, v) = list(body.local.values())[:2]
-    length = math.hypot(u - x, v - y)
+def _convert_to_bar_axes(body: Body) -> tuple[float, dict[str, Point], Point | None]:
+    """Return length, other points and centre of mass of a body in the axes of the bar between its first two points.
 
-    def in_bar_axes(at: Point) -> Point:
+    The centre of mass is None if the body has none.
+    """
+    (x_tail, y_tail), (x_head, y_head) = list(body.local.values())[:2]
+    length = math.hypot(x_head - x_tail, y_head - y_tail)
+
+    def convert_to_bar_axes(position: Point) -> Point:
         """Return a position of the body's frame in the axes of the bar."""
-        dx, dy = at[0] - x, at[1] - y
-        along, across = dx * (u - x) + dy * (v - y), dy * (u - x) - dx * (v - y)
-        return along / length, across / length
+        dx, dy = position[0] - x_tail, position[1] - y_tail
+        longitudinal, transverse = (
+            dx * (x_head - x_tail) + dy * (y_head - y_tail),
+            dy * (x_head - x_tail) - dx * (y_head - y_tail),
+        )
+        return longitudinal / length, transverse / length
 
-    others = {name: in_bar_axes(at) for name, at in list(body.local.items())[2:]}
-    return length, others, None if body.com is None else in_bar_axes(body.com)
+    other_points = {name: convert_to_bar_axes(at) for name, at in list(body.local.items())[2:]}
+    return length, other_points, None if body.com is None else convert_to_bar_axes(body.com)
 
 
-def _turn_direction(body: Body, direction: Point) -> Point:
+def _convert_direction(body: Body, direction: Point) -> Point:
     """Return a direction of the body's frame in the axes of the bar, multiplied by its length."""
-    (x, y), (u, v) = list(body.local.values())[:2]
-    return direction[0] * (u - x) + direction[1] * (v - y), direction[1] * (u - x) - direction[0] * (v - y)
+    (x_tail, y_tail), (x_head, y_head) = list(body.local.values())[:2]
+    return direction[0] * (x_head - x_tail) + direction[1] * (y_head - y_tail), direction[1] * (
+        x_head - x_tail
+    ) - direction[0] * (y_head - y_tail)
 
 
 def _unit_in_metres(unit: str) -> float:

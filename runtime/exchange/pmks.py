@@ -48,14 +48,14 @@ class Joints:
 
 
 def address_in(text: str) -> str | None:
-    """Return the text after the question mark of the first link of PMKS+ in a text; None if there is none."""
-    for word in text.split():
-        start = word.find("://")
-        host = word.find("pmks", start)
-        mark = word.find("?", host)
-        if start > 0 and host > 0 and mark > 0:
-            query = word[mark + 1 :]
-            end = min((at for at in map(query.find, "<>()[]\"'`") if at >= 0), default=len(query))
+    """Return the decoded text after the question mark of the first link of PMKS+ in a text; None if there is none."""
+    for link in text.split():
+        start = link.find("://")
+        host = link.find("pmks", start)
+        question_mark = link.find("?", host)
+        if start > 0 and host > 0 and question_mark > 0:
+            query = link[question_mark + 1 :]
+            end = min((position for position in map(query.find, "<>()[]\"'`") if position >= 0), default=len(query))
             return unquote(query[:end])
     return None
 
@@ -63,23 +63,26 @@ def address_in(text: str) -> str | None:
 def read_pmks(address: str, name: str = "pmks") -> Linkage:
     """Return the linkage of a link of PMKS+; address: the text after the question mark.
 
-    Inches become metres, since gudgeon has no inches. Raises InputError for text that PMKS+ does not write.
+    Inches become metres, since gudgeon has no inches. Assumptions are among the notes. Raises InputError for text that
+    PMKS+ does not write.
     """
-    parts = address.split(".")
-    if len(parts) < 5:
+    sections = address.split(".")
+    if len(sections) < 5:
         raise InputError("the link of PMKS+ has too few parts", hint="copy the whole link that Share gives")
-    flags, _, whole, units = parts[:4]
-    scale, unit = LENGTHS[min(_decode_digits(units[:1] or "1"), len(LENGTHS) - 1)]
-    linkage, found = Linkage(name, unit, measured=True), Joints()
-    joints, links, forces = _split_sections(parts[4:])
+    flags, _, integer_settings, unit_settings = sections[:4]
+    scale, unit = LENGTHS[min(_decode_digits(unit_settings[:1] or "1"), len(LENGTHS) - 1)]
+    linkage, special_joints = Linkage(name, unit, measured=True), Joints()
+    joints, links, forces = _split_sections(sections[4:])
     for joint in joints:
-        _read_joint(linkage, joint, found, scale)
-    settings = _decode_digits(flags)
-    rate = _decode_integer(whole.partition(",")[0]) * math.pi / 30.0 * (-1.0 if settings & CLOCKWISE else 1.0)
-    _read_links(linkage, links, found, scale)
-    drive_inputs(linkage, found, rate)
+        _read_joint(linkage, joint, special_joints, scale)
+    flag_bits = _decode_digits(flags)
+    rate = (
+        _decode_integer(integer_settings.partition(",")[0]) * math.pi / 30.0 * (-1.0 if flag_bits & CLOCKWISE else 1.0)
+    )
+    _read_links(linkage, links, special_joints, scale)
+    drive_inputs(linkage, special_joints, rate)
     linkage.notes.append("its masses are taken for kg, moments of inertia for kg m^2")
-    if settings & GRAVITY:
+    if flag_bits & GRAVITY:
         linkage.gravity = 0.0, -9.81
     if any("," in force for force in forces):
         linkage.notes.append("forces of the file are left out")
@@ -87,7 +90,7 @@ def read_pmks(address: str, name: str = "pmks") -> Linkage:
 
 
 def _split_sections(parts: Sequence[str]) -> tuple[list[str], list[str], list[str]]:
-    """Return the parts of joints, of links and of forces; an empty part ends each section.
+    """Return the parts of joints, of links and of forces, three lists; an empty part ends each section.
 
     Names by id, which old links have, are skipped. Raises InputError for a truncated link.
     """
@@ -100,8 +103,11 @@ def _split_sections(parts: Sequence[str]) -> tuple[list[str], list[str], list[st
     if not sections[0]:  # no names by id, or no joints
         del sections[0]
     elif len(sections) > 1:
-        first, held = sections[0][0].split(","), {cell for link in sections[1] for cell in link.split(",")}
-        if len(first) % 2 == 0 and first[0][1:] not in held:
+        first_cells, cells_of_links = (
+            sections[0][0].split(","),
+            {cell for link in sections[1] for cell in link.split(",")},
+        )
+        if len(first_cells) % 2 == 0 and first_cells[0][1:] not in cells_of_links:
             del sections[0][0]
     if len(sections) < 3 or not sections[0]:
         raise InputError(
@@ -111,21 +117,27 @@ def _split_sections(parts: Sequence[str]) -> tuple[list[str], list[str], list[st
 
 
 def _decode_digits(text: str) -> int:
-    """Return the value of digits to the base 64, such as flags with one bit each. Raises InputError."""
-    total = 0
+    """Return the value of digits to the base 64, such as flags with one bit each; 0 for no digits.
+
+    Raises InputError for any other character.
+    """
+    value = 0
     for digit in text:
         if digit not in DIGITS:
             raise InputError(f"{digit!r} is no digit of PMKS+", hint="copy the whole link that Share gives")
-        total = 64 * total + DIGITS[digit]
-    return total
+        value = 64 * value + DIGITS[digit]
+    return value
 
 
 def _decode_integer(text: str) -> int:
-    """Return a whole number with its sign. Raises InputError for too many digits."""
+    """Return a whole number to the base 64; a leading 0 makes it negative.
+
+    Raises InputError for too many digits.
+    """
     if len(text) > MAX_DIGITS:
         raise InputError(f"{text[:MAX_DIGITS]}… has {len(text)} digits, expected at most {MAX_DIGITS}")
-    total = _decode_digits(text)
-    return -total if len(text) > 1 and text[0] == "0" else total
+    value = _decode_digits(text)
+    return -value if len(text) > 1 and text[0] == "0" else value
 
 
 def _decode_decimal(text: str) -> float:
@@ -133,8 +145,12 @@ def _decode_decimal(text: str) -> float:
     return _decode_integer(text) / 1000.0
 
 
-def _read_joint(linkage: Linkage, text: str, found: Joints, scale: float) -> None:
-    """Read the part of a joint: flags and id, name (not in old links), x, y, direction (rad) of a slider."""
+def _read_joint(linkage: Linkage, text: str, joints: Joints, scale: float) -> None:
+    """Read the part of a joint and add it to the linkage; a slider or an input is also added to `joints`.
+
+    Its cells: flags and id, name (not in old links), x, y, direction (rad) of a slider. `scale` converts positions.
+    Raises InputError.
+    """
     cells = text.split(",")
     if len(cells) == 4:
         cells.insert(1, "")
@@ -147,18 +163,21 @@ def _read_joint(linkage: Linkage, text: str, found: Joints, scale: float) -> Non
         raise InputError(f"joint {name}: {error.message}", hint=error.hint) from error
     place_joint(linkage, name, (scale * x, scale * y), bool(flags & GROUNDED))
     if flags & PRISMATIC:
-        found.sliders[name] = angle
+        joints.sliders[name] = angle
     if flags & INPUT:
-        found.inputs.append(name)
+        joints.inputs.append(name)
 
 
-def place_joint(linkage: Linkage, name: str, place: Point, grounded: bool) -> None:
-    """Add a joint at a position, to the ground too if `grounded`. Raises InputError if the name is used."""
+def place_joint(linkage: Linkage, name: str, position: Point, is_grounded: bool) -> None:
+    """Add a joint at a position, to the ground too if `is_grounded`.
+
+    Raises InputError if the name is used.
+    """
     if name in linkage.positions:
         raise InputError(f"two joints are called {name}")
-    linkage.positions[name] = place
-    if grounded:
-        linkage.ground[name] = place
+    linkage.positions[name] = position
+    if is_grounded:
+        linkage.ground[name] = position
 
 
 @dataclass
@@ -176,23 +195,23 @@ class _Link:
 
 
 def _read_link(text: str) -> _Link:
-    """Read the part of a link.
+    """Return the values of a link from its part of the address.
 
     Its cells: whether it is a root, kind, id, name (not in old links), mass, moment of inertia, centre of mass, colour,
     joints, an empty cell, the links that are welded to form it. Raises InputError.
     """
     cells = text.split(",")
-    colour = next((k for k in (5, 6) if len(cells) > k and _is_colour(cells[k])), 6)
-    head, numbers, rest = cells[0], cells[colour - 4 : colour], cells[colour + 1 :]
-    if len(head) < 3 or len(numbers) < 4 or "" not in rest:
+    colour_index = next((k for k in (5, 6) if len(cells) > k and _is_colour(cells[k])), 6)
+    first_cell, number_cells, other_cells = cells[0], cells[colour_index - 4 : colour_index], cells[colour_index + 1 :]
+    if len(first_cell) < 3 or len(number_cells) < 4 or "" not in other_cells:
         raise InputError(f"{text[:60]!r} is no link of PMKS+")
     try:
-        mass, inertia, x, y = map(_decode_decimal, numbers)
+        mass, inertia, x, y = map(_decode_decimal, number_cells)
     except InputError as error:
-        raise InputError(f"link {head[2:]}: {error.message}", hint=error.hint) from error
-    end = rest.index("")
-    joints, parts = list(dict.fromkeys(rest[:end])), [part for part in rest[end:] if part]
-    return _Link(head[0] == ROOT, head[1], head[2:], mass, inertia, (x, y), joints, parts)
+        raise InputError(f"link {first_cell[2:]}: {error.message}", hint=error.hint) from error
+    empty_index = other_cells.index("")
+    joints, parts = list(dict.fromkeys(other_cells[:empty_index])), [part for part in other_cells[empty_index:] if part]
+    return _Link(first_cell[0] == ROOT, first_cell[1], first_cell[2:], mass, inertia, (x, y), joints, parts)
 
 
 def _is_colour(text: str) -> bool:
@@ -200,8 +219,11 @@ def _is_colour(text: str) -> bool:
     return len(text) in (3, 6) and all(digit in "0123456789abcdefABCDEF" for digit in text)
 
 
-def _read_links(linkage: Linkage, texts: Sequence[str], found: Joints, scale: float) -> None:
-    """Read the parts of all links and add their bodies and pistons."""
+def _read_links(linkage: Linkage, texts: Sequence[str], driven_joints: Joints, scale: float) -> None:
+    """Read the parts of all links and add the bodies and pistons of the root links.
+
+    A link without mass gets that of its welded parts. Raises InputError.
+    """
     links = [_read_link(text) for text in texts]
     by_name = {link.name: link for link in links}
     roots = [link for link in links if link.is_root]
@@ -211,92 +233,106 @@ def _read_links(linkage: Linkage, texts: Sequence[str], found: Joints, scale: fl
     for link in roots:
         refuse_unknown(linkage, link.name, link.joints)
         if link.kind == PISTON:
-            _add_piston(linkage, link, found)
+            _add_piston(linkage, link, driven_joints)
             continue
         if link.parts and not link.mass:
-            _weld(link, [by_name[part] for part in link.parts if part in by_name])
+            _combine_welded_parts(link, [by_name[part] for part in link.parts if part in by_name])
         com = scale * link.com[0], scale * link.com[1]
-        add_link(linkage, link.name, link.joints, link.mass, link.inertia, com, found)
+        add_link(linkage, link.name, link.joints, link.mass, link.inertia, com, driven_joints)
 
 
 def refuse_unknown(linkage: Linkage, name: str, joints: Sequence[str]) -> None:
-    """Raise InputError for a link with joints that do not exist."""
+    """Raise InputError for the first joint of a link that the linkage does not have."""
     for joint in joints:
         if joint not in linkage.positions:
             raise InputError(f"link {name}: no joint is called {joint}")
 
 
 def add_link(
-    linkage: Linkage, name: str, joints: Sequence[str], mass: float, inertia: float, com: Point, found: Joints
+    linkage: Linkage, name: str, joints: Sequence[str], mass: float, inertia: float, com: Point, special_joints: Joints
 ) -> None:
-    """Add a body at the positions of its joints. A mass or moment of inertia of 0 counts as not specified."""
-    for what, value in (("mass", mass), ("moment of inertia", inertia)):
+    """Add a body at the positions of its joints, driven joints first.
+
+    A mass or moment of inertia of 0 counts as not specified; then a note is added. Raises InputError for negative or
+    huge values.
+    """
+    for quantity, value in (("mass", mass), ("moment of inertia", inertia)):
         if not 0.0 <= value <= MAX_NUMBER:
-            raise InputError(f"link {name}: its {what} is {value:g}, expected a number above 0")
-    joints = sorted(joints, key=lambda joint: joint not in found.inputs)
-    places = {joint: linkage.positions[joint] for joint in joints}
-    linkage.add(Body(name, places, mass or None, inertia or None, com if mass else None))
+            raise InputError(f"link {name}: its {quantity} is {value:g}, expected a number above 0")
+    joints = sorted(joints, key=lambda joint: joint not in special_joints.inputs)
+    positions = {joint: linkage.positions[joint] for joint in joints}
+    linkage.add(Body(name, positions, mass or None, inertia or None, com if mass else None))
     if mass and not inertia:
         linkage.notes.append("moments of inertia that are not in it are those of slender bars")
 
 
-def _weld(link: _Link, parts: Sequence[_Link]) -> None:
-    """Set mass, centre of mass and moment of inertia of a link to those of its welded parts."""
+def _combine_welded_parts(link: _Link, parts: Sequence[_Link]) -> None:
+    """Set mass, centre of mass and moment of inertia of a link to those of its welded parts.
+
+    Nothing changes if the parts have no mass; the moment of inertia only if all parts have one.
+    """
     link.mass = sum(part.mass for part in parts)
     if not link.mass:
         return
     x, y = (sum(part.mass * part.com[k] for part in parts) / link.mass for k in (0, 1))
     link.com = x, y
     if all(part.inertia for part in parts):
-        squares = (part.mass * ((part.com[0] - x) ** 2 + (part.com[1] - y) ** 2) for part in parts)
-        link.inertia = sum(part.inertia for part in parts) + sum(squares)
+        parallel_axis_terms = (part.mass * ((part.com[0] - x) ** 2 + (part.com[1] - y) ** 2) for part in parts)
+        link.inertia = sum(part.inertia for part in parts) + sum(parallel_axis_terms)
 
 
-def drive_inputs(linkage: Linkage, found: Joints, rate: float) -> None:
+def drive_inputs(linkage: Linkage, special_joints: Joints, rate: float) -> None:
     """Add a drive for each driven joint: links against the ground, or two links against each other.
 
-    rate: rad/s. Raises InputError for other inputs.
+    `rate` is in rad/s. Raises InputError for driven sliders, other joints, and a link that two inputs drive.
     """
-    for joint in found.inputs:
-        bodies, grounded = linkage.holders.get(joint, []), joint in linkage.ground
-        if joint in found.sliders:
+    for joint in special_joints.inputs:
+        bodies, is_grounded = linkage.holders.get(joint, []), joint in linkage.ground
+        if joint in special_joints.sliders:
             raise InputError(f"joint {joint}: a slider that is driven is not read", hint="leave the input out of it")
-        if grounded and bodies:
+        if is_grounded and bodies:
             drives = [Drive(body, rate) for body in bodies]
-        elif not grounded and len(bodies) == 2:
+        elif not is_grounded and len(bodies) == 2:
             drives = [Drive(bodies[1], rate, bodies[0])]
             linkage.notes.append(f"the input at {joint} turns {bodies[1].name} relative to {bodies[0].name}")
         else:
-            joined = "no link" if not bodies else "one link" if len(bodies) == 1 else f"{len(bodies)} links"
+            joined_text = "no link" if not bodies else "one link" if len(bodies) == 1 else f"{len(bodies)} links"
             raise InputError(
-                f"joint {joint}: it is an input and joins {joined}, expected two links, or links and the ground",
+                f"joint {joint}: it is an input and joins {joined_text}, expected two links, or links and the ground",
                 hint="make it an input where two links meet, or at the ground",
             )
         for drive in drives:
-            if any(drive.body is one.body and drive.relative_to is one.relative_to for one in linkage.drives):
+            if any(
+                drive.body is existing.body and drive.relative_to is existing.relative_to for existing in linkage.drives
+            ):
                 raise InputError(f"link {drive.body.name}: two inputs drive it", hint="keep one of them")
         linkage.drives += drives
 
 
-def _add_piston(linkage: Linkage, link: _Link, found: Joints) -> None:
-    """Add the line of a piston's pin through its slider, which must be fixed to the ground. Raises InputError."""
-    ways = [joint for joint in link.joints if joint in found.sliders]
-    pins = [joint for joint in link.joints if joint not in found.sliders]
-    if len(ways) != 1 or len(pins) != 1:
+def _add_piston(linkage: Linkage, link: _Link, special_joints: Joints) -> None:
+    """Add the line of a piston's pin through its slider.
+
+    Raises InputError unless the piston has one slider, fixed to the ground and not driven, and one pin.
+    """
+    sliders = [joint for joint in link.joints if joint in special_joints.sliders]
+    pins = [joint for joint in link.joints if joint not in special_joints.sliders]
+    if len(sliders) != 1 or len(pins) != 1:
         raise InputError(f"piston {link.name}: expected a slider and a pin")
-    way, pin = ways[0], pins[0]
-    if way in found.inputs:
+    slider, pin = sliders[0], pins[0]
+    if slider in special_joints.inputs:
         raise InputError(f"piston {link.name}: a slider that is driven is not read", hint="leave the input out of it")
-    if way not in linkage.ground:
+    if slider not in linkage.ground:
         raise InputError(f"piston {link.name}: a slider on a link that moves is not read", hint="ground the slider")
-    linkage.lines.append(Line(pin, way, None, (math.cos(found.sliders[way]), math.sin(found.sliders[way]))))
+    linkage.lines.append(
+        Line(pin, slider, None, (math.cos(special_joints.sliders[slider]), math.sin(special_joints.sliders[slider])))
+    )
     linkage.notes.append(f"the mass of piston {link.name} is left out: its pin runs in a slot")
 
 
 def read_old_pmks(address: str, name: str = "pmks") -> Linkage:
     """Return the linkage of a link from before April 2023; address: the text after the question mark.
 
-    Raises InputError for text that such links do not contain.
+    Raises InputError, with a hint how to share the linkage anew, for text that such links do not contain.
     """
     try:
         return _read_old_link(address, name)
@@ -305,15 +341,18 @@ def read_old_pmks(address: str, name: str = "pmks") -> Linkage:
 
 
 def _read_old_link(address: str, name: str) -> Linkage:
-    """Read a link from before April 2023."""
+    """Return the linkage of a link from before April 2023: settings, joints, links, and the drives of its inputs.
+
+    Raises InputError for text that such links do not contain.
+    """
     parts = dict(part.split("=", 1) for part in address.split("&") if "=" in part)
     settings = [cell.strip() for cell in parts.get("s", "").split(",")]
     if len(settings) < 4 or settings[3].lower() not in UNITS:
         raise InputError(f"its settings are {parts.get('s', '')!r}, expected a speed, a direction, gravity and a unit")
     scale, unit = UNITS[settings[3].lower()]
-    linkage, found = Linkage(name, unit, measured=True), Joints()
+    linkage, old_joints = Linkage(name, unit, measured=True), Joints()
     for line in filter(str.strip, parts.get("j", "").splitlines()):
-        _read_old_joint(linkage, line.strip(), found, scale)
+        _read_old_joint(linkage, line.strip(), old_joints, scale)
     for line in filter(str.strip, parts.get("l", "").splitlines()):
         cells = line.strip().split(",")
         if len(cells) < 6:
@@ -321,9 +360,9 @@ def _read_old_link(address: str, name: str) -> Linkage:
         mass, inertia, x, y = (_read_number(cells[k], f"link {cells[0]}") for k in (1, 2, 3, 4))
         joints = list(dict.fromkeys(filter(None, cells[5].split("|"))))
         refuse_unknown(linkage, cells[0], joints)
-        add_link(linkage, cells[0], joints, mass, inertia, (scale * x, scale * y), found)
+        add_link(linkage, cells[0], joints, mass, inertia, (scale * x, scale * y), old_joints)
     rate = _read_number(settings[0], "the speed") * math.pi / 30.0
-    drive_inputs(linkage, found, -rate if settings[1] == "true" else rate)
+    drive_inputs(linkage, old_joints, -rate if settings[1] == "true" else rate)
     linkage.notes.append("its masses are taken for kg, moments of inertia for kg m^2")
     if settings[2] == "true":
         linkage.gravity = 0.0, -9.81
@@ -332,36 +371,39 @@ def _read_old_link(address: str, name: str) -> Linkage:
     return linkage
 
 
-def _read_old_joint(linkage: Linkage, line: str, found: Joints, scale: float) -> None:
-    """Read the line of a joint.
+def _read_old_joint(linkage: Linkage, line: str, joints: Joints, scale: float) -> None:
+    """Read the line of a joint and add it to the linkage; a driven one is also added to `joints`.
 
     Its cells: id, x, y, links, kind, whether it is grounded, angle, friction, whether it is driven. From 2022 on: id,
-    x, y, links, kind and whether it is grounded in one cell, whether it is driven.
+    x, y, links, kind and whether it is grounded in one cell, whether it is driven. Raises InputError.
     """
     cells = line.rstrip(",").split(",")
     name = cells[0]
     if len(cells) == 6 and len(cells[4]) == 2:
-        kind, grounded, driven = cells[4][0], cells[4][1], cells[5]
+        kind, grounded_flag, driven_flag = cells[4][0], cells[4][1], cells[5]
     elif len(cells) >= 9:
-        kind, grounded, driven = cells[4], cells[5], cells[8]
+        kind, grounded_flag, driven_flag = cells[4], cells[5], cells[8]
     else:
         raise InputError(f"{line[:60]!r} is no joint of PMKS+")
     if kind != "R":
         raise InputError(f"joint {name}: a slider of such a link is not read", hint=REMEDY)
-    if grounded not in ("t", "f") or driven not in ("t", "f"):
+    if grounded_flag not in ("t", "f") or driven_flag not in ("t", "f"):
         raise InputError(f"joint {name}: expected t or f for whether it is grounded and driven")
     x, y = (_read_number(cells[k], f"joint {name}") for k in (1, 2))
-    place_joint(linkage, name, (scale * x, scale * y), grounded == "t")
-    if driven == "t":
-        found.inputs.append(name)
+    place_joint(linkage, name, (scale * x, scale * y), grounded_flag == "t")
+    if driven_flag == "t":
+        joints.inputs.append(name)
 
 
-def _read_number(text: str, whose: str) -> float:
-    """Return a number of a text. Raises InputError, whose message begins with `whose`."""
+def _read_number(text: str, owner: str) -> float:
+    """Return a decimal number of a text as float, without underscores and at most MAX_NUMBER.
+
+    Raises InputError, whose message begins with `owner`.
+    """
     try:
         value = float(text) if "_" not in text else math.nan
     except ValueError:
         value = math.nan
     if not abs(value) <= MAX_NUMBER:
-        raise InputError(f"{whose}: {text[:40]!r} is no number of a linkage")
+        raise InputError(f"{owner}: {text[:40]!r} is no number of a linkage")
     return value

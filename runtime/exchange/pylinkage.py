@@ -23,7 +23,10 @@ Entry = Mapping[str, Any]
 
 
 def read_pylinkage(data: Any) -> Linkage:
-    """Return the linkage of parsed JSON. Raises InputError for data that pylinkage does not write."""
+    """Return the linkage of parsed JSON, either a Linkage or a Mechanism of pylinkage.
+
+    The types of the joints decide which. Raises InputError for data that pylinkage does not write.
+    """
     joints = data.get("joints") if isinstance(data, dict) else None
     if not isinstance(joints, list) or not joints or not all(isinstance(joint, dict) for joint in joints):
         raise InputError("no joints in it", hint="save a Linkage or a Mechanism of pylinkage as JSON")
@@ -35,11 +38,16 @@ def read_pylinkage(data: Any) -> Linkage:
     return linkage
 
 
-def _name(entry: Entry, key: str, what: str) -> str:
-    """Return the name of an entry, by its key. Raises InputError if it has none."""
+def _read_name(entry: Entry, key: str, description: str) -> str:
+    """Return the name under a key of an entry, a text or a number, as text.
+
+    `description` names the entry in the error. Raises InputError if there is no name.
+    """
     name = entry.get(key)
     if isinstance(name, bool) or not isinstance(name, (str, int)) or name == "":
-        raise InputError(f"a {what} of type {entry.get('type')!r}: {key} is {_short_text(name)}, expected a name")
+        raise InputError(
+            f"a {description} of type {entry.get('type')!r}: {key} is {_short_text(name)}, expected a name"
+        )
     return str(name)
 
 
@@ -48,51 +56,67 @@ def _short_text(value: Any) -> str:
     return repr(value)[:40] if not isinstance(value, int) or abs(value) < MAX_NUMBER else "a number above 1e12"
 
 
-def _number(entry: Entry, key: str, whose: str) -> float:
-    """Return a number of an entry. Raises InputError if it is missing or out of range."""
+def _read_number(entry: Entry, key: str, owner: str) -> float:
+    """Return a number of an entry as float; `owner` names the entry in the error.
+
+    Raises InputError if it is missing, not a number or above MAX_NUMBER.
+    """
     value = entry.get(key)
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= MAX_NUMBER:
-        raise InputError(f"{whose}: {key} is {_short_text(value)}, expected a number up to {MAX_NUMBER:g}")
+        raise InputError(f"{owner}: {key} is {_short_text(value)}, expected a number up to {MAX_NUMBER:g}")
     return float(value)
 
 
-def _length(entry: Entry, key: str, whose: str) -> float:
-    """Return a positive number of an entry. Raises InputError."""
-    value = _number(entry, key, whose)
+def _read_length(entry: Entry, key: str, owner: str) -> float:
+    """Return a positive number of an entry; `owner` names the entry in the error.
+
+    Raises InputError if it is missing or not positive.
+    """
+    value = _read_number(entry, key, owner)
     if not value > 0.0:
-        raise InputError(f"{whose}: {key} is {value:g}, expected a length above 0")
+        raise InputError(f"{owner}: {key} is {value:g}, expected a length above 0")
     return value
 
 
-def _pair(value: Any, key: str, whose: str) -> Point | None:
-    """Return two numbers, or None if the list or one of them is null. Raises InputError."""
+def _read_pair(value: Any, key: str, owner: str) -> Point | None:
+    """Return a list of two numbers as a point, or None if the list or one of its numbers is null.
+
+    Raises InputError for anything else; `key` and `owner` are used in the error.
+    """
     if value is None:
         return None
     if not isinstance(value, list) or len(value) != 2:
-        raise InputError(f"{whose}: {key} is {_short_text(value)}, expected two numbers")
+        raise InputError(f"{owner}: {key} is {_short_text(value)}, expected two numbers")
     if None in value:
         return None
-    x, y = (_number({key: part}, key, whose) for part in value)
+    x, y = (_read_number({key: component}, key, owner) for component in value)
     return x, y
 
 
 def _read_joints(linkage: Linkage, joints: Sequence[Entry]) -> None:
-    """Read a Linkage: add its joints in an order in which the parents of each come before it. Raises InputError."""
+    """Read a Linkage: add its joints in an order in which the parents of each come before it.
+
+    Raises InputError for repeated names, missing parents and cycles.
+    """
     by_name: dict[str, Entry] = {}
     for joint in joints:
-        name = _name(joint, "name", "joint")
+        name = _read_name(joint, "name", "joint")
         if name in by_name:
             raise InputError(f"two joints are called {name}", hint="each joint needs a name of its own")
         by_name[name] = joint
-    fixed = _GroundPoints(linkage, by_name)
-    parents = {name: [_parent(fixed, name, joint, key) for key in _PARENTS] for name, joint in by_name.items()}
-    above = {name: {parent for parent in of if parent in by_name} for name, of in parents.items()}
-    for name, of in parents.items():
-        for parent in of:
+    ground_points = _GroundPoints(linkage, by_name)
+    parents = {
+        name: [_find_parent(ground_points, name, joint, key) for key in _PARENTS] for name, joint in by_name.items()
+    }
+    parents_in_file = {
+        name: {parent for parent in parent_names if parent in by_name} for name, parent_names in parents.items()
+    }
+    for name, parent_names in parents.items():
+        for parent in parent_names:
             if parent is not None and parent not in by_name and parent not in linkage.ground:
                 raise InputError(f"joint {name}: it hangs on {parent!r}, which is not in the file")
     try:
-        for name in TopologicalSorter(above).static_order():
+        for name in TopologicalSorter(parents_in_file).static_order():
             _add_joint(linkage, name, by_name[name], parents[name])
     except CycleError as error:
         raise InputError(f"joints hang on each other: {', '.join(error.args[1])}"[:300]) from error
@@ -104,56 +128,66 @@ _PARENTS = ("joint0", "joint1", "joint2")
 class _GroundPoints:
     """Points of the ground that stand within joints as their parents; equal positions share a point."""
 
-    def __init__(self, linkage: Linkage, used: Container[str]) -> None:
-        """Create an empty set; used: names of the file's joints."""
-        self.linkage, self.used, self.names = linkage, used, dict[Point, str]()
+    def __init__(self, linkage: Linkage, joint_names: Container[str]) -> None:
+        """Create an empty set; `joint_names` are the names of the file's joints, which ground points must not have."""
+        self.linkage, self.used, self.names = linkage, joint_names, dict[Point, str]()
 
-    def name(self, place: Point) -> str:
-        """Return the name of the ground point at a position."""
-        if place not in self.names:
+    def name(self, position: Point) -> str:
+        """Return the name of the ground point at a position; a new point is added to the linkage."""
+        if position not in self.names:
             name = f"O{len(self.names) + 1}"
             while name in self.used:
                 name += "_"
-            self.names[place] = name
-            self.linkage.ground[name] = self.linkage.positions[name] = place
-        return self.names[place]
+            self.names[position] = name
+            self.linkage.ground[name] = self.linkage.positions[name] = position
+        return self.names[position]
 
 
-def _parent(fixed: _GroundPoints, name: str, joint: Entry, key: str) -> str | None:
-    """Return the name of a parent, or None; a parent within the joint becomes a point of the ground."""
-    found = joint.get(key)
-    if not isinstance(found, dict):
+def _find_parent(ground_points: _GroundPoints, joint_name: str, joint: Entry, key: str) -> str | None:
+    """Return the name of a joint's parent under `key`, or None if there is none.
+
+    A parent within the joint becomes a point of the ground. Raises InputError.
+    """
+    parent = joint.get(key)
+    if not isinstance(parent, dict):
         return None
-    whose = f"joint {name}: {key}"
-    if not found.get("inline"):
-        return _name({**found, "type": key}, "ref", f"parent of joint {name}")
-    return fixed.name((_number(found, "x", whose), _number(found, "y", whose)))
+    owner = f"joint {joint_name}: {key}"
+    if not parent.get("inline"):
+        return _read_name({**parent, "type": key}, "ref", f"parent of joint {joint_name}")
+    return ground_points.name((_read_number(parent, "x", owner), _read_number(parent, "y", owner)))
 
 
 def _add_joint(linkage: Linkage, name: str, joint: Entry, parents: Sequence[str | None]) -> None:
-    """Add what one joint of a Linkage defines: a ground point, bars, a drive, a line. Raises InputError."""
-    kind, whose = joint.get("type"), f"joint {name}"
-    at = _pair([joint.get("x"), joint.get("y")], "x, y", whose)
-    if at is not None:
-        linkage.positions[name] = at
-    if kind == "Static":
-        linkage.ground[name] = linkage.positions[name] = at or (0.0, 0.0)
-    elif kind == "Crank":
-        body = linkage.bar(_require_parent(name, parents[0]), name, _length(joint, "distance", whose))
+    """Add what one joint of a Linkage defines: a ground point, bars, a drive, a fixed point or a line.
+
+    `parents` are the names of its parents, None where one is missing. Raises InputError.
+    """
+    joint_type, owner = joint.get("type"), f"joint {name}"
+    position = _read_pair([joint.get("x"), joint.get("y")], "x, y", owner)
+    if position is not None:
+        linkage.positions[name] = position
+    if joint_type == "Static":
+        linkage.ground[name] = linkage.positions[name] = position or (0.0, 0.0)
+    elif joint_type == "Crank":
+        body = linkage.bar(_require_parent(name, parents[0]), name, _read_length(joint, "distance", owner))
         if body is None:
-            raise InputError(f"{whose}: a crank that the ground holds")
-        linkage.drives.append(Drive(body, _number(joint, "angle", whose)))
+            raise InputError(f"{owner}: a crank that the ground holds")
+        linkage.drives.append(Drive(body, _read_number(joint, "angle", owner)))
         linkage.notes.append(STEPPED)
-    elif kind == "Revolute":
+    elif joint_type == "Revolute":
         for key, parent in zip(("distance0", "distance1"), parents, strict=False):
-            linkage.bar(_require_parent(name, parent), name, _length(joint, key, whose))
-    elif kind == "Fixed":
-        _add_fixed_point(linkage, name, parents, _number(joint, "distance", whose), _number(joint, "angle", whose))
-    elif kind in ("Linear", "Prismatic"):
-        linkage.bar(_require_parent(name, parents[0]), name, _length(joint, "revolute_radius", whose))
+            linkage.bar(_require_parent(name, parent), name, _read_length(joint, key, owner))
+    elif joint_type == "Fixed":
+        _add_fixed_point(
+            linkage, name, parents, _read_number(joint, "distance", owner), _read_number(joint, "angle", owner)
+        )
+    elif joint_type in ("Linear", "Prismatic"):
+        linkage.bar(_require_parent(name, parents[0]), name, _read_length(joint, "revolute_radius", owner))
         _add_line(linkage, name, _require_parent(name, parents[1]), _require_parent(name, parents[2]))
     else:
-        raise InputError(f"{whose}: {_short_text(kind)} is no joint of pylinkage; expected one of {', '.join(OLD)}")
+        raise InputError(
+            f"{owner}: {_short_text(joint_type)} is no joint of pylinkage; expected one of {', '.join(OLD)}"
+        )
 
 
 def _require_parent(name: str, parent: str | None) -> str:
@@ -164,13 +198,17 @@ def _require_parent(name: str, parent: str | None) -> str:
 
 
 def _add_fixed_point(linkage: Linkage, name: str, parents: Sequence[str | None], distance: float, angle: float) -> None:
-    """Add a point to the body, or to the ground, that contains both parents. Raises InputError if there is none."""
+    """Add a point to the body, or to the ground, that contains both parents.
+
+    It is at `distance` from the first parent, at `angle` (rad) from the direction to the second. Raises InputError if
+    no body contains both.
+    """
     first, second = _require_parent(name, parents[0]), _require_parent(name, parents[1])
     if first in linkage.ground and second in linkage.ground:
         body = Body("ground", linkage.ground)
         linkage.ground[name] = linkage.positions[name] = body.placed(first, second, distance, angle)
-    elif holder := linkage.holding(first, second):
-        linkage.hold(holder, name, holder.placed(first, second, distance, angle))
+    elif parent_body := linkage.holding(first, second):
+        linkage.hold(parent_body, name, parent_body.placed(first, second, distance, angle))
     else:
         raise InputError(
             f"joint {name}: it is fixed to {first} and {second}, which nothing holds at a distance",
@@ -179,94 +217,115 @@ def _add_fixed_point(linkage: Linkage, name: str, parents: Sequence[str | None],
 
 
 def _add_line(linkage: Linkage, name: str, first: str, second: str) -> None:
-    """Constrain a point to the line through two others, which the ground or a body contains. Raises InputError."""
+    """Constrain the point `name` to the line through two others, which the ground or a body contains.
+
+    Raises InputError if no body contains both.
+    """
     if first in linkage.ground and second in linkage.ground:
-        held, body = linkage.ground, None
+        points, body = linkage.ground, None
     elif body := linkage.holding(first, second):
-        held = body.local
+        points = body.local
     else:
         raise InputError(f"joint {name}: its line leads through {first} and {second}, which no body holds")
-    (x, y), (u, v) = held[first], held[second]
-    linkage.lines.append(Line(name, first, body, (u - x, v - y)))
+    (x_first, y_first), (x_second, y_second) = points[first], points[second]
+    linkage.lines.append(Line(name, first, body, (x_second - x_first, y_second - y_first)))
 
 
 def _read_links(linkage: Linkage, joints: Sequence[Entry], links: Any) -> None:
-    """Read a Mechanism: joints at their positions, and the links that contain them. Raises InputError."""
+    """Read a Mechanism: add joints at their positions, the links that contain them, then trackers.
+
+    Joints of ground links and motor joints are fixed. Raises InputError.
+    """
     if not isinstance(links, list) or not all(isinstance(link, dict) for link in links):
         raise InputError("no links in it", hint="a Mechanism of pylinkage has joints and links")
-    named = [(_name(link, "id", "link"), link) for link in links]
-    if len(dict(named)) < len(named):
-        twice = next(name for name, link in named if dict(named)[name] is not link)
-        raise InputError(f"two links are called {twice}", hint="each link needs an id of its own")
-    held = {name: _joints_of_link(link, name) for name, link in named}
+    named_links = [(_read_name(link, "id", "link"), link) for link in links]
+    if len(dict(named_links)) < len(named_links):
+        repeated_name = next(name for name, link in named_links if dict(named_links)[name] is not link)
+        raise InputError(f"two links are called {repeated_name}", hint="each link needs an id of its own")
+    joints_by_link = {name: _joints_of_link(link, name) for name, link in named_links}
     # as in pylinkage, joints of a ground link and motor joints are fixed, independent of their type
-    fixed = {joint for name, link in named if link.get("type") == "ground" for joint in held[name]}
-    fixed |= {str(link.get("motor_joint")) for _, link in named if link.get("type") in DRIVERS}
+    fixed_joints = {
+        joint for name, link in named_links if link.get("type") == "ground" for joint in joints_by_link[name]
+    }
+    fixed_joints |= {str(link.get("motor_joint")) for _, link in named_links if link.get("type") in DRIVERS}
     trackers = [joint for joint in joints if joint.get("type") == "tracker"]
     for joint in joints:
         if joint.get("type") != "tracker":
-            _place_joint(linkage, joint, fixed)
-    tracked = {_name(joint, "id", "joint") for joint in trackers}
-    for name, link in named:
+            _place_joint(linkage, joint, fixed_joints)
+    tracker_names = {_read_name(joint, "id", "joint") for joint in trackers}
+    for name, link in named_links:
         if link.get("type") != "ground":
-            _add_link(linkage, name, link, [joint for joint in held[name] if joint not in tracked])
+            _add_link(linkage, name, link, [joint for joint in joints_by_link[name] if joint not in tracker_names])
     for joint in trackers:
-        name = _name(joint, "id", "joint")
+        name = _read_name(joint, "id", "joint")
         if name in linkage.positions or name in linkage.holders:
             raise InputError(f"two joints are called {name}", hint="each joint needs an id of its own")
-        parents = [_name(joint, key, f"tracker {name}") for key in ("ref_joint1_id", "ref_joint2_id")]
-        whose = f"joint {name}"
-        _add_fixed_point(linkage, name, parents, _number(joint, "distance", whose), _number(joint, "angle", whose))
+        parents = [_read_name(joint, key, f"tracker {name}") for key in ("ref_joint1_id", "ref_joint2_id")]
+        owner = f"joint {name}"
+        _add_fixed_point(
+            linkage, name, parents, _read_number(joint, "distance", owner), _read_number(joint, "angle", owner)
+        )
 
 
-def _place_joint(linkage: Linkage, joint: Entry, fixed: set[str]) -> None:
-    """Add a joint with a position; for a prismatic joint also its line. Raises InputError."""
-    name = _name(joint, "id", "joint")
-    whose = f"joint {name}"
+def _place_joint(linkage: Linkage, joint: Entry, fixed_joints: set[str]) -> None:
+    """Add a joint at its position, also to the ground if it is fixed; for a prismatic joint also its line.
+
+    Raises InputError for a repeated name, and without a position or direction.
+    """
+    name = _read_name(joint, "id", "joint")
+    owner = f"joint {name}"
     if name in linkage.positions:
         raise InputError(f"two joints are called {name}", hint="each joint needs an id of its own")
-    at = _pair(joint.get("position"), "position", whose)
-    if at is None:
-        raise InputError(f"{whose}: it has no position, so that its links have no lengths")
-    linkage.positions[name] = at
-    if joint.get("type") == "ground" or name in fixed:
-        linkage.ground[name] = at
+    position = _read_pair(joint.get("position"), "position", owner)
+    if position is None:
+        raise InputError(f"{owner}: it has no position, so that its links have no lengths")
+    linkage.positions[name] = position
+    if joint.get("type") == "ground" or name in fixed_joints:
+        linkage.ground[name] = position
     if joint.get("type") == "prismatic":
-        direction = _pair(joint.get("axis", [1.0, 0.0]), "axis", whose)
+        direction = _read_pair(joint.get("axis", [1.0, 0.0]), "axis", owner)
         if direction is None or not math.hypot(*direction) > 0.0:
-            raise InputError(f"{whose}: axis is {_short_text(joint.get('axis'))}, expected a direction")
-        through = f"{name}_line"
-        while through in linkage.positions or through in linkage.ground:
-            through += "_"
-        linkage.ground[through] = _pair(joint.get("line_point"), "line_point", whose) or at
-        linkage.lines.append(Line(name, through, None, direction))
+            raise InputError(f"{owner}: axis is {_short_text(joint.get('axis'))}, expected a direction")
+        line_point = f"{name}_line"
+        while line_point in linkage.positions or line_point in linkage.ground:
+            line_point += "_"
+        linkage.ground[line_point] = _read_pair(joint.get("line_point"), "line_point", owner) or position
+        linkage.lines.append(Line(name, line_point, None, direction))
 
 
 def _joints_of_link(link: Entry, name: str) -> list[str]:
-    """Return the joints of a link, each once. Raises InputError."""
+    """Return the names of the joints of a link in their order, each once.
+
+    Raises InputError if they are not a list of names.
+    """
     joints = link.get("joints")
     if not isinstance(joints, list):
         raise InputError(f"link {name}: joints is {_short_text(joints)}, expected a list of joints")
-    return list(dict.fromkeys(_name({"id": joint, "type": "link"}, "id", f"joint of link {name}") for joint in joints))
+    return list(
+        dict.fromkeys(_read_name({"id": joint, "type": "link"}, "id", f"joint of link {name}") for joint in joints)
+    )
 
 
 def _add_link(linkage: Linkage, name: str, link: Entry, joints: list[str]) -> None:
-    """Add the body of a link and its drive. Raises InputError."""
-    whose, kind, motor = f"link {name}", link.get("type", "link"), str(link.get("motor_joint"))
+    """Add the body of a link at the positions of its joints, and the drive of a driver.
+
+    Raises InputError for an unknown joint, a motor joint that is not the link's, or an arc of no length.
+    """
+    owner, link_type, motor = f"link {name}", link.get("type", "link"), str(link.get("motor_joint"))
     for joint in joints:
         if joint not in linkage.positions:
-            raise InputError(f"{whose}: no joint is called {joint}")
+            raise InputError(f"{owner}: no joint is called {joint}")
     joints.sort(key=lambda joint: joint != motor)
     body = linkage.add(Body(name, {joint: linkage.positions[joint] for joint in joints}))
-    if kind not in DRIVERS:
+    if link_type not in DRIVERS:
         return
     if joints[0] != motor:
-        raise InputError(f"{whose}: it is driven at {motor}, expected one of its joints as motor_joint")
-    rate, arc = _number({"angular_velocity": math.tau / 360.0, **link}, "angular_velocity", whose), None
-    if kind == "arc_driver":
-        low, high = (_number({"arc_start": 0.0, "arc_end": math.pi, **link}, key, whose) for key in _ARC)
-        if not high > low:
-            raise InputError(f"{whose}: its arc ends at {high:g} rad, where it begins or before ({low:g} rad)")
-        arc = low, high
+        raise InputError(f"{owner}: it is driven at {motor}, expected one of its joints as motor_joint")
+    rate, arc = _read_number({"angular_velocity": math.tau / 360.0, **link}, "angular_velocity", owner), None
+    if link_type == "arc_driver":
+        begin, end = (_read_number({"arc_start": 0.0, "arc_end": math.pi, **link}, key, owner) for key in _ARC)
+        if not end > begin:
+            raise InputError(f"{owner}: its arc ends at {end:g} rad, where it begins or before ({begin:g} rad)")
+        arc = begin, end
     linkage.drives.append(Drive(body, rate, None, arc))
     linkage.notes.append(STEPPED)

@@ -17,8 +17,10 @@ KNOWN = "JSON of pylinkage (Linkage.to_json, mechanism_to_json), or a text with 
 
 
 def read_linkage(file: str | os.PathLike[str]) -> Linkage:
-    """Return the linkage in a file of pylinkage or PMKS+. Raises InputError for other files and unsupported
-    contents."""
+    """Return the linkage in a file of pylinkage or PMKS+; the contents decide which.
+
+    Raises InputError for other files and unsupported contents, LimitError for large files.
+    """
     data = read_named(file, MAX_BYTES, hint=f"name a file: {KNOWN}")
     try:
         text = data.decode("utf-8-sig")
@@ -45,13 +47,16 @@ def mechanism_of(file: str | os.PathLike[str]) -> str:
         text = mechanism_text(linkage)
         read_mechanism(text.encode(), os.fspath(file))
     except InputError as error:
-        first = error.errors[0] if isinstance(error, InputErrors) else error
-        raise InputError(f"{os.fspath(file)}: {first.message}", hint=first.hint) from error
+        first_error = error.errors[0] if isinstance(error, InputErrors) else error
+        raise InputError(f"{os.fspath(file)}: {first_error.message}", hint=first_error.hint) from error
     return text
 
 
 def _parse_json(text: str) -> object:
-    """Return the parsed JSON. Raises InputError."""
+    """Return the parsed JSON of a text.
+
+    Raises InputError for text that is not JSON or is nested too deeply.
+    """
     try:
         return json.loads(text)
     except (ValueError, RecursionError) as error:

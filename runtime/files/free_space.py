@@ -21,36 +21,50 @@ SHARE = 0.9  # largest fraction of the free memory that may be requested, as oth
 _GROUPS = ("memory.max", "memory.current"), ("memory.limit_in_bytes", "memory.usage_in_bytes")
 
 
-def check_memory(size: float, what: str) -> None:
-    """Raise MemoryError if `size` bytes exceed the free memory; `what` needs them."""
+def check_memory(size: float, purpose: str) -> None:
+    """Raise MemoryError if `size` bytes exceed the free memory; `purpose` names what needs them.
+
+    Up to LEAST bytes are always allowed.
+    """
     if size > LEAST and size > SHARE * (free := free_memory()):
-        raise MemoryError(f"{what} would take {size_text(size)}, and {size_text(free)} are free")
+        raise MemoryError(f"{purpose} would take {size_text(size)}, and {size_text(free)} are free")
 
 
-def check_disk(folder: str | os.PathLike[str], size: float, what: str, path: str | os.PathLike[str] = "") -> None:
-    """Raise OutputError, of `path` or the folder, if `size` bytes exceed the free disk space there."""
+def check_disk(folder: str | os.PathLike[str], size: float, purpose: str, path: str | os.PathLike[str] = "") -> None:
+    """Raise OutputError if `size` bytes exceed the free disk space of a folder.
+
+    `purpose` names what needs them; the error is that of `path`, or else of the folder.
+    """
     if size > (free := free_disk(folder)):
-        message = f"{os.strerror(errno.ENOSPC)}: {what} would take {size_text(size)}, and {size_text(free)} are free"
-        raise OutputError(path or folder, OSError(errno.ENOSPC, message))
+        description = (
+            f"{os.strerror(errno.ENOSPC)}: {purpose} would take {size_text(size)}, and {size_text(free)} are free"
+        )
+        raise OutputError(path or folder, OSError(errno.ENOSPC, description))
 
 
 def free_disk(folder: str | os.PathLike[str]) -> float:
-    """Return the bytes that the user may write in a folder, or its nearest existing parent; infinite if unknown."""
+    """Return the bytes that the user may write in a folder, or in its nearest existing parent; infinite if unknown."""
     path = Path(folder).absolute()
-    for place in (path, *path.parents):
+    for existing_folder in (path, *path.parents):
         with suppress(OSError):
-            found = os.statvfs(place)
-            return float(found.f_bavail) * found.f_frsize if found.f_blocks else math.inf
+            status = os.statvfs(existing_folder)
+            return float(status.f_bavail) * status.f_frsize if status.f_blocks else math.inf
     return math.inf
 
 
 def free_memory(root: Path = Path("/")) -> float:
-    """Return the bytes of memory that this process may still use: of machine, control groups and own limit."""
-    return max(0.0, min(_free_in_machine(root), *_free_in_groups(root), _free_in_process(root)))
+    """Return the bytes of memory that this process may still use: of machine, control groups and own limit.
+
+    `root` is the folder with /proc and /sys. The result is infinite if nothing is known.
+    """
+    return max(
+        0.0,
+        min(_read_free_memory_of_machine(root), *_read_free_memory_of_groups(root), _read_free_memory_of_process(root)),
+    )
 
 
-def _free_in_machine(root: Path) -> float:
-    """Return the free memory of the machine in bytes."""
+def _read_free_memory_of_machine(root: Path) -> float:
+    """Return the free memory of the machine in bytes, or on macOS all memory; infinite if unknown."""
     with suppress(OSError, ValueError):
         for line in (root / "proc/meminfo").read_text().splitlines():
             if line.startswith("MemAvailable:"):
@@ -60,27 +74,33 @@ def _free_in_machine(root: Path) -> float:
     return math.inf
 
 
-def _free_in_groups(root: Path) -> Iterator[float]:
-    """Yield the free memory of each control group with a limit; droppable file pages count as free."""
+def _read_free_memory_of_groups(root: Path) -> Iterator[float]:
+    """Yield the free memory in bytes of the process's control groups with a limit, parents included, after an infinity.
+
+    File pages that can be dropped count as free.
+    """
     yield math.inf
     lines: list[str] = []
     with suppress(OSError):
         lines = (root / "proc/self/cgroup").read_text().splitlines()
     for line in lines:
-        _, kinds, name = [*line.split(":", 2), "", ""][:3]
-        if kinds and "memory" not in kinds.split(","):
+        _, controllers, name = [*line.split(":", 2), "", ""][:3]
+        if controllers and "memory" not in controllers.split(","):
             continue
-        top = root / "sys/fs/cgroup" / ("memory" if kinds else "")
-        own = top / name.strip("/")
-        for folder in (own, *(parent for parent in own.parents if parent.is_relative_to(top))):
-            for limit, used in _GROUPS:
+        mount_folder = root / "sys/fs/cgroup" / ("memory" if controllers else "")
+        group_folder = mount_folder / name.strip("/")
+        for folder in (
+            group_folder,
+            *(parent for parent in group_folder.parents if parent.is_relative_to(mount_folder)),
+        ):
+            for limit, usage in _GROUPS:
                 with suppress(OSError, ValueError):  # "max": none
-                    held = int((folder / used).read_text()) - _droppable_bytes(folder)
-                    yield float(int((folder / limit).read_text()) - held)
+                    used_bytes = int((folder / usage).read_text()) - _read_droppable_bytes(folder)
+                    yield float(int((folder / limit).read_text()) - used_bytes)
 
 
-def _droppable_bytes(folder: Path) -> int:
-    """Return the bytes of file pages in a control group that can be dropped."""
+def _read_droppable_bytes(folder: Path) -> int:
+    """Return the bytes of file pages in a control group that can be dropped; 0 if unknown."""
     with suppress(OSError, ValueError):
         for line in (folder / "memory.stat").read_text().splitlines():
             name, _, number = line.partition(" ")
@@ -89,20 +109,20 @@ def _droppable_bytes(folder: Path) -> int:
     return 0
 
 
-def _free_in_process(root: Path) -> float:
-    """Return the free memory within the process's own limit (`ulimit -v`)."""
+def _read_free_memory_of_process(root: Path) -> float:
+    """Return the free memory in bytes within the process's own limit (`ulimit -v`); infinite without one."""
     with suppress(ImportError, OSError, ValueError):
         import resource
 
         limit = resource.getrlimit(resource.RLIMIT_AS)[0]
         if limit != resource.RLIM_INFINITY:
-            used = int((root / "proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
-            return float(limit - used)
+            used_bytes = int((root / "proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
+            return float(limit - used_bytes)
     return math.inf
 
 
 def size_text(size: float) -> str:
-    """Return a size as text: 1.2 GB."""
+    """Return a number of bytes as text with three digits: "1.2 GB"."""
     for power, unit in ((12, "TB"), (9, "GB"), (6, "MB"), (3, "kB")):
         if size >= 10.0**power:
             return f"{size / 10.0**power:.3g} {unit}"

@@ -36,29 +36,35 @@ class TemporaryFolder:
 
 
 def _lock_folder(folder: Path) -> int | None:
-    """Return a handle of the folder, locked by this process; None if another has locked it, or locks do not work."""
+    """Return the file descriptor of a folder that this process has locked; the caller closes it to release the lock.
+
+    Returns None if another process has locked the folder, or if locks do not work there.
+    """
     from fcntl import LOCK_EX, LOCK_NB, flock
 
-    handle = None
+    descriptor = None
     try:
-        handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
-        flock(handle, LOCK_EX | LOCK_NB)
+        descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
+        flock(descriptor, LOCK_EX | LOCK_NB)
     except OSError:
-        if handle is not None:
-            os.close(handle)
+        if descriptor is not None:
+            os.close(descriptor)
         return None
-    return handle
+    return descriptor
 
 
-def _remove_abandoned(root: Path, newest: float) -> None:
-    """Remove folders of this user, older than `newest`, whose processes have ended."""
+def _remove_abandoned(root: Path, max_creation_time: float) -> None:
+    """Remove temporary folders of this user that changed before `max_creation_time` (s since 1970) and have no lock.
+
+    The processes that made them have ended. Errors are ignored.
+    """
     with suppress(OSError):
         for entry in os.scandir(root):
             if not OURS.fullmatch(entry.name):
                 continue
             with suppress(OSError):
-                found = entry.stat(follow_symlinks=False)
-                if found.st_uid != os.geteuid() or found.st_ctime > newest:
+                status = entry.stat(follow_symlinks=False)
+                if status.st_uid != os.geteuid() or status.st_ctime > max_creation_time:
                     continue
                 if (lock := _lock_folder(Path(entry.path))) is not None:
                     shutil.rmtree(entry.path, ignore_errors=True)

@@ -20,100 +20,119 @@ class Untrusted(Exception):
 
 
 def check_path(path: str | os.PathLike[str]) -> None:
-    """Raise Untrusted if another user may write the folder or replace it; it need not exist yet."""
-    passed, there = _path_components(os.fspath(path))
-    for above, found in passed[:-1] if there else passed:
-        _check_above(above, found)
-    if there:
-        check(*passed[-1])
+    """Raise Untrusted if another user may write the folder or replace it or a folder above it.
+
+    The folder need not exist yet: then only the existing folders above it are checked.
+    """
+    components, exists = _find_path_components(os.fspath(path))
+    for component, status in components[:-1] if exists else components:
+        _check_parent(component, status)
+    if exists:
+        check(*components[-1])
 
 
-def check(path: str | os.PathLike[str], found: os.stat_result) -> None:
-    """Raise Untrusted if a file or folder is not the user's or root's, or if group or others may write it."""
-    if found.st_uid not in (os.geteuid(), 0):
-        raise Untrusted(f"{os.fspath(path)} belongs to another user (uid {found.st_uid})")
-    if found.st_mode & 0o022 and not stat.S_ISLNK(found.st_mode):
-        who = "everybody" if found.st_mode & 0o002 else f"the group (gid {found.st_gid})"
-        raise Untrusted(f"{who} may write {os.fspath(path)}")
+def check(path: str | os.PathLike[str], status: os.stat_result) -> None:
+    """Raise Untrusted if a file or folder is not the user's or root's, or if group or others may write it.
+
+    `status` is the result of os.stat. The permissions of a link do not count.
+    """
+    if status.st_uid not in (os.geteuid(), 0):
+        raise Untrusted(f"{os.fspath(path)} belongs to another user (uid {status.st_uid})")
+    if status.st_mode & 0o022 and not stat.S_ISLNK(status.st_mode):
+        writer = "everybody" if status.st_mode & 0o002 else f"the group (gid {status.st_gid})"
+        raise Untrusted(f"{writer} may write {os.fspath(path)}")
 
 
 def check_folder(path: str | os.PathLike[str]) -> None:
-    """Raise Untrusted as `check` for a folder that is not a link. Raise OSError for anything else."""
-    found = os.lstat(path)
-    if not stat.S_ISDIR(found.st_mode):
+    """Raise Untrusted if a folder is not the user's or root's, or if group or others may write it.
+
+    Raises NotADirectoryError for a link or a file, OSError if there is nothing.
+    """
+    status = os.lstat(path)
+    if not stat.S_ISDIR(status.st_mode):
         raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), os.fspath(path))
-    check(path, found)
+    check(path, status)
 
 
-def _check_above(path: str, found: os.stat_result) -> None:
+def _check_parent(path: str, status: os.stat_result) -> None:
     """Raise Untrusted if another user may replace a folder or link on the path.
 
     In folders whose files only their owners may rename (/tmp), all may write.
     """
-    mine = (os.geteuid(), 0)
-    if found.st_uid not in mine and not (found.st_uid == _overflow_user() and _root_has_no_name()):
-        raise Untrusted(f"{path} belongs to another user (uid {found.st_uid})")
-    if stat.S_ISLNK(found.st_mode) or found.st_mode & stat.S_ISVTX:
+    trusted_users = (os.geteuid(), 0)
+    if status.st_uid not in trusted_users and not (status.st_uid == _read_overflow_user() and _is_root_unmapped()):
+        raise Untrusted(f"{path} belongs to another user (uid {status.st_uid})")
+    if stat.S_ISLNK(status.st_mode) or status.st_mode & stat.S_ISVTX:
         return
-    if found.st_mode & 0o002 or (found.st_mode & 0o020 and not _is_own_group(found.st_gid)):
-        who = "everybody" if found.st_mode & 0o002 else f"the group (gid {found.st_gid})"
-        raise Untrusted(f"{who} may write {path}")
+    if status.st_mode & 0o002 or (status.st_mode & 0o020 and not _is_own_group(status.st_gid)):
+        writer = "everybody" if status.st_mode & 0o002 else f"the group (gid {status.st_gid})"
+        raise Untrusted(f"{writer} may write {path}")
 
 
 def read(path: str | os.PathLike[str]) -> bytes:
-    """Return the bytes of a trusted regular file; links are not followed. Raise Untrusted, OSError."""
-    handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
-    with open(handle, "rb", buffering=0) as file:
-        found = os.fstat(handle)
-        if not stat.S_ISREG(found.st_mode):
+    """Return the bytes of a regular file that only the user or root may write; links are not followed.
+
+    Raises Untrusted, and OSError for a file that cannot be opened or is not regular.
+    """
+    descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
+    with open(descriptor, "rb", buffering=0) as file:
+        status = os.fstat(descriptor)
+        if not stat.S_ISREG(status.st_mode):
             raise OSError(errno.EINVAL, "no regular file", os.fspath(path))
-        check(path, found)
+        check(path, status)
         return file.read()
 
 
-def _path_components(path: str) -> tuple[list[tuple[str, os.stat_result]], bool]:
-    """Return folders and links from / to the folder as the kernel passes them, and whether all of them exist."""
+def _find_path_components(path: str) -> tuple[list[tuple[str, os.stat_result]], bool]:
+    """Return (path, status) of the folders and links from / to a folder as the kernel passes them, and whether all
+    exist.
+
+    The list ends before the first folder that does not exist. Raises OSError for too many links.
+    """
     names = [name for name in reversed(path.split("/")) if name not in ("", ".")]
-    here = "/" if path.startswith("/") else os.getcwd()
-    passed, links = [(here, os.lstat(here))], 0
+    folder = "/" if path.startswith("/") else os.getcwd()
+    components, n_links = [(folder, os.lstat(folder))], 0
     while names:
         name = names.pop()
         if name == "..":
-            here = os.path.dirname(here)
+            folder = os.path.dirname(folder)
             continue
-        there = os.path.join(here, name)
+        entry = os.path.join(folder, name)
         try:
-            found = os.lstat(there)
+            status = os.lstat(entry)
         except FileNotFoundError:
-            return passed, False
-        passed.append((there, found))
-        if not stat.S_ISLNK(found.st_mode):
-            here = there
+            return components, False
+        components.append((entry, status))
+        if not stat.S_ISLNK(status.st_mode):
+            folder = entry
             continue
-        links += 1
-        if links > LINKS:
+        n_links += 1
+        if n_links > LINKS:
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP), path)
-        target = os.readlink(there)
-        here = "/" if target.startswith("/") else here
-        names += [part for part in reversed(target.split("/")) if part not in ("", ".")]
-    return [*passed, (here, os.lstat(here))] if passed[-1][0] != here else passed, True
+        link_target = os.readlink(entry)
+        folder = "/" if link_target.startswith("/") else folder
+        names += [part for part in reversed(link_target.split("/")) if part not in ("", ".")]
+    return [*components, (folder, os.lstat(folder))] if components[-1][0] != folder else components, True
 
 
 def _is_own_group(group: int) -> bool:
-    """Return whether a group has the user's name and no other member, as many systems make one for each user."""
+    """Return whether a group has the user's name and no other member, as many systems make one for each user.
+
+    `group` is its number; the answer is False for a group or user without an entry.
+    """
     import grp
     import pwd
 
     try:
-        user, named = pwd.getpwuid(os.geteuid()), grp.getgrgid(group)
+        user, group_entry = pwd.getpwuid(os.geteuid()), grp.getgrgid(group)
     except KeyError:
         return False
-    return named.gr_name == user.pw_name and set(named.gr_mem) <= {user.pw_name}
+    return group_entry.gr_name == user.pw_name and set(group_entry.gr_mem) <= {user.pw_name}
 
 
 @cache
-def _overflow_user() -> int:
-    """Return the user id that stands for unknown users."""
+def _read_overflow_user() -> int:
+    """Return the user id that the kernel shows for unknown users; 65534 if it is not known. The result is cached."""
     try:
         with open("/proc/sys/kernel/overflowuid") as file:
             return int(file.read())
@@ -122,8 +141,12 @@ def _overflow_user() -> int:
 
 
 @cache
-def _root_has_no_name() -> bool:
-    """Return whether this is a container without the machine's root, whose folders seem to be nobody's."""
+def _is_root_unmapped() -> bool:
+    """Return whether this is a container in which the machine's root has no user id, so that its folders seem to be
+    nobody's.
+
+    The result is cached; it is False if it cannot be read.
+    """
     try:
         with open("/proc/self/uid_map") as file:
             return not any(int(line.split()[1]) == 0 for line in file)  # user inside, outside, how many

@@ -48,48 +48,56 @@ class AtomicFiles:
             self._fd = os.open(self.folder, _FOLDER | (0 if self.follow else os.O_NOFOLLOW))
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+    def __exit__(self, error_class: type[BaseException] | None, *_: object) -> None:
         """Remove the files that were not moved, and close the folder."""
         try:
-            self._clear(kind is not None)
+            self._remove_temporary_files(error_class is not None)
         except KeyboardInterrupt:
-            self._clear(True)
+            self._remove_temporary_files(True)
             raise
 
-    def _clear(self, failed: bool) -> None:
-        """Remove temporary files and, if `failed`, new folders; a second call continues the first."""
+    def _remove_temporary_files(self, failed: bool) -> None:
+        """Remove temporary files, close the folder and, if `failed`, remove the folders that were made, if they are
+        empty.
+
+        A second call continues the first, which Ctrl-C may have interrupted.
+        """
         while self._parts:
             with suppress(OSError):
                 os.unlink(self._parts[-1], dir_fd=self._fd)
             self._parts.pop()
         if self._fd >= 0:
-            handle, self._fd = self._fd, -1
-            os.close(handle)
-        made, self._made = self._made, []
-        for folder in made if failed else ():
+            descriptor, self._fd = self._fd, -1
+            os.close(descriptor)
+        new_folders, self._made = self._made, []
+        for folder in new_folders if failed else ():
             with suppress(OSError):  # it holds something else by now
                 folder.rmdir()
 
     @contextmanager
     def file(self, name: str) -> Iterator[BinaryIO]:
-        """Yield a file to write, which can be read and positioned; it is complete when the block ends without error."""
+        """Yield a binary file to write, which can be read and positioned, under a temporary name.
+
+        It is complete when the block ends without error; `move` then puts it in place. Raises OutputError for a target
+        that may not be replaced, and for each OSError.
+        """
         with telling(self.folder / name):
-            old = _check_replaceable(self.folder, name, self._fd)
-            part = f".gudgeon-{os.urandom(8).hex()}.part"
-            self._parts.append(part)  # first: Ctrl-C may come as it has been opened
+            old_status = _check_replaceable(self.folder, name, self._fd)
+            temporary_name = f".gudgeon-{os.urandom(8).hex()}.part"
+            self._parts.append(temporary_name)  # first: Ctrl-C may come as it has been opened
             try:
-                handle = os.open(part, _OPEN, 0o600 if old else 0o666, dir_fd=self._fd)
+                descriptor = os.open(temporary_name, _OPEN, 0o600 if old_status else 0o666, dir_fd=self._fd)
             except FileExistsError:  # another's: it stays
-                self._parts.remove(part)
+                self._parts.remove(temporary_name)
                 raise
-            with open(handle, "w+b") as file:
+            with open(descriptor, "w+b") as file:
                 yield file
                 file.flush()
-                if old:
-                    _copy_permissions(handle, old)
+                if old_status:
+                    _copy_permissions(descriptor, old_status)
                 if self.sync:
-                    _sync(handle)
-            self._whole.append((part, name))
+                    _flush_to_disk(descriptor)
+            self._whole.append((temporary_name, name))
 
     def write(self, name: str, data: bytes | memoryview) -> None:
         """Write a file with these bytes under a temporary name."""
@@ -97,32 +105,38 @@ class AtomicFiles:
             file.write(data)
 
     def move(self, count: int | None = None) -> None:
-        """Move the first `count` complete files into place, in the order in which they were written; None: all."""
-        for _ in range(len(self._whole) if count is None else count):
-            part, name = self._whole.pop(0)
-            with telling(self.folder / name):
-                os.replace(part, name, src_dir_fd=self._fd, dst_dir_fd=self._fd)
-                self._parts.remove(part)
+        """Move the first `count` complete files into place, in the order in which they were written; None: all.
 
-    def remove(self, name: str, own: Callable[[bytes], bool]) -> None:
-        """Remove a regular file of the folder if `own` accepts its bytes; it may be gone already."""
+        Raises OutputError for the first that cannot be moved.
+        """
+        for _ in range(len(self._whole) if count is None else count):
+            temporary_name, name = self._whole.pop(0)
+            with telling(self.folder / name):
+                os.replace(temporary_name, name, src_dir_fd=self._fd, dst_dir_fd=self._fd)
+                self._parts.remove(temporary_name)
+
+    def remove(self, name: str, is_accepted: Callable[[bytes], bool]) -> None:
+        """Remove a regular file of the folder if `is_accepted` returns True for its bytes.
+
+        An absent file is not an error. Raises OutputError.
+        """
         with telling(self.folder / name):
             data = read_regular(name, dir_fd=self._fd)
-            if data is not None and own(data):
+            if data is not None and is_accepted(data):
                 os.unlink(name, dir_fd=self._fd)
 
 
 @contextmanager
 def written(path: str | os.PathLike[str], *, sync: bool = False) -> Iterator[BinaryIO]:
-    """Yield a file to write; it is moved to `path` when the block ends without error.
+    """Yield a binary file to write; it is moved to `path` when the block ends without error.
 
-    Raises OutputError, also for an OSError of the block; `path` is then unchanged. sync: as in Aside.
+    Raises OutputError, also for an OSError of the block; `path` is then unchanged. sync: as in AtomicFiles.
     """
     path = _file_path(path)
-    with AtomicFiles(path.parent, sync=sync) as aside:
-        with aside.file(path.name) as file:
+    with AtomicFiles(path.parent, sync=sync) as folder:
+        with folder.file(path.name) as file:
             yield file
-        aside.move()
+        folder.move()
 
 
 def write_bytes(path: str | os.PathLike[str], data: bytes | memoryview) -> None:
@@ -137,39 +151,49 @@ def write_text(path: str | os.PathLike[str], text: str) -> None:
 
 
 def read_regular(name: str | os.PathLike[str], *, dir_fd: int | None = None) -> bytes | None:
-    """Return the bytes of a regular file up to LARGEST; None if it is absent, a link or a device, or too large."""
+    """Return the bytes of a regular file up to LARGEST; None if it is absent, a link, a device or too large.
+
+    `name` is relative to the folder of the descriptor `dir_fd`, if one is given. Raises OSError for other errors.
+    """
     try:
-        handle = os.open(name, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, dir_fd=dir_fd)
+        descriptor = os.open(name, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, dir_fd=dir_fd)
     except OSError as error:
         if error.errno in (errno.ENOENT, errno.ELOOP, errno.ENXIO, errno.EMLINK):  # EMLINK: a link, to some kernels
             return None
         raise
     try:
-        found = os.fstat(handle)
-        if not stat.S_ISREG(found.st_mode) or found.st_size > LARGEST:
+        status = os.fstat(descriptor)
+        if not stat.S_ISREG(status.st_mode) or status.st_size > LARGEST:
             return None
-        with open(handle, "rb", closefd=False) as file:
-            return file.read(min(found.st_size + 1, LARGEST))  # no more memory than the file needs
+        with open(descriptor, "rb", closefd=False) as file:
+            return file.read(min(status.st_size + 1, LARGEST))  # no more memory than the file needs
     finally:
-        os.close(handle)
+        os.close(descriptor)
 
 
 def check_target(path: str | os.PathLike[str]) -> None:
-    """Raise OutputError if `write_bytes` would refuse this path; nothing is written."""
+    """Raise OutputError if a file at this path could not be written: an empty name, a folder, a device, a protected
+    file.
+
+    Nothing is written. Called before long computations.
+    """
     path = _file_path(path)
     with telling(path):
         with suppress(FileNotFoundError, NotADirectoryError):
             path.lstat()
         if path.parent.exists():
-            handle = os.open(path.parent, _FOLDER)
+            descriptor = os.open(path.parent, _FOLDER)
             try:
-                _check_replaceable(path.parent, path.name, handle)
+                _check_replaceable(path.parent, path.name, descriptor)
             finally:
-                os.close(handle)
+                os.close(descriptor)
 
 
 def _file_path(path: str | os.PathLike[str]) -> Path:
-    """Return the path of a file to be written. Raise OutputError for an empty name, and for "." and "/"."""
+    """Return the path of a file to be written.
+
+    Raises OutputError for an empty name, and for names of folders such as "." and "/".
+    """
     if not os.fspath(path):
         raise OutputError(path, "the name is empty")
     if not Path(path).name:
@@ -179,42 +203,49 @@ def _file_path(path: str | os.PathLike[str]) -> Path:
 
 @contextmanager
 def telling(path: Path) -> Iterator[None]:
-    """Convert each OSError of the with block to an OutputError for `path`."""
+    """Convert each OSError within the context to an OutputError for `path`."""
     try:
         yield
     except OSError as error:
         raise OutputError(path, error) from error
 
 
-def _check_replaceable(folder: Path, name: str, handle: int) -> os.stat_result | None:
-    """Return the status of the file to be replaced, None if it is absent or a link. Raise OutputError if refused."""
+def _check_replaceable(folder: Path, name: str, descriptor: int) -> os.stat_result | None:
+    """Return the status of the file to be replaced, None if it is absent or a link.
+
+    Raises OutputError for a folder, a device, a link in /dev and a write-protected file. `descriptor` is that of the
+    folder.
+    """
     try:
-        old = os.stat(name, dir_fd=handle, follow_symlinks=False)
+        status = os.stat(name, dir_fd=descriptor, follow_symlinks=False)
     except FileNotFoundError:
         return None
-    if stat.S_ISLNK(old.st_mode):
+    if stat.S_ISLNK(status.st_mode):
         if folder.absolute() == Path("/dev"):
             raise OutputError(folder / name, "the system's own")
         return None
-    if not stat.S_ISREG(old.st_mode):
-        raise OutputError(folder / name, "it is a folder" if stat.S_ISDIR(old.st_mode) else f"it is {kind(old)}")
-    if not old.st_mode & 0o222:
+    if not stat.S_ISREG(status.st_mode):
+        raise OutputError(folder / name, "it is a folder" if stat.S_ISDIR(status.st_mode) else f"it is {kind(status)}")
+    if not status.st_mode & 0o222:
         raise OutputError(folder / name, "there is a file that is write-protected")
-    return old
+    return status
 
 
-def _sync(handle: int) -> None:
-    """Flush a file to the disk: some file systems report only here that they are full."""
+def _flush_to_disk(descriptor: int) -> None:
+    """Flush a file to the disk; some file systems report only here that they are full.
+
+    Raises OSError, except from file systems that cannot flush.
+    """
     try:
-        os.fsync(handle)
+        os.fsync(descriptor)
     except OSError as error:
         if error.errno not in (errno.EINVAL, errno.ENOTSUP, errno.ENOSYS):  # a file system that cannot
             raise
 
 
-def kind(found: os.stat_result) -> str:
-    """Return a description of a path that is not a regular file."""
-    kinds = {
+def kind(status: os.stat_result) -> str:
+    """Return a description of a path that is not a regular file, such as "a pipe", from the result of os.stat."""
+    descriptions = {
         stat.S_IFDIR: "a folder",
         stat.S_IFIFO: "a pipe",
         stat.S_IFSOCK: "a socket",
@@ -222,14 +253,17 @@ def kind(found: os.stat_result) -> str:
         stat.S_IFBLK: "a device",
         stat.S_IFLNK: "a link",
     }
-    return kinds.get(stat.S_IFMT(found.st_mode), "no regular file")
+    return descriptions.get(stat.S_IFMT(status.st_mode), "no regular file")
 
 
-def _copy_permissions(handle: int, old: os.stat_result) -> None:
-    """Set permissions and, if allowed, owner of a file to those of the one that it replaces."""
-    made = os.fstat(handle)
+def _copy_permissions(descriptor: int, old_status: os.stat_result) -> None:
+    """Set permissions and, if allowed, owner of an open file to those of the file that it replaces.
+
+    Refusals of the system are ignored.
+    """
+    status = os.fstat(descriptor)
     with suppress(PermissionError):
-        if (made.st_uid, made.st_gid) != (old.st_uid, old.st_gid):
-            os.fchown(handle, old.st_uid, old.st_gid)
+        if (status.st_uid, status.st_gid) != (old_status.st_uid, old_status.st_gid):
+            os.fchown(descriptor, old_status.st_uid, old_status.st_gid)
     with suppress(PermissionError):  # a file system that has none
-        os.fchmod(handle, stat.S_IMODE(old.st_mode) & 0o777)
+        os.fchmod(descriptor, stat.S_IMODE(old_status.st_mode) & 0o777)

@@ -76,8 +76,9 @@ class ResultOf(Protocol):
         """Return the notes of the runs by run number."""
 
     def bare(self, i: int, parts: frozenset[str], /) -> Result | None:
-        """Return the samples of run i as a Result that evaluates only `parts` of an Evaluation; None for a run without
-        samples.
+        """Return the samples of run i as a Result without diagnostics, or None for a run without samples.
+
+        Only `parts` of an Evaluation can be computed from it.
         """
 
 
@@ -136,8 +137,10 @@ class Batch:
         """Return mechanism, scene, and the numbers of runs, samples and failures in one line."""
         failed = f", {len(self.failures)} failed" if self.failures else ""
         samples = f"{counted(len(self), 'run')} of {counted(self.t.shape[-1], 'sample')}"
-        kept = "" if self.states else f", {', '.join(name for name in self.kept if name != 't') or 'no series kept'}"
-        return f"<Batch {self.source.mechanism}/{self.source.scene}: {samples}{failed}{kept}>"
+        stored_text = (
+            "" if self.states else f", {', '.join(name for name in self.kept if name != 't') or 'no series kept'}"
+        )
+        return f"<Batch {self.source.mechanism}/{self.source.scene}: {samples}{failed}{stored_text}>"
 
     @property
     def times(self) -> Array:
@@ -166,7 +169,10 @@ class Batch:
 
     @property
     def _states(self) -> States:
-        """The states of all runs. Raises GudgeonError if only series were stored."""
+        """The states of all runs; every access by `q`, `v`, `work` or `state` reads it.
+
+        Raises GudgeonError if only series were stored.
+        """
         if self.states is None:
             raise GudgeonError(f"the states of these runs were not kept: {stored_series_text(self)}")
         return self.states
@@ -194,35 +200,43 @@ class Batch:
         return np.array(counts, dtype=np.int_).reshape(len(self), len(joints))
 
     def partial(self, i: int) -> Result | None:
-        """Return the result of run i up to its end or its failure; None for a run that did not begin."""
+        """Return the result of run i up to its end or its failure; None for a run that did not begin.
+
+        Raises BadValueError unless i is a whole number, IndexError beyond the runs, GudgeonError for a batch without
+        states.
+        """
         _ = self._states
         if not is_whole(i):
             refuse("a run of a batch", i, "its number")
         try:
             return self[i]
         except GudgeonError as error:
-            found = getattr(error, "partial", None)
-            return found if isinstance(found, Result) else None
+            partial_result = getattr(error, "partial", None)
+            return partial_result if isinstance(partial_result, Result) else None
 
     def at_events(self, name: str) -> tuple[AtEvents | None, ...]:
-        """Return for each run the states at the times of an event; None for a run that did not begin. See
-        Result.at_events.
+        """Return for each run the states at the times of an event; None for a run that did not begin.
+
+        `name` is an event of the file; see Result.at_events. Raises GudgeonError for a batch without states.
         """
         runs = map(self.partial, range(len(self)))
         return tuple(None if run is None else run.at_events(name) for run in runs)
 
     def peak(self, name: str) -> BatchPeaks:
         """Return the largest and smallest value of a series over all steps, (n,) each: see Result.peak."""
-        return batch_extremes(self.source, self.extremes, name, False, lambda: self._samples_of(name))
+        return batch_extremes(self.source, self.extremes, name, False, lambda: self._read_samples(name))
 
     def peak_error(self, name: str) -> BatchPeaks:
         """Return the extremes of the difference between a series and that of another scene, (n,) each: see
         Result.peak_error.
         """
-        return batch_extremes(self.source, self.extremes, name, True, lambda: self._samples_of(name))
+        return batch_extremes(self.source, self.extremes, name, True, lambda: self._read_samples(name))
 
-    def _samples_of(self, name: str) -> tuple[Array, Array]:
-        """Return sample times and values of a series, (n, N) each; N is 0 if the series is not available."""
+    def _read_samples(self, name: str) -> tuple[Array, Array]:
+        """Return sample times and values of a series, (n, N) each, or arrays (n, 0) if the series is not available.
+
+        Called by `peak` and `peak_error`, whose extremes the samples may exceed.
+        """
         try:
             return np.broadcast_to(self["t"], (len(self), self.t.shape[-1])), self[name]
         except GudgeonError:
@@ -286,11 +300,12 @@ class Batch:
 
 
 def given_values(source: KernelSource, p: Array, is_given: NDArray[np.bool_]) -> dict[str, Array]:
-    """Return {address: (n,)} of the parameters that any run was given, from the values p (n, n_slots + n_derived) of
-    all runs.
+    """Return the values (n,) of the parameters that any run was given, by address; choices as names.
+
+    `p` (n, n_slots + n_derived) has the parameters of all runs, `is_given` (n, n_slots) which of them were given.
     """
-    given = [(source.slots[k], p[:, k]) for k in np.flatnonzero(is_given.any(axis=0)).tolist()]
-    return {slot.address: chosen_of_runs(slot, values) for slot, values in given}
+    given_parameters = [(source.slots[k], p[:, k]) for k in np.flatnonzero(is_given.any(axis=0)).tolist()]
+    return {parameter.address: chosen_of_runs(parameter, values) for parameter, values in given_parameters}
 
 
 def as_failures(errors: Mapping[int, GudgeonError]) -> tuple[Failure, ...]:
@@ -298,40 +313,55 @@ def as_failures(errors: Mapping[int, GudgeonError]) -> tuple[Failure, ...]:
     return tuple(Failure(i, errors[i]) for i in sorted(errors))
 
 
-def check_series_names(source: KernelSource, names: str | Iterable[str], what: str = "names") -> list[str]:
-    """Return the names of series as a list without repetitions. Raises UnknownNameError with the nearest name."""
-    found, known = list(dict.fromkeys(plain_names(names, what, "a list of names of series"))), blank(source)
-    for name in found:
-        known.unit(name)
-    return found
+def check_series_names(source: KernelSource, names: str | Iterable[str], argument_name: str = "names") -> list[str]:
+    """Return the names of series as a list without repetitions, in their order.
+
+    `names` is one name or several; `argument_name` names the argument in errors. Raises UnknownNameError with the
+    nearest name.
+    """
+    unique_names, empty_result = (
+        list(dict.fromkeys(plain_names(names, argument_name, "a list of names of series"))),
+        blank(source),
+    )
+    for name in unique_names:
+        empty_result.unit(name)
+    return unique_names
 
 
 def evaluation_parts_of(source: KernelSource, names: Iterable[str]) -> frozenset[str]:
-    """Return the parts of an Evaluation that the series `names` need."""
-    known = catalogue(source)
-    return frozenset(part for name in names if name != "t" for part in known[name].parts)
+    """Return the parts of an Evaluation that the series `names` need; "t" needs none."""
+    all_series = catalogue(source)
+    return frozenset(part for name in names if name != "t" for part in all_series[name].parts)
 
 
 def depends_on_works(source: KernelSource, name: str) -> bool:
-    """Return whether a series of a scene is computed from the works, itself or as an output's expression."""
-    entry = catalogue(source)[name]
+    """Return whether a series of a scene is computed from the works of drives, forces or joints with play.
+
+    An output depends on works if a series in its expression does.
+    """
+    series_entry = catalogue(source)[name]
     if name in source.outputs:
-        used = tree.names(tree.from_json(source.outputs[name]))
-        return any(depends_on_works(source, one.path) for one in used if one.path in catalogue(source))
-    return name == "energy.residual" or (entry.stored is not None and entry.stored[0] == "work")
+        used_names = tree.names(tree.from_json(source.outputs[name]))
+        return any(
+            depends_on_works(source, used_name.path) for used_name in used_names if used_name.path in catalogue(source)
+        )
+    return name == "energy.residual" or (series_entry.stored is not None and series_entry.stored[0] == "work")
 
 
 def check_stored(batch: Batch, names: Iterable[str]) -> None:
-    """Raise GudgeonError for a series that is neither stored in the batch nor can be evaluated from states."""
-    if batch.states is None and (missing := [name for name in names if name not in batch.kept]):
-        raise GudgeonError(f"{missing[0]!r} was not kept in this batch: {stored_series_text(batch)}")
+    """Raise GudgeonError for the first of `names` that a batch without states did not store.
+
+    A batch with states can evaluate every series, so that nothing is raised.
+    """
+    if batch.states is None and (missing_names := [name for name in names if name not in batch.kept]):
+        raise GudgeonError(f"{missing_names[0]!r} was not kept in this batch: {stored_series_text(batch)}")
 
 
 def stored_series_text(batch: Batch) -> str:
-    """Return a text that lists the stored series and how to store others, for errors of a batch without states."""
-    named = [name for name in batch.kept if name != "t"]
+    """Return a text for errors of a batch without states: the stored series, and how to store others."""
+    names = [name for name in batch.kept if name != "t"]
     hint = 'simulate_many(…, keep=[…]) names what is kept; keep="states" keeps everything'
-    return f"it has {', '.join(named) or 'no series'}\n  {hint}"
+    return f"it has {', '.join(names) or 'no series'}\n  {hint}"
 
 
 def series_column(name: str) -> str:
@@ -340,32 +370,44 @@ def series_column(name: str) -> str:
 
 
 def given_columns(batch: Batch) -> dict[str, Array]:
-    """Return what was given to the runs, (n,) by its column: "given.NAME" where a series is called NAME, too."""
-    known = catalogue(batch.source)
-    return {f"given.{name}" if name in known else name: values for name, values in batch.parameters.items()}
+    """Return the values (n,) of the parameters that runs were given, by column of a table.
+
+    The column is the address, or "given.ADDRESS" if a series has the same name.
+    """
+    all_series = catalogue(batch.source)
+    return {f"given.{name}" if name in all_series else name: values for name, values in batch.parameters.items()}
 
 
 def series(batch: Batch, names: Sequence[str]) -> dict[str, Array]:
-    """Return the named series of all runs, (n, N) each, NaN where a run has no sample. Raises SingularError."""
+    """Return the named series of all runs, (n, N) each, by name; NaN where a run has no sample.
+
+    Stored columns are copied, other series are evaluated in threads. Raises UnknownNameError, GudgeonError for a series
+    that was not stored, SingularError.
+    """
     names = check_series_names(batch.source, names)
     check_stored(batch, names)
-    found = {name: column for name in names if (column := _stored_column(batch, name)) is not None}
-    evaluated = [name for name in names if name not in found]
-    found |= {name: np.full((len(batch), batch.t.shape[-1]), np.nan) for name in evaluated}
-    for i, t, values_by_name in iterate_rows(batch, evaluated) if evaluated else ():
+    values_by_series = {
+        name: stored_values for name in names if (stored_values := _copy_stored_series(batch, name)) is not None
+    }
+    evaluated_names = [name for name in names if name not in values_by_series]
+    values_by_series |= {name: np.full((len(batch), batch.t.shape[-1]), np.nan) for name in evaluated_names}
+    for i, sample_times, values_by_name in iterate_rows(batch, evaluated_names) if evaluated_names else ():
         for name, values in values_by_name.items():
-            found[name][i, : len(t)] = values
-    return {name: found[name] for name in names}
+            values_by_series[name][i, : len(sample_times)] = values
+    return {name: values_by_series[name] for name in names}
 
 
-def _stored_column(batch: Batch, name: str) -> Array | None:
-    """Return a copy of a series that is a column of the stored arrays, (n, N); None if it must be evaluated."""
+def _copy_stored_series(batch: Batch, name: str) -> Array | None:
+    """Return a copy of a series that is a column of the stored arrays, (n, N); None if it must be evaluated.
+
+    Contact states are NaN after the last sample of a run.
+    """
     if name in batch.kept:
         return batch.kept[name].copy()
-    stored = None if name == "t" else catalogue(batch.source)[name].stored
-    if stored is None or stored[0] not in ("q", "v", "work", "state"):
+    array_and_column = None if name == "t" else catalogue(batch.source)[name].stored
+    if array_and_column is None or array_and_column[0] not in ("q", "v", "work", "state"):
         return None
-    array, column = stored
+    array, column = array_and_column
     values = np.array(getattr(batch, array)[:, :, column], dtype=float)
     if array == "state":
         values[np.arange(values.shape[1]) >= batch.samples[:, None]] = np.nan
@@ -373,47 +415,59 @@ def _stored_column(batch: Batch, name: str) -> Array | None:
 
 
 def iterate_rows(batch: Batch, names: Sequence[str]) -> Iterator[Row]:
-    """Yield run number, sample times and the named series of each run that began, in order of the runs.
+    """Yield (run number, sample times, {name: values}) for each run that has samples, in order of the runs.
 
-    Threads evaluate a few blocks of runs in advance.
+    Series are evaluated by threads, a few blocks of runs in advance. Raises GudgeonError for a series that was not
+    stored.
     """
     check_stored(batch, names)
-    make_row = _stored_row if batch.states is None else _evaluated_row
+    make_row = _read_stored_row if batch.states is None else _evaluate_row
     parts = evaluation_parts_of(batch.source, names)
 
-    def block(first: int) -> list[Row]:
-        """Return the rows of BLOCK runs from `first` on."""
-        each = (make_row(batch, i, names, parts) for i in range(first, min(first + BLOCK, len(batch))))
-        return [row for row in each if row is not None]
+    def make_block(first_run: int) -> list[Row]:
+        """Return the rows of BLOCK runs from `first_run` on."""
+        rows = (make_row(batch, i, names, parts) for i in range(first_run, min(first_run + BLOCK, len(batch))))
+        return [row for row in rows if row is not None]
 
-    yield from _evaluate_in_order(block, range(0, len(batch), BLOCK), min(batch.threads, available_threads()))
+    yield from _evaluate_in_order(make_block, range(0, len(batch), BLOCK), min(batch.threads, available_threads()))
 
 
-def _evaluate_in_order(make: Callable[[int], list[Row]], pieces: range, threads: int) -> Iterator[Row]:
-    """Yield the results of `make` for all pieces in their order, computed in `threads` threads, at most AHEAD pieces a
-    thread in advance.
+def _evaluate_in_order(evaluate_block: Callable[[int], list[Row]], first_runs: range, n_threads: int) -> Iterator[Row]:
+    """Yield the rows of all blocks of runs in their order, evaluated in `n_threads` threads.
+
+    `evaluate_block` returns the rows of the block that begins at a run. At most AHEAD blocks a thread are evaluated in
+    advance; those not begun are cancelled if the caller stops.
     """
-    waiting: deque[Future[list[Row]]] = deque()
-    left = iter(pieces)
-    with ThreadPoolExecutor(max(1, min(threads, len(pieces))), thread_name_prefix="gudgeon") as pool:
+    futures: deque[Future[list[Row]]] = deque()
+    remaining_runs = iter(first_runs)
+    with ThreadPoolExecutor(max(1, min(n_threads, len(first_runs))), thread_name_prefix="gudgeon") as executor:
         try:
             while True:
-                more = islice(left, AHEAD * max(1, threads) - len(waiting))
-                waiting.extend(pool.submit(make, piece) for piece in more)
-                if not waiting:
+                next_runs = islice(remaining_runs, AHEAD * max(1, n_threads) - len(futures))
+                futures.extend(executor.submit(evaluate_block, first_run) for first_run in next_runs)
+                if not futures:
                     return
-                yield from waiting.popleft().result()
+                yield from futures.popleft().result()
         finally:
-            pool.shutdown(cancel_futures=True)
+            executor.shutdown(cancel_futures=True)
 
 
-def _evaluated_row(batch: Batch, i: int, names: Sequence[str], parts: frozenset[str]) -> Row | None:
-    """Return number, times and series of run i, evaluated from its states; None if it has no samples."""
+def _evaluate_row(batch: Batch, i: int, names: Sequence[str], parts: frozenset[str]) -> Row | None:
+    """Return run number, sample times and {name: values} of run i, evaluated from its states; None if it has no
+    samples.
+    """
     run: Result | None = batch.result.bare(i, parts)
     return None if run is None else (i, run.t, {name: run[name] for name in names})
 
 
-def _stored_row(batch: Batch, i: int, names: Sequence[str], _: frozenset[str]) -> Row | None:
-    """Return number, times and series of run i from the stored series; None if it has no samples."""
-    done = int(batch.samples[i])
-    return (i, batch.kept["t"][i, :done], {name: batch.kept[name][i, :done] for name in names}) if done else None
+def _read_stored_row(batch: Batch, i: int, names: Sequence[str], _: frozenset[str]) -> Row | None:
+    """Return run number, sample times and {name: values} of run i from the stored series; None if it has no samples.
+
+    The last argument is not used; it makes the signature that of `_evaluate_row`.
+    """
+    n_samples = int(batch.samples[i])
+    return (
+        (i, batch.kept["t"][i, :n_samples], {name: batch.kept[name][i, :n_samples] for name in names})
+        if n_samples
+        else None
+    )

@@ -83,10 +83,10 @@ class ContactCheck:
 
 
 def penetrations(run: Result) -> Array:
-    """Return the penetration of each joint with play at all samples, (N, n_clearances), m, from the positions of the
+    """Return the penetration of each joint with play at all samples, (N, n_clearances), in m, from positions of the
     bodies.
 
-    Negative values mean that the surfaces are apart.
+    Negative values mean that the surfaces are apart. Nothing of the engine is used.
     """
     columns = [
         _wall_penetration(run, joint) if joint.at_wall else _bearing_penetration(run, joint)
@@ -95,72 +95,92 @@ def penetrations(run: Result) -> Array:
     return np.stack(columns, axis=1) if columns else np.zeros((len(run.t), 0))
 
 
-def check_samples(run: Result, peaks: Result | None = None) -> ContactCheck:
-    """Compare the samples of a run with its list of contacts and return the faults.
+def check_samples(run: Result, run_with_peaks: Result | None = None) -> ContactCheck:
+    """Compare the samples of a run with its list of contacts and return the faults, by time.
 
-    `peaks` is the run whose diagnostics have the peaks over all steps; None: the same run.
+    `run_with_peaks` is the run whose diagnostics have the peaks over all steps; None: the same run. Joints with a film
+    only are skipped. Forces are checked only if they can be evaluated.
     """
-    found: list[Fault] = []
-    delta = penetrations(run)
+    faults: list[Fault] = []
+    penetration = penetrations(run)
     for k, joint in enumerate(run.source.clearances):
         if not joint.dry:
             continue
         force = np.full(len(run.t), np.nan) if run.compiled is None or joint.film else run[f"{joint.name}.F"]
-        free = ~_in_contact(run, k)
-        limit = max(DEPTH_TOL * float(run.p[joint.clearance]), SHALLOW)
-        found += _find_excursions(run, joint, "penetration", free & (delta[:, k] > limit), delta[:, k], force)
-        touches = free & (np.abs(delta[:, k]) <= SHALLOW)
-        bears = (force > FORCE_TOL * float(np.nanmax(force, initial=0.0))) & ~touches
-        found += _find_excursions(run, joint, "force", free & (delta[:, k] <= limit) & bears, delta[:, k], force)
+        is_free = ~_find_samples_in_contact(run, k)
+        depth_limit = max(DEPTH_TOL * float(run.p[joint.clearance]), SHALLOW)
+        faults += _find_excursions(
+            run, joint, "penetration", is_free & (penetration[:, k] > depth_limit), penetration[:, k], force
+        )
+        is_touching = is_free & (np.abs(penetration[:, k]) <= SHALLOW)
+        carries_force = (force > FORCE_TOL * float(np.nanmax(force, initial=0.0))) & ~is_touching
+        faults += _find_excursions(
+            run, joint, "force", is_free & (penetration[:, k] <= depth_limit) & carries_force, penetration[:, k], force
+        )
         if joint.name in run.source.rigid and run.compiled is not None:
             pull = sum(run[f"{joint.name}.F{axis}"] * run[f"{joint.name}.e{axis}"] for axis in "xy")
-            wrong = ~free & (pull > PULL_TOL * float(np.abs(pull).max(initial=0.0)))
-            found += _find_excursions(run, joint, "pull", wrong, delta[:, k], force)
-        found += _find_peak_faults(peaks or run, k, joint, float(np.nanmax(force[touches], initial=0.0)))
-    return ContactCheck(len(run.t), tuple(sorted(found, key=lambda one: one.t)))
+            pulls = ~is_free & (pull > PULL_TOL * float(np.abs(pull).max(initial=0.0)))
+            faults += _find_excursions(run, joint, "pull", pulls, penetration[:, k], force)
+        faults += _find_peak_faults(run_with_peaks or run, k, joint, float(np.nanmax(force[is_touching], initial=0.0)))
+    return ContactCheck(len(run.t), tuple(sorted(faults, key=lambda fault: fault.t)))
 
 
-def _in_contact(run: Result, k: int) -> NDArray[np.bool_]:
-    """Return for each sample whether it lies in a listed contact of joint k, (N,)."""
+def _find_samples_in_contact(run: Result, k: int) -> NDArray[np.bool_]:
+    """Return a mask (N,) of the samples that lie in a listed contact of joint k.
+
+    Contacts without an end last to the end of the run; both ends are widened by TIME_TOL.
+    """
     impacts = run.impacts[run.impacts["joint"] == k]
-    slack = TIME_TOL * float(run.t[-1] - run.t[0])
-    inside = np.zeros(len(run.t) + 1, int)
+    tolerance = TIME_TOL * float(run.t[-1] - run.t[0])
+    n_contacts = np.zeros(len(run.t) + 1, int)
     ends = np.where(np.isnan(impacts["t_off"]), np.inf, impacts["t_off"])
-    np.add.at(inside, np.searchsorted(run.t, impacts["t_on"] - slack), 1)
-    np.add.at(inside, np.searchsorted(run.t, ends + slack, "right"), -1)
-    return np.cumsum(inside)[:-1] > 0
+    np.add.at(n_contacts, np.searchsorted(run.t, impacts["t_on"] - tolerance), 1)
+    np.add.at(n_contacts, np.searchsorted(run.t, ends + tolerance, "right"), -1)
+    return np.cumsum(n_contacts)[:-1] > 0
 
 
 def _find_excursions(
-    run: Result, joint: ClearanceInfo, kind: str, wrong: NDArray[np.bool_], delta: Array, force: Array
+    run: Result, joint: ClearanceInfo, kind: str, is_wrong: NDArray[np.bool_], penetration: Array, force: Array
 ) -> Iterator[Fault]:
-    """Yield one fault for each series of neighbouring samples that `wrong` marks."""
-    at = np.flatnonzero(wrong)
-    for part in np.split(at, np.flatnonzero(np.diff(at) > 1) + 1):
-        if len(part):
-            deepest = part[np.argmax(delta[part])] if kind == "penetration" else part[np.argmax(force[part])]
-            largest = float(force[part].max())
-            yield Fault(kind, joint.name, float(run.t[deepest]), float(delta[part].max()), largest)
+    """Yield one fault of a kind for each group of neighbouring samples that `is_wrong` (N,) marks.
+
+    Its time is that of the largest penetration for "penetration", else that of the largest force.
+    """
+    indices = np.flatnonzero(is_wrong)
+    for run_of_samples in np.split(indices, np.flatnonzero(np.diff(indices) > 1) + 1):
+        if len(run_of_samples):
+            worst = (
+                run_of_samples[np.argmax(penetration[run_of_samples])]
+                if kind == "penetration"
+                else run_of_samples[np.argmax(force[run_of_samples])]
+            )
+            max_force = float(force[run_of_samples].max())
+            yield Fault(kind, joint.name, float(run.t[worst]), float(penetration[run_of_samples].max()), max_force)
 
 
-def _find_peak_faults(run: Result, k: int, joint: ClearanceInfo, touches: float) -> Iterator[Fault]:
-    """Yield a fault for each peak over all steps that exceeds the force of every listed contact.
+def _find_peak_faults(run: Result, k: int, joint: ClearanceInfo, touching_force: float) -> Iterator[Fault]:
+    """Yield a fault for each peak over all steps that exceeds the force of every listed contact of joint k.
 
-    Joints with a film are skipped, since they have forces outside contacts.
+    Joints with a film and rigid guides are skipped. `touching_force` (N) is the largest force of samples that only
+    touch.
     """
     if joint.film or (joint.at_wall and joint.joint in run.source.rigid):
         return
     impacts = run.impacts[run.impacts["joint"] == k]
     if joint.name in run.source.rigid:  # those without a duration have impulses
         impacts = impacts[impacts["t_off"] != impacts["t_on"]]
-    largest = float(impacts["F_peak"].max(initial=0.0))
-    extremes = [one for one in run.diagnostics.extremes if one.name == f"{joint.name}.F" and not one.against]
-    peaks = [(one.max, one.t_max) for one in extremes]
-    peaks += [(one.F, one.t) for one in run.diagnostics.peaks if one.joint == joint.name]
-    allowed = max(touches, largest * (1.0 + (PEAK_TOL_FIXED if np.isfinite(run.diagnostics.step) else PEAK_TOL)))
-    for F, t in peaks:
-        if allowed < F:
-            yield Fault("peak", joint.name, t, float("nan"), F)
+    max_contact_force = float(impacts["F_peak"].max(initial=0.0))
+    force_extremes = [
+        extremes for extremes in run.diagnostics.extremes if extremes.name == f"{joint.name}.F" and not extremes.against
+    ]
+    peaks = [(extremes.max, extremes.t_max) for extremes in force_extremes]
+    peaks += [(extremes.F, extremes.t) for extremes in run.diagnostics.peaks if extremes.joint == joint.name]
+    limit = max(
+        touching_force, max_contact_force * (1.0 + (PEAK_TOL_FIXED if np.isfinite(run.diagnostics.step) else PEAK_TOL))
+    )
+    for force, t in peaks:
+        if limit < force:
+            yield Fault("peak", joint.name, t, float("nan"), force)
 
 
 def _bearing_penetration(run: Result, joint: ClearanceInfo) -> Array:
@@ -176,20 +196,27 @@ def _bearing_penetration(run: Result, joint: ClearanceInfo) -> Array:
 
 
 def _wall_penetration(run: Result, joint: ClearanceInfo) -> Array:
-    """Return the penetration of a slider's corner at all samples, (N,), m.
+    """Return the penetration of a slider's corner into its wall at all samples, (N,), in m.
 
-    It is the displacement of the corner towards its wall from the middle of the guide, less the gap.
+    It is the displacement of the corner towards its wall from the middle of the guide, less the gap. The mounting angle
+    is `angle` of the joint, or else the direction of `axis`.
     """
     first, second = _end_points(run, joint)
-    place = run.source.place
-    numbers = {
-        key: float(run.p[place[at]]) if (at := f"joints.{joint.joint}.{key}") in place else 0.0
+    parameter_indices = run.source.place
+    values = {
+        key: float(run.p[parameter_indices[address]])
+        if (address := f"joints.{joint.joint}.{key}") in parameter_indices
+        else 0.0
         for key in ("axis.x", "axis.y", "angle")
     }
-    direction = np.arctan2(numbers["axis.y"], numbers["axis.x"]) + _body_angle(run, joint.first)
-    turned = numbers["angle"] if f"joints.{joint.joint}.angle" in place or _has_mounting_angle(run, joint) else None
-    mounted = np.arctan2(numbers["axis.y"], numbers["axis.x"]) if turned is None else turned
-    tilt = _body_angle(run, joint.second) - _body_angle(run, joint.first) - mounted
+    direction = np.arctan2(values["axis.y"], values["axis.x"]) + _body_angle(run, joint.first)
+    specified_angle = (
+        values["angle"]
+        if f"joints.{joint.joint}.angle" in parameter_indices or _has_mounting_angle(run, joint)
+        else None
+    )
+    mounting_angle = np.arctan2(values["axis.y"], values["axis.x"]) if specified_angle is None else specified_angle
+    tilt = _body_angle(run, joint.second) - _body_angle(run, joint.first) - mounting_angle
     distance = _point_positions(run, second) - _point_positions(run, first)
     offset = distance[:, 1] * np.cos(direction) - distance[:, 0] * np.sin(direction)
     return np.asarray(corner_approach(run.source, run.p, joint, offset, tilt) - float(run.p[joint.clearance]))
@@ -197,13 +224,17 @@ def _wall_penetration(run: Result, joint: ClearanceInfo) -> Array:
 
 def _has_mounting_angle(run: Result, joint: ClearanceInfo) -> bool:
     """Return whether the mechanism file specifies the mounting angle of the joint."""
-    return any(one.address == f"joints.{joint.joint}.angle" for one in run.source.written)
+    return any(entry.address == f"joints.{joint.joint}.angle" for entry in run.source.written)
 
 
 def _end_points(run: Result, joint: ClearanceInfo) -> tuple[str, str]:
-    """Return the names of the two points that a joint connects: that of the bearing, then that of the journal."""
-    part = next(one for one in run.source.parts if one.section == "joints" and one.name == joint.joint)
-    return part.ends[0], part.ends[1]
+    """Return the names of the two points that a joint with play connects: that of the bearing, then that of the
+    journal.
+    """
+    joint_part = next(
+        candidate for candidate in run.source.parts if candidate.section == "joints" and candidate.name == joint.joint
+    )
+    return joint_part.ends[0], joint_part.ends[1]
 
 
 def _body_angle(run: Result, body: int) -> Array:
@@ -212,8 +243,8 @@ def _body_angle(run: Result, body: int) -> Array:
 
 
 def _point_positions(run: Result, name: str) -> Array:
-    """Return the positions of a point at all samples, (N, 2), m; the origin for the ground itself."""
-    info = next((one for one in run.source.points if one.name == name), None)
-    if info is None:
+    """Return the positions of a point at all samples in ground axes, (N, 2), in m; the origin for an unknown name."""
+    point = next((candidate for candidate in run.source.points if candidate.name == name), None)
+    if point is None:
         return np.zeros((len(run.t), 2))
-    return np.stack([point_motion(run, info, axis, 0) for axis in (0, 1)], axis=1)
+    return np.stack([point_motion(run, point, axis, 0) for axis in (0, 1)], axis=1)

@@ -154,12 +154,17 @@ class Diagnostics:
     rubbed: tuple[SlidingLoads, ...] = ()  # over all steps, of joints whose wear was requested; not saved
 
     def peak(self, joint: str) -> Peak:
-        """Return the peak at a joint with play. Raises UnknownNameError for any other name."""
+        """Return the largest force at a joint with play over all steps, with time, eccentricity and first contact.
+
+        Raises UnknownNameError for any other name.
+        """
         for peak in self.peaks:
             if isinstance(joint, str) and peak.joint == joint:
                 return peak
-        known = ", ".join(peak.joint for peak in self.peaks) or "none"
-        raise UnknownNameError(f"no peak of {message(joint)}: expected a joint with play", hint=f"there are: {known}")
+        joint_names = ", ".join(peak.joint for peak in self.peaks) or "none"
+        raise UnknownNameError(
+            f"no peak of {message(joint)}: expected a joint with play", hint=f"there are: {joint_names}"
+        )
 
     def to_json(self) -> str:
         """Return the diagnostics as JSON without NaN or infinity, which RFC 8259 lacks: they are the words "nan",
@@ -175,12 +180,15 @@ class Diagnostics:
 
     @staticmethod
     def from_json(text: str) -> Diagnostics:
-        """Return the diagnostics from the text that `to_json` wrote, bit for bit."""
+        """Return the diagnostics from the text that `to_json` wrote, bit for bit.
+
+        Fields that older files lack get their defaults; the former field "grazes" is ignored.
+        """
         data = json.loads(text)
         data.pop("grazes", None)  # in older files, whose rk4 evaluated contacts at the ends of steps only
         data["peaks"] = tuple(Peak(**_to_floats(peak, Peak)) for peak in data["peaks"])
-        data["extremes"] = tuple(Extremes(**_to_floats(one, Extremes)) for one in data.get("extremes", ()))
-        data["audit"] = tuple(Finding(**_to_floats(one, Finding)) for one in data.get("audit", ()))
+        data["extremes"] = tuple(Extremes(**_to_floats(fields, Extremes)) for fields in data.get("extremes", ()))
+        data["audit"] = tuple(Finding(**_to_floats(fields, Finding)) for fields in data.get("audit", ()))
         data["notes"] = tuple(data["notes"])
         data["examined"] = _examined_from_json(data["examined"]) if data.get("examined") else None
         return Diagnostics(**_to_floats(data, Diagnostics))
@@ -188,36 +196,43 @@ class Diagnostics:
     def __str__(self) -> str:
         """Return the diagnostics as aligned lines, one for each quantity, peak, series and note."""
         lists = ("peaks", "notes", "extremes", "examined", "audit", "rubbed")
-        rows = [f"{name:>30}  {value}" for name, value in asdict(replace(self, rubbed=())).items() if name not in lists]
-        rows += [f"{'peak at ' + p.joint:>30}  {p.F:.6g} N at {p.t:.6g} s, e ≤ {p.e_max:.6g} m" for p in self.peaks]
-        rows += [
+        lines = [
+            f"{name:>30}  {value}" for name, value in asdict(replace(self, rubbed=())).items() if name not in lists
+        ]
+        lines += [f"{'peak at ' + p.joint:>30}  {p.F:.6g} N at {p.t:.6g} s, e ≤ {p.e_max:.6g} m" for p in self.peaks]
+        lines += [
             f"{'peaks of ' + x.name + ' against ' * bool(x.against) + x.against:>30}  {x.min:.6g} {x.unit} at"
             f" {x.t_min:.6g} s, {x.max:.6g} {x.unit} at {x.t_max:.6g} s"
             for x in self.extremes
         ]
-        rows += [f"{'audit of ' + x.check:>30}  {x.worst:.3g} limits at {x.t:.6g} s {x.place}" for x in self.audit]
-        return "\n".join([*rows, *(f"{'note':>30}  {note}" for note in self.notes)])
+        lines += [f"{'audit of ' + x.check:>30}  {x.worst:.3g} limits at {x.t:.6g} s {x.place}" for x in self.audit]
+        return "\n".join([*lines, *(f"{'note':>30}  {note}" for note in self.notes)])
 
 
 def extremes_to_json(extremes: tuple[Extremes, ...]) -> str:
     """Return the extremes of one run as JSON, in the form of `Diagnostics.to_json`."""
-    return json.dumps(_to_json_values([asdict(one) for one in extremes]), ensure_ascii=False, allow_nan=False)
+    return json.dumps(
+        _to_json_values([asdict(series_extremes) for series_extremes in extremes]), ensure_ascii=False, allow_nan=False
+    )
 
 
 def extremes_from_json(text: str) -> tuple[Extremes, ...]:
     """Return the extremes from the text that `extremes_to_json` wrote, bit for bit."""
-    return tuple(Extremes(**_to_floats(one, Extremes)) for one in json.loads(text))
+    return tuple(Extremes(**_to_floats(fields, Extremes)) for fields in json.loads(text))
 
 
 def _examined_from_json(data: dict[str, Any]) -> Examined:
-    """Return the Examined of parsed JSON."""
-    kinds = {"joints": JointExamined, "ideal": IdealForce, "differences": Difference}
-    lists = {name: tuple(kind(**_to_floats(one, kind)) for one in data[name]) for name, kind in kinds.items()}
-    return Examined(**data | lists | {"notes": tuple(data["notes"])})
+    """Return the Examined from its part of the parsed JSON of `Diagnostics.to_json`, with words converted to floats."""
+    classes = {"joints": JointExamined, "ideal": IdealForce, "differences": Difference}
+    records = {name: tuple(cls(**_to_floats(fields, cls)) for fields in data[name]) for name, cls in classes.items()}
+    return Examined(**data | records | {"notes": tuple(data["notes"])})
 
 
 def _to_json_values(value: Any) -> Any:
-    """Replace the numbers that JSON lacks by words, at any depth of lists and dicts."""
+    """Return a value with NaN and infinities replaced by words, at any depth of lists and dicts.
+
+    Tuples become lists, NumPy scalars Python numbers; other values are returned as they are.
+    """
     if isinstance(value, float) and not math.isfinite(value):
         return repr(value)
     if isinstance(value, dict):
@@ -227,14 +242,17 @@ def _to_json_values(value: Any) -> Any:
     return value.item() if hasattr(value, "item") else value  # a NumPy scalar
 
 
-def _to_floats(data: dict[str, Any], kind: type) -> dict[str, Any]:
-    """Convert words of `_to_json_values` back to floats for the fields of the dataclass `kind` that are floats."""
-    floats = {name for name, annotation in kind.__annotations__.items() if annotation == "float"}
-    return {key: float(value) if key in floats else value for key, value in data.items()}
+def _to_floats(data: dict[str, Any], cls: type) -> dict[str, Any]:
+    """Return the fields of a dataclass with the words of `_to_json_values` converted back to floats.
+
+    Only fields that `cls` declares as float are converted.
+    """
+    float_fields = {name for name, annotation in cls.__annotations__.items() if annotation == "float"}
+    return {key: float(value) if key in float_fields else value for key, value in data.items()}
 
 
 def provenance_of(compiled: CompiledModel) -> dict[str, str]:
-    """Return where and when a run was made, by the keys of PROVENANCE.
+    """Return version, platform, compiler, date and mechanism text of a run, by the keys of PROVENANCE.
 
     Nothing is computed from it, and no comparison reads it. `SOURCE_DATE_EPOCH` (s since 1970) in the environment
     replaces the date, so that runs repeat byte for byte.
@@ -242,12 +260,12 @@ def provenance_of(compiled: CompiledModel) -> dict[str, str]:
     from gudgeon import __version__
 
     system = platform.uname()
-    where = f"{system.system} {system.release} {system.machine}, Python {platform.python_version()}"
-    return dict(zip(PROVENANCE, (__version__, where, compiled.compiler, _date(), compiled.text), strict=True))
+    platform_text = f"{system.system} {system.release} {system.machine}, Python {platform.python_version()}"
+    return dict(zip(PROVENANCE, (__version__, platform_text, compiled.compiler, _date(), compiled.text), strict=True))
 
 
 def _date() -> str:
-    """Return the date and time in UTC to the second, or that of SOURCE_DATE_EPOCH."""
-    given = os.environ.get("SOURCE_DATE_EPOCH", "")
-    now = datetime.fromtimestamp(int(given), UTC) if given.isdecimal() else datetime.now(UTC)
+    """Return the current date and time in UTC to the second in ISO format, or that of SOURCE_DATE_EPOCH."""
+    epoch_text = os.environ.get("SOURCE_DATE_EPOCH", "")
+    now = datetime.fromtimestamp(int(epoch_text), UTC) if epoch_text.isdecimal() else datetime.now(UTC)
     return now.isoformat(timespec="seconds")

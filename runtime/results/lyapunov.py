@@ -58,12 +58,13 @@ class Lyapunov:
 
     @cached_property
     def series(self) -> Array:
-        """Exponent (1/s) as estimated up to t[1:], (k,); NaN while the difference turns to the direction of largest
-        growth.
+        """The exponent in 1/s as estimated up to t[1:], (k,).
+
+        It is NaN during the first tenth of the time, while the difference turns to the direction of largest growth.
         """
-        found = np.full(len(self.growth), np.nan)
-        found[self._first :] = _slopes(self.t[self._first :], self._logs[self._first :])
-        return found
+        exponents = np.full(len(self.growth), np.nan)
+        exponents[self._first :] = _slopes(self.t[self._first :], self._logs[self._first :])
+        return exponents
 
     @property
     def exponent(self) -> float:
@@ -99,11 +100,12 @@ class Lyapunov:
         return int(np.sign(self.exponent)) if abs(self.exponent) > 2.0 * self.uncertainty else 0
 
     def believable(self, error: float = 1e-8, apart: float = APART) -> float:
-        """Return the predictability horizon, s: ln(apart/error)/λ; inf where λ ≤ 0, NaN where λ is unknown.
+        """Return the predictability horizon in s, ln(apart/error)/λ: inf where λ ≤ 0, NaN where λ is unknown.
 
         `error` is the error of the run at its start, in the measure of `apart`: fractions of the clearance, or of the
-        mechanism's size or 1 rad. `simulate(..., horizon=True)` repeats a run instead: its horizon is that of one run
-        and depends on its first contacts; this one is a mean over all runs.
+        mechanism's size or 1 rad. Raises BadValueError unless both are positive and `error` is smaller. `simulate(...,
+        horizon=True)` repeats a run instead: its horizon is that of one run and depends on its first contacts; this one
+        is a mean over all runs.
         """
         error, apart = positive(error, "error"), positive(apart, "apart")
         if error >= apart:
@@ -114,11 +116,14 @@ class Lyapunov:
 
     @cached_property
     def motion(self) -> Motion:
-        """Kind of the motion that returns to the section. Raises BadValueError without a section."""
+        """The kind of the motion that returns to the section, from the returns after the first tenth of the time.
+
+        Raises BadValueError without a section.
+        """
         if self.section is None:
             raise BadValueError("no section was asked for", hint='lyapunov(..., section="an event", or a period in s)')
-        late = self.section.t >= self.t[self._first]
-        points = self.section.points[late]
+        is_settled = self.section.t >= self.t[self._first]
+        points = self.section.points[is_settled]
         return classify(points, self.section.extent, self.per_return, self.per_return_uncertainty)
 
     @property
@@ -133,43 +138,58 @@ class Lyapunov:
 
     @cached_property
     def _returns(self) -> tuple[Array, Array]:
-        """Times of the returns after the turning interval, (r,), and ln of the growth up to them."""
+        """The times of the returns after the first tenth of the time, (r,), and the logarithm of the growth up to each,
+        (r,).
+
+        Both are empty without a section.
+        """
         times = self.section.t if self.section is not None else np.zeros(0)
         times = times[times >= self.t[self._first]]
         return times, np.interp(times, self.t, self._logs)
 
     def __repr__(self) -> str:
         """Return exponent, uncertainty, method and time span in one line."""
-        found = f"{self.exponent:.4g} ± {self.uncertainty:.2g} 1/s"
+        text = f"{self.exponent:.4g} ± {self.uncertainty:.2g} 1/s"
         if self.section is not None:
-            found += f", {self.per_return:.4g} ± {self.per_return_uncertainty:.2g} a return ({self.section.name})"
-        found += f", at most: merged {self.merged} times" if self.merged else ""
-        return f"<Lyapunov {found}, by the {self.by}, {self.t[0]:g} … {self.t[-1]:g} s>"
+            text += f", {self.per_return:.4g} ± {self.per_return_uncertainty:.2g} a return ({self.section.name})"
+        text += f", at most: merged {self.merged} times" if self.merged else ""
+        return f"<Lyapunov {text}, by the {self.by}, {self.t[0]:g} … {self.t[-1]:g} s>"
 
 
 def _slopes(x: Array, logs: Array) -> Array:
-    """Return the slopes of the straight lines through the first 2, 3, … k + 1 points, (k,).
+    """Return the slopes (k,) of the least-squares lines through the first 2, 3, … k + 1 of the points (x, logs).
 
-    Each point is weighted by the interval before it.
+    Each point is weighted by the interval before it. Where x hardly spreads, the slope is that from the first point to
+    the last.
     """
-    weight = np.diff(x)
-    u, y = x[1:] - x[0], logs[1:] - logs[0]
-    s0, s1, s2, r0, r1 = (np.cumsum(weight * part) for part in (u**0, u, u * u, y, u * y))
-    spread = s0 * s2 - s1 * s1
+    weights = np.diff(x)
+    x_shifted, y_shifted = x[1:] - x[0], logs[1:] - logs[0]
+    sum_1, sum_x, sum_xx, sum_y, sum_xy = (
+        np.cumsum(weights * term)
+        for term in (x_shifted**0, x_shifted, x_shifted * x_shifted, y_shifted, x_shifted * y_shifted)
+    )
+    determinant = sum_1 * sum_xx - sum_x * sum_x
     with np.errstate(all="ignore"):
-        return np.asarray(np.where(spread > 1e-9 * s0 * s2, (s0 * r1 - s1 * r0) / spread, y / u))
+        return np.asarray(
+            np.where(
+                determinant > 1e-9 * sum_1 * sum_xx,
+                (sum_1 * sum_xy - sum_x * sum_y) / determinant,
+                y_shifted / x_shifted,
+            )
+        )
 
 
 def _standard_error(x: Array, logs: Array) -> float:
-    """Return the standard error of the slope from blocks of equal length; NaN with fewer than three intervals a
-    block.
+    """Return the standard error of the slope of `logs` over x, from the slopes in BLOCKS blocks of equal length.
+
+    Returns NaN with fewer than three intervals a block.
     """
     if len(x) < 3 * BLOCKS + 1:
         return math.nan
     edges = np.linspace(x[0], x[-1], BLOCKS + 1)
     slopes = []
-    for a, b in zip(edges, edges[1:], strict=False):
-        inside = x[(x > a) & (x < b)]
-        part = np.concatenate([[a], inside, [b]])
-        slopes.append(_slopes(part, np.interp(part, x, logs))[-1])
+    for begin, end in zip(edges, edges[1:], strict=False):
+        inside = x[(x > begin) & (x < end)]
+        block_x = np.concatenate([[begin], inside, [end]])
+        slopes.append(_slopes(block_x, np.interp(block_x, x, logs))[-1])
     return float(np.std(slopes, ddof=1) / math.sqrt(BLOCKS))

@@ -61,21 +61,26 @@ class Motion:
 
 
 def classify(
-    points: Array, extent: float, per_return: float = math.nan, uncertainty: float = math.nan, near: float = NEAR
+    points: Array,
+    extent: float,
+    per_return: float = math.nan,
+    exponent_error: float = math.nan,
+    tolerance: float = NEAR,
 ) -> Motion:
-    """Return the kind of motion of the points (k, d) of a section in the order of time.
+    """Return the kind of motion of the points (k, d) of a section in the order of time, with its confidence.
 
-    `extent` is the rms size of the whole motion in the same measure; `near` is the distance of recurrence as a fraction
-    of it. `per_return` ± `uncertainty` is the exponent per return.
+    `extent` is the rms size of the whole motion in the same measure; `tolerance` is the distance of recurrence as a
+    fraction of it. `per_return` ± `exponent_error` is the exponent per return. With few points or too little support
+    the kind is "undecided".
     """
-    n, share, distance = _recurrence(points, near * extent)
-    k = zero_one(_principal_coordinate(points)) if _max_deviation(points) > near * extent else math.nan
-    growing, neutral = _growth_supports(per_return, uncertainty, len(points))
-    regular = 1.0 - abs(k) if math.isfinite(k) else math.nan
+    period, fraction, distance = _recurrence(points, tolerance * extent)
+    chaos_measure = zero_one(_principal_coordinate(points)) if _max_deviation(points) > tolerance * extent else math.nan
+    growing_support, neutral_support = _growth_supports(per_return, exponent_error, len(points))
+    regular_measure = 1.0 - abs(chaos_measure) if math.isfinite(chaos_measure) else math.nan
     supports = {
-        PERIODIC: _min_support(share, 1.0 - growing),
-        QUASI: _min_support(1.0 - share, neutral, regular),
-        CHAOTIC: _min_support(1.0 - share, growing, k),
+        PERIODIC: _min_support(fraction, 1.0 - growing_support),
+        QUASI: _min_support(1.0 - fraction, neutral_support, regular_measure),
+        CHAOTIC: _min_support(1.0 - fraction, growing_support, chaos_measure),
     }
     kind = max(supports, key=lambda name: supports[name])
     if len(points) < FEWEST or supports[kind] < ENOUGH:
@@ -83,35 +88,37 @@ def classify(
     confidence = max(supports.values()) if kind != UNDECIDED else 1.0 - max(supports.values())
     return Motion(
         kind,
-        n if kind == PERIODIC else 0,
+        period if kind == PERIODIC else 0,
         confidence,
         supports,
         len(points),
-        share,
-        n,
+        fraction,
+        period,
         distance / extent if extent > 0.0 else math.nan,
-        k,
+        chaos_measure,
         per_return,
-        uncertainty,
+        exponent_error,
     )
 
 
-def _min_support(*signs: float) -> float:
+def _min_support(*supports: float) -> float:
     """Return the smallest of the supports that are not NaN, at least 0; 0 if there is none."""
-    known = [sign for sign in signs if math.isfinite(sign)]
-    return max(min(known), 0.0) if known else 0.0
+    finite_supports = [support for support in supports if math.isfinite(support)]
+    return max(min(finite_supports), 0.0) if finite_supports else 0.0
 
 
-def _recurrence(points: Array, near: float) -> tuple[int, float, float]:
-    """Return the smallest n after which the largest fraction of points recurs within `near`, that fraction, and the
-    median distance.
+def _recurrence(points: Array, tolerance: float) -> tuple[int, float, float]:
+    """Return the smallest n after which the largest fraction of points recurs, that fraction, and the median distance.
+
+    A point recurs if the point n returns later lies within `tolerance`. n is at most MOST_PERIOD; (0, 0, inf) for too
+    few points.
     """
     best = (0, 0.0, math.inf)
     for n in range(1, min(MOST_PERIOD, len(points) // REPEATED) + 1):
-        gaps = np.linalg.norm(points[n:] - points[:-n], axis=1)
-        share = float(np.mean(gaps <= near))
-        if share > best[1] + 1e-12 or best[0] == 0:
-            best = (n, share, float(np.median(gaps)))
+        distances = np.linalg.norm(points[n:] - points[:-n], axis=1)
+        fraction = float(np.mean(distances <= tolerance))
+        if fraction > best[1] + 1e-12 or best[0] == 0:
+            best = (n, fraction, float(np.median(distances)))
     return best
 
 
@@ -126,41 +133,49 @@ def _principal_coordinate(points: Array) -> Array:
     return np.asarray(centred @ np.linalg.svd(centred, full_matrices=False)[2][0])
 
 
-def _growth_supports(rate: float, error: float, count: int) -> tuple[float, float]:
-    """Return the probabilities that differences grow exponentially, and that they neither grow nor decay; NaN without
-    an exponent.
+def _growth_supports(exponent: float, exponent_error: float, n_returns: int) -> tuple[float, float]:
+    """Return the probabilities that differences grow exponentially, and that they neither grow nor decay.
 
-    In regular motion differences grow by powers of time. For t³, followed from a tenth of the time on, the slope of the
-    straight line through ln of the growth is 5.9/k over the k remaining returns. Rates below that are not exponential
-    growth.
+    Both are NaN without an exponent or with fewer than two returns. In regular motion differences grow by powers of
+    time. For t³, followed from a tenth of the time on, the slope of the straight line through ln of the growth is 5.9/k
+    over the k remaining returns. Rates below that are not exponential growth.
     """
-    if not (math.isfinite(rate) and math.isfinite(error)) or count < 2:
+    if not (math.isfinite(exponent) and math.isfinite(exponent_error)) or n_returns < 2:
         return math.nan, math.nan
-    none = POWERS / count
+    max_regular_rate = POWERS / n_returns
 
-    def above(bound: float) -> float:
+    def probability_above(bound: float) -> float:
         """Return the probability that the rate exceeds `bound`, from a normal distribution."""
-        return 0.5 * math.erfc((bound - rate) / (math.sqrt(2.0) * max(error, 1e-300)))
+        return 0.5 * math.erfc((bound - exponent) / (math.sqrt(2.0) * max(exponent_error, 1e-300)))
 
-    return above(none), above(-none) - above(none)
+    return probability_above(max_regular_rate), probability_above(-max_regular_rate) - probability_above(
+        max_regular_rate
+    )
 
 
 def zero_one(values: Array, seed: int = 1) -> float:
-    """Return K of the 0-1 test for a series (k,): the median over frequencies of corr(n, D(n)), n to k/10; NaN if k <
-    40.
+    """Return K of the 0-1 test for chaos of a series (k,): near 1 in chaos, near 0 in regular motion.
+
+    K is the median over random frequencies of the correlation of lag n and displacement D(n), n up to k/10. Returns NaN
+    for fewer than FEWEST values.
     """
-    count = len(values)
-    if count < FEWEST:
+    n_values = len(values)
+    if n_values < FEWEST:
         return math.nan
-    most, j = count // 10, np.arange(1, count + 1)
-    n = np.arange(1, most + 1)
-    found = []
-    for c in np.random.default_rng(seed).uniform(math.pi / 5, 4 * math.pi / 5, DRAWS):
-        p, q = np.cumsum(values * np.cos(j * c)), np.cumsum(values * np.sin(j * c))
-        squares = [
-            np.mean((p[k:][: count - most] - p[: count - most]) ** 2 + (q[k:][: count - most] - q[: count - most]) ** 2)
-            for k in n
+    max_lag, indices = n_values // 10, np.arange(1, n_values + 1)
+    lags = np.arange(1, max_lag + 1)
+    correlations = []
+    for frequency in np.random.default_rng(seed).uniform(math.pi / 5, 4 * math.pi / 5, DRAWS):
+        p, q = np.cumsum(values * np.cos(indices * frequency)), np.cumsum(values * np.sin(indices * frequency))
+        mean_squares = [
+            np.mean(
+                (p[lag:][: n_values - max_lag] - p[: n_values - max_lag]) ** 2
+                + (q[lag:][: n_values - max_lag] - q[: n_values - max_lag]) ** 2
+            )
+            for lag in lags
         ]
-        displacement = np.array(squares) - values.mean() ** 2 * (1.0 - np.cos(n * c)) / (1.0 - math.cos(c))
-        found.append(np.corrcoef(n, displacement)[0, 1] if np.ptp(displacement) > 0.0 else 0.0)
-    return float(np.median(found))
+        displacement = np.array(mean_squares) - values.mean() ** 2 * (1.0 - np.cos(lags * frequency)) / (
+            1.0 - math.cos(frequency)
+        )
+        correlations.append(np.corrcoef(lags, displacement)[0, 1] if np.ptp(displacement) > 0.0 else 0.0)
+    return float(np.median(correlations))

@@ -42,61 +42,81 @@ class Extreme:
 
 
 def sample_extreme(name: str, unit: str, t: Array, values: Array) -> Extreme:
-    """Return the extremes of a series over its samples (N,); NaN if no value is finite."""
+    """Return smallest value, largest value, and value and time of the largest magnitude of a series over its samples
+    (N,).
+
+    All are NaN if no value is finite.
+    """
     if not np.isfinite(values).any():
         return Extreme(name, unit, math.nan, math.nan, math.nan, math.nan)
-    at = int(np.nanargmax(np.abs(values)))
-    return Extreme(name, unit, float(np.nanmin(values)), float(np.nanmax(values)), float(values[at]), float(t[at]))
+    index = int(np.nanargmax(np.abs(values)))
+    return Extreme(
+        name, unit, float(np.nanmin(values)), float(np.nanmax(values)), float(values[index]), float(t[index])
+    )
 
 
-def over_all_steps(run: Result, name: str, error: bool) -> Extremes:
-    """Return the extremes of a series of a run, or of its error against another scene, over all steps.
+def over_all_steps(run: Result, name: str, is_error: bool) -> Extremes:
+    """Return the extremes of a series of a run over all steps, or with `is_error` those of its error against another
+    scene.
 
-    Raises UnknownNameError for a series that the run does not have, BadValueError for one whose peaks were not
-    requested.
+    Extremes of the series itself are extended by the samples. Raises UnknownNameError for a series that the run does
+    not have, BadValueError for one whose peaks were not requested.
     """
     if not isinstance(name, str) or name not in run.names:
         raise run.unknown(name)
-    for one in run.diagnostics.extremes:
-        if one.name == name and bool(one.against) == error:
-            return one if error else _with_samples(one, run)
-    raise _not_requested(name, error)
+    for extremes in run.diagnostics.extremes:
+        if extremes.name == name and bool(extremes.against) == is_error:
+            return extremes if is_error else _extend_by_samples(extremes, run)
+    raise _peak_not_requested_error(name, is_error)
 
 
-def _with_samples(extremes: Extremes, run: Result) -> Extremes:
-    """Extend the extremes over all steps so that no sample lies beyond them.
+def _extend_by_samples(extremes: Extremes, run: Result) -> Extremes:
+    """Return the extremes over all steps, extended so that no sample lies beyond them.
 
-    Between the ends of a step its polynomial is only as accurate as the tolerance.
+    Between the ends of a step its polynomial is only as accurate as the tolerance. They are returned unchanged if the
+    series cannot be evaluated at a sample.
     """
     try:
         values = run[extremes.name]
     except GudgeonError:  # a sample has none
         return extremes
-    ends = ((extremes.max, extremes.t_max), (extremes.min, extremes.t_min))
-    (high, at_high), (low, at_low) = (
-        _extend_extremes(end, run.t[None], values[None], sign) for end, sign in zip(ends, (1.0, -1.0), strict=True)
+    maximum_and_minimum = ((extremes.max, extremes.t_max), (extremes.min, extremes.t_min))
+    (max_value, max_time), (min_value, min_time) = (
+        _extend_extremes(extreme, run.t[None], values[None], sign)
+        for extreme, sign in zip(maximum_and_minimum, (1.0, -1.0), strict=True)
     )
-    return replace(extremes, max=float(high[0]), t_max=float(at_high[0]), min=float(low[0]), t_min=float(at_low[0]))
+    return replace(
+        extremes, max=float(max_value[0]), t_max=float(max_time[0]), min=float(min_value[0]), t_min=float(min_time[0])
+    )
 
 
 def _extend_extremes(
-    end: tuple[Array | float, Array | float], t: Array, values: Array, sign: float
+    extreme: tuple[Array | float, Array | float], t: Array, values: Array, sign: float
 ) -> tuple[Array, Array]:
-    """Return extremes (n,) and their times, replaced by samples (n, N) at times (n, N) that lie beyond; sign −1 for
-    minima.
+    """Return extremes (n,) of n runs and their times, replaced by samples that lie beyond.
+
+    `extreme` has values and times; `t` and `values` are the samples (n, N), NaN where there is none. `sign` is 1 for
+    maxima, −1 for minima.
     """
-    found, at = (np.atleast_1d(np.asarray(x, dtype=float)) for x in end)
+    values_found, times = (np.atleast_1d(np.asarray(x, dtype=float)) for x in extreme)
     if not values.shape[1]:
-        return found, at
-    known = np.where(np.isfinite(values), sign * values, -np.inf)
-    best, runs = known.argmax(axis=1), np.arange(len(known))
-    beyond = np.isfinite(known[runs, best]) & ~(sign * found >= known[runs, best])
-    return np.where(beyond, values[runs, best], found), np.where(beyond, t[runs, best], at)
+        return values_found, times
+    signed_samples = np.where(np.isfinite(values), sign * values, -np.inf)
+    best_indices, run_indices = signed_samples.argmax(axis=1), np.arange(len(signed_samples))
+    is_beyond = np.isfinite(signed_samples[run_indices, best_indices]) & ~(
+        sign * values_found >= signed_samples[run_indices, best_indices]
+    )
+    return np.where(is_beyond, values[run_indices, best_indices], values_found), np.where(
+        is_beyond, t[run_indices, best_indices], times
+    )
 
 
-def _not_requested(name: str, error: bool) -> BadValueError:
-    """Return the error for a peak that was not requested, with the call that requests it."""
-    if error:
+def _peak_not_requested_error(name: str, is_error: bool) -> BadValueError:
+    """Return the error for a peak that was not requested, with the call that requests it.
+
+    `is_error` selects the text for the error of a series against another scene.
+    """
+    if is_error:
         message = f"the error of {name} over all steps is not known"
         return BadValueError(
             message, hint=f'simulate(…, peaks=["{name}"], against=ideal), where ideal is a loaded scene'
@@ -106,28 +126,37 @@ def _not_requested(name: str, error: bool) -> BadValueError:
 
 
 def table_rows(
-    scenes: Sequence[Sequence[Extremes]], cells: Sequence[Callable[[float, str, float], str]], errors: bool
+    scenes: Sequence[Sequence[Extremes]], formatters: Sequence[Callable[[float, str, float], str]], of_errors: bool
 ) -> list[tuple[str, list[str]]]:
-    """Return rows (name, one cell a scene) of a table of extremes.
+    """Return rows (name, one cell a scene) of a table of extremes; a scene without the series has the cell "–".
 
-    `cells` format value, unit and time of each scene. A row of errors has the largest magnitude; other series have a
-    row for the largest and one for the smallest value.
+    `formatters` convert value, unit and time of each scene to text. With `of_errors`, each error has one row with the
+    largest magnitude; other series have two, "NAME max" and "NAME min".
     """
-    found = [{one.name: one for one in extremes if bool(one.against) == errors} for extremes in scenes]
+    extremes_by_scene = [
+        {item.name: item for item in extremes if bool(item.against) == of_errors} for extremes in scenes
+    ]
     rows = []
-    for name in dict.fromkeys(name for one in found for name in one):
-        for end in ("",) if errors else ("max", "min"):
-            ends = [_extreme_cell(one[name], end) if name in one else None for one in found]
-            texts = [cell(*at) if at else "–" for cell, at in zip(cells, ends, strict=True)]
-            rows.append((f"{name} {end}".strip(), texts))
+    for name in dict.fromkeys(name for by_name in extremes_by_scene for name in by_name):
+        for end_name in ("",) if of_errors else ("max", "min"):
+            cell_arguments = [
+                _extreme_cell(by_name[name], end_name) if name in by_name else None for by_name in extremes_by_scene
+            ]
+            cell_texts = [
+                formatter(*arguments) if arguments else "–"
+                for formatter, arguments in zip(formatters, cell_arguments, strict=True)
+            ]
+            rows.append((f"{name} {end_name}".strip(), cell_texts))
     return rows
 
 
-def _extreme_cell(extremes: Extremes, end: str) -> tuple[float, str, float]:
-    """Return value, unit and time of an extreme: "max", "min", or "" for the largest magnitude."""
-    end = end or ("min" if -extremes.min > extremes.max else "max")
+def _extreme_cell(extremes: Extremes, end_name: str) -> tuple[float, str, float]:
+    """Return value, unit and time of an extreme: "max", "min", or "" for the one of the larger magnitude."""
+    end_name = end_name or ("min" if -extremes.min > extremes.max else "max")
     return (
-        (extremes.max, extremes.unit, extremes.t_max) if end == "max" else (extremes.min, extremes.unit, extremes.t_min)
+        (extremes.max, extremes.unit, extremes.t_max)
+        if end_name == "max"
+        else (extremes.min, extremes.unit, extremes.t_min)
     )
 
 
@@ -158,59 +187,90 @@ def batch_extremes(
     source: KernelSource,
     runs: Sequence[Sequence[Extremes]],
     name: str,
-    error: bool,
-    samples: Callable[[], tuple[Array, Array]],
+    is_error: bool,
+    get_samples: Callable[[], tuple[Array, Array]],
 ) -> BatchPeaks:
-    """Return the extremes of a series over all steps of each run.
+    """Return the extremes of a series over all steps of each run, (n,) each; NaN for a run without them.
 
-    `samples` returns times and values (n, N); the extremes are extended so that no sample lies beyond. Raises
-    UnknownNameError, BadValueError.
+    `get_samples` returns times and values (n, N), by which extremes of the series itself are extended. Raises
+    UnknownNameError, and BadValueError if no run has the extremes.
     """
     check_series(source, [name])
-    found = [next((x for x in own if x.name == name and bool(x.against) == error), None) for own in runs]
-    known = next(filter(None, found), None)
-    if known is None:
-        raise _not_requested(name, error)
-    values = {key: np.array([getattr(x, key) if x else np.nan for x in found]) for key in ENDS}
-    if not error:
-        t, sampled = samples()
-        for end, sign in (("max", 1.0), ("min", -1.0)):
-            values[end], values[f"t_{end}"] = _extend_extremes((values[end], values[f"t_{end}"]), t, sampled, sign)
-    return BatchPeaks(name, known.unit, **values, against=known.against)
+    extremes_by_run = [
+        next(
+            (extremes for extremes in run_extremes if extremes.name == name and bool(extremes.against) == is_error),
+            None,
+        )
+        for run_extremes in runs
+    ]
+    first_known = next(filter(None, extremes_by_run), None)
+    if first_known is None:
+        raise _peak_not_requested_error(name, is_error)
+    values = {
+        key: np.array([getattr(extremes, key) if extremes else np.nan for extremes in extremes_by_run]) for key in ENDS
+    }
+    if not is_error:
+        t, sampled_values = get_samples()
+        for end_name, sign in (("max", 1.0), ("min", -1.0)):
+            values[end_name], values[f"t_{end_name}"] = _extend_extremes(
+                (values[end_name], values[f"t_{end_name}"]), t, sampled_values, sign
+            )
+    return BatchPeaks(name, first_known.unit, **values, against=first_known.against)
 
 
 def run_columns(runs: Sequence[Sequence[Extremes]]) -> Iterator[tuple[str, str, Array]]:
-    """Yield name, unit and values (n,) of each extreme for tables: "S9.ay.peak.max", "S9.ay.error.max" and so on."""
-    for one in dict.fromkeys((x.name, x.unit, x.against) for own in runs for x in own):
-        found = [next((x for x in own if (x.name, x.unit, x.against) == one), None) for own in runs]
-        for key in ENDS:
-            values = np.array([getattr(x, key) if x else np.nan for x in found])
-            yield f"{one[0]}.{'error' if one[2] else 'peak'}.{key}", "s" if key.startswith("t_") else one[1], values
+    """Yield column name, unit and values (n,) of each extreme of n runs for tables; NaN for a run without it.
 
-
-def peaks_of(peaks: Array, contacts: NDArray[Any], count: NDArray[np.int_]) -> NDArray[Any]:
-    """Return the peak forces of all runs as PEAK_DTYPE (n, n_clearances).
-
-    `peaks` holds F, t, e_max (n, n_clearances, N_PEAK); `contacts` those of all runs one after the other, `count` how
-    many each run has.
+    Columns are "S9.ay.peak.max", "S9.ay.peak.t_max", "S9.ay.error.min" and so on.
     """
-    out = np.full(peaks.shape[:2], np.nan, dtype=PEAK_DTYPE)
+    for series_key in dict.fromkeys(
+        (extremes.name, extremes.unit, extremes.against) for run_extremes in runs for extremes in run_extremes
+    ):
+        extremes_by_run = [
+            next(
+                (
+                    extremes
+                    for extremes in run_extremes
+                    if (extremes.name, extremes.unit, extremes.against) == series_key
+                ),
+                None,
+            )
+            for run_extremes in runs
+        ]
+        for end_name in ENDS:
+            values = np.array([getattr(extremes, end_name) if extremes else np.nan for extremes in extremes_by_run])
+            yield (
+                f"{series_key[0]}.{'error' if series_key[2] else 'peak'}.{end_name}",
+                "s" if end_name.startswith("t_") else series_key[1],
+                values,
+            )
+
+
+def peaks_of(stored_peaks: Array, impacts: NDArray[Any], n_impacts: NDArray[np.int_]) -> NDArray[Any]:
+    """Return the peak forces of all runs as PEAK_DTYPE (n, n_clearances), NaN where there is none.
+
+    `stored_peaks` (n, n_clearances, N_PEAK) holds F, t and e_max. `impacts` are those of all runs one after the other,
+    `n_impacts` (n,) how many each run has.
+    """
+    peaks = np.full(stored_peaks.shape[:2], np.nan, dtype=PEAK_DTYPE)
     for k, name in ((PEAK_F, "F"), (PEAK_t, "t"), (PEAK_e_max, "e_max")):
-        out[name] = peaks[:, :, k]
-    runs = np.repeat(np.arange(len(count)), count)
-    for joint in range(peaks.shape[1]):
-        own = np.flatnonzero(contacts["joint"] == joint)
-        own = own[np.flatnonzero(np.diff(runs[own], prepend=-1))]  # the first of each run
-        run, begun = runs[own], contacts[own]
-        out["first_contact"][run, joint] = begun["t_on"]
-        out["first_peak"][run, joint] = np.where(is_rigid_impact(begun), np.nan, begun["F_peak"])
-    return out
+        peaks[name] = stored_peaks[:, :, k]
+    run_of_impact = np.repeat(np.arange(len(n_impacts)), n_impacts)
+    for joint in range(stored_peaks.shape[1]):
+        indices = np.flatnonzero(impacts["joint"] == joint)
+        indices = indices[np.flatnonzero(np.diff(run_of_impact[indices], prepend=-1))]  # the first of each run
+        run_indices, first_impacts = run_of_impact[indices], impacts[indices]
+        peaks["first_contact"][run_indices, joint] = first_impacts["t_on"]
+        peaks["first_peak"][run_indices, joint] = np.where(
+            is_rigid_impact(first_impacts), np.nan, first_impacts["F_peak"]
+        )
+    return peaks
 
 
 def is_rigid_impact(impacts: NDArray[Any]) -> NDArray[np.bool_]:
     """Return which of the impacts (k,) have zero duration: impacts of rigid surfaces."""
-    found: NDArray[np.bool_] = impacts["t_off"] == impacts["t_on"]
-    return found
+    is_instantaneous: NDArray[np.bool_] = impacts["t_off"] == impacts["t_on"]
+    return is_instantaneous
 
 
 def first_contact_force(impacts: NDArray[Any]) -> float:
@@ -221,29 +281,37 @@ def first_contact_force(impacts: NDArray[Any]) -> float:
 
 
 def find_zeno_points(joints: Sequence[str], impacts: NDArray[Any]) -> Iterator[str]:
-    """Yield a sentence for each Zeno point: impacts in ever shorter intervals until the contact closes."""
+    """Yield a sentence for each Zeno point: impacts in ever shorter intervals until the contact closes.
+
+    The first MESSAGES of each joint are reported one by one, and all by one more sentence if there are more.
+    """
     for k, name in enumerate(joints):
-        own = impacts[impacts["joint"] == k]
-        closings = [(n, float(own["t_on"][i])) for i in range(len(own)) if (n := _bounces_before(own, i)) >= FEW]
-        for count, t in closings[:MESSAGES]:
+        joint_impacts = impacts[impacts["joint"] == k]
+        zeno_points = [
+            (n_bounces, float(joint_impacts["t_on"][i]))
+            for i in range(len(joint_impacts))
+            if (n_bounces := _count_bounces_before(joint_impacts, i)) >= FEW
+        ]
+        for count, t in zeno_points[:MESSAGES]:
             yield (
                 f"{name}: {count} bounces piled up until t = {t:.9g} s, where the contact is closed: they part slower"
                 " than the law's threshold there"
             )
-        if len(closings) > MESSAGES:
-            yield f"{name}: bounces piled up {len(closings)} times, the last until t = {closings[-1][1]:.9g} s"
+        if len(zeno_points) > MESSAGES:
+            yield f"{name}: bounces piled up {len(zeno_points)} times, the last until t = {zeno_points[-1][1]:.9g} s"
 
 
-def _bounces_before(impacts: NDArray[Any], i: int) -> int:
-    """Return how many impacts of a joint, each slower than the one before, end in its lasting contact i; 0 for an
-    impact.
+def _count_bounces_before(impacts: NDArray[Any], i: int) -> int:
+    """Return how many impacts of a joint, each slower than the one before, end in its lasting contact i.
+
+    Returns 0 if record i is itself an impact of zero duration. `impacts` are those of one joint, by time.
     """
     if bool(is_rigid_impact(impacts[i : i + 1])[0]):
         return 0
-    count, slower = 0, 0.0
+    count, max_speed = 0, 0.0
     for impact in impacts[:i][::-1]:
-        ends_here = count > 0 or impact["t_on"] == impacts["t_on"][i]
-        if not (ends_here and impact["t_off"] == impact["t_on"] and impact["deltadot"] > slower):
+        is_consecutive = count > 0 or impact["t_on"] == impacts["t_on"][i]
+        if not (is_consecutive and impact["t_off"] == impact["t_on"] and impact["deltadot"] > max_speed):
             break
-        count, slower = count + 1, float(impact["deltadot"])
+        count, max_speed = count + 1, float(impact["deltadot"])
     return count

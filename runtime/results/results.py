@@ -103,40 +103,58 @@ class Result(Shown):
         return MappingProxyType({name: series.unit for name, series in self._catalogue.items()})
 
     def unit(self, name: str) -> str:
-        """Return the SI unit of a series, "" for a pure number."""
+        """Return the SI unit of a series, "" for a pure number, "s" for "t".
+
+        Raises UnknownNameError with the nearest name.
+        """
         return "s" if text(name, "the name of a series") == "t" else self._series(name).unit
 
     def meaning(self, name: str) -> str:
-        """Return the meaning of a series in one line."""
+        """Return the meaning of a series in one line.
+
+        Raises UnknownNameError with the nearest name.
+        """
         return "time" if text(name, "the name of a series") == "t" else self._series(name).meaning
 
     @cached_property
     def parameters(self) -> Mapping[str, Any]:
-        """Values of all run-time parameters and names of choices, by address; `parameters` of the file also by short
-        name.
+        """Values of all run-time parameters and names of choices, by address, read-only.
+
+        Entries of `parameters` of the file are also there by their short name.
         """
-        values = {slot.address: specified(slot, float(x)) for slot, x in zip(self.source.slots, self.p, strict=False)}
-        short = {key.removeprefix("parameters."): v for key, v in values.items() if key.startswith("parameters.")}
-        return MappingProxyType(values | short)
+        values_by_address = {
+            parameter.address: specified(parameter, float(number))
+            for parameter, number in zip(self.source.slots, self.p, strict=False)
+        }
+        short_names = {
+            key.removeprefix("parameters."): value
+            for key, value in values_by_address.items()
+            if key.startswith("parameters.")
+        }
+        return MappingProxyType(values_by_address | short_names)
 
     @cached_property
     def constants(self) -> Mapping[str, float]:
-        """Main constants of each joint with play by name: the clearance "A.c", and those of its laws, "A.K", "A.S" …"""
-        found = {f"{joint.name}.c": float(self.p[joint.clearance]) for joint in self.source.clearances}
+        """Main constants of each joint with play, SI, by name, read-only.
+
+        They are the clearance "A.c" and the constants of its laws, "A.K", "A.S" and so on.
+        """
+        constants = {f"{joint.name}.c": float(self.p[joint.clearance]) for joint in self.source.clearances}
         for joint in self.source.clearances:
-            found |= {f"{joint.name}.{name}": float(self.p[i]) for name, i in joint.constants.items()}
-        return MappingProxyType(found)
+            constants |= {f"{joint.name}.{name}": float(self.p[i]) for name, i in joint.constants.items()}
+        return MappingProxyType(constants)
 
     def events_of(self, name: str) -> Array:
-        """Return the times at which an event of the file happened, (k,), s. Raises UnknownNameError with the nearest
-        event.
+        """Return the times at which an event of the file happened, (k,), in s.
+
+        Raises UnknownNameError with the nearest event.
         """
         names = [event.name for event in self.source.events]
         if text(name, "the name of an event") not in names:
             from gudgeon.language.names import nearest
 
-            guess = nearest(name, names)
-            hint = f"did you mean {guess!r}?" if guess else f"its events: {', '.join(names) or 'none'}"
+            nearest_name = nearest(name, names)
+            hint = f"did you mean {nearest_name!r}?" if nearest_name else f"its events: {', '.join(names) or 'none'}"
             raise UnknownNameError(f"the scene {self.source.scene!r} has no event named {name!r}", hint=hint)
         times: Array = self.events["t"][self.events["event"] == names.index(name)]
         return times
@@ -174,9 +192,14 @@ class Result(Shown):
 
     @property
     def final(self) -> State:
-        """The last sample as a state to restart from."""
-        source, slots = self.source, zip(self.source.slots, self.given, self.is_given, strict=True)
-        overridden = {slot.address: specified(slot, float(x)) for slot, x, is_given in slots if is_given}
+        """The last sample as a state from which `simulate(start=…)` restarts.
+
+        It contains the overridden parameters and the identity of the scene; arrays are copies.
+        """
+        source, given_slots = self.source, zip(self.source.slots, self.given, self.is_given, strict=True)
+        overridden = {
+            parameter.address: specified(parameter, float(x)) for parameter, x, is_given in given_slots if is_given
+        }
         q, v, state, memory = (array[-1].copy() for array in (self.q, self.v, self.state, self.memory))
         return State(
             source.mechanism,
@@ -195,8 +218,13 @@ class Result(Shown):
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the fields for pickle, with the evaluation if it exists; other cached values are cheap to compute."""
-        kept = {*(each.name for each in fields(self)), "evaluation", "a", "states_at_events"}
-        return {name: value for name, value in self.__dict__.items() if name in kept}
+        stored_names = {
+            *(dataclass_field.name for dataclass_field in fields(self)),
+            "evaluation",
+            "a",
+            "states_at_events",
+        }
+        return {name: value for name, value in self.__dict__.items() if name in stored_names}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Restore the fields from pickle, with read-only series."""
@@ -206,7 +234,10 @@ class Result(Shown):
 
     @cached_property
     def a(self) -> Array:
-        """Accelerations q̈, (N, n); NaN at a sample without a solution."""
+        """Accelerations q̈, (N, n); all NaN if one of the samples has no solution.
+
+        They are stored, or else evaluated by the compiled model on first access.
+        """
         try:
             return self.evaluation.a if self.accelerations is None else self.accelerations
         except SolverError:
@@ -214,7 +245,10 @@ class Result(Shown):
 
     @cached_property
     def evaluation(self) -> Evaluation:
-        """Accelerations, multipliers, reactions, torques, forces of joints with play and energies at all samples."""
+        """Accelerations, multipliers, reactions, torques, forces of joints with play and energies at all samples.
+
+        The compiled model computes them on first access. Raises GudgeonError for a result that was read from a file.
+        """
         if self.compiled is None:
             raise GudgeonError("this result was read from a file that lacks the series; run the scene again")
         return self.compiled.evaluate(evaluation_times_of(self, self.compiled), self.q, self.v, self.memory, self.p)
@@ -249,8 +283,8 @@ class Result(Shown):
         """
         from gudgeon.results.figures import animation
 
-        expected = animation.check_animation_options(self, seconds, rate, points, velocities, forces, progress)
-        return animation.animate(self, path, expected)
+        options = animation.check_animation_options(self, seconds, rate, points, velocities, forces, progress)
+        return animation.animate(self, path, options)
 
     def report(self) -> RunReport:
         """Return a report on forces in joints with play, energies and accuracy: `print`, `.to_html()`, `.to_dict()`."""
@@ -272,9 +306,9 @@ class Result(Shown):
         return check_contacts(self, samples)
 
     def value_of(self, name: str) -> Any:
-        """Return the value of a name in an output's expression: a parameter, t or a series.
+        """Return the value of a name in an output's expression: a parameter's number, or t or a series (N,).
 
-        A parameter takes precedence over an output of the same name.
+        A parameter takes precedence over an output of the same name. Raises UnknownNameError.
         """
         if text(name, "a name of a result") in self.parameters:
             return self.parameters[name]
@@ -339,14 +373,17 @@ class Result(Shown):
         return catalogue(self.source)
 
     def _series(self, name: str) -> Series:
-        """Return the series of that name. Raises UnknownNameError with the nearest name."""
+        """Return the catalogue's entry of the series `name`.
+
+        Raises UnknownNameError with the nearest name.
+        """
         try:
             return self._catalogue[name]
         except KeyError:
             raise self.unknown(name) from None
 
     def unknown(self, name: str) -> UnknownNameError:
-        """Return the error for a name that this result does not have, with the nearest name."""
+        """Return, without raising it, the error for a name that this result does not have, with the nearest name."""
         from gudgeon.results.series import parameter_names, unknown_series
 
         return unknown_series(self.source, self._catalogue, name, parameter_names(self.source))
@@ -367,7 +404,10 @@ class EvaluatedSamples(Result):
 
     @cached_property
     def evaluation(self) -> Evaluation:
-        """The parts of the Evaluation in `parts`; the others have no row. Raises SingularError."""
+        """The parts of the Evaluation in `parts`, computed on first access; the others have no row.
+
+        Raises SingularError, and GudgeonError without a compiled library.
+        """
         if self.compiled is None:
             raise GudgeonError("there is no library to evaluate samples with")
         times = evaluation_times_of(self, self.compiled)
@@ -386,16 +426,17 @@ def bare(
     state: Array,
     parts: frozenset[str],
 ) -> EvaluatedSamples:
-    """Return a result of samples as C stores them, which evaluates `parts` only; works are NaN in a scene without
-    masses.
+    """Return a result of samples as C stores them, which can evaluate `parts` of an Evaluation only.
+
+    It has no diagnostics, impacts or overridden parameters. Works are NaN in a scene without masses.
     """
-    slots = len(source.slots)
+    n_slots = len(source.slots)
     return EvaluatedSamples(
         compiled=compiled,
         source=source,
         p=p,
-        given=np.zeros(slots),
-        is_given=np.zeros(slots, bool),
+        given=np.zeros(n_slots),
+        is_given=np.zeros(n_slots, bool),
         t=t,
         q=q,
         v=v,
@@ -410,8 +451,11 @@ def bare(
 
 
 def blank(source: KernelSource) -> EvaluatedSamples:
-    """Return a result without samples, which has the names and units of a scene's series."""
-    n, joints = len(source.coordinates), len(source.clearances)
+    """Return a result without samples, which has the names and units of a scene's series.
+
+    It checks names and units before there are results.
+    """
+    n, n_clearances = len(source.coordinates), len(source.clearances)
     p = np.full(len(source.slots) + len(source.derived), np.nan)
-    empty = np.zeros((0, n)), np.zeros((0, n)), np.zeros((0, 3)), np.zeros((0, source.n_memory))
-    return bare(source, None, p, np.zeros(0), *empty, np.zeros((0, joints), np.int8), PARTS)
+    empty_arrays = np.zeros((0, n)), np.zeros((0, n)), np.zeros((0, 3)), np.zeros((0, source.n_memory))
+    return bare(source, None, p, np.zeros(0), *empty_arrays, np.zeros((0, n_clearances), np.int8), PARTS)

@@ -31,40 +31,49 @@ OLDER = "the file was written before states at events were kept: run the scene a
 
 
 def without_start(run: Run) -> Run:
-    """Return the run without its first sample, which becomes its `start_row`; the run itself if there is no other."""
+    """Return the run without its first sample, which becomes the `start_row` of the new run.
+
+    A run with fewer than two samples is returned as it is. Called if the start was not a requested output time.
+    """
     if len(run.t) < 2:
         return run
-    first = replace(_select_samples(run, lambda x: x[:1].copy()), trace=None, event_states=None)
-    others = _select_samples(run, lambda x: x[1:])
-    others.start_row = first
-    return others
+    start_row = replace(_select_samples(run, lambda x: x[:1].copy()), trace=None, event_states=None)
+    run_without_start = _select_samples(run, lambda x: x[1:])
+    run_without_start.start_row = start_row
+    return run_without_start
 
 
 def with_start(run: Run) -> Run:
-    """Return the run with its start as the first sample; the run itself if its samples include the start."""
-    first = run.start_row
-    if first is None:
+    """Return the run with its start as the first sample; the run itself if its samples include the start.
+
+    Series computed so far are kept if they are known for the start too.
+    """
+    start_row = run.start_row
+    if start_row is None:
         return run
-    rows: dict[str, Any] = {name: _concatenate(getattr(first, name), getattr(run, name)) for name in ROWS}
-    both = run.stored.keys() & first.stored.keys()
-    stored = {name: np.concatenate([first.stored[name], run.stored[name]]) for name in both}
-    return replace(run, **rows, stored=stored, start_row=None)
+    arrays: dict[str, Any] = {name: _concatenate(getattr(start_row, name), getattr(run, name)) for name in ROWS}
+    common_series = run.stored.keys() & start_row.stored.keys()
+    stored = {name: np.concatenate([start_row.stored[name], run.stored[name]]) for name in common_series}
+    return replace(run, **arrays, stored=stored, start_row=None)
 
 
 def _concatenate(*parts: Array | None) -> Array | None:
     """Return the concatenated arrays; None if one of them is None."""
-    known = [part for part in parts if part is not None]
-    return np.concatenate(known) if len(known) == len(parts) else None
+    available = [part for part in parts if part is not None]
+    return np.concatenate(available) if len(available) == len(parts) else None
 
 
-def _select_samples(run: Run, take: Callable[[Array], Array]) -> Run:
-    """Return a run with the samples that `take` selects, and with the evaluation of these samples if it exists."""
+def _select_samples(run: Run, select: Callable[[Array], Array]) -> Run:
+    """Return a copy of the run with the samples that `select` takes from each array, without series computed so far.
+
+    If the run's Evaluation exists, the same samples of it are selected.
+    """
     arrays = ((name, getattr(run, name)) for name in ROWS)
-    rows: dict[str, Any] = {name: None if x is None else take(x) for name, x in arrays}
-    found = replace(run, **rows, stored={})
-    if (known := run.__dict__.get("evaluation")) is not None:
-        found.__dict__["evaluation"] = Evaluation(*(take(part) for part in vars(known).values()))
-    return found
+    selected: dict[str, Any] = {name: None if values is None else select(values) for name, values in arrays}
+    selected_run = replace(run, **selected, stored={})
+    if (evaluation := run.__dict__.get("evaluation")) is not None:
+        selected_run.__dict__["evaluation"] = Evaluation(*(select(part) for part in vars(evaluation).values()))
+    return selected_run
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +119,7 @@ class AtEvents:
         return len(self.rows)
 
     def __repr__(self) -> str:
-        """Return number and times: "3 states at 'top': t = 0.1, 0.3, 0.5 s"."""
+        """Return number and times of the states: "3 states at 'top': t = 0.1, 0.3, 0.5 s"; at most FEW times."""
         times = [f"{t:.6g}" for t in self.t[:FEW]] + ["…"] * (len(self) > FEW)
         states = "state" if len(self) == 1 else "states"
         return f"{len(self)} {states} at {self.event!r}" + (f": t = {', '.join(times)} s" if times else "")
@@ -121,36 +130,50 @@ class AtEvents:
 
 
 def result_at_events(run: Result) -> Result:
-    """Return a result whose samples are the start of the run and then all its events.
+    """Return a result whose samples are the start of the run and then all its events, by time.
 
-    Raises GudgeonError where the states at the events are not known.
+    Stored states are used; the motion of a kinematically driven scene is computed again. Raises GudgeonError if neither
+    is possible.
     """
-    run, found, n = with_start(run), run.event_states, run.q.shape[1]
-    if found is None:
-        reached = _repeat_motion(run)
-        rows = np.searchsorted(reached.t, run.events["t"])
-        parts = [array[[0, *rows]] for array in (reached.q, reached.v, reached.work, reached.memory, reached.state)]
+    run, event_states, n = with_start(run), run.event_states, run.q.shape[1]
+    if event_states is None:
+        repeated_motion = _recompute_motion(run)
+        sample_indices = np.searchsorted(repeated_motion.t, run.events["t"])
+        arrays = [
+            array[[0, *sample_indices]]
+            for array in (
+                repeated_motion.q,
+                repeated_motion.v,
+                repeated_motion.work,
+                repeated_motion.memory,
+                repeated_motion.state,
+            )
+        ]
     else:
-        y = found["y"]
-        ours, theirs = (
+        y = event_states["y"]
+        start_arrays, event_arrays = (
             (run.q, run.v, run.work, run.memory, run.state),
             (
                 y[:, :n],
                 y[:, n : 2 * n],
                 y[:, 2 * n :],
-                found["memory"],
-                found["state"],
+                event_states["memory"],
+                event_states["state"],
             ),
         )
-        parts = [np.concatenate([own[:1], at]) for own, at in zip(ours, theirs, strict=True)]
-    q, v, work, memory, state = parts
+        arrays = [
+            np.concatenate([run_array[:1], event_array])
+            for run_array, event_array in zip(start_arrays, event_arrays, strict=True)
+        ]
+    q, v, work, memory, state = arrays
     return result_of_rows(run, run.events["t"], q, v, work, memory, state)
 
 
 def result_of_rows(run: Result, t: Array, *parts: Array) -> Result:
-    """Return a result like `run` with other samples: the start, then one for each of the times t.
+    """Return a copy of a result with other samples: the start, then one for each of the times t.
 
-    `parts` are q, v, works, memory and contact state at these samples.
+    `parts` are q, v, works, memory and contact state at these samples, start included. Accelerations, envelope and
+    computed series are dropped.
     """
     q, v, work, memory, state = parts
     return replace(
@@ -168,8 +191,12 @@ def result_of_rows(run: Result, t: Array, *parts: Array) -> Result:
     )
 
 
-def _repeat_motion(run: Result) -> Trajectory:
-    """Return the motion of a kinematically driven scene at the times of its samples and its events."""
+def _recompute_motion(run: Result) -> Trajectory:
+    """Return the motion of a kinematically driven scene at the times of its samples and its events, computed again.
+
+    Raises GudgeonError for a result from a file or of another method, KeyboardInterrupt after Ctrl-C, and the error
+    that ended the motion early.
+    """
     from gudgeon.integrators import kinematic
     from gudgeon.integrators.trajectory import Problem
 
@@ -179,16 +206,19 @@ def _repeat_motion(run: Result) -> Trajectory:
         raise GudgeonError(f"method {run.diagnostics.method!r} keeps no states at events")
     times = np.union1d(run.t, run.events["t"])
     problem = Problem(run.compiled, run.p, times, run.q[0], run.v[0], np.zeros(0), np.inf, stop=False)
-    reached = kinematic.run(problem)
-    if reached.interrupted:
+    trajectory = kinematic.run(problem)
+    if trajectory.interrupted:
         raise KeyboardInterrupt
-    if reached.stopped is not None and reached.t[-1] < times[-1]:
-        raise reached.stopped
-    return reached
+    if trajectory.stopped is not None and trajectory.t[-1] < times[-1]:
+        raise trajectory.stopped
+    return trajectory
 
 
 def at_events(run: Result, name: str) -> AtEvents:
-    """Return the states at an event of a run. See Result.at_events."""
+    """Return the states at the event `name` of a run, by time; see Result.at_events.
+
+    Raises UnknownNameError for a name that is not an event of the file.
+    """
     run.events_of(name)  # UnknownNameError
-    number: Sequence[str] = [event.name for event in run.source.events]
-    return AtEvents(name, run.states_at_events, 1 + np.flatnonzero(run.events["event"] == number.index(name)))
+    event_names: Sequence[str] = [event.name for event in run.source.events]
+    return AtEvents(name, run.states_at_events, 1 + np.flatnonzero(run.events["event"] == event_names.index(name)))

@@ -94,53 +94,57 @@ _catalogues: dict[int, tuple[Any, Mapping[str, Series]]] = {}  # by the id of a 
 
 
 def catalogue(source: KernelSource) -> Mapping[str, Series]:
-    """Return all series of a scene by name, in the order of lists and files; cached for each source."""
-    if (kept := _catalogues.get(id(source))) is None or kept[0]() is not source:
-        for gone in [key for key, (lives, _) in list(_catalogues.items()) if lives() is None]:
-            _catalogues.pop(gone, None)
-        kept = _catalogues[id(source)] = weakref.ref(source), MappingProxyType(_build_catalogue(source))
-    return kept[1]
+    """Return all series of a scene by name, read-only, in the order of lists and files; cached for each source."""
+    if (entry := _catalogues.get(id(source))) is None or entry[0]() is not source:
+        for stale_key in [key for key, (reference, _) in list(_catalogues.items()) if reference() is None]:
+            _catalogues.pop(stale_key, None)
+        entry = _catalogues[id(source)] = weakref.ref(source), MappingProxyType(_build_catalogue(source))
+    return entry[1]
 
 
 def _build_catalogue(source: KernelSource) -> dict[str, Series]:
-    """Return all series of a scene by name: those of bodies, points and, with masses, of forces; then outputs."""
-    found: dict[str, Series] = {}
-    for part in (_body_series, _point_series, *(_MOTION_ALONE if source.massless else _PARTS)):
-        found.update(part(source))
-    for name, tree in source.outputs.items():
-        if not missing_names(source, tree, found):
-            found[name] = _output_series(source, name, tree, found)
-    return found
+    """Return all series of a scene by name: motion of bodies and points, then forces and energies, then outputs. Series
+    that need masses are left out if a body has none, and outputs if a name in their expression is missing.
+    """
+    series_by_name: dict[str, Series] = {}
+    for series_of in (_body_series, _point_series, *(_MOTION_ALONE if source.massless else _PARTS)):
+        series_by_name.update(series_of(source))
+    for name, expression_json in source.outputs.items():
+        if not missing_names(source, expression_json, series_by_name):
+            series_by_name[name] = _output_series(source, name, expression_json, series_by_name)
+    return series_by_name
 
 
 MASSLESS_HINT = "give every body mass: and inertia:, or a shape: with a density"
 
 
 def without_masses(source: KernelSource) -> str:
-    """Return the reason why quantities that depend on masses are unknown; "" if all bodies have masses."""
+    """Return why quantities that depend on masses are unknown ("S9 has no mass or no inertia"); "" if all are known."""
     if not source.massless:
         return ""
     return f"{', '.join(source.massless)} {'has' if len(source.massless) == 1 else 'have'} no mass or no inertia"
 
 
-def missing_names(source: KernelSource, tree: Any, known: Container[str]) -> list[str]:
-    """Return the names in an output's expression that this scene does not have, such as A.Fn where A has no play."""
-    parameters = {slot.address.removeprefix("parameters.") for slot in source.slots} | {"t"}
-    used = [name.path for name in expression_tree.names(expression_tree.from_json(tree))]
-    return [path for path in dict.fromkeys(used) if path not in known and path not in parameters]
+def missing_names(source: KernelSource, expression_json: Any, available: Container[str]) -> list[str]:
+    """Return the names in an output's expression that this scene does not have, such as A.Fn where A has no play.
+    `available` contains the names of series; parameters and t are always available.
+    """
+    parameter_names = {parameter.address.removeprefix("parameters.") for parameter in source.slots} | {"t"}
+    used_names = [name.path for name in expression_tree.names(expression_tree.from_json(expression_json))]
+    return [path for path in dict.fromkeys(used_names) if path not in available and path not in parameter_names]
 
 
 def rates(name: str) -> tuple[str, str]:
-    """Return the names of velocity and acceleration of a position: "S9.y" → ("S9.vy", "S9.ay"); "" for other names."""
-    owner, _, last = name.rpartition(".")
+    """Return velocity and acceleration of a position by name: "S9.y" → ("S9.vy", "S9.ay"); ("", "") for others."""
+    prefix, _, quantity = name.rpartition(".")
     for position, velocity, acceleration in MOTION:
-        if owner and last == position:
-            return f"{owner}.{velocity}", f"{owner}.{acceleration}"
+        if prefix and quantity == position:
+            return f"{prefix}.{velocity}", f"{prefix}.{acceleration}"
     return "", ""
 
 
 def _body_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield the series of positions, velocities and accelerations of each body's centre of mass."""
+    """Yield (name, series) of positions, velocities and accelerations of each body's centre of mass."""
     for body in source.bodies:
         for axis in range(3):
             for order, array in enumerate(("q", "v", "a")):
@@ -153,16 +157,13 @@ _AXES = ("x", "y", "angle")
 
 
 def _stored_series(unit: str, meaning: str, array: str, column: int) -> Series:
-    """Return a series that is a column of q, v, a, state, memory or work.
-
-    Accelerations may have to be evaluated.
-    """
+    """Return the series that is a column of a stored or, for accelerations, evaluated array, such as q or a."""
     parts = frozenset({"a"} if array == "a" else ())
     return Series(unit, meaning, partial(_stored_column, array=array, column=column), parts, (array, column))
 
 
 def _evaluated_series(unit: str, meaning: str, part: str, *index: int) -> Series:
-    """Return a series that is a column of a part of the Evaluation."""
+    """Return the series that is a column of a part of the Evaluation; `index` follows the index of the sample."""
     return Series(
         unit, meaning, partial(_evaluated_column, part=part, index=index), frozenset({part}), None, (part, index)
     )
@@ -175,7 +176,7 @@ def _stored_column(run: Result, array: str, column: int) -> Array:
 
 
 def _point_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield the series of positions, velocities and accelerations of each named point."""
+    """Yield (name, series) of positions and, except on the ground, velocities and accelerations of each named point."""
     for point in source.points:
         for order in range(3 if point.body >= 0 else 1):  # a point of the ground rests
             for axis in range(2):
@@ -186,48 +187,47 @@ def _point_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
 
 
 def point_motion(run: Result, point: PointInfo, axis: int, order: int) -> Array:
-    """Return a coordinate of a point, or its first or second time derivative (order 0, 1, 2), (N,).
-
-    r_P = r + A(θ) s with s = (x, y) in the body's frame; axis 0 is x, 1 is y in ground axes.
+    """Return a coordinate of a point, or its first or second time derivative (order 0, 1, 2), (N,), SI. r_P = r + A(θ)
+    s with s = (x, y) in the body's frame; axis 0 is x, 1 is y in ground axes. A point of the ground is constant.
     """
     x = point.sign_x * float(run.p[point.x]) if point.x >= 0 else 0.0
     y = point.sign_y * float(run.p[point.y]) if point.y >= 0 else 0.0
     if point.body < 0:
         return np.full(run.t.shape, (x, y)[axis])
-    i = run.source.bodies[point.body].index
-    sin, cos = np.sin(run.q[:, i + 2]), np.cos(run.q[:, i + 2])
-    arm = (cos * x - sin * y, sin * x + cos * y)
-    turned = (-arm[1], arm[0])[axis]  # d arm / dθ
+    index = run.source.bodies[point.body].index
+    sin, cos = np.sin(run.q[:, index + 2]), np.cos(run.q[:, index + 2])
+    lever = (cos * x - sin * y, sin * x + cos * y)
+    arm_derivative = (-lever[1], lever[0])[axis]  # d arm / dθ
     if order == 0:
-        return run.q[:, i + axis] + arm[axis]
+        return run.q[:, index + axis] + lever[axis]
     if order == 1:
-        return run.v[:, i + axis] + run.v[:, i + 2] * turned
-    return run.a[:, i + axis] + run.a[:, i + 2] * turned - run.v[:, i + 2] ** 2 * arm[axis]
+        return run.v[:, index + axis] + run.v[:, index + 2] * arm_derivative
+    return run.a[:, index + axis] + run.a[:, index + 2] * arm_derivative - run.v[:, index + 2] ** 2 * lever[axis]
 
 
 def _joint_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield the series of the reactions at joints without play."""
+    """Yield (name, series) of the reactions Fx, Fy, M and F at joints without play."""
     for k, joint in enumerate(source.joints):
-        own = joint.point.startswith(f"{source.bodies[joint.second].name if joint.second >= 0 else 'ground'}.")
-        on = f"{_body_name(source, joint.second)} at {'its point' if own else 'the pin'}"
-        yield from _reaction_series(joint.name, k, "reaction", f"joint {joint.name}, on {on}, ground axes")
+        is_own_point = joint.point.startswith(f"{source.bodies[joint.second].name if joint.second >= 0 else 'ground'}.")
+        location = f"{_body_name(source, joint.second)} at {'its point' if is_own_point else 'the pin'}"
+        yield from _reaction_series(joint.name, k, "reaction", f"joint {joint.name}, on {location}, ground axes")
 
 
 def _guide_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield the summed corner forces of each guide with play, named like the reaction of an ideal joint."""
-    second = {joint.joint: _body_name(source, joint.second) for joint in source.clearances}
+    """Yield (name, series) of the summed corner forces of each guide with play, named like an ideal reaction."""
+    second_body = {joint.joint: _body_name(source, joint.second) for joint in source.clearances}
     for k, name in enumerate(source.guides, len(source.joints)):
         yield from _reaction_series(
-            name, k, "contact", f"all corners of {name}, on {second[name]} at its point, ground axes"
+            name, k, "contact", f"all corners of {name}, on {second_body[name]} at its point, ground axes"
         )
 
 
-def _reaction_series(name: str, row: int, kind: str, on: str) -> Iterator[tuple[str, Series]]:
-    """Yield the series Fx, Fy, M and F of one joint or guide, from row `row` of Evaluation.reactions."""
-    for column, (last, unit, what) in enumerate(REACTION):
-        yield f"{name}.{last}", _evaluated_series(unit, f"{kind} {what}: {on}", "reactions", row, column)
-    magnitude = partial(_magnitude, name=name)
-    yield f"{name}.F", Series("N", f"{kind} force, magnitude: {on}", magnitude, frozenset({"reactions"}))
+def _reaction_series(name: str, row: int, kind: str, location: str) -> Iterator[tuple[str, Series]]:
+    """Yield (name, series) Fx, Fy, M and F of a joint or guide, from a row of Evaluation.reactions."""
+    for column, (component, unit, quantity) in enumerate(REACTION):
+        yield f"{name}.{component}", _evaluated_series(unit, f"{kind} {quantity}: {location}", "reactions", row, column)
+    compute_magnitude = partial(_magnitude, name=name)
+    yield f"{name}.F", Series("N", f"{kind} force, magnitude: {location}", compute_magnitude, frozenset({"reactions"}))
 
 
 def _body_name(source: KernelSource, body: int) -> str:
@@ -247,31 +247,34 @@ def _magnitude(run: Result, name: str) -> Array:
 
 
 def _clearance_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield the series of each joint with play: forces, eccentricity, penetration, contact state."""
+    """Yield (name, series) of each joint with play or slider's corner: forces, eccentricity, contact state."""
     for k, joint in enumerate(source.clearances):
-        at, parts = f": {'corner' if joint.at_wall else 'joint'} {joint.name} with play", frozenset({"clearance"})
-        message = (
+        suffix, parts = f": {'corner' if joint.at_wall else 'joint'} {joint.name} with play", frozenset({"clearance"})
+        meanings = (
             AT_WALL if joint.at_wall else {"F": "force on the journal, magnitude", "eps": "eccentricity ratio e/c"}
         )
         for name, (column, unit, meaning) in CLEARANCE.items():
             yield (
                 f"{joint.name}.{name}",
-                _evaluated_series(unit, message.get(name, meaning) + at, "clearance", k, column),
+                _evaluated_series(unit, meanings.get(name, meaning) + suffix, "clearance", k, column),
             )
-        yield f"{joint.name}.F", Series("N", message["F"] + at, partial(_magnitude, name=joint.name), parts)
-        yield f"{joint.name}.eps", Series("", message["eps"] + at, partial(_eccentricity_ratio, joint=joint), parts)
+        yield f"{joint.name}.F", Series("N", meanings["F"] + suffix, partial(_magnitude, name=joint.name), parts)
+        yield (
+            f"{joint.name}.eps",
+            Series("", meanings["eps"] + suffix, partial(_eccentricity_ratio, joint=joint), parts),
+        )
         states = "0 free, 1 impact (until the penetration first stops growing), 2 contact"
-        yield f"{joint.name}.state", _stored_series("", f"{states}{at}", "state", k)
-        latched = _stored_series("m/s", f"rate of penetration at the last onset{at}", "memory", k)
-        yield f"{joint.name}.deltadot_minus", latched
+        yield f"{joint.name}.state", _stored_series("", f"{states}{suffix}", "state", k)
+        approach_speed = _stored_series("m/s", f"rate of penetration at the last onset{suffix}", "memory", k)
+        yield f"{joint.name}.deltadot_minus", approach_speed
 
 
 def _state_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield the series of the state variables of friction laws, such as bristle deflections."""
-    first = len(source.clearances) + len(source.frictions)
+    """Yield (name, series) of state variables of friction laws, such as bristle deflections, without unnamed ones."""
+    first_index = len(source.clearances) + len(source.frictions)
     for k, name in enumerate(source.states):
         if name:
-            yield name, _stored_series("m", "inner state of the joint's law of friction", "memory", first + k)
+            yield name, _stored_series("m", "inner state of the joint's law of friction", "memory", first_index + k)
 
 
 def _eccentricity_ratio(run: Result, joint: ClearanceInfo) -> Array:
@@ -280,10 +283,10 @@ def _eccentricity_ratio(run: Result, joint: ClearanceInfo) -> Array:
 
 
 def _drive_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield the series of the torque or force of each drive."""
+    """Yield (name, series) of the torque of each rotational drive, and of the force of each other drive."""
     for k, drive in enumerate(source.drives):
-        turns = drive.unit == "rad"
-        name, unit = ("torque", "N*m") if turns else ("force", "N")
+        is_rotational = drive.unit == "rad"
+        name, unit = ("torque", "N*m") if is_rotational else ("force", "N")
         yield f"{drive.name}.{name}", _evaluated_series(unit, f"{name} of drive {drive.name}", "torques", k)
 
 
@@ -293,13 +296,13 @@ def drive_series(source: KernelSource) -> list[str]:
 
 
 def _friction_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield the series of each friction element: force, slip and mode."""
-    first = len(source.clearances)
+    """Yield (name, series) of each set-valued friction element: force F, slip v and mode."""
+    first_index = len(source.clearances)
     for k, name in enumerate(source.frictions):
         yield f"{name}.F", _evaluated_series("N", "friction on the second body", "friction", k, 0)
         yield f"{name}.v", _evaluated_series("m/s", "slip", "friction", k, 1)
         modes = "0 stick, 2 at rest by other rows, else the sign of the slip"
-        yield f"{name}.mode", _stored_series("", modes, "memory", first + k)
+        yield f"{name}.mode", _stored_series("", modes, "memory", first_index + k)
 
 
 def _element_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
@@ -309,7 +312,7 @@ def _element_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
 
 
 def _multiplier_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield the series of the Lagrange multiplier of each constraint equation."""
+    """Yield (name, series) of the Lagrange multiplier of each constraint equation: "lambda.NAME"."""
     for k, row in enumerate(source.rows):
         unit = "N" if row.unit == "m" else "N*m"
         yield (
@@ -319,11 +322,11 @@ def _multiplier_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
 
 
 def _energy_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield the series of energies, works and the energy residual."""
+    """Yield (name, series) of kinetic and potential energy, the energy residual and the works."""
     for k, name in enumerate(("kinetic", "potential")):
         yield f"energy.{name}", _evaluated_series("J", f"{name} energy", "energy", k)
-    message = "kinetic + potential energy less their start less all work"
-    yield "energy.residual", Series("J", message, _energy_residual, frozenset({"energy"}))
+    meaning_of_residual = "kinetic + potential energy less their start less all work"
+    yield "energy.residual", Series("J", meaning_of_residual, _energy_residual, frozenset({"energy"}))
     for k, name in enumerate(("drives", "forces", "clearances")):
         meaning = f"work done so far by the {'joints with play' if name == 'clearances' else name}"
         yield f"work.{name}", _stored_series("J", meaning, "work", k)
@@ -333,10 +336,10 @@ DRIFT = ("Phi.max", "Phi_dot.max")
 
 
 def _drift_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield the constraint drift, the largest |Φ| and |Φ̇|; lengths and angles count as numbers."""
-    what = ("|Φ|: m of rows of lengths, rad of rows of angles", "|Φ̇|: m/s of rows of lengths, rad/s of rows of angles")
+    """Yield (name, series) of the constraint drift, the largest |Φ| and |Φ̇|; lengths and angles count as numbers."""
+    units = ("|Φ|: m of rows of lengths, rad of rows of angles", "|Φ̇|: m/s of rows of lengths, rad/s of rows of angles")
     for k, name in enumerate(DRIFT):
-        yield name, _evaluated_series("", f"drift, the largest {what[k]}", "drift", k)
+        yield name, _evaluated_series("", f"drift, the largest {units[k]}", "drift", k)
 
 
 # series in addition to motion, with masses and without
@@ -357,137 +360,136 @@ _MOTION_ALONE = (_element_series, _drift_series)
 
 def _energy_residual(run: Result) -> Array:
     """Return the energy residual (N,), J: kinetic plus potential energy, less their start, less all work."""
-    energy, first = (one["energy.kinetic"] + one["energy.potential"] for one in (run, run.start_row or run))
-    return energy - first[0] - (run["work.drives"] + run["work.forces"] + run["work.clearances"])
+    energy, initial = (x["energy.kinetic"] + x["energy.potential"] for x in (run, run.start_row or run))
+    return energy - initial[0] - (run["work.drives"] + run["work.forces"] + run["work.clearances"])
 
 
-def _output_series(source: KernelSource, name: str, tree: Any, known: Mapping[str, Series]) -> Series:
-    """Return the series of an output of the mechanism file, with the unit of its expression."""
-    expression = expression_tree.from_json(tree)
-    expected = {used.path for used in expression_tree.names(expression)}
-    units = {"t": "s"} | {path: known[path].unit for path in expected if path in known}
-    units |= {slot.address.removeprefix("parameters."): slot.unit for slot in source.slots}
-    units |= {slot.address: slot.unit for slot in source.slots}
+def _output_series(source: KernelSource, name: str, expression_json: Any, known: Mapping[str, Series]) -> Series:
+    """Return the series of an output of the mechanism file, from its expression and the series `known` before it."""
+    expression = expression_tree.from_json(expression_json)
+    used_names = {name_node.path for name_node in expression_tree.names(expression)}
+    units = {"t": "s"} | {path: known[path].unit for path in used_names if path in known}
+    units |= {parameter.address.removeprefix("parameters."): parameter.unit for parameter in source.slots}
+    units |= {parameter.address: parameter.unit for parameter in source.slots}
 
     def compute(run: Result) -> Array:
         """Return the values (N,) of the expression at the samples of a run."""
         values = expression_tree.evaluate(expression, run.value_of)
         return np.array(np.broadcast_to(values, run.t.shape), dtype=float)
 
-    parts = frozenset(part for path in expected if path in known for part in known[path].parts)
+    parts = frozenset(part for path in used_names if path in known for part in known[path].parts)
     return Series(unit_of(expression, units.get), f"output {name}", compute, parts)
 
 
 def unknown_series(
-    source: KernelSource, known: Mapping[str, Series], name: Any, parameters: Iterable[str]
+    source: KernelSource, available: Mapping[str, Series], name: Any, parameters: Iterable[str]
 ) -> UnknownNameError:
-    """Return the error for a name that is not in `known`, with the nearest names and the reason."""
+    """Return, without raising it, the error for a name that is not in `available`, with nearest names and the reason.
+    The reason may be: not a text, a parameter, an output that needs other names, a body without masses.
+    """
     if not isinstance(name, str):
         return UnknownNameError(f"nothing is named {message(name)}", hint="a name is a text: run.names lists all")
     if name in parameters:
-        alike = ", ".join(path for path in known if path.rpartition(".")[2] == name)
-        hint = f'its value is run.parameters["{name}"]' + (f"; series: {alike}" if alike else "")
+        similar_series = ", ".join(path for path in available if path.rpartition(".")[2] == name)
+        hint = f'its value is run.parameters["{name}"]' + (f"; series: {similar_series}" if similar_series else "")
         return UnknownNameError(f"{name!r} is a parameter, no series", hint=hint)
     if name in source.outputs:
-        lacking = ", ".join(missing_names(source, source.outputs[name], known))
+        missing = ", ".join(missing_names(source, source.outputs[name], available))
         hint = "a joint's play, contact and reaction have results only in the scenes that have them"
         hint = MASSLESS_HINT if source.massless else hint
-        return UnknownNameError(f"output {name!r} needs {lacking}, which scene {source.scene!r} lacks", hint=hint)
-    if (why := without_masses(source)) and name in catalogue(replace(source, massless=())):
-        return UnknownNameError(f"{name!r} is not known: {why}", hint=MASSLESS_HINT)
-    found = near(name, known)
-    hint = f"nearest: {', '.join(found)}" if found else "run.names lists all names"
+        return UnknownNameError(f"output {name!r} needs {missing}, which scene {source.scene!r} lacks", hint=hint)
+    if (reason := without_masses(source)) and name in catalogue(replace(source, massless=())):
+        return UnknownNameError(f"{name!r} is not known: {reason}", hint=MASSLESS_HINT)
+    nearest_names = near(name, available)
+    hint = f"nearest: {', '.join(nearest_names)}" if nearest_names else "run.names lists all names"
     return UnknownNameError(f"the scene {source.scene!r} has nothing named {name!r}", hint=hint)
 
 
 def check_series(source: KernelSource, names: Iterable[Any]) -> tuple[str, ...]:
-    """Return names of series without repetitions. Raises UnknownNameError for a name that the scene lacks."""
-    known, expected = catalogue(source), list(names)
-    for name in expected:
-        if not isinstance(name, str) or name not in known:
-            raise unknown_series(source, known, name, parameter_names(source))
-    return tuple(dict.fromkeys(expected))
+    """Return names of series as a tuple, each once. Raises UnknownNameError for a name that the scene lacks."""
+    available, name_list = catalogue(source), list(names)
+    for name in name_list:
+        if not isinstance(name, str) or name not in available:
+            raise unknown_series(source, available, name, parameter_names(source))
+    return tuple(dict.fromkeys(name_list))
 
 
 def parameter_names(source: KernelSource) -> set[str]:
     """Return the addresses of a scene's run-time parameters, and the short names of its `parameters`."""
-    addresses = {slot.address for slot in source.slots}
+    addresses = {parameter.address for parameter in source.slots}
     return addresses | {address.removeprefix("parameters.") for address in addresses}
 
 
 def default_watch(reference: Result) -> tuple[str, ...]:
-    """Return the series to show by default: the coordinate of each slider on the ground that moves further; else
-    outputs.
+    """Return the names of the series to show by default. For each slider on the ground it is the coordinate x or y that
+    moves further in `reference`. Without sliders they are the outputs, or else the angle of the last body.
     """
-    found, source = [], reference.source
-    guided = [joint.second for joint in source.clearances if joint.at_wall and joint.first < 0]
-    for k in [joint.second for joint in rigid_guides(source) if joint.first < 0] + guided:
+    slider_series, source = [], reference.source
+    guided_bodies = [joint.second for joint in source.clearances if joint.at_wall and joint.first < 0]
+    for k in [joint.second for joint in rigid_guides(source) if joint.first < 0] + guided_bodies:
         body = source.bodies[k].name
-        found.append(max((f"{body}.x", f"{body}.y"), key=lambda name: float(np.ptp(reference[name]))))
-    last = reference.source.bodies[-1].name
-    return tuple(dict.fromkeys(found)) or tuple(reference.source.outputs) or (f"{last}.theta",)
+        slider_series.append(max((f"{body}.x", f"{body}.y"), key=lambda name: float(np.ptp(reference[name]))))
+    last_body = reference.source.bodies[-1].name
+    return tuple(dict.fromkeys(slider_series)) or tuple(reference.source.outputs) or (f"{last_body}.theta",)
 
 
 def rigid_guides(source: KernelSource) -> list[JointInfo]:
-    """Return the joints without play of the kind whose play is that of a guide.
-
-    The kind is named here, since a warm run does not import the generator, which has the joints' declarations.
+    """Return the joints without play of the kind whose play is that of a guide. The kind is named here, since a warm
+    run does not import the generator, which has the joints' declarations.
     """
     return [joint for joint in source.joints if joint.kind == "translational"]
 
 
 def rate_of(t: Array) -> float:
-    """Return the sampling rate, Hz. Raises BadValueError for samples at uneven times or fewer than nine."""
-    steps = np.diff(t)
-    if len(steps) < 8 or not np.all(np.abs(steps - steps.mean()) <= EVEN * steps.mean()):
+    """Return the sampling rate, Hz, of times (N,). Raises BadValueError for fewer than nine or uneven times."""
+    intervals = np.diff(t)
+    if len(intervals) < 8 or not np.all(np.abs(intervals - intervals.mean()) <= EVEN * intervals.mean()):
         message = "a spectrum or a filter takes nine samples at even times or more"
         raise BadValueError(
             message, hint="simulate(…, output=N) has equal intervals; an event that ends a run adds one"
         )
-    return float(1.0 / steps.mean())
+    return float(1.0 / intervals.mean())
 
 
 def spectrum(t: Array, values: Array, window: str = "hann") -> tuple[Array, Array]:
-    """Return frequencies (Hz) and amplitudes (M,) of a series; a sine of amplitude A on a line has the amplitude A.
-
-    The spectrum is one-sided, of the values less their mean, under a window of scipy.signal.windows divided by its
-    mean.
+    """Return frequencies (Hz) and amplitudes (M,) of a series; a sine of amplitude A on a line has the amplitude A. The
+    spectrum is one-sided, of the values less their mean, under a window of scipy.signal.windows divided by its mean.
+    Raises BadValueError for another window, uneven times or values that are not finite.
     """
     from scipy.signal import get_window
 
     if text(window, "window") not in WINDOWS:
         refuse("window", window, f"one of {', '.join(WINDOWS)}")
-    rate, weights = rate_of(t), get_window(window, len(t))
+    sampling_rate, window_values = rate_of(t), get_window(window, len(t))
     check_finite(values)
-    found = np.abs(np.fft.rfft((values - values.mean()) * weights)) / weights.sum()
-    found[1 : (len(t) + 1) // 2] *= 2.0  # what is at −f, but for that at half the rate
-    return np.fft.rfftfreq(len(t), 1.0 / rate), found
+    amplitudes = np.abs(np.fft.rfft((values - values.mean()) * window_values)) / window_values.sum()
+    amplitudes[1 : (len(t) + 1) // 2] *= 2.0  # what is at −f, but for that at half the rate
+    return np.fft.rfftfreq(len(t), 1.0 / sampling_rate), amplitudes
 
 
 def low_pass(t: Array, values: Array, cutoff: float, order: int = 2, causal: bool = True) -> Array:
-    """Return a series (N,) after a Butterworth low-pass with −3 dB at `cutoff` (Hz).
-
-    `causal`: one pass forwards, as in an amplifier, with its phase lag, from rest at the first value. Otherwise
-    forwards and backwards without phase, with a cutoff such that both passes together have −3 dB there. Raises
-    BadValueError for a cutoff above half the sampling rate.
+    """Return a series (N,) after a Butterworth low-pass with −3 dB at `cutoff` (Hz). `causal`: one pass forwards, as in
+    an amplifier, with its phase lag, from rest at the first value. Otherwise forwards and backwards without phase, with
+    a cutoff such that both passes together have −3 dB there. Raises BadValueError for a cutoff above half the sampling
+    rate.
     """
     from scipy.signal import butter, sosfilt, sosfilt_zi, sosfiltfilt
 
-    rate, order = rate_of(t), whole(order, "order", 1, MOST_ORDER)
+    sampling_rate, order = rate_of(t), whole(order, "order", 1, MOST_ORDER)
     check_finite(values)
-    if not 0.0 < cutoff < 0.499 * rate:
-        message = f"cutoff: {cutoff:g} Hz with {rate:g} samples a second: expected one below half of that"
+    if not 0.0 < cutoff < 0.499 * sampling_rate:
+        message = f"cutoff: {cutoff:g} Hz with {sampling_rate:g} samples a second: expected one below half of that"
         raise BadValueError(message, hint="simulate with a larger output")
-    warped = np.tan(np.pi * cutoff / rate)  # of the bilinear transform
+    warped_frequency = np.tan(np.pi * cutoff / sampling_rate)  # of the bilinear transform
     if not causal:
-        warped *= (2.0**0.5 - 1.0) ** (-1.0 / (2.0 * order))
-    design = float(np.arctan(warped)) / np.pi * rate
-    sections = butter(order, design, fs=rate, output="sos")
+        warped_frequency *= (2.0**0.5 - 1.0) ** (-1.0 / (2.0 * order))
+    design_frequency = float(np.arctan(warped_frequency)) / np.pi * sampling_rate
+    sections = butter(order, design_frequency, fs=sampling_rate, output="sos")
     if causal:
-        found: Array = sosfilt(sections, values, zi=sosfilt_zi(sections) * values[0])[0]
-        return found
-    back: Array = sosfiltfilt(sections, values)
-    return back
+        filtered: Array = sosfilt(sections, values, zi=sosfilt_zi(sections) * values[0])[0]
+        return filtered
+    filtered_both_ways: Array = sosfiltfilt(sections, values)
+    return filtered_both_ways
 
 
 def check_finite(values: Array) -> None:

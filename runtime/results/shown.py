@@ -27,7 +27,10 @@ class Shown:
     source: KernelSource
 
     def _repr_html_(self) -> str:
-        """Return a drawing, if the mechanism can be drawn, above the table, as HTML."""
+        """Return title, drawing of the start and table as HTML; a notebook displays it.
+
+        The drawing is left out if the mechanism cannot be drawn.
+        """
         title = one_line(self.source.title or self.source.mechanism)
         cells = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in rows_of(self))
         return f"<p>{escape(title)}, scene {escape(self.source.scene)}</p>{_draw_start(self)}<table>{cells}</table>"
@@ -42,13 +45,16 @@ class Shown:
         return {"text/plain": repr(self), "text/html": self._repr_html_(), "text/latex": self._repr_latex_()}
 
 
-def rows_of(shown: Any) -> Rows:
-    """Return the rows of the table: ranges of the main series of a run, or the components of a scene."""
-    return [*_run_rows(shown)] if hasattr(shown, "names") else [*_scene_rows(shown.source)]
+def rows_of(scene_or_run: Any) -> Rows:
+    """Return the rows of the table that a notebook shows, each a tuple of cells.
+
+    They are ranges of the main series for a run, and the components for a scene.
+    """
+    return [*_run_rows(scene_or_run)] if hasattr(scene_or_run, "names") else [*_scene_rows(scene_or_run.source)]
 
 
 def _scene_rows(source: KernelSource) -> Iterator[tuple[str, ...]]:
-    """Yield a row for each kind of component of a scene, with names."""
+    """Yield a row for each kind of component of a scene: the kind, and its number with the first names."""
     yield "bodies", _list_names([body.name for body in source.bodies])
     yield "joints", _list_names([joint.name for joint in source.joints])
     yield "joints with play", _list_names([joint.name for joint in source.clearances])
@@ -59,12 +65,16 @@ def _scene_rows(source: KernelSource) -> Iterator[tuple[str, ...]]:
 
 def _list_names(names: list[str]) -> str:
     """Return the number of names and the first MOST of them: "14: A, B … and 2 more"."""
-    more = f" and {len(names) - MOST} more" if len(names) > MOST else ""
-    return f"{len(names)}: {', '.join(names[:MOST])}{more}" if names else "none"
+    suffix = f" and {len(names) - MOST} more" if len(names) > MOST else ""
+    return f"{len(names)}: {', '.join(names[:MOST])}{suffix}" if names else "none"
 
 
 def _run_rows(run: Any) -> Iterator[tuple[str, ...]]:
-    """Yield a row for each main series of a run: name, smallest and largest sample, unit."""
+    """Yield a heading and a row for each main series of a run: name, smallest and largest sample, unit.
+
+    At most MOST series are shown; series without a finite sample are left out. The last row is the number of impacts,
+    if there are any.
+    """
     from gudgeon.results.series import default_watch, drive_series
 
     source = run.source
@@ -78,12 +88,12 @@ def _run_rows(run: Any) -> Iterator[tuple[str, ...]]:
         yield "impacts", "", str(len(run.impacts)), "1"
 
 
-def _draw_start(shown: Any) -> str:
-    """Return an HTML image of the mechanism at its start; "" if it cannot be drawn."""
+def _draw_start(scene_or_run: Any) -> str:
+    """Return an HTML image element with the mechanism at its start; "" if it cannot be drawn."""
     try:
         from gudgeon.results.figures.mechanism_plots import start_picture
 
-        picture = start_picture(shown)
+        picture = start_picture(scene_or_run)
     except (GudgeonError, ValueError, ArithmeticError):
         return ""
     data = base64.b64encode(picture).decode("ascii")

@@ -57,9 +57,12 @@ class SlidingLoads:
     length: float  # m
 
     def depth(self, side: int, law: str = "archard", rate: float = 1.0) -> Array:
-        """Return the wear depth (points,), m, of the bearing (side 0) or the journal (side 1); rate is k/H in 1/Pa."""
-        area = self.radii[side] * 2.0 * np.pi / self.requested.points * self.length
-        return np.asarray(rate * (self.load if law == "archard" else self.friction)[side] / area)
+        """Return the wear depth in m of each cell, (points,), of the bearing (side 0) or the journal (side 1).
+
+        `law` is "archard" or "reye"; `rate` is k/H in 1/Pa.
+        """
+        cell_area = self.radii[side] * 2.0 * np.pi / self.requested.points * self.length
+        return np.asarray(rate * (self.load if law == "archard" else self.friction)[side] / cell_area)
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,8 +100,10 @@ class Surface:
         return self.volume / self.hours
 
     def arc(self, share: float = SHARE) -> float:
-        """Return the length of the shortest arc of whole cells that contains this fraction of the volume, rad; NaN
-        without wear.
+        """Return the length in rad of the shortest arc of whole cells that contains the fraction `share` of the worn
+        volume.
+
+        Returns NaN without wear.
         """
         return arc(self.depth, share)
 
@@ -122,23 +127,30 @@ class Wear:
         return f"<Wear of {self.joint} by {self.law}: bearing {bearing}, journal {journal} at most>"
 
     def to_xarray(self) -> xarray.Dataset:
-        """Return a Dataset of the depths of both surfaces (m) over the angle (rad), with volumes and arcs as
-        attributes.
+        """Return a Dataset of the depths of both surfaces (m) over the angle (rad).
+
+        Its attributes are joint, law, time span, slip, and volume and arc of each surface.
         """
         import xarray
 
-        sides = {"bearing": self.bearing, "journal": self.journal}
-        message = {
+        surfaces = {"bearing": self.bearing, "journal": self.journal}
+        attributes_of_surfaces = {
             f"{name}_{key}": value
-            for name, side in sides.items()
-            for key, value in (("volume", side.volume), ("arc", side.arc()), ("deepest_angle", side.deepest_angle))
+            for name, surface in surfaces.items()
+            for key, value in (
+                ("volume", surface.volume),
+                ("arc", surface.arc()),
+                ("deepest_angle", surface.deepest_angle),
+            )
         }
         columns = {
-            name: ("angle", side.depth, {"units": "m", "long_name": f"wear's depth, {name}'s frame"})
-            for name, side in sides.items()
+            name: ("angle", surface.depth, {"units": "m", "long_name": f"wear's depth, {name}'s frame"})
+            for name, surface in surfaces.items()
         }
-        own = {"joint": self.joint, "law": self.law, "t_begin": self.t[0], "t_end": self.t[1], "slip": self.slip}
-        return xarray.Dataset(columns, {"angle": ("angle", self.angle, {"units": "rad"})}, own | message)
+        attributes = {"joint": self.joint, "law": self.law, "t_begin": self.t[0], "t_end": self.t[1], "slip": self.slip}
+        return xarray.Dataset(
+            columns, {"angle": ("angle", self.angle, {"units": "rad"})}, attributes | attributes_of_surfaces
+        )
 
     def to_dataframe(self) -> pandas.DataFrame:
         """Return a table with a row for each cell: angle (rad) as index, depth of the bearing and of the journal
@@ -209,30 +221,36 @@ class Worn:
         return f"<Worn {', '.join(self.joints)} by {self.law}: {rounds} rounds of {runs} runs>"
 
     def to_xarray(self) -> xarray.Dataset:
-        """Return a Dataset: contours over round, joint, run and slot; depths over the cells; volumes, works and peak
-        forces.
+        """Return a Dataset of contours over round, joint, run and slot, of depths over the cells, and of volumes, works
+        and peak forces.
+
+        Contours with fewer slots than the longest are filled with NaN.
         """
         import xarray
 
-        names, several = list(self.joints), list(self.joints.values())
-        slots = max((one.contour.shape[2] for one in several), default=0)
-        contour = np.full((len(names), *several[0].contour.shape[:2], slots), np.nan)
-        for k, one in enumerate(several):
-            contour[k, :, :, : one.contour.shape[2]] = one.contour
-        of_round, message = ("joint", "round", "run"), "of the bearing, beyond its circle, before each round"
+        names, joints = list(self.joints), list(self.joints.values())
+        max_slots = max((joint.contour.shape[2] for joint in joints), default=0)
+        contour = np.full((len(names), *joints[0].contour.shape[:2], max_slots), np.nan)
+        for joint_index, joint in enumerate(joints):
+            contour[joint_index, :, :, : joint.contour.shape[2]] = joint.contour
+        dimensions, description = ("joint", "round", "run"), "of the bearing, beyond its circle, before each round"
         columns = {
-            "contour": (("joint", "state", "run", "slot"), contour, {"units": "m", "long_name": f"depth {message}"}),
-            "depth": ((*of_round, "angle"), np.stack([one.depth for one in several]), {"units": "m"}),
-            "journal": ((*of_round, "angle"), np.stack([one.journal for one in several]), {"units": "m"}),
-            "journal_volume": (of_round, np.stack([one.journal_volume for one in several]), {"units": "m^3"}),
-            "volume": (of_round, np.stack([one.volume for one in several]), {"units": "m^3"}),
-            "work": (of_round, np.stack([one.work for one in several]), {"units": "N*m"}),
-            "peak": (of_round, np.stack([one.peak for one in several]), {"units": "N"}),
+            "contour": (
+                ("joint", "state", "run", "slot"),
+                contour,
+                {"units": "m", "long_name": f"depth {description}"},
+            ),
+            "depth": ((*dimensions, "angle"), np.stack([joint.depth for joint in joints]), {"units": "m"}),
+            "journal": ((*dimensions, "angle"), np.stack([joint.journal for joint in joints]), {"units": "m"}),
+            "journal_volume": (dimensions, np.stack([joint.journal_volume for joint in joints]), {"units": "m^3"}),
+            "volume": (dimensions, np.stack([joint.volume for joint in joints]), {"units": "m^3"}),
+            "work": (dimensions, np.stack([joint.work for joint in joints]), {"units": "N*m"}),
+            "peak": (dimensions, np.stack([joint.peak for joint in joints]), {"units": "N"}),
         }
-        points = several[0].depth.shape[2]
-        places = {"joint": names, "angle": ("angle", cell_angles(points), {"units": "rad"})}
-        own = {"law": self.law, "rate": self.rate, "scale": self.scale, "title": self.title}
-        return xarray.Dataset(columns, places, own)
+        n_cells = joints[0].depth.shape[2]
+        coordinates = {"joint": names, "angle": ("angle", cell_angles(n_cells), {"units": "rad"})}
+        attributes = {"law": self.law, "rate": self.rate, "scale": self.scale, "title": self.title}
+        return xarray.Dataset(columns, coordinates, attributes)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the Dataset of `to_xarray` as one complete NetCDF file, which `xarray.open_dataset` reads."""
@@ -248,55 +266,70 @@ def cell_angles(points: int) -> Array:
 
 
 def arc(depths: Array, share: float = SHARE) -> float:
-    """Return the length (rad, whole cells) of the shortest arc that contains the fraction `share` of the sum of `worn`
-    (points,).
+    """Return the length in rad of the shortest arc of whole cells that contains the fraction `share` of the sum of
+    `depths` (points,).
+
+    Arcs may pass angle 0. Returns NaN if the sum is zero.
     """
-    total, n = float(depths.sum()), len(depths)
-    if not total > 0.0:
+    total_depth, n_cells = float(depths.sum()), len(depths)
+    if not total_depth > 0.0:
         return np.nan
-    before = np.concatenate([[0.0], np.cumsum(np.concatenate([depths, depths]))])
-    targets = before[:n] + share * total * (1.0 - 1e-12)
-    ends = np.searchsorted(before, targets, "left")
-    return float((ends - np.arange(n)).min()) * 2.0 * np.pi / n
+    cumulated = np.concatenate([[0.0], np.cumsum(np.concatenate([depths, depths]))])
+    targets = cumulated[:n_cells] + share * total_depth * (1.0 - 1e-12)
+    end_cells = np.searchsorted(cumulated, targets, "left")
+    return float((end_cells - np.arange(n_cells)).min()) * 2.0 * np.pi / n_cells
 
 
 def bearing_of(source: KernelSource, joint: str) -> tuple[int, int, int]:
-    """Return the indices in p of the radii of bearing and journal and of the pin's length (m)."""
-    own = next(one for one in source.clearances if one.name == joint)
-    radius = own.constants["R_i"]
-    owner = source.slots[radius].address.rpartition(".")[0]
-    length = next(k for k, slot in enumerate(source.slots) if slot.address == f"{owner}.length")
-    return radius, own.constants["R_j"], length
+    """Return the indices in p of the radii of bearing and journal, and of the pin's length, for a joint with play."""
+    clearance = next(joint_info for joint_info in source.clearances if joint_info.name == joint)
+    radius = clearance.constants["R_i"]
+    address_of_bearing = source.slots[radius].address.rpartition(".")[0]
+    length = next(k for k, parameter in enumerate(source.slots) if parameter.address == f"{address_of_bearing}.length")
+    return radius, clearance.constants["R_j"], length
 
 
 def spread(points: int, low: Array, high: Array, loads: Array, half: Array | None = None) -> Array:
-    """Return loads (r, K) distributed evenly over arcs from low to high (K,), rad, as sums by cell, (r, points).
+    """Return loads (r, K) distributed evenly over arcs from `low` to `high` (K,), rad, as sums by cell, (r, points).
 
     With `half` (K,), rad, the load of each point of an arc is a parabola that vanishes at that distance on both sides.
     Angles may be of any turn. A cell receives the integral over it, so that sums of loads are preserved.
     """
     per_cell = 2.0 * np.pi / points
-    wide = np.zeros(len(low)) if half is None else half / per_cell
-    a, b = low / per_cell, high / per_cell
-    b = np.maximum(b, a + np.maximum(1e-9, 1e-6 * wide))
-    first = np.floor(a - wide).astype(np.int64)
-    count = np.floor(b + wide).astype(np.int64) - first + 1
-    arcs = np.repeat(np.arange(len(a)), count)
-    cell = first[arcs] + np.arange(len(arcs)) - np.repeat(np.cumsum(count) - count, count)
-    left, right = (
-        _fraction_below(edge, a[arcs], b[arcs], None if half is None else wide[arcs]) for edge in (cell, cell + 1)
+    half_width_cells = np.zeros(len(low)) if half is None else half / per_cell
+    begin, end = low / per_cell, high / per_cell
+    end = np.maximum(end, begin + np.maximum(1e-9, 1e-6 * half_width_cells))
+    first_cells = np.floor(begin - half_width_cells).astype(np.int64)
+    n_cells = np.floor(end + half_width_cells).astype(np.int64) - first_cells + 1
+    arc_indices = np.repeat(np.arange(len(begin)), n_cells)
+    cell = first_cells[arc_indices] + np.arange(len(arc_indices)) - np.repeat(np.cumsum(n_cells) - n_cells, n_cells)
+    fraction_left, fraction_right = (
+        _fraction_below(
+            edge, begin[arc_indices], end[arc_indices], None if half is None else half_width_cells[arc_indices]
+        )
+        for edge in (cell, cell + 1)
     )
-    return np.stack([np.bincount(cell % points, load[arcs] * (right - left), points) for load in loads])
+    return np.stack(
+        [
+            np.bincount(cell % points, load_row[arc_indices] * (fraction_right - fraction_left), points)
+            for load_row in loads
+        ]
+    )
 
 
-def _fraction_below(x: Array, a: Array, b: Array, half: Array | None) -> Array:
-    """Return the fraction of the load of an arc from a to b that lies below x; with `half`, of parabolas of that half
-    width.
+def _fraction_below(x: Array, begin: Array, end: Array, half_width: Array | None) -> Array:
+    """Return the fraction of the load of an arc from `begin` to `end` that lies below x, element by element.
+
+    With `half_width`, each point of the arc carries a parabola of that half width instead of a point load.
     """
-    if half is None:
-        return np.asarray(np.clip((x - a) / (b - a), 0.0, 1.0))
-    half = np.maximum(half, 1e-9)
-    return np.asarray((_parabola_integral((x - a) / half) - _parabola_integral((x - b) / half)) * half / (b - a))
+    if half_width is None:
+        return np.asarray(np.clip((x - begin) / (end - begin), 0.0, 1.0))
+    half_width = np.maximum(half_width, 1e-9)
+    return np.asarray(
+        (_parabola_integral((x - begin) / half_width) - _parabola_integral((x - end) / half_width))
+        * half_width
+        / (end - begin)
+    )
 
 
 def _parabola_integral(s: Array) -> Array:

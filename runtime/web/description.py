@@ -33,28 +33,28 @@ SEEN = 1.0 / 60.0  # step of rk4 at which constraints drift visibly, over the le
 NOT_SEEN = "jumps of drives that their form does not show are looked for in Python only"
 
 
-def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
+def description(compiled: CompiledModel, drift_step: float | None = None) -> str:
     """Return the JSON of a scene, with the start at the file's values if a page cannot find it.
 
     seen_step (s): step of rk4 for scenes without degrees of freedom, at which constraints drift visibly.
     """
     source = compiled.source
-    place = {slot.address: k for k, slot in enumerate(source.slots)}
-    found = {
+    parameter_indices = {parameter.address: k for k, parameter in enumerate(source.slots)}
+    values = {
         "mechanism": source.mechanism,
         "scene": source.scene,
         "title": source.title,
         "coordinates": source.coordinates,
         "bodies": [body.name for body in source.bodies],
-        "slots": [_parameter_json(slot) for slot in source.slots],
+        "slots": [_parameter_json(parameter) for parameter in source.slots],
         "derived": source.derived,
-        "conditions": [[one.address, one.relation, one.bound, one.message] for one in conditions(source)],
+        "conditions": [[item.address, item.relation, item.bound, item.message] for item in conditions(source)],
         "partials": [
-            {"address": one.address, "tree": to_json(one.tree), "slot": one.slot, "slots": dict(one.slots)}
-            for one in partials(source)
+            {"address": item.address, "tree": to_json(item.tree), "slot": item.slot, "slots": dict(item.slots)}
+            for item in partials(source)
         ],
         "divides": sorted(DIVIDING),
-        "gains": [place[name] for name in GAINS if name in place],
+        "gains": [parameter_indices[name] for name in GAINS if name in parameter_indices],
         "methods": _page_methods(source),
         "begins": first_method(source),
         "stiff": stiff_method(source, RTOL),
@@ -65,7 +65,7 @@ def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
         "angles": integrated_angles(source).tolist(),
         "sizes": size_places(source),
         "clearances": [[joint.name, joint.clearance] for joint in source.clearances],
-        **({"contours": {one.joint: [one.first, one.count] for one in source.contours}} if source.contours else {}),
+        **({"contours": {item.joint: [item.first, item.count] for item in source.contours}} if source.contours else {}),
         "film": any(joint.film for joint in source.clearances),
         "beyond": compiled.beyond,
         "rtol": RTOL,
@@ -79,7 +79,7 @@ def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
         "open": OPEN,
         "rows": [[row.owner, row.unit] for row in source.start_rows],
         "simulate": _default_options(source),
-        "step": _default_step(compiled, seen_step),
+        "step": _default_step(compiled, drift_step),
         "start": _stored_start(compiled),
         "columns": dict(_series_columns(source)),
         "points": {point.name: _point_json(source, point) for point in source.points},
@@ -90,23 +90,31 @@ def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
         },
         "notes": [NOT_SEEN] if may_jump(source) else [],
     }
-    return json.dumps(found, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    return json.dumps(values, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 
 
 def _page_methods(source: KernelSource) -> list[str]:
-    """Return the methods of a page: those of Python, and rk4 for driven scenes without events."""
-    driven = source.methods == (KINEMATIC,)
-    return [*source.methods, *(["rk4"] if driven and not source.events else [])]
+    """Return the names of the methods of a page: those of Python, and rk4 for driven scenes without events."""
+    is_driven = source.methods == (KINEMATIC,)
+    return [*source.methods, *(["rk4"] if is_driven and not source.events else [])]
 
 
-def _parameter_json(slot: Slot) -> dict[str, Any]:
-    """Return a parameter as JSON: address, unit, default, words of a choice."""
-    message: dict[str, Any] = {"address": slot.address, "unit": slot.unit, "default": specified(slot, slot.default)}
-    return message | ({"words": slot.words} if slot.words else {}) | ({"follows": True} if slot.follows else {})
+def _parameter_json(parameter: Slot) -> dict[str, Any]:
+    """Return a parameter as JSON: address, unit, default; names of choices, and whether it follows another one."""
+    values: dict[str, Any] = {
+        "address": parameter.address,
+        "unit": parameter.unit,
+        "default": specified(parameter, parameter.default),
+    }
+    return (
+        values
+        | ({"words": parameter.words} if parameter.words else {})
+        | ({"follows": True} if parameter.follows else {})
+    )
 
 
 def _array_widths(source: KernelSource) -> dict[str, int]:
-    """Return the number of columns of each array that gudgeon_evaluate fills, in its order."""
+    """Return the number of columns of each array that gudgeon_evaluate fills, in the order of its arguments."""
     return {
         "a": len(source.coordinates),
         "multipliers": len(source.rows),
@@ -122,15 +130,18 @@ def _array_widths(source: KernelSource) -> dict[str, int]:
 
 
 def _indeterminate_series(source: KernelSource) -> list[str]:
-    """Return the series that redundancy leaves indeterminate; they are NaN in a page as in Python."""
+    """Return the names of the series that redundancy leaves indeterminate; they are NaN in a page as in Python."""
     owners = set(source.indeterminate)
-    joints = {f"{name}.{last}" for name in owners for last in ("Fx", "Fy", "M", "torque", "force")}
-    rows = {f"lambda.{row.name}" for row in source.rows if row.owner in owners}
-    return sorted((joints | rows) & {*catalogue(source)})
+    joint_series = {f"{name}.{component}" for name in owners for component in ("Fx", "Fy", "M", "torque", "force")}
+    multiplier_series = {f"lambda.{row.name}" for row in source.rows if row.owner in owners}
+    return sorted((joint_series | multiplier_series) & {*catalogue(source)})
 
 
 def _series_columns(source: KernelSource) -> Iterator[tuple[str, list[Any]]]:
-    """Yield each series that is a column of an array: [unit, array, column]. simulator.js derives the others."""
+    """Yield the name of each series that is a column of an array, and [unit, array, column].
+
+    simulator.js derives the other series.
+    """
     widths = {"reactions": 3, "clearance": 10, "friction": 2}
     for name, series in catalogue(source).items():
         if series.stored is not None:
@@ -148,32 +159,43 @@ def _point_json(source: KernelSource, point: PointInfo) -> list[int]:
 
 
 def _redundant_rows(compiled: CompiledModel) -> list[list[Any]]:
-    """Return redundant constraint equations: index in the closed linkage, owner, whether it is a length."""
-    rows = compiled.source.start_rows
-    return [[k, rows[k].owner, rows[k].unit == "m"] for k in left_out(compiled)]
+    """Return redundant constraint equations of the start: index, owner, whether the residual is a length."""
+    equations = compiled.source.start_rows
+    return [[k, equations[k].owner, equations[k].unit == "m"] for k in left_out(compiled)]
 
 
 def _default_options(source: KernelSource) -> dict[str, Any]:
-    """Return the scene's t_end, output and step: numbers, or expression trees of parameters."""
-    trees = {one.address.rpartition(".")[2]: json.loads(one.tree) for one in source.simulate_written}
+    """Return the scene's t_end, output and step by name: numbers, or expression trees of parameters."""
+    trees = {option.address.rpartition(".")[2]: json.loads(option.tree) for option in source.simulate_written}
     return {"t_end": T_END, "output": DEFAULT_OUTPUT, **source.simulate, **trees}
 
 
-def _default_step(compiled: CompiledModel, seen_step: float | None) -> list[float] | None:
-    """Return the default step of rk4: fraction of the run's length, and its bound (s) at the file's values."""
+def _default_step(compiled: CompiledModel, drift_step: float | None) -> list[float] | None:
+    """Return the default step of rk4: fraction of the run's length, and its bound (s) at the file's values.
+
+    For a scene that rk4 does not integrate in Python, the bound is `drift_step`; None without it.
+    """
     if "rk4" not in compiled.source.methods:
-        return None if seen_step is None else [SEEN, seen_step]
+        return None if drift_step is None else [SEEN, drift_step]
     return [SMOOTH, default_step(compiled, prepare(compiled, {})[0], math.inf)]
 
 
 def _stored_start(compiled: CompiledModel) -> dict[str, Any] | None:
-    """Return q and q̇ at the file's values if C alone does not find them, otherwise None."""
+    """Return q, q̇ and array sizes at the file's values as JSON if C alone does not find the start; otherwise None.
+
+    Large mechanisms are always stored, since a page cannot solve them.
+    """
     p = prepare(compiled, {})[0]
     if compiled.n < LARGE:
-        closed = compiled.close(0.0, p, mechanism_size(compiled, p))
-        if closed is not None and np.isfinite(closed[1]).all():
+        closure = compiled.close(0.0, p, mechanism_size(compiled, p))
+        if closure is not None and np.isfinite(closure[1]).all():
             return None
-    found, large = assemble(compiled, p), compiled.n >= LARGE  # neither a page nor Python calls C then
-    values = [max(len(array), 1) for array in compiled.start_values(p)]
-    document = {"q": found.q.tolist(), "v": found.v.tolist(), "rows": len(compiled.source.start_rows), "values": values}
-    return document | ({"large": True} if large else {})
+    start, is_large = assemble(compiled, p), compiled.n >= LARGE  # neither a page nor Python calls C then
+    array_sizes = [max(len(array), 1) for array in compiled.start_values(p)]
+    start_json = {
+        "q": start.q.tolist(),
+        "v": start.v.tolist(),
+        "rows": len(compiled.source.start_rows),
+        "values": array_sizes,
+    }
+    return start_json | ({"large": True} if is_large else {})

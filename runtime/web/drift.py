@@ -59,37 +59,40 @@ print(sim.simulate()["Phi.max"].max())  # projected onto Phi = 0 after each step
 
 
 def seen_step(run: Result) -> float:
-    """Return the step (s) of rk4 at which the drift of a driven mechanism is visible.
+    """Return the step (s) of rk4 at which the drift of a driven mechanism is visible: a sixtieth of a period.
 
-    It is a fraction of the fastest turn, or of a shorter run. Gains of about 0.1/step hold the constraints then.
+    The period is that of the fastest body, or the length of a shorter run. Gains of about 0.1/step hold the constraints
+    then.
     """
-    rates = [float(np.abs(run.v[:, body.index + 2]).max()) for body in run.source.bodies]
-    turn = 2.0 * np.pi / max([*rates, 1e-300])
-    return min(turn, float(run.t[-1] - run.t[0])) / STEPS
+    max_rates = [float(np.abs(run.v[:, body.index + 2]).max()) for body in run.source.bodies]
+    period = 2.0 * np.pi / max([*max_rates, 1e-300])
+    return min(period, float(run.t[-1] - run.t[0])) / STEPS
 
 
-def message(simulation: Simulation, run: Result, size: int, most: int) -> dict[str, str] | None:
-    """Return {note, code} of a scene; None if the page has a formulation that drifts.
+def message(simulation: Simulation, run: Result, size: int, max_size: int) -> dict[str, str] | None:
+    """Return {note, code} of a scene, which explain why constraints do not drift on its page.
 
-    run: at the file's values. size: bytes of the scene's module. most: bytes of a module next to which a second one
-    fits.
+    None if the page has a formulation in which they drift. run: at the file's values. size: bytes of the scene's
+    module. max_size: bytes of a module next to which a second one fits.
     """
-    numbers = dict[str, str]()
+    replacements = dict[str, str]()
     if simulation.source.methods == (KINEMATIC,):
         note, code = SOLVED + (EVENTS if simulation.source.events else KEPT), INTEGRATED
-        numbers = _step_and_gains(run)
-    elif simulation.source.formulation == "reduced" and size > most:
-        note, code = HELD.format(size=round(size / 1e3), most=round(most / 1e3), loaded=loaded(simulation)), RUN
+        replacements = _step_and_gains(run)
+    elif simulation.source.formulation == "reduced" and size > max_size:
+        note, code = HELD.format(size=round(size / 1e3), most=round(max_size / 1e3), loaded=loaded(simulation)), RUN
     else:
         return None
-    return {"note": note, "code": code.substitute(numbers, loaded=loaded(simulation))}
+    return {"note": note, "code": code.substitute(replacements, loaded=loaded(simulation))}
 
 
 def _step_and_gains(run: Result) -> dict[str, str]:
-    """Return the number of steps, and two gains for the code: one that holds the constraints, and 1/h."""
-    step, length = seen_step(run), float(run.t[-1] - run.t[0])
-    steps = max(1, round(length / step))
-    return {"steps": str(steps), "gains": f"{0.1 * steps / length:.1g}, {steps / length:.3g}"}
+    """Return texts for the code: the number of steps, and two gains, one that holds the constraints and one that is too
+    large.
+    """
+    period_step, duration = seen_step(run), float(run.t[-1] - run.t[0])
+    n_steps = max(1, round(duration / period_step))
+    return {"steps": str(n_steps), "gains": f"{0.1 * n_steps / duration:.1g}, {n_steps / duration:.3g}"}
 
 
 def drifts(simulation: Simulation) -> bool:
@@ -98,7 +101,12 @@ def drifts(simulation: Simulation) -> bool:
 
 
 def loaded(simulation: Simulation) -> str:
-    """Return the arguments of `gudgeon.load`: name of a shipped or of the user's file without its folder, and scene."""
+    """Return the arguments of `gudgeon.load` as text: file and scene.
+
+    The file is the name of a shipped mechanism, or of the user's file without its folder.
+    """
     name = simulation.file.stem
-    own = name not in shipped() or not simulation.file.samefile(shipped_file(name))
-    return ", ".join(json.dumps(one) for one in (simulation.file.name if own else name, simulation.source.scene))
+    is_own_file = name not in shipped() or not simulation.file.samefile(shipped_file(name))
+    return ", ".join(
+        json.dumps(argument) for argument in (simulation.file.name if is_own_file else name, simulation.source.scene)
+    )

@@ -29,48 +29,55 @@ DARK = {
 DARK_TINTS = ("#1d3a4d", "#4a3510", "#153f32", "#45263a", "#4d2a14", "#234152", "#3a3a3e", "#403d12")
 
 
-def style(looks: Iterable[tuple[str, int]], names: Iterable[tuple[str, int]]) -> str:
-    """Return the CSS of the panel, of shapes by role and tint (class `look`), and of names (class `look-name`)."""
-    light, dark = list[str](), list[str]()
-    for role, tint in looks:
-        here = f".{look(role, tint)}"
-        one = ROLES[role]
-        dashes = f"stroke-dasharray:{' '.join(f'{x:g}' for x in one.dashes)};" if one.dashes else ""
-        light.append(
-            f"{here}{{stroke:{_light(one.edge, tint)};fill:{_light(one.face, tint)};"
-            f"stroke-width:{one.width * PIXELS / 72.0:.2f};{dashes}}}"
+def style(shape_styles: Iterable[tuple[str, int]], name_styles: Iterable[tuple[str, int]]) -> str:
+    """Return the CSS of a page: page.css, then rules for shapes and names by role and tint, light and dark.
+
+    `shape_styles` and `name_styles` are pairs (role, tint). Classes are those of `look`, for names with the suffix
+    "-name".
+    """
+    light_rules, dark_rules = list[str](), list[str]()
+    for role, tint in shape_styles:
+        selector = f".{look(role, tint)}"
+        role_style = ROLES[role]
+        dashes = f"stroke-dasharray:{' '.join(f'{x:g}' for x in role_style.dashes)};" if role_style.dashes else ""
+        light_rules.append(
+            f"{selector}{{stroke:{_light_colour(role_style.edge, tint)};fill:{_light_colour(role_style.face, tint)};"
+            f"stroke-width:{role_style.width * PIXELS / 72.0:.2f};{dashes}}}"
         )
-        dark.append(f"{here}{{stroke:{_dark(one.edge, tint)};fill:{_dark(one.face, tint)}}}")
-    for role, tint in names:
-        here = f".{look(role, tint)}-name"
-        word, weight = NAMES[role]
+        dark_rules.append(
+            f"{selector}{{stroke:{_dark_colour(role_style.edge, tint)};fill:{_dark_colour(role_style.face, tint)}}}"
+        )
+    for role, tint in name_styles:
+        selector = f".{look(role, tint)}-name"
+        colour_name, weight = NAMES[role]
         slant = "font-style:italic;" if role == "joint" else ""
-        light.append(f"{here}{{fill:{_light(word, tint)};font-weight:{weight};{slant}}}")
-        dark.append(f"{here}{{fill:{_dark(word, tint)}}}")
-    rules = "\n".join(dark)
-    return f"{_sheet()}\n{chr(10).join(light)}\n@media screen and (prefers-color-scheme: dark) {{\n{rules}\n}}\n"
+        light_rules.append(f"{selector}{{fill:{_light_colour(colour_name, tint)};font-weight:{weight};{slant}}}")
+        dark_rules.append(f"{selector}{{fill:{_dark_colour(colour_name, tint)}}}")
+    dark_text = "\n".join(dark_rules)
+    light_text = f"{_read_style_sheet()}\n{chr(10).join(light_rules)}"
+    return f"{light_text}\n@media screen and (prefers-color-scheme: dark) {{\n{dark_text}\n}}\n"
 
 
 def look(role: str, tint: int) -> str:
-    """Return the CSS class of a role; roles with the colours of a body include the tint."""
-    word = role.replace(" ", "-")
-    coloured = role in ROLES and {"tint", "edge"} & {ROLES[role].edge, ROLES[role].face}
-    return f"d-{word}-{tint % len(TINTS)}" if coloured or (role == "body") else f"d-{word}"
+    """Return the CSS class of a role, such as "d-pin"; roles with the colours of a body include the tint."""
+    class_name = role.replace(" ", "-")
+    has_body_colour = role in ROLES and {"tint", "edge"} & {ROLES[role].edge, ROLES[role].face}
+    return f"d-{class_name}-{tint % len(TINTS)}" if has_body_colour or (role == "body") else f"d-{class_name}"
 
 
 @cache
-def _sheet() -> str:
+def _read_style_sheet() -> str:
     """Return page.css without indentation."""
     return re.sub(r"(?m)^ +", "", Path(__file__).with_name("page.css").read_text(encoding="utf-8"))
 
 
-def _light(word: str, tint: int) -> str:
-    """Return a colour on a light background."""
-    colour = colour_of(word, tint)
+def _light_colour(colour_name: str, tint: int) -> str:
+    """Return the CSS colour of a role's colour on a light background."""
+    colour = colour_of(colour_name, tint)
     return FRAME.get(colour, colour)
 
 
-def _dark(word: str, tint: int) -> str:
-    """Return a colour on a dark background."""
-    colour = colour_of(word, tint)
-    return DARK_TINTS[TINTS.index(colour)] if word == "tint" else FRAME.get(colour) or DARK.get(colour, colour)
+def _dark_colour(colour_name: str, tint: int) -> str:
+    """Return the CSS colour of a role's colour on a dark background."""
+    colour = colour_of(colour_name, tint)
+    return DARK_TINTS[TINTS.index(colour)] if colour_name == "tint" else FRAME.get(colour) or DARK.get(colour, colour)

@@ -80,27 +80,41 @@ FLAGS = (
 
 
 def simulator(source: KernelSource, *, cache: Cache | None = None) -> bytes:
-    """Return the module of a scene from the cache, or compile it (the first time with the C library: a minute).
+    """Return the WebAssembly module of a scene from the cache, or compile it (the first time with the C library: a
+    minute).
 
     Raises BuildError if the compiler is missing or the C does not compile, BadValueError for sources without engine.
     """
     if source.cdef:
         raise BadValueError(f"{source.mechanism}/{source.scene} is no scene that the engine runs: it has no simulator")
-    found, cache = _find_zig(), cache or default_cache()
-    line = [str(found), "cc", *FLAGS, *_export_options(source), *include_flags(), source.main, str(UNIT), "-o", MODULE]
-    texts = [part for name in sorted(source.files) for part in (name, source.files[name])]
-    key = digest(["web/1", version("ziglang"), *line[1:], engine_digest(), *texts])
+    compiler, cache = _find_zig(), cache or default_cache()
+    command = [
+        str(compiler),
+        "cc",
+        *FLAGS,
+        *_export_options(source),
+        *include_flags(),
+        source.main,
+        str(UNIT),
+        "-o",
+        MODULE,
+    ]
+    key_parts = [text for name in sorted(source.files) for text in (name, source.files[name])]
+    key = digest(["web/1", version("ziglang"), *command[1:], engine_digest(), *key_parts])
 
     def build(folder: Path) -> None:
         """Compile the module into a folder of the cache."""
         with report_work(f"compiling {source.mechanism}, scene {source.scene}, for pages"):
-            _compile_module(source, line, folder)
+            _compile_module(source, command, folder)
 
     return (cache.fetch("web", key, build) / MODULE).read_bytes()
 
 
 def _find_zig() -> Path:
-    """Return the path of the compiler. Raises BuildError if its wheel is not installed."""
+    """Return the path of the compiler zig.
+
+    Raises BuildError with the command that installs it if its wheel is missing.
+    """
     try:
         return zig()
     except ImportError as error:
@@ -111,26 +125,30 @@ def _find_zig() -> Path:
 
 
 def _export_options(source: KernelSource) -> list[str]:
-    """Return the linker options that export the functions which simulator.js calls."""
-    declared = set(re.findall(r"\bgudgeon_(\w+)\(", declarations(source)))
-    called = CALLED + (DRIVEN if source.methods == (KINEMATIC,) else ())
-    return [f"-Wl,--export=gudgeon_{name}" for name in called if name in declared]
+    """Return the linker options that export those functions which simulator.js calls and the scene has."""
+    declared_functions = set(re.findall(r"\bgudgeon_(\w+)\(", declarations(source)))
+    needed_functions = CALLED + (DRIVEN if source.methods == (KINEMATIC,) else ())
+    return [f"-Wl,--export=gudgeon_{name}" for name in needed_functions if name in declared_functions]
 
 
-def _compile_module(source: KernelSource, line: list[str], folder: Path) -> None:
-    """Write the C files into the folder and compile the module.
+def _compile_module(source: KernelSource, command: list[str], folder: Path) -> None:
+    """Write the C files into the folder and compile the module there.
 
     zig stores its C library next to the cache entries, for all scenes. Raises BuildError.
     """
     for name, text in source.files.items():
         (folder / name).write_text(text, encoding="utf-8")
-    kept = os.environ.get("ZIG_GLOBAL_CACHE_DIR") or str(folder.parents[1] / "zig")
-    places = {"ZIG_GLOBAL_CACHE_DIR": kept, "ZIG_LOCAL_CACHE_DIR": str(folder / "zig"), "TMPDIR": str(folder)}
+    zig_cache = os.environ.get("ZIG_GLOBAL_CACHE_DIR") or str(folder.parents[1] / "zig")
+    cache_folders = {
+        "ZIG_GLOBAL_CACHE_DIR": zig_cache,
+        "ZIG_LOCAL_CACHE_DIR": str(folder / "zig"),
+        "TMPDIR": str(folder),
+    }
     with Programs() as programs:
         try:
-            process = programs.begin(line, folder, {**plain(), **places})
+            process = programs.begin(command, folder, {**plain(), **cache_folders})
         except OSError as error:
             raise BuildError(f"zig cannot be run: {error}\n  install it anew: pip install 'gudgeon[web]'") from error
-        if failed := finish(programs, process, folder / MODULE):
-            raise failed
+        if build_error := finish(programs, process, folder / MODULE):
+            raise build_error
     shutil.rmtree(folder / "zig", ignore_errors=True)

@@ -45,59 +45,78 @@ ANGLES = ("deg", "rad", "°")
 
 
 def groups(simulation: Simulation, p: Array) -> list[dict[str, Any]]:
-    """Return the sections of parameters, with `parameters` first: [{title, numbers: [{k, name, unit, factor, low,
-    high}]}].
+    """Return the sections of parameters for the panel, `parameters` first: [{title, numbers: [{k, name, unit, factor,
+    low, high}]}].
+
+    Choices have k and name only; points of contours are left out. `p` are the file's values.
     """
     source, units = simulation.source, _Units(simulation)
-    size, found = mechanism_size(simulation.compiled, p), dict[str, list[dict[str, Any]]]()
-    worn = contour_parameters(source)
-    for k, slot in ((k, slot) for k, slot in enumerate(source.slots) if k not in worn):
-        section, _, name = slot.address.partition(".")
-        message: dict[str, Any] = {"k": k, "name": name or section}
-        if not slot.words:
-            unit, factor = units.of(slot)
-            angle = unit in ANGLES or slot.address.endswith((".theta", ".angle"))
-            low, high = _slider_range(source, slot, p, size, angle)
-            low, high = (_limit_range(simulation.compiled, slot, float(p[k]), end) for end in (low, high))
-            message |= {"unit": pretty(unit), "factor": factor, "low": low, "high": high}
-        found.setdefault(section, []).append(message)
-    order = [*(name for name in SECTIONS if name in found), *(name for name in found if name not in SECTIONS)]
-    return [{"title": SECTIONS.get(name, name.capitalize()), "numbers": _sort_by_owner(found[name])} for name in order]
+    mechanism_length, entries_by_section = mechanism_size(simulation.compiled, p), dict[str, list[dict[str, Any]]]()
+    contour_indices = contour_parameters(source)
+    for k, parameter in ((k, parameter) for k, parameter in enumerate(source.slots) if k not in contour_indices):
+        section, _, name = parameter.address.partition(".")
+        entry: dict[str, Any] = {"k": k, "name": name or section}
+        if not parameter.words:
+            unit, factor = units.of(parameter)
+            is_angle = unit in ANGLES or parameter.address.endswith((".theta", ".angle"))
+            low, high = _slider_range(source, parameter, p, mechanism_length, is_angle)
+            low, high = (_limit_range(simulation.compiled, parameter, float(p[k]), end) for end in (low, high))
+            entry |= {"unit": pretty(unit), "factor": factor, "low": low, "high": high}
+        entries_by_section.setdefault(section, []).append(entry)
+    sections = [
+        *(name for name in SECTIONS if name in entries_by_section),
+        *(name for name in entries_by_section if name not in SECTIONS),
+    ]
+    return [
+        {"title": SECTIONS.get(name, name.capitalize()), "numbers": _sort_by_owner(entries_by_section[name])}
+        for name in sections
+    ]
 
 
-def _sort_by_owner(numbers: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Return the parameters sorted so that those of one body, bearing, … follow each other."""
-    owners = list(dict.fromkeys(one["name"].partition(".")[0] for one in numbers))
-    return sorted(numbers, key=lambda one: owners.index(one["name"].partition(".")[0]))
+def _sort_by_owner(entries: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Return the entries of parameters sorted so that those of one body, bearing, … follow each other."""
+    owners = list(dict.fromkeys(entry["name"].partition(".")[0] for entry in entries))
+    return sorted(entries, key=lambda entry: owners.index(entry["name"].partition(".")[0]))
 
 
 def units(source: KernelSource) -> dict[str, dict[str, float]]:
-    """Return the units that may be typed after a number, by SI unit: name and value in SI."""
-    kinds = {"s": TIME} | {slot.unit: dimension(*slot.dimension) for slot in source.slots if not slot.words}
+    """Return the units that may be typed after a number, by SI unit: {name: value in SI}."""
+    dimensions = {"s": TIME} | {
+        parameter.unit: dimension(*parameter.dimension) for parameter in source.slots if not parameter.words
+    }
     return {
-        si: {name: factor for name, (factor, of) in UNITS.items() if of == own and name.isascii()}
-        for si, own in kinds.items()
+        si: {
+            name: factor
+            for name, (factor, unit_dimension) in UNITS.items()
+            if unit_dimension == si_dimension and name.isascii()
+        }
+        for si, si_dimension in dimensions.items()
     }
 
 
-def _limit_range(compiled: CompiledModel, slot: Slot, value: float, end: float) -> float:
-    """Return the end of a slider; if a derived condition refuses it, the last value before by bisection."""
+def _limit_range(compiled: CompiledModel, parameter: Slot, value: float, end: float) -> float:
+    """Return the end of a slider's range, or if a condition refuses `end`, the accepted value nearest to it.
 
-    def is_step_refused(at: float) -> bool:
-        """Return whether the value breaks a condition."""
+    The value is found by bisection from the current `value`. `end` is returned too if the current value is refused.
+    """
+
+    def is_step_refused(number: float) -> bool:
+        """Return whether a value of the parameter breaks a condition."""
         try:
-            prepare(compiled, {slot.address: at})
+            prepare(compiled, {parameter.address: number})
         except GudgeonError:
             return True
         return False
 
     if not is_step_refused(end) or is_step_refused(value):
         return end
-    good, bad = value, end
+    accepted, refused = value, end
     for _ in range(HALVINGS):
-        middle = 0.5 * (good + bad)
-        good, bad = (good, middle) if is_step_refused(middle) else (middle, bad)
-    return 0.0 if abs(good) < EDGE * abs(value) and not is_step_refused(0.0) else good + EDGE * (value - good)
+        middle = 0.5 * (accepted + refused)
+        accepted, refused = (accepted, middle) if is_step_refused(middle) else (middle, refused)
+    return (
+        0.0 if abs(accepted) < EDGE * abs(value) and not is_step_refused(0.0) else accepted + EDGE * (value - accepted)
+    )
 
 
 class _Units:
@@ -108,66 +127,91 @@ class _Units:
         from gudgeon.generator.yaml import parse_yaml
 
         try:
-            tree: Any = parse_yaml(simulation.file.read_bytes(), str(simulation.file))
+            document: Any = parse_yaml(simulation.file.read_bytes(), str(simulation.file))
         except (GudgeonError, OSError):  # the file does not exist any more
-            tree = {}
-        self.written, counts = dict[str, tuple[str, float]](), dict[str, Counter[tuple[str, float]]]()
-        for slot in simulation.source.slots:
-            if (unit := _read_unit(tree, slot)) is not None:
-                self.written[slot.address] = unit
-                counts.setdefault(slot.unit, Counter())[unit] += 1
-        self.usual: Mapping[str, tuple[str, float]] = {si: most.most_common(1)[0][0] for si, most in counts.items()}
+            document = {}
+        self.written, unit_counts = dict[str, tuple[str, float]](), dict[str, Counter[tuple[str, float]]]()
+        for parameter in simulation.source.slots:
+            if (unit := _read_unit(document, parameter)) is not None:
+                self.written[parameter.address] = unit
+                unit_counts.setdefault(parameter.unit, Counter())[unit] += 1
+        self.usual: Mapping[str, tuple[str, float]] = {
+            si: counter.most_common(1)[0][0] for si, counter in unit_counts.items()
+        }
 
-    def of(self, slot: Slot) -> tuple[str, float]:
-        """Return the unit of a parameter and its value in SI."""
-        if slot.address in self.written:
-            return self.written[slot.address]
-        if slot.unit in self.usual and (slot.unit == "m" or slot.follows):  # 1/s may be a rate or a gain
-            return self.usual[slot.unit]
-        if slot.address.endswith((".theta", ".angle")):
-            return "deg", number_of_text("1 deg", slot.address, (0, 0, 0))
-        factor, unit = drawn(slot.default, slot.unit) if slot.unit != "1/s" else (1.0, "1/s")
+    def of(self, parameter: Slot) -> tuple[str, float]:
+        """Return the unit of a parameter and its value in SI.
+
+        It is the unit in the file, else the most frequent one of similar parameters, else degrees or a unit of suitable
+        size.
+        """
+        if parameter.address in self.written:
+            return self.written[parameter.address]
+        if parameter.unit in self.usual and (parameter.unit == "m" or parameter.follows):  # 1/s may be a rate or a gain
+            return self.usual[parameter.unit]
+        if parameter.address.endswith((".theta", ".angle")):
+            return "deg", number_of_text("1 deg", parameter.address, (0, 0, 0))
+        factor, unit = drawn(parameter.default, parameter.unit) if parameter.unit != "1/s" else (1.0, "1/s")
         return unit, 1.0 / factor
 
 
-def _read_unit(tree: Any, slot: Slot) -> tuple[str, float] | None:
-    """Return the unit written at an address of the file, and its value in SI; None if there is none."""
-    node = tree
-    for key in slot.address.split("."):
+def _read_unit(document: Any, parameter: Slot) -> tuple[str, float] | None:
+    """Return the unit written at a parameter's address in the file, and its value in SI; None if there is none.
+
+    An expression of π counts as radians that are shown in degrees.
+    """
+    node = document
+    for key in parameter.address.split("."):
         if isinstance(node, list):
             node = node["xy".index(key)] if key in ("x", "y") and len(node) == 2 else None
         else:
             node = node.get(key) if isinstance(node, dict) else None
-    found = WRITTEN.match(node.strip()) if isinstance(node, str) else None
+    match = WRITTEN.match(node.strip()) if isinstance(node, str) else None
     try:
-        if found is None:  # pi/6
-            written = parse(node, Location(slot.address, 1, 1)) if isinstance(node, str) and not slot.unit else None
-            return ("deg", UNITS["deg"][0]) if written is not None and angle_power(written) == 1 else None
-        return found[1], number_of_text(f"1 {found[1]}", slot.address, slot.dimension)
+        if match is None:  # pi/6
+            expression = (
+                parse(node, Location(parameter.address, 1, 1)) if isinstance(node, str) and not parameter.unit else None
+            )
+            return ("deg", UNITS["deg"][0]) if expression is not None and angle_power(expression) == 1 else None
+        return match[1], number_of_text(f"1 {match[1]}", parameter.address, parameter.dimension)
     except GudgeonError:
         return None
 
 
-def _slider_range(source: KernelSource, slot: Slot, p: Array, size: float, angle: bool) -> tuple[float, float]:
-    """Return the range of a slider in SI, within the constant conditions.
+def _slider_range(
+    source: KernelSource, parameter: Slot, p: Array, mechanism_length: float, is_angle: bool
+) -> tuple[float, float]:
+    """Return the range (low, high) of a parameter's slider in SI, within the constant conditions.
 
     Positive numbers: 0 to four times the value; lengths: 0 to twice the value; angles: half a turn in both directions;
     positions: zero to twice the value; other numbers: twice the value in both directions.
     """
-    value = float(p[[other.address for other in source.slots].index(slot.address)])
-    mine = [one for one in source.conditions if one.address == slot.address and not one.addresses]
-    lower = [(float(one.bound), one.relation) for one in mine if one.relation in (">", ">=")]
-    upper = [(float(one.bound), one.relation) for one in mine if one.relation in ("<", "<=")]
-    section, place = slot.address.partition(".")[0], slot.unit == "m"
-    small = place and abs(value) < SMALL * size  # a clearance or a bearing width, not a position
-    if value > 0.0 and (lower or small or (section in STAY and not place)):
-        low, high = 0.0, (2.0 if place and not small else MORE) * value
-    elif angle:
+    value = float(p[[other_slot.address for other_slot in source.slots].index(parameter.address)])
+    own_conditions = [
+        condition
+        for condition in source.conditions
+        if condition.address == parameter.address and not condition.addresses
+    ]
+    lower = [
+        (float(condition.bound), condition.relation)
+        for condition in own_conditions
+        if condition.relation in (">", ">=")
+    ]
+    upper = [
+        (float(condition.bound), condition.relation)
+        for condition in own_conditions
+        if condition.relation in ("<", "<=")
+    ]
+    section, is_length = parameter.address.partition(".")[0], parameter.unit == "m"
+    is_small = is_length and abs(value) < SMALL * mechanism_length  # a clearance or a bearing width, not a position
+    if value > 0.0 and (lower or is_small or (section in STAY and not is_length)):
+        low, high = 0.0, (2.0 if is_length and not is_small else MORE) * value
+    elif is_angle:
         low, high = value - TURN, value + TURN
     elif value == 0.0:
-        reach = {"m": 0.5 * size, "m/s^2": 20.0, "": 1.0}.get(slot.unit, 1.0)
-        low, high = -reach, reach
-    elif place:
+        half_range = {"m": 0.5 * mechanism_length, "m/s^2": 20.0, "": 1.0}.get(parameter.unit, 1.0)
+        low, high = -half_range, half_range
+    elif is_length:
         low, high = value - abs(value), value + abs(value)
     else:
         low, high = -2.0 * abs(value), 2.0 * abs(value)

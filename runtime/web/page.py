@@ -42,9 +42,10 @@ def write(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> st
 
 
 def parts(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> Parts:
-    """Return what a page runs; without the compiler (extra `web`) it is one recorded run at the file's values.
+    """Return the HTML parts that make the equations' page of a scene interactive.
 
-    A small simulator is accompanied by the full formulation, in which constraints drift. Raises as `write`.
+    Without the compiler (extra `web`) they have one recorded run at the file's values. A small simulator is accompanied
+    by the full formulation, in which constraints drift. Raises as `write`.
     """
     import gudgeon.results.figures.plots  # noqa: F401 (without matplotlib it says what to install)
     from gudgeon.web.running import running_parts
@@ -55,14 +56,14 @@ def parts(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> Pa
 def script(source: KernelSource) -> str:
     """Return JavaScript that declares `gudgeon` with `gudgeon.load`, for a page's <script> or a file for Node.
 
-    The check for undefined expressions is included if a scene needs it.
+    The check for undefined expressions is included if the scene needs it.
     """
-    texts = [code(name) for name in FILES if name != UNDEFINED or partials(source)]
+    sources = [code(name) for name in FILES if name != UNDEFINED or partials(source)]
     return "\n".join(
         (
             "const gudgeon = (() => {",
             '"use strict";',
-            *texts,
+            *sources,
             "return {load, unpacked, Simulator, Run};",
             "})();",
             'if (typeof module !== "undefined") module.exports = gudgeon;',
@@ -80,21 +81,21 @@ def carried(compiled: CompiledModel) -> str:
     return f"<script>\n{script(compiled.source)}</script>\n{element(DESCRIPTION, description(compiled))}{module}"
 
 
-def packed_module(compiled: CompiledModel, which: str = "") -> str:
-    """Return the module of a scene as a hidden element: gzip, base64."""
-    return packed_element(f"{MODULE}{which}", simulator(compiled.source))
+def packed_module(compiled: CompiledModel, suffix: str = "") -> str:
+    """Return the WebAssembly module of a scene as a hidden HTML element (gzip, base64); `suffix` ends its id."""
+    return packed_element(f"{MODULE}{suffix}", simulator(compiled.source))
 
 
 def packed_element(name: str, data: bytes) -> str:
-    """Return bytes as a hidden element, for `gudgeon.unpacked`."""
-    packed = base64.b64encode(gzip.compress(data, 9, mtime=0)).decode("ascii")
-    return f'<script type="text/plain" id="{name}">{packed}</script>\n'
+    """Return bytes as a hidden HTML element with the id `name` (gzip, base64), which `gudgeon.unpacked` reads."""
+    encoded = base64.b64encode(gzip.compress(data, 9, mtime=0)).decode("ascii")
+    return f'<script type="text/plain" id="{name}">{encoded}</script>\n'
 
 
-def element(name: str, message: str) -> str:
-    """Return JSON as a hidden element; a text in it cannot end the element."""
-    safe = message.replace("<", "\\u003c")
-    return f'<script type="application/json" id="{name}">{safe}</script>\n'
+def element(name: str, json_text: str) -> str:
+    """Return a JSON text as a hidden HTML element with the id `name`; a text in it cannot end the element."""
+    escaped = json_text.replace("<", "\\u003c")
+    return f'<script type="application/json" id="{name}">{escaped}</script>\n'
 
 
 @cache

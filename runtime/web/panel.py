@@ -38,87 +38,113 @@ def rig_of(run: Result) -> Rig:
 
 
 def panel(simulation: Simulation, run: Result, rig: Rig) -> dict[str, Any]:
-    """Return the contents for a scene, from a run at the file's values."""
-    source, span = run.source, float(run.t[-1] - run.t[0])
-    ends = dict(_journals(source))
+    """Return the initial contents of a scene's panel for JSON, from a run at the file's values.
+
+    They are parameters, units, drawing, names, traces, values to show, and the duration of the animation.
+    """
+    source, duration = run.source, float(run.t[-1] - run.t[0])
+    points_by_joint = dict(_journals(source))
     return {
         "groups": groups(simulation, simulation.p),
         "units": units(source),
         "noise": NOISE,
         "rig": rig.json(),
         "names": list(_names(rig)),
-        "joints": [[name, point] for name, point in ends.items() if f"{name}.Fx" in run.names],
+        "joints": [[name, point] for name, point in points_by_joint.items() if f"{name}.Fx" in run.names],
         "traces": _first_traces(run),
         "values": _first_values(run),
-        "seconds": span if SLOW <= span <= QUICK else SHOWN,
+        "seconds": duration if SLOW <= duration <= QUICK else SHOWN,
         "path": _first_path(rig),
     }
 
 
 def _journals(source: KernelSource) -> list[tuple[str, str]]:
-    """Return the joints, those with play first, and the points on which their forces act."""
-    worn = [(joint.name, joint.point) for joint in source.clearances]
-    return [*worn, *((joint.name, joint.point) for joint in source.joints)]
+    """Return (joint, point) for all joints, those with play first; the force acts on the point."""
+    joints_with_play = [(joint.name, joint.point) for joint in source.clearances]
+    return [*joints_with_play, *((joint.name, joint.point) for joint in source.joints)]
 
 
 def _first_traces(run: Result) -> list[str]:
-    """Return the traces shown at first: a watched series, a drive, a force, the drift; at most four."""
+    """Return the names of the traces shown at first: watched series or drives (two), a force, and Phi.max.
+
+    A force without finite sample is left out.
+    """
     source = run.source
-    drives = [name for drive in source.drives for name in (f"{drive.name}.torque", f"{drive.name}.force")]
-    joints = [f"{name}.F" for name, _ in _journals(source)]
-    names = [*default_watch(run)[:1], *source.peaks[:1], *(name for name in drives if name in run.names)][:2]
-    names += [name for name in joints if name in run.names and np.isfinite(run[name]).any()][:1]
+    drive_series = [name for drive in source.drives for name in (f"{drive.name}.torque", f"{drive.name}.force")]
+    force_series = [f"{name}.F" for name, _ in _journals(source)]
+    names = [*default_watch(run)[:1], *source.peaks[:1], *(name for name in drive_series if name in run.names)][:2]
+    names += [name for name in force_series if name in run.names and np.isfinite(run[name]).any()][:1]
     return [*dict.fromkeys(names), "Phi.max"]
 
 
 def _first_values(run: Result) -> list[str]:
-    """Return the live values: watched series with their rates, outputs, drives, eccentricities, forces of joints."""
-    source, found = run.source, list[str]()
+    """Return the names of the live values: watched series with their rates, outputs, drives, eccentricities, joint
+    forces.
+
+    Names that the run lacks are left out.
+    """
+    source, candidates = run.source, list[str]()
     for name in default_watch(run):
-        found += [name, rates(name)[0]]
-    found += [*source.outputs, *source.peaks]
-    found += [f"{drive.name}.{what}" for drive in source.drives for what in ("torque", "force")]
-    found += [f"{joint.name}.eps" for joint in source.clearances]
-    found += [f"{name}.F" for name, _ in _journals(source)]
-    return [name for name in dict.fromkeys(found) if name in run.names]
+        candidates += [name, rates(name)[0]]
+    candidates += [*source.outputs, *source.peaks]
+    candidates += [f"{drive.name}.{quantity}" for drive in source.drives for quantity in ("torque", "force")]
+    candidates += [f"{joint.name}.eps" for joint in source.clearances]
+    candidates += [f"{name}.F" for name, _ in _journals(source)]
+    return [name for name in dict.fromkeys(candidates) if name in run.names]
 
 
 def _first_path(rig: Rig) -> str:
-    """Return a point that no body, joint or force uses, for the path; "" if there is none."""
-    marks = [one.shape.part.partition(" ")[2] for one in rig.shapes if one.shape.part.startswith("point ")]
-    return marks[0] if marks else ""
+    """Return the first named point that no joint or force element uses, whose path is drawn; "" if there is none."""
+    points = [carried.shape.part.partition(" ")[2] for carried in rig.shapes if carried.shape.part.startswith("point ")]
+    return points[0] if points else ""
 
 
 def looks_of(rig: Rig) -> tuple[list[tuple[str, int]], list[tuple[str, int]]]:
-    """Return the roles and tints of shapes and of names, each once."""
-    shapes = dict.fromkeys((one.shape.role, one.shape.tint) for one in rig.shapes)
-    unique = {look(role, tint): (role, tint) for role, tint in [*shapes, *((role, 0) for role in MORE)]}
-    names = {look(role, tint): (role, tint) for role, tint in _name_looks(rig)}
-    return list(unique.values()), list(names.values())
+    """Return two lists of (role, tint), each CSS class once: of shapes, and of names.
+
+    Roles that exist on pages only are included.
+    """
+    shape_styles = dict.fromkeys((carried.shape.role, carried.shape.tint) for carried in rig.shapes)
+    unique_shape_styles = {
+        look(role, tint): (role, tint) for role, tint in [*shape_styles, *((role, 0) for role in MORE)]
+    }
+    name_styles = {look(role, tint): (role, tint) for role, tint in _name_looks(rig)}
+    return list(unique_shape_styles.values()), list(name_styles.values())
 
 
 def _name_looks(rig: Rig) -> Iterator[tuple[str, int]]:
-    """Yield role and tint of each name."""
-    tints = {one.shape.part: one.shape.tint for one in rig.shapes}
+    """Yield (role, tint) of each name of the drawing; the tint is that of its part."""
+    tints = {carried.shape.part: carried.shape.tint for carried in rig.shapes}
     for label in rig.sketch.labels:
         yield label.role, tints.get(label.part, 0)
 
 
 def _names(rig: Rig) -> Iterator[list[Any]]:
-    """Yield [text, part, class, shift on a wide screen, on a narrow one, clear] of each name.
+    """Yield [text, part, class, shift on a wide screen, on a narrow one, distance] of each name.
 
-    Shifts in pixels with y down, None where the name is hidden; clear in m.
+    Shifts are in pixels with y down, None where the name is hidden; the distance from the part is in m.
     """
-    wide, narrow = _name_shifts(rig.sketch, WIDE), _name_shifts(rig.sketch, NARROW)
+    wide_shifts, narrow_shifts = _name_shifts(rig.sketch, WIDE), _name_shifts(rig.sketch, NARROW)
     for label, (role, tint) in zip(rig.sketch.labels, _name_looks(rig), strict=True):
-        shifts = [[round(x, 1), round(-y, 1)] for x, y in (at.get(label.part, (0.0, 0.0)) for at in (wide, narrow))]
-        hidden = [part not in at for part, at in ((label.part, wide), (label.part, narrow))]
-        message: list[Any] = [None if gone else shift for shift, gone in zip(shifts, hidden, strict=True)]
-        yield [label.text, label.part, f"{look(role, tint)}-name", *message, float(f"{label.clear:.3g}")]
+        shifts = [
+            [round(x, 1), round(-y, 1)]
+            for x, y in (shifts_by_part.get(label.part, (0.0, 0.0)) for shifts_by_part in (wide_shifts, narrow_shifts))
+        ]
+        hidden_flags = [
+            part not in shifts_by_part
+            for part, shifts_by_part in ((label.part, wide_shifts), (label.part, narrow_shifts))
+        ]
+        visible_shifts: list[Any] = [
+            None if is_hidden else shift for shift, is_hidden in zip(shifts, hidden_flags, strict=True)
+        ]
+        yield [label.text, label.part, f"{look(role, tint)}-name", *visible_shifts, float(f"{label.clear:.3g}")]
 
 
 def _name_shifts(sketch: Sketch, inches: float) -> dict[str, tuple[float, float]]:
-    """Return the distances of names from their parts in pixels, at a figure width in inches."""
+    """Return the offsets of names from their parts in pixels, y up, by part, for a figure width in inches.
+
+    matplotlib places the names; a name without room is left out.
+    """
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=size_of(sketch, inches), dpi=PIXELS)
@@ -129,16 +155,26 @@ def _name_shifts(sketch: Sketch, inches: float) -> dict[str, tuple[float, float]
     return names.beside if names is not None else {}
 
 
-def recorded(run: Result, named: list[str]) -> dict[str, Any]:
-    """Return a run for a page without simulator: at most KEPT samples, float32, packed; the `named` series first."""
-    rows = np.unique(np.linspace(0, len(run.t) - 1, KEPT).round().astype(int))
-    drawn = [name for name in run.names if name.endswith((".Fx", ".Fy", ".ex", ".ey"))]
-    names = list(dict.fromkeys(name for name in [*named, *drawn, *run.names] if name in run.names))[:MOST]
-    table = np.column_stack([run.t[rows], run.q[rows], run.v[rows], *(run[name][rows] for name in names)])
-    bits = gzip.compress(np.ascontiguousarray(table.T, dtype="<f4").tobytes(), 9, mtime=0)
+def recorded(run: Result, first_names: list[str]) -> dict[str, Any]:
+    """Return a run for a page without simulator: at most KEPT samples of at most MOST series, as packed float32.
+
+    The series `first_names` come first, then forces and eccentricities. The result can be written as JSON.
+    """
+    sample_indices = np.unique(np.linspace(0, len(run.t) - 1, KEPT).round().astype(int))
+    drawn_series = [name for name in run.names if name.endswith((".Fx", ".Fy", ".ex", ".ey"))]
+    names = list(dict.fromkeys(name for name in [*first_names, *drawn_series, *run.names] if name in run.names))[:MOST]
+    table = np.column_stack(
+        [
+            run.t[sample_indices],
+            run.q[sample_indices],
+            run.v[sample_indices],
+            *(run[name][sample_indices] for name in names),
+        ]
+    )
+    packed_values = gzip.compress(np.ascontiguousarray(table.T, dtype="<f4").tobytes(), 9, mtime=0)
     return {
-        "rows": len(rows),
+        "rows": len(sample_indices),
         "p": [float(x) for x in run.p],
         "series": {name: run.unit(name) for name in names},
-        "bits": base64.b64encode(bits).decode("ascii"),
+        "bits": base64.b64encode(packed_values).decode("ascii"),
     }

@@ -36,41 +36,53 @@ NO_SIMULATOR = (
 
 
 def running_parts(simulation: Simulation, scenes: Mapping[str, str]) -> Parts:
-    """Return the parts of a page for `page.parts`."""
+    """Return the HTML parts of a scene's interactive page: style, visible frame, scripts; see `page.parts`.
+
+    `scenes` are pages of other scenes by name. Without the compiler the page has one recorded run, and a warning is
+    issued.
+    """
     run = _run_scene(simulation)
     rig = rig_of(run)
-    message, note = panel(simulation, run, rig) | _drawing_scales(rig) | {"scenes": dict(scenes)}, ""
-    carried = packed_element(DESCRIPTION, description(simulation.compiled, drift.seen_step(run)).encode())
+    contents, note = panel(simulation, run, rig) | _drawing_scales(rig) | {"scenes": dict(scenes)}, ""
+    elements = packed_element(DESCRIPTION, description(simulation.compiled, drift.seen_step(run)).encode())
     try:
         module = packed_module(simulation.compiled)
-        carried += _pack_modules(simulation, module)
-        message["drift"] = drift.message(simulation, run, len(module), MAX_MODULE_BYTES)
-        message |= {"drifts": drift.drifts(simulation), "loaded": drift.loaded(simulation)}
+        elements += _pack_modules(simulation, module)
+        contents["drift"] = drift.message(simulation, run, len(module), MAX_MODULE_BYTES)
+        contents |= {"drifts": drift.drifts(simulation), "loaded": drift.loaded(simulation)}
     except BuildError as error:
         if error.__cause__ is None or not isinstance(error.__cause__, ImportError):
             raise
-        message["recorded"], note = recorded(run, [*message["traces"], *message["values"]]), NO_SIMULATOR
+        contents["recorded"], note = recorded(run, [*contents["traces"], *contents["values"]]), NO_SIMULATOR
         warn(f"{note[0].lower()}{note[1:]}", stacklevel=outside())
-    text = json.dumps(message, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-    carried += packed_element(PANEL, text.encode())
+    text = json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    elements += packed_element(PANEL, text.encode())
     title = one_line(simulation.source.title or simulation.source.mechanism)
     frame = file_text("app.html").replace("@NOTE@", escape(note)).replace("@TITLE@", escape(title))
-    carried += packed_element(PROGRAM, app().encode())
-    scripts = f"{carried}<script>\n{script(simulation.source)}</script>\n<script>\n{code('begin.js')}</script>"
+    elements += packed_element(PROGRAM, app().encode())
+    scripts = f"{elements}<script>\n{script(simulation.source)}</script>\n<script>\n{code('begin.js')}</script>"
     return Parts(f"<style>\n{style(*looks_of(rig))}</style>", frame, scripts)
 
 
 def _pack_modules(simulation: Simulation, module: str) -> str:
-    """Return the simulator as hidden elements; if it is small, that of the full formulation too."""
-    reduced = simulation.source.formulation == "reduced" and simulation.source.methods != (KINEMATIC,)
-    if not reduced or len(module) > MAX_MODULE_BYTES:
+    """Return hidden elements of the simulator; for a small one of the reduced formulation also that of the full one."""
+    is_reduced = simulation.source.formulation == "reduced" and simulation.source.methods != (KINEMATIC,)
+    if not is_reduced or len(module) > MAX_MODULE_BYTES:
         return module
-    full = simulation.full.compiled
-    return module + packed_element(f"{DESCRIPTION}-full", description(full).encode()) + packed_module(full, "-full")
+    full_model = simulation.full.compiled
+    return (
+        module
+        + packed_element(f"{DESCRIPTION}-full", description(full_model).encode())
+        + packed_module(full_model, "-full")
+    )
 
 
 def _run_scene(simulation: Simulation) -> Result:
-    """Return a run of the scene at the file's values, or the part before its failure with a warning."""
+    """Return a run of the scene at the file's values.
+
+    If it fails after the start, the part before the failure is returned with a warning; otherwise SolverError is
+    raised.
+    """
     try:
         return simulation.simulate()
     except SolverError as error:
@@ -81,12 +93,21 @@ def _run_scene(simulation: Simulation) -> Result:
 
 
 def _drawing_scales(rig: Rig) -> dict[str, Any]:
-    """Return the CSS classes of the shapes, and the pixels per metre on wide and narrow screens."""
-    pixels = []
+    """Return {looks: CSS classes of the shapes, pixels: pixels per metre on a wide and on a narrow screen}."""
+    pixels_per_metre = []
     for inches in (WIDE, NARROW):
-        size, sketch = size_of(rig.sketch, inches), replace(rig.sketch, labels=())
-        pixels.append(PIXELS * min(a / b for a, b in zip(size, sketch.high - sketch.low, strict=True)))
-    return {"looks": [look(one.shape.role, one.shape.tint) for one in rig.shapes], "pixels": pixels}
+        figure_size, sketch = size_of(rig.sketch, inches), replace(rig.sketch, labels=())
+        pixels_per_metre.append(
+            PIXELS
+            * min(
+                length_in_inches / length_in_metres
+                for length_in_inches, length_in_metres in zip(figure_size, sketch.high - sketch.low, strict=True)
+            )
+        )
+    return {
+        "looks": [look(carried.shape.role, carried.shape.tint) for carried in rig.shapes],
+        "pixels": pixels_per_metre,
+    }
 
 
 @cache

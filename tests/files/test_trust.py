@@ -157,10 +157,10 @@ def test_roots_folders_are_trusted_and_in_a_container_without_root_nobodys(
         check_path(root)
         assert is_whole(root / "models" / "one")
     give(root.parent)
-    monkeypatch.setattr(trust, "_overflow_user", lambda: OTHER)
+    monkeypatch.setattr(trust, "_read_overflow_user", lambda: OTHER)
     with pytest.raises(Untrusted):
         check_path(root)
-    monkeypatch.setattr(trust, "_root_has_no_name", lambda: True)
+    monkeypatch.setattr(trust, "_is_root_unmapped", lambda: True)
     check_path(root)
 
 

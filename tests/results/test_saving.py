@@ -85,7 +85,7 @@ def test_memory_that_ends_while_a_file_is_laid_out_is_an_error(
 ) -> None:
     """HDF5 closes what it opened: the next save works."""
     run.save(tmp_path / "run.nc")
-    older, write = (tmp_path / "run.nc").read_bytes(), hdf5._create
+    older, write = (tmp_path / "run.nc").read_bytes(), hdf5._create_dataset
     calls = 0
 
     def create(*arguments: object) -> object:
@@ -95,7 +95,7 @@ def test_memory_that_ends_while_a_file_is_laid_out_is_an_error(
             raise MemoryError
         return write(*arguments)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(hdf5, "_create", create)
+    monkeypatch.setattr(hdf5, "_create_dataset", create)
     with pytest.raises(MemoryError):
         run.save(tmp_path / "run.nc")
     assert (tmp_path / "run.nc").read_bytes() == older and os.listdir(tmp_path) == ["run.nc"]

@@ -192,13 +192,13 @@ def test_films_that_grow_thin_are_told(press: tuple[Result, Result], monkeypatch
     run, _ = press
     film = run.p[run.source.clearances[0].constants["film_clearance"]]
     law = replace(laws()["finite_length"], limits=Limits(epsilon=float(np.quantile(run["A.e"] / film, 0.75))))
-    monkeypatch.setattr("gudgeon.results.reports.run_report._film_law", lambda source, joint: law)
+    monkeypatch.setattr("gudgeon.results.reports.run_report._find_film_law", lambda source, joint: law)
     notes = [note for note in run.report().to_dict()["warnings"] if note.startswith("A: ")]
     assert len(notes) == 1 and float(notes[0].split()[2]) == pytest.approx(25.0, abs=0.5)  # 401 samples
     most = run.diagnostics.peak("A").e_max / film
     assert notes[0].endswith(f"; it reaches {most:.4g}")
     between = replace(law, limits=Limits(epsilon=1.01 * most))
-    monkeypatch.setattr("gudgeon.results.reports.run_report._film_law", lambda source, joint: between)
+    monkeypatch.setattr("gudgeon.results.reports.run_report._find_film_law", lambda source, joint: between)
     assert not beyond(run)
     peaks = tuple(replace(peak, e_max=1.02 * peak.e_max) for peak in run.diagnostics.peaks)  # of steps, which see more
     (note, *_) = beyond(replace(run, diagnostics=replace(run.diagnostics, peaks=peaks)))

@@ -79,89 +79,96 @@ class Expected:
 def check_animation_options(
     run: Result, seconds: Any, rate: Any, points: Any, velocities: Any, forces: Any, progress: Any = None
 ) -> Expected:
-    """Return the checked options of an animation. Raises BadValueError, UnknownNameError."""
-    span = float(run.t[-1] - run.t[0])
-    seconds = (span if SLOW <= span <= QUICK else SHOWN) if seconds is None else number_of(seconds, "seconds")
+    """Return the checked options of an animation, with the times of its pictures.
+
+    A default is set for `seconds`. Raises BadValueError for options out of range or too many pictures, UnknownNameError
+    for a point.
+    """
+    duration = float(run.t[-1] - run.t[0])
+    seconds = (duration if SLOW <= duration <= QUICK else SHOWN) if seconds is None else number_of(seconds, "seconds")
     rate = number_of(rate, "rate")
     if not (seconds > 0.0 and rate > 0.0):
         raise BadValueError(f"seconds {seconds:g}, rate {rate:g}: expected numbers above 0")
-    count = max(2, round(seconds * rate))
-    if count > LONGEST:
+    n_pictures = max(2, round(seconds * rate))
+    if n_pictures > LONGEST:
         hint = "ask for fewer seconds, or a lower rate"
-        raise BadValueError(f"{count} pictures: expected at most {LONGEST}", hint=hint)
-    times = np.linspace(float(run.t[0]), float(run.t[-1]), count)
+        raise BadValueError(f"{n_pictures} pictures: expected at most {LONGEST}", hint=hint)
+    times = np.linspace(float(run.t[0]), float(run.t[-1]), n_pictures)
     arrows = flag(velocities, "velocities"), flag(forces, "forces")
     return Expected(times, seconds, points_of(run, [points]), *arrows, function(progress, "progress"))
 
 
 def animate(run: Result, target: Any, options: Expected) -> Animation | None:
-    """Write x.gif, x.mp4 or x.html; return an Animation for a page or if `target` is None."""
+    """Write an animation as x.gif, x.mp4 or x.html; return an Animation for a page or if `target` is None, else None.
+
+    Raises BadValueError for another name, GudgeonError if ffmpeg is missing, OutputError if writing fails.
+    """
     if target is None:
         return _build_page(run, options)
     file = Path(path(target, "the file of an animation"))
-    kind = file.suffix.lower()
-    if kind not in SUFFIXES or os.fspath(target).endswith(os.sep):
+    suffix = file.suffix.lower()
+    if suffix not in SUFFIXES or os.fspath(target).endswith(os.sep):
         refuse("the file of an animation", os.fspath(target), "a name that ends in .gif, .mp4 or .html")
-    if kind == ".mp4" and shutil.which("ffmpeg") is None:
+    if suffix == ".mp4" and shutil.which("ffmpeg") is None:
         message = f"{file}: a film needs the program ffmpeg, which is not there"
         raise GudgeonError(f"{message}\n  install it, or name a .gif or .html")
     check_target(file)
-    if kind == ".html":
-        shown = _build_page(run, options)
-        write_text(file, shown.html)
-        return shown
+    if suffix == ".html":
+        animation = _build_page(run, options)
+        write_text(file, animation.html)
+        return animation
     try:
         with telling(file):  # a folder of its own, and what is written there first
-            film = _write_film(run, options, kind)
+            film_bytes = _write_film(run, options, suffix)
     except subprocess.CalledProcessError as error:
         raise OutputError(file, f"ffmpeg ended with {error.returncode}") from error
-    write_bytes(file, film)
+    write_bytes(file, film_bytes)
     return None
 
 
 def sketches(run: Result, options: Expected) -> Iterator[Sketch]:
-    """Yield the drawing of each picture, all in one box."""
+    """Yield the drawing of each picture of an animation, all in one box and to one scale, and report the progress."""
     motion = postures_of(run, 60)
     plan = make_plan(motion)
-    box, lines = room_of_all(motion, [plan]), path_lines(run, options.points)
-    before = options.times[0]
+    box, paths = room_of_all(motion, [plan]), path_lines(run, options.points)
+    previous_time = options.times[0]
     for k, t in enumerate(options.times):
         if options.progress:
             options.progress(k / len(options.times), f"picture {k + 1} of {len(options.times)}")
         posture = posture_at(run, float(t))
-        to_scale, arrows = arrows_of(run, posture, motion, plan, options.velocities, options.forces)
-        drawn = make_sketch(
+        scaled_plan, arrows = arrows_of(run, posture, motion, plan, options.velocities, options.forces)
+        sketch = make_sketch(
             posture,
-            to_scale,
-            more=lines,
+            scaled_plan,
+            more=paths,
             arrows=arrows,
             touching=touching_at(run, posture),
-            touched=touching_between(run, before, t),
+            touched=touching_between(run, previous_time, t),
             box=box,
             still=False,
         )
-        yield replace(drawn, notes=(*drawn.notes, RED)) if drawn.notes else drawn
-        before = t
+        yield replace(sketch, notes=(*sketch.notes, RED)) if sketch.notes else sketch
+        previous_time = t
 
 
 def touching_between(run: Result, begin: float, end: float) -> frozenset[str]:
-    """Return the joints with play whose surfaces met between two times.
+    """Return the joints and slider corners with play that were in contact between two times (s), by name.
 
-    An impact may be shorter than a picture.
+    Both impacts and stored contact states count, since an impact may be shorter than a picture.
     """
     names = [joint.name for joint in run.source.clearances]
-    ends = np.where(np.isnan(run.impacts["t_off"]), np.inf, run.impacts["t_off"])
-    met = run.impacts["joint"][(run.impacts["t_on"] <= end) & (ends >= begin)]
-    inside = run.state[(run.t >= begin) & (run.t <= end)]
-    return frozenset(name for k, name in enumerate(names) if k in met or (inside[:, k] > 0).any())
+    end_times = np.where(np.isnan(run.impacts["t_off"]), np.inf, run.impacts["t_off"])
+    indices_in_contact = run.impacts["joint"][(run.impacts["t_on"] <= end) & (end_times >= begin)]
+    states = run.state[(run.t >= begin) & (run.t <= end)]
+    return frozenset(name for k, name in enumerate(names) if k in indices_in_contact or (states[:, k] > 0).any())
 
 
-def _caption(run: Result, t: float, options: Expected) -> str:
-    """Return the caption of a picture: mechanism, scene, time and the ratio of speeds."""
-    slow = options.seconds / float(run.t[-1] - run.t[0]) if run.t[-1] > run.t[0] else 1.0
-    speed_text = f", {slow:.3g} times slower" if slow > 1.0 else f", {1 / slow:.3g} times faster"
+def _format_caption(run: Result, t: float, options: Expected) -> str:
+    """Return the caption of a picture: mechanism, scene, time, and how much slower or faster the animation plays."""
+    slowdown = options.seconds / float(run.t[-1] - run.t[0]) if run.t[-1] > run.t[0] else 1.0
+    speed_text = f", {slowdown:.3g} times slower" if slowdown > 1.0 else f", {1 / slowdown:.3g} times faster"
     title = textwrap.shorten(caption_of(run), NAMED, placeholder="…")
-    return f"{title}, t = {t:.4f} s{speed_text if abs(slow - 1.0) > 1e-9 else ''}"
+    return f"{title}, t = {t:.4f} s{speed_text if abs(slowdown - 1.0) > 1e-9 else ''}"
 
 
 def _build_page(run: Result, options: Expected) -> Animation:
@@ -169,27 +176,29 @@ def _build_page(run: Result, options: Expected) -> Animation:
 
     matplotlib places the names once; each then keeps its offset from its part until it would overlap another.
     """
-    drawn = list(sketches(run, options))
-    picture, names = _draw_canvas(drawn[0], _caption(run, options.times[0], options))
-    offsets = _name_offsets(picture, names)
-    halves = {part: 0.5 * (np.array(box[2:]) - box[:2]) for part, box in names.boxes.items()} if names else {}
-    width = float(picture.get_size_inches()[0]) * PIXELS
+    sketch_list = list(sketches(run, options))
+    figure, name_artist = _draw_canvas(sketch_list[0], _format_caption(run, options.times[0], options))
+    offsets = _get_name_offsets(figure, name_artist)
+    half_sizes = (
+        {part: 0.5 * (np.array(box[2:]) - box[:2]) for part, box in name_artist.boxes.items()} if name_artist else {}
+    )
+    width = float(figure.get_size_inches()[0]) * PIXELS
     title = one_line(f"{run.source.title or run.source.mechanism}: {run.source.scene}")
-    text = page(title, drawn, [float(t) for t in options.times], options.seconds, width, offsets, halves)
-    return Animation(text, width, width * float(np.divide(*(drawn[0].high - drawn[0].low)[::-1])))
+    text = page(title, sketch_list, [float(t) for t in options.times], options.seconds, width, offsets, half_sizes)
+    return Animation(text, width, width * float(np.divide(*(sketch_list[0].high - sketch_list[0].low)[::-1])))
 
 
 def _draw_canvas(sketch: Sketch, caption: str) -> tuple[Figure, Names | None]:
-    """Return a figure of the sketch at PIXELS per inch, and its placed names."""
+    """Return a figure of the sketch with a caption at PIXELS per inch, and its names; None without names."""
     width, height = size_of(sketch, 7.0)
-    picture = Figure(figsize=(width, height + 0.3), dpi=PIXELS)
-    ax = picture.add_axes((0.0, 0.0, 1.0, height / (height + 0.3)))
+    figure = Figure(figsize=(width, height + 0.3), dpi=PIXELS)
+    ax = figure.add_axes((0.0, 0.0, 1.0, height / (height + 0.3)))
     draw_on(ax, sketch)
-    picture.text(0.01, 0.99, caption, va="top", fontsize=9, parse_math=False)
-    return picture, next((artist for artist in ax.get_children() if isinstance(artist, Names)), None)
+    figure.text(0.01, 0.99, caption, va="top", fontsize=9, parse_math=False)
+    return figure, next((artist for artist in ax.get_children() if isinstance(artist, Names)), None)
 
 
-def _name_offsets(picture: Figure, names: Names | None) -> dict[str, tuple[float, float]]:
+def _get_name_offsets(picture: Figure, names: Names | None) -> dict[str, tuple[float, float]]:
     """Return the offsets of the placed names after the layout of a figure."""
     picture.draw_without_rendering()
     return names.beside if names is not None else {}
@@ -201,46 +210,55 @@ class _GifWriter(PillowWriter):
     _frames: list[Any]
     _palette: Any
 
-    def grab_frame(self, **savefig: Any) -> None:
-        """Add the figure as a frame. The palette of the first frame contains every colour of a drawing, also the red of
-        contacts.
+    def grab_frame(self, **options: Any) -> None:
+        """Add the figure as a frame, reduced to the palette of the first frame.
+
+        That palette contains every colour of a drawing, also the red of contacts. matplotlib calls the method with
+        options of savefig.
         """
-        super().grab_frame(**savefig)
-        picture = self._frames[-1].convert("RGB")
+        super().grab_frame(**options)
+        image = self._frames[-1].convert("RGB")
         if len(self._frames) == 1:
-            self._palette = _with_swatches(picture).quantize(COLOURS)
-        self._frames[-1] = picture.quantize(palette=self._palette, dither=0)
+            self._palette = _append_colour_stripes(image).quantize(COLOURS)
+        self._frames[-1] = image.quantize(palette=self._palette, dither=0)
 
 
-def _with_swatches(picture: Any) -> Any:
-    """Return a Pillow image with a stripe of each colour of drawings below it."""
-    names = [*TINTS, *EDGES, *(word for role in ROLES.values() for word in (role.edge, role.face) if word[:1] == "#")]
-    width, height = picture.size
-    stripes = list(dict.fromkeys(names))
-    more = picture.crop((0, 0, width, height + STRIPE * len(stripes)))
-    for k, name in enumerate(stripes):
-        colour = tuple(round(255 * share) for share in matplotlib.colors.to_rgb(name))
-        more.paste(colour, (0, height + STRIPE * k, width, height + STRIPE * (k + 1)))
-    return more
+def _append_colour_stripes(image: Any) -> Any:
+    """Return a Pillow image with a stripe of each colour of drawings below it, from which a palette is computed."""
+    colour_codes = [
+        *TINTS,
+        *EDGES,
+        *(word for role in ROLES.values() for word in (role.edge, role.face) if word[:1] == "#"),
+    ]
+    width, height = image.size
+    unique_codes = list(dict.fromkeys(colour_codes))
+    extended_image = image.crop((0, 0, width, height + STRIPE * len(unique_codes)))
+    for k, code in enumerate(unique_codes):
+        colour = tuple(round(255 * component) for component in matplotlib.colors.to_rgb(code))
+        extended_image.paste(colour, (0, height + STRIPE * k, width, height + STRIPE * (k + 1)))
+    return extended_image
 
 
 def _write_film(run: Result, options: Expected, suffix: str) -> bytes:
-    """Return the bytes of a GIF or film, written by matplotlib into a temporary folder."""
+    """Return the bytes of a GIF or MP4 file, written by matplotlib into a temporary directory.
+
+    `suffix` is ".gif" or ".mp4". Raises CalledProcessError if ffmpeg fails.
+    """
     from matplotlib.animation import FFMpegWriter
 
     rate: Any = (len(options.times) - 1) / options.seconds
     writer: Any = _GifWriter(fps=rate) if suffix == ".gif" else FFMpegWriter(fps=rate, codec="libx264")
     offsets: dict[str, tuple[float, float]] = {}
-    with matplotlib.rc_context(STYLE), tempfile.TemporaryDirectory() as folder:
-        file = os.path.join(folder, f"film{suffix}")
+    with matplotlib.rc_context(STYLE), tempfile.TemporaryDirectory() as directory:
+        file = os.path.join(directory, f"film{suffix}")
         for t, sketch in zip(options.times, sketches(run, options), strict=True):
-            picture, names = _draw_canvas(sketch, _caption(run, float(t), options))
-            if names is not None:
-                names.held = offsets
-            offsets = _name_offsets(picture, names)
+            figure, name_artist = _draw_canvas(sketch, _format_caption(run, float(t), options))
+            if name_artist is not None:
+                name_artist.held = offsets
+            offsets = _get_name_offsets(figure, name_artist)
             if t == options.times[0]:
-                writer.setup(picture, file, PIXELS)
-            writer.fig = picture
+                writer.setup(figure, file, PIXELS)
+            writer.fig = figure
             writer.grab_frame()
         writer.finish()
         return Path(file).read_bytes()

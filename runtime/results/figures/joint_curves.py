@@ -24,33 +24,39 @@ MOST = 4  # panels of a figure
 
 
 def force(run: Result, joint: str) -> tuple[Array, Array]:
-    """Return times and magnitudes of the force at a joint, (k,) each: samples, and every extreme of the steps in
+    """Return times and magnitudes of the force at a joint by time, (k,) each: samples, and extremes of the steps
     between.
+
+    The extremes are those of the envelope, or without one the peaks of all impacts with a duration. For a joint without
+    play there are samples only.
     """
     k = _clearance_index(run, joint)
     if k is None:
         return run.t, run[f"{joint}.F"]
     if run.trace is None:
-        own = run.impacts[(run.impacts["joint"] == k) & ~is_rigid_impact(run.impacts)]
+        impacts = run.impacts[(run.impacts["joint"] == k) & ~is_rigid_impact(run.impacts)]
         peaks = [(peak.t, peak.F) for peak in run.diagnostics.peaks if peak.joint == joint]
-        more_t, more = [own["t_peak"], [t for t, _ in peaks]], [own["F_peak"], [F for _, F in peaks]]
+        extreme_times, extreme_forces = (
+            [impacts["t_peak"], [t for t, _ in peaks]],
+            [impacts["F_peak"], [F for _, F in peaks]],
+        )
     else:
-        low, t_low, high, t_high = run.trace.joints[:, k, :4].T
-        more_t, more = [t_low, t_high], [low, high]
-    return _sort_by_time(np.concatenate([run.t, *more_t]), np.concatenate([run[f"{joint}.F"], *more]))
+        min_force, t_low, max_force, t_high = run.trace.joints[:, k, :4].T
+        extreme_times, extreme_forces = [t_low, t_high], [min_force, max_force]
+    return _sort_by_time(np.concatenate([run.t, *extreme_times]), np.concatenate([run[f"{joint}.F"], *extreme_forces]))
 
 
 def path(run: Result, joint: str) -> tuple[Array, Array, Array]:
-    """Return times, x and y (m) of the journal in its bearing, (k,) each: samples, and positions from the steps in
-    between.
+    """Return times, x and y (m) of the journal in its bearing by time, (k,) each: samples, and positions of the
+    envelope.
     """
     t, x, y = [run.t], [run[f"{joint}.ex"]], [run[f"{joint}.ey"]]
     k = _clearance_index(run, joint)
     if run.trace is not None and k is not None:
         x_out, y_out, t_out, x_end, y_end = run.trace.joints[:, k, 4:].T
         t, x, y = [*t, t_out, run.trace.t], [*x, x_out, x_end], [*y, y_out, y_end]
-    times, xs = _sort_by_time(np.concatenate(t), np.concatenate(x))
-    return times, xs, _sort_by_time(np.concatenate(t), np.concatenate(y))[1]
+    times, x_sorted = _sort_by_time(np.concatenate(t), np.concatenate(x))
+    return times, x_sorted, _sort_by_time(np.concatenate(t), np.concatenate(y))[1]
 
 
 def _clearance_index(run: Result, joint: str) -> int | None:
@@ -66,19 +72,19 @@ def _sort_by_time(t: Array, values: Array) -> tuple[Array, Array]:
 
 
 def panels(runs: Iterable[Result]) -> dict[str, list[str]]:
-    """Return the series of each panel of forces by its title.
+    """Return the names of the series of each panel of forces, by the panel's title; at most MOST panels.
 
     A bearing has a panel for its force. A guide has panels for force and moment on its slider, at samples, and for the
     forces at its corners, with the extremes of all steps.
     """
-    found = dict[str, list[str]]()
+    series_by_title = dict[str, list[str]]()
     for joint in dict.fromkeys(joint.name for run in runs for joint in run.source.clearances):
         guide, _, corner = joint.partition(".")
-        found.setdefault(f"force at {guide}{', of samples' * bool(corner)}", [f"{guide}.F"])
+        series_by_title.setdefault(f"force at {guide}{', of samples' * bool(corner)}", [f"{guide}.F"])
         if corner:
-            found.setdefault(f"moment at {guide}, of samples", [f"{guide}.M"])
-            found.setdefault(f"forces at corners of {guide}", []).append(f"{joint}.F")
-    return dict([*found.items()][:MOST])
+            series_by_title.setdefault(f"moment at {guide}, of samples", [f"{guide}.M"])
+            series_by_title.setdefault(f"forces at corners of {guide}", []).append(f"{joint}.F")
+    return dict([*series_by_title.items()][:MOST])
 
 
 def curve(run: Result, name: str) -> tuple[Array, Array]:
@@ -87,8 +93,11 @@ def curve(run: Result, name: str) -> tuple[Array, Array]:
 
 
 def peaks(run: Result, name: str) -> Iterator[tuple[float, float]]:
-    """Yield time and value of the peak of a series over all steps, if it is known; for a guide, if it was requested."""
+    """Yield time and value of the peak of a series over all steps, if it is known.
+
+    It is known for forces in joints with play, and for series whose peaks were requested.
+    """
     yield from ((peak.t, peak.F) for peak in run.diagnostics.peaks if f"{peak.joint}.F" == name)
-    for one in run.diagnostics.extremes:
-        if one.name == name and not one.against:
-            yield one.t_abs, one.max if one.max >= -one.min else one.min
+    for extremes in run.diagnostics.extremes:
+        if extremes.name == name and not extremes.against:
+            yield extremes.t_abs, extremes.max if extremes.max >= -extremes.min else extremes.min

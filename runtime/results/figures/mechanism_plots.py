@@ -31,94 +31,113 @@ MANY = 60  # names for which a panel has no room
 
 
 def sketch_at(run: Result, t: Any, velocities: bool = False, forces: bool = False) -> Sketch:
-    """Return the drawing of the mechanism at a time of the run, with arrows if requested.
+    """Return the drawing of the mechanism at a time of the run, with arrows of velocities or forces if requested.
 
-    Raises BadValueError, UnknownNameError.
+    `t` is a number in s or a text with a unit. Raises BadValueError, UnknownNameError.
     """
     velocities, forces = flag(velocities, "velocities"), flag(forces, "forces")
     posture, motion = posture_at(run, time_of(run, t)), postures_of(run)
     plan = make_plan(motion)
-    plan, more = arrows_of(run, posture, motion, plan, velocities, forces)
-    return make_sketch(posture, plan, arrows=more, touching=touching_at(run, posture))
+    plan, all_arrows = arrows_of(run, posture, motion, plan, velocities, forces)
+    return make_sketch(posture, plan, arrows=all_arrows, touching=touching_at(run, posture))
 
 
 def touching_at(run: Result, posture: Posture) -> frozenset[str]:
-    """Return the joints with play whose surfaces are in contact at a posture's time.
+    """Return the names of joints and slider corners with play that are in contact at a posture's time.
 
-    The contact state decides at a sample; between two samples, the overlap in the drawing.
+    The stored contact state decides at a sample; between two samples, the overlap in the drawing.
     """
-    if (at := np.flatnonzero(run.t == posture.t)).size:
-        return frozenset(joint.name for c, joint in enumerate(run.source.clearances) if run.state[at[0], c] > 0)
+    if (sample_indices := np.flatnonzero(run.t == posture.t)).size:
+        return frozenset(
+            joint.name for k, joint in enumerate(run.source.clearances) if run.state[sample_indices[0], k] > 0
+        )
     return in_contact(posture)
 
 
 def arrows_of(
     run: Result, posture: Posture, motion: Sequence[Posture], plan: Plan, velocities: bool, forces: bool
 ) -> tuple[Plan, list[Arrows]]:
-    """Return the plan and the requested arrows of velocities and forces.
+    """Return the plan, and a list of the requested arrows of velocities and forces.
 
-    With forces the plan scales applied forces like reactions.
+    `motion` has postures of the whole run, to which the scale of velocities belongs. With `forces` the returned plan
+    draws applied forces to the scale of the reactions.
     """
-    found = [velocity_arrows(posture, motion, plan)] if velocities else []
+    all_arrows = [velocity_arrows(posture, motion, plan)] if velocities else []
     if not forces:
-        return plan, found
-    reactions, newton = force_arrows(run, posture, plan)
-    return replace(plan, newton=newton), [*found, reactions]
+        return plan, all_arrows
+    reactions, force_scale = force_arrows(run, posture, plan)
+    return replace(plan, newton=force_scale), [*all_arrows, reactions]
 
 
 def velocity_arrows(posture: Posture, motion: Sequence[Posture], plan: Plan) -> Arrows:
-    """Return the velocity arrows of all points, to a scale for the whole run."""
-    speeds = [float(np.hypot(*vector)) for at in (*motion, posture) for _, (_, vector) in velocities_of(at)]
+    """Return the velocity arrows of all points at a posture, with the largest speed of the whole run as scale."""
+    speeds = [
+        float(np.hypot(*vector))
+        for sample_posture in (*motion, posture)
+        for _, (_, vector) in velocities_of(sample_posture)
+    ]
     return arrows("velocity", dict(velocities_of(posture)), "m/s", plan.unit, max(speeds, default=0.0))
 
 
 def force_arrows(run: Result, posture: Posture, plan: Plan) -> tuple[Arrows, float]:
-    """Return the arrows of joint forces at a posture, and the length of 1 N (m of the drawing).
+    """Return the arrows of joint forces at a posture, and the length of 1 N (m of the drawing; 0 without forces).
 
     Forces act on the second body, for a joint with play on the journal, and are interpolated between samples. The
     longest arrow is the largest force of this moment, applied forces included, since a scale for the whole run would
     shrink most forces to nothing next to impacts. Raises UnknownNameError without masses.
     """
-    found = dict(_joint_forces(run, posture))
-    applied = [posture.loads[part.name] for part in posture.parts("forces", "force")]
-    sizes = [float(np.hypot(*vector)) for vector in (*(vector for _, vector in found.values()), *applied)]
-    largest = max((size for size in sizes if np.isfinite(size)), default=0.0)
-    acting_on = " on the second body, applied force" if np.any(applied) else " on the second body"
-    drawn = replace(arrows("reaction", found, "N", plan.unit, largest), on=acting_on)
-    return drawn, LONGEST * plan.unit / largest if largest > 0.0 else 0.0
+    reactions = dict(_joint_forces(run, posture))
+    applied_forces = [posture.loads[part.name] for part in posture.parts("forces", "force")]
+    magnitudes = [
+        float(np.hypot(*vector)) for vector in (*(vector for _, vector in reactions.values()), *applied_forces)
+    ]
+    max_magnitude = max((magnitude for magnitude in magnitudes if np.isfinite(magnitude)), default=0.0)
+    acting_on = " on the second body, applied force" if np.any(applied_forces) else " on the second body"
+    reaction_arrows = replace(arrows("reaction", reactions, "N", plan.unit, max_magnitude), on=acting_on)
+    return reaction_arrows, LONGEST * plan.unit / max_magnitude if max_magnitude > 0.0 else 0.0
 
 
 def _joint_forces(run: Result, posture: Posture) -> Iterator[tuple[str, tuple[Array, Array]]]:
-    """Yield name, point and force vector of each joint that connects points."""
+    """Yield name, position and force vector of each joint that connects points; (name, ((2,) in m, (2,) in N))."""
     for part in posture.parts("joints"):
-        own = type_of(part)
-        if own.joins == "points":
+        joint_type = type_of(part)
+        if joint_type.joins == "points":
             vector = [float(np.interp(posture.t, run.t, run[f"{part.name}.F{axis}"])) for axis in "xy"]
-            place = posture.place(part.ends[0 if own.reaction_at == "first" else 1])
-            yield part.name, (place, np.array(vector))
+            position = posture.place(part.ends[0 if joint_type.reaction_at == "first" else 1])
+            yield part.name, (position, np.array(vector))
 
 
 def start_sketch(run: Result) -> Sketch:
-    """Return the drawing at the start of the run, without insets; without names if there are very many."""
+    """Return the drawing at the start of the run, without insets.
+
+    Names are left out if there are more than MANY.
+    """
     motion = postures_of(run)
     sketch = make_sketch(motion[0], make_plan(motion), inset=False)
     return sketch if len(sketch.labels) <= MANY else replace(sketch, labels=())
 
 
-def start_picture(shown: Any) -> bytes:
-    """Return the PNG that a notebook displays for a run or a scene, with names and insets."""
-    if hasattr(shown, "names"):
-        sketch = sketch_at(shown, float(shown.t[0]))
+def start_picture(scene_or_run: Any) -> bytes:
+    """Return the PNG bytes that a notebook displays for a run or a scene: the mechanism at the start, with names and
+    insets.
+
+    The start of a scene is assembled first.
+    """
+    if hasattr(scene_or_run, "names"):
+        sketch = sketch_at(scene_or_run, float(scene_or_run.t[0]))
     else:
-        start = shown.start()
-        loads = loads_at(shown.source, shown.p, start.q, start.v)
-        posture = Posture(shown.source, shown.p, start.q, 0.0, start.v, loads)
+        start = scene_or_run.start()
+        loads = loads_at(scene_or_run.source, scene_or_run.p, start.q, start.v)
+        posture = Posture(scene_or_run.source, scene_or_run.p, start.q, 0.0, start.v, loads)
         sketch = make_sketch(posture, make_plan([posture]))
     return as_bytes(figure_of([sketch], [""], ""), ".png", dpi=90)
 
 
 def path_sketch(run: Result) -> Sketch:
-    """Return the drawing at the start of the run without names, in a box that contains the whole motion."""
+    """Return the drawing at the start of the run in a box that contains the whole motion.
+
+    Its only label is that of the scale.
+    """
     motion = postures_of(run)
     plan = make_plan(motion)
     sketch = make_sketch(motion[0], plan, box=room_of_all(motion, [plan]), inset=False)
@@ -126,8 +145,11 @@ def path_sketch(run: Result) -> Sketch:
 
 
 def draw_path(run: Result, sketch: Sketch, points: Sequence[str], ax: Axes) -> None:
-    """Draw the paths of points over the run with a ring at each start, and the mechanism in grey."""
-    draw_on(ax, sketch, faint=True)
+    """Draw the paths of points over the run on axes, with a ring at each start.
+
+    The mechanism of `sketch` lies under them in grey.
+    """
+    draw_on(ax, sketch, is_background=True)
     for name, colour in zip(points, cycle(len(points)), strict=True):
         x, y = run[f"{name}.x"], run[f"{name}.y"]
         ax.plot(x, y, color=colour, lw=1.4, label=name, gid=f"path-{name}", zorder=5)
@@ -141,19 +163,22 @@ def path_lines(run: Result, points: Sequence[str]) -> list[Line]:
 
 
 def points_of(run: Result, points: Iterable[Any]) -> list[str]:
-    """Return the names of moving points, such as "coupler.tracer", or of bodies for their centres of mass, without
+    """Return names of moving points, such as "coupler.tracer", or of bodies for their centres of mass, without
     repetitions.
 
     `points` has names and lists of names. Raises BadValueError, UnknownNameError with the nearest name.
     """
-    every = dict.fromkeys(name for some in points for name in names(some, "points", POINTS))
-    return [_check_point(run, name) for name in every]
+    point_names = dict.fromkeys(name for names_argument in points for name in names(names_argument, "points", POINTS))
+    return [_check_point(run, name) for name in point_names]
 
 
 def _check_point(run: Result, name: str) -> str:
-    """Return the name if it is that of a moving point or a body. Raises UnknownNameError with the nearest name."""
-    known = [point.name for point in run.source.points if point.body >= 0]
+    """Return the name unchanged if it is that of a moving point or a body.
+
+    Raises UnknownNameError with the nearest name otherwise.
+    """
+    moving_points = [point.name for point in run.source.points if point.body >= 0]
     bodies = [body.name for body in run.source.bodies]
-    if name in known or name in bodies:
+    if name in moving_points or name in bodies:
         return name
-    raise unknown(f"the scene {run.source.scene!r} has no point {name!r} that moves", name, (*known, *bodies))
+    raise unknown(f"the scene {run.source.scene!r} has no point {name!r} that moves", name, (*moving_points, *bodies))

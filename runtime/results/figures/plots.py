@@ -59,12 +59,12 @@ STYLE = {
 
 
 def cycle(count: int) -> list[str]:
-    """Return `count` colours for curves in one panel; distinct up to twenty."""
+    """Return `count` colours, as texts "#rrggbb", for curves in one panel; distinct up to twenty, then repeated."""
     if count <= len(COLOURS):
         return list(COLOURS[:count])
-    pairs = [matplotlib.colors.to_hex(matplotlib.colormaps["tab20"](k)) for k in range(20)]
-    many = [*pairs[::2], *pairs[1::2]]  # the strong ones first
-    return [many[i % len(many)] for i in range(count)]
+    table_colours = [matplotlib.colors.to_hex(matplotlib.colormaps["tab20"](k)) for k in range(20)]
+    reordered_colours = [*table_colours[::2], *table_colours[1::2]]  # the strong ones first
+    return [reordered_colours[i % len(reordered_colours)] for i in range(count)]
 
 
 def peak_of(values: Any) -> float:
@@ -78,7 +78,10 @@ def caption_of(run: Result) -> str:
 
 
 def orbit_half_width(run: Result, joint: str) -> float:
-    """Return half the side of a square that contains the orbit and the clearance circle, in units of c."""
+    """Return half the side of a square that contains a journal's orbit and its clearance circle, in units of c.
+
+    It is at least 1.04.
+    """
     _, x, y = joint_curves.path(run, joint)
     return 1.04 * max(1.0, peak_of(np.hypot(x, y)) / run.constants[f"{joint}.c"])
 
@@ -90,99 +93,115 @@ def _horizon_within_run(run: Result) -> float | None:
 
 
 def mark_horizon(ax: Axes, run: Result, colour: str) -> None:
-    """Mark the predictability horizon on a time axis: a thin line, and grey beyond; no mark if it is beyond the end."""
+    """Mark the predictability horizon of a run on a time axis: a thin line, and grey beyond it.
+
+    Nothing is drawn if the horizon is unknown or beyond the end.
+    """
     if (horizon := _horizon_within_run(run)) is not None:
         ax.axvspan(horizon, float(run.t[-1]), color=UNTRUSTED, alpha=0.1, lw=0, zorder=0)
         ax.axvline(horizon, color=colour, lw=0.8, ls=":", zorder=1)
 
 
-def draw_orbit(ax: Axes, run: Result, joint: str, colour: str, half: float) -> None:
-    """Draw the journal's path through its steps, e/c, and the circle e = c, with dots where the surfaces are in
-    contact.
+def draw_orbit(ax: Axes, run: Result, joint: str, colour: str, half_width: float) -> None:
+    """Draw the path of a journal, e/c, in its clearance circle, with dots where the surfaces are in contact.
 
-    `half` is half the side of the square, in units of c.
+    Beyond the predictability horizon the path is grey. `half_width` is half the side of the square, in units of c.
     """
     c = run.constants[f"{joint}.c"]
     t, x, y = joint_curves.path(run, joint)
     x, y, angle = x / c, y / c, np.linspace(0.0, 2 * np.pi, 181)
     ax.fill(np.cos(angle), np.sin(angle), facecolor="#f6f6f6", edgecolor="#777777", lw=0.9, zorder=1)
-    ends = _horizon_within_run(run) or float(run.t[-1])
-    touching, known = np.hypot(x, y) >= 1.0, t <= ends
-    beyond = t >= t[known][-1]  # from the last point before the horizon on, so that the path has no gap
-    ax.plot(x[known], y[known], color=colour, lw=0.7, alpha=0.8, zorder=2)
-    ax.plot(x[touching & known], y[touching & known], ".", color=colour, ms=1.4, zorder=3)
-    if not known.all():
-        ax.plot(x[beyond], y[beyond], color=UNTRUSTED, lw=0.5, alpha=0.6, zorder=1.5)
+    end_time = _horizon_within_run(run) or float(run.t[-1])
+    touching, is_reliable = np.hypot(x, y) >= 1.0, t <= end_time
+    is_after = t >= t[is_reliable][-1]  # from the last point before the horizon on, so that the path has no gap
+    ax.plot(x[is_reliable], y[is_reliable], color=colour, lw=0.7, alpha=0.8, zorder=2)
+    ax.plot(x[touching & is_reliable], y[touching & is_reliable], ".", color=colour, ms=1.4, zorder=3)
+    if not is_reliable.all():
+        ax.plot(x[is_after], y[is_after], color=UNTRUSTED, lw=0.5, alpha=0.6, zorder=1.5)
     ax.plot(x[:1], y[:1], "o", ms=4, mfc="white", mec=IDEAL, mew=0.9, zorder=4)
-    ax.set(xlim=(-half, half), ylim=(-half, half), aspect="equal", xticks=[], yticks=[])
+    ax.set(xlim=(-half_width, half_width), ylim=(-half_width, half_width), aspect="equal", xticks=[], yticks=[])
     factor, text = scale(c, "m")
     ax.set_title(f"{joint}, {run.source.scene}: c = {c * factor:.4g} {text}")
     ax.spines[:].set_visible(False)
 
 
-def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result], watch: Sequence[str]) -> Figure:
+def figure(
+    runs: Mapping[str, Result], reference: Result | Mapping[str, Result], watched_series: Sequence[str]
+) -> Figure:
     """Return the figure of `gudgeon run`, the effect of play by scene.
 
     Left: error of the first two watched series against the ideal scene, with their rates, and the forces at the joints
     with play. Right: the mechanism at its start, and journal orbits. `reference` is the ideal run at the same times and
     parameters, one for all scenes or one for each. Scenes without play are shown without comparison.
     """
-    played = {scene: run for scene, run in runs.items() if run.source.clearances}
-    references = dict(reference) if isinstance(reference, Mapping) else dict.fromkeys(played, reference)
-    shown = played or dict(runs)
-    colours = dict(zip(shown, cycle(len(shown)) if played else [IDEAL, *cycle(len(shown) - 1)], strict=True))
-    panels = joint_curves.panels(played.values())
-    followed = {name for one in watch for name in rates(one)}  # shown below what they are rates of
-    watch = [name for name in dict.fromkeys(watch) if name not in followed][:2]
+    runs_with_play = {scene: run for scene, run in runs.items() if run.source.clearances}
+    references = dict(reference) if isinstance(reference, Mapping) else dict.fromkeys(runs_with_play, reference)
+    shown_runs = runs_with_play or dict(runs)
+    colours = dict(
+        zip(shown_runs, cycle(len(shown_runs)) if runs_with_play else [IDEAL, *cycle(len(shown_runs) - 1)], strict=True)
+    )
+    force_panels = joint_curves.panels(runs_with_play.values())
+    derived_series = {
+        name for position_name in watched_series for name in rates(position_name)
+    }  # shown below what they are rates of
+    watched_series = [name for name in dict.fromkeys(watched_series) if name not in derived_series][:2]
     with matplotlib.rc_context(STYLE):
-        picture = Figure(figsize=(12, 9), dpi=100)
-        picture.set_layout_engine("constrained", w_pad=0.06, h_pad=0.05, hspace=0.03, wspace=0.02)
-        first, known = next(iter(runs.values())), {name for run in played.values() for name in run.names}
+        figure = Figure(figsize=(12, 9), dpi=100)
+        figure.set_layout_engine("constrained", w_pad=0.06, h_pad=0.05, hspace=0.03, wspace=0.02)
+        first_run, available_series = (
+            next(iter(runs.values())),
+            {name for run in runs_with_play.values() for name in run.names},
+        )
         journals = [
             name.removesuffix(".F")
-            for name, *_ in panels.values()
-            if name.count(".") == 1 and f"{name[:-1]}ex" in known
+            for name, *_ in force_panels.values()
+            if name.count(".") == 1 and f"{name[:-1]}ex" in available_series
         ]
-        left, drawn, right = _split_figure(picture, len(played) if journals else 0, bool(first.source.parts))
-        rows = 3 + len(panels)
-        grid = left.add_gridspec(rows, max(1, len(watch)))
-        for column, name in enumerate(watch):
-            _draw_motion(left, grid, column, shown, references if played else {}, name, colours)
-        forces = [left.add_subplot(grid[3 + k, :]) for k in range(len(panels))]
-        _draw_forces(forces, panels, played, references, colours)
-        left.align_ylabels()
-        if drawn is not None:
-            _draw_mechanism(drawn, first)
-        if right is not None:
-            _draw_orbits(right, journals, played, colours)
-        _draw_title_and_legend(picture, shown, colours, bool(played))
-    return picture
+        curves_area, mechanism_area, orbits_area = _split_figure(
+            figure, len(runs_with_play) if journals else 0, bool(first_run.source.parts)
+        )
+        n_rows = 3 + len(force_panels)
+        grid = curves_area.add_gridspec(n_rows, max(1, len(watched_series)))
+        for column, name in enumerate(watched_series):
+            _draw_motion(curves_area, grid, column, shown_runs, references if runs_with_play else {}, name, colours)
+        forces = [curves_area.add_subplot(grid[3 + k, :]) for k in range(len(force_panels))]
+        _draw_forces(forces, force_panels, runs_with_play, references, colours)
+        curves_area.align_ylabels()
+        if mechanism_area is not None:
+            _draw_mechanism(mechanism_area, first_run)
+        if orbits_area is not None:
+            _draw_orbits(orbits_area, journals, runs_with_play, colours)
+        _draw_title_and_legend(figure, shown_runs, colours, bool(runs_with_play))
+    return figure
 
 
-def _split_figure(picture: Figure, orbits: int, drawn: bool) -> tuple[Any, Any, Any]:
-    """Return the subfigures for curves over time, for the mechanism and for orbits; None for an empty one."""
-    if not (orbits or drawn):
+def _split_figure(picture: Figure, n_orbits: int, has_mechanism: bool) -> tuple[Any, Any, Any]:
+    """Return the subfigures for curves over time, for the mechanism and for orbits; None for one without content.
+
+    `n_orbits` is the number of columns of orbits, 0 for none.
+    """
+    if not (n_orbits or has_mechanism):
         return picture.subfigures(1, 1), None, None
-    parts: Any = picture.subfigures(1, 2, width_ratios=[1.0, 0.5 if orbits == 1 and not drawn else 0.9])
-    left, right = parts
-    if not (orbits and drawn):
-        return left, right if drawn else None, right if orbits else None
-    above, below = right.subfigures(2, 1, height_ratios=[0.8, 1.0])
-    return left, above, below
+    areas: Any = picture.subfigures(1, 2, width_ratios=[1.0, 0.5 if n_orbits == 1 and not has_mechanism else 0.9])
+    left_area, right_area = areas
+    if not (n_orbits and has_mechanism):
+        return left_area, right_area if has_mechanism else None, right_area if n_orbits else None
+    upper_area, lower_area = right_area.subfigures(2, 1, height_ratios=[0.8, 1.0])
+    return left_area, upper_area, lower_area
 
 
-def _draw_mechanism(part: Any, run: Result) -> None:
-    """Draw the mechanism at the start of the run."""
+def _draw_mechanism(area: Any, run: Result) -> None:
+    """Draw the mechanism at the start of the run in a subfigure, with the time as title."""
     from gudgeon.drawing.picture import draw_on
     from gudgeon.results.figures.mechanism_plots import start_sketch
 
-    ax = part.add_subplot()
+    ax = area.add_subplot()
     draw_on(ax, start_sketch(run))
     ax.set_title(f"t = {quantity(float(run.t[0]), 's', 6)}")
 
 
 def _draw_motion(
-    part: Any,
+    area: Any,
     grid: Any,
     column: int,
     runs: Mapping[str, Result],
@@ -190,22 +209,29 @@ def _draw_motion(
     name: str,
     colours: Mapping[str, str],
 ) -> None:
-    """Draw three rows: a series, its velocity and its acceleration, as errors if there is a reference."""
+    """Draw a series, its velocity and its acceleration in three rows of a column of the grid.
+
+    Scenes with a reference show the difference from it. A series that no scene has is left out.
+    """
     names = [series for series in (name, *rates(name)) if series]
     for row, series in enumerate(names):
-        compared = [scene for scene in runs if scene in references and series in references[scene]]
-        found = {scene: runs[scene][series] - references[scene][series] for scene in compared}
-        if not found:
-            found = {scene: run[series] for scene, run in runs.items() if series in run}
-        if not found:
+        compared_scenes = [scene for scene in runs if scene in references and series in references[scene]]
+        values_by_scene = {scene: runs[scene][series] - references[scene][series] for scene in compared_scenes}
+        if not values_by_scene:
+            values_by_scene = {scene: run[series] for scene, run in runs.items() if series in run}
+        if not values_by_scene:
             continue
-        ax = part.add_subplot(grid[row, column] if len(names) > 1 else grid[:3, column])
-        factor, text = drawn(max(map(peak_of, found.values())), runs[next(iter(found))].unit(series))
-        for scene, values in found.items():
+        ax = area.add_subplot(grid[row, column] if len(names) > 1 else grid[:3, column])
+        factor, text = drawn(
+            max(map(peak_of, values_by_scene.values())), runs[next(iter(values_by_scene))].unit(series)
+        )
+        for scene, values in values_by_scene.items():
             ax.plot(runs[scene].t, values * factor, color=colours[scene], lw=0.9)
             mark_horizon(ax, runs[scene], colours[scene])
-        word = f"error of {series}" if compared else series
-        _format_time_axis(ax, label(word, text), [runs[scene].t for scene in found], row == len(names) - 1)
+        quantity_name = f"error of {series}" if compared_scenes else series
+        _format_time_axis(
+            ax, label(quantity_name, text), [runs[scene].t for scene in values_by_scene], row == len(names) - 1
+        )
 
 
 def _draw_forces(
@@ -215,33 +241,44 @@ def _draw_forces(
     references: Mapping[str, Result],
     colours: Mapping[str, str],
 ) -> None:
-    """Draw one row for each panel: forces in every scene, with their peaks (▾), and the ideal reaction over them."""
-    for ax, (what, names) in zip(axes, panels.items(), strict=True):
-        known = [(scene, run, name) for scene, run in runs.items() for name in names if name in run]
-        curves = [(*joint_curves.curve(run, name), colours[scene], 0.8, "-") for scene, run, name in known]
-        ideal = max((r for r in references.values() if names[0] in r), key=lambda r: r.t[-1], default=None)
-        if ideal is not None:
-            curves.append((ideal.t, ideal[names[0]], IDEAL, 1.0, "--"))
-        most = max((peak_of(values) for _, values, *_ in curves), default=0.0)
-        factor, text = scale(most, known[0][1].unit(names[0]))
+    """Draw one row for each panel: forces in every scene, with their peaks (▾), and the ideal reaction over them,
+    dashed.
+
+    `panels` has the series of each panel by title.
+    """
+    for ax, (title, names) in zip(axes, panels.items(), strict=True):
+        available = [(scene, run, name) for scene, run in runs.items() for name in names if name in run]
+        curves = [(*joint_curves.curve(run, name), colours[scene], 0.8, "-") for scene, run, name in available]
+        ideal_run = max(
+            (reference for reference in references.values() if names[0] in reference),
+            key=lambda reference: reference.t[-1],
+            default=None,
+        )
+        if ideal_run is not None:
+            curves.append((ideal_run.t, ideal_run[names[0]], IDEAL, 1.0, "--"))
+        max_magnitude = max((peak_of(values) for _, values, *_ in curves), default=0.0)
+        factor, text = scale(max_magnitude, available[0][1].unit(names[0]))
         for t, values, colour, width, dashes in curves:
             ax.plot(t, values * factor, color=colour, lw=width, ls=dashes)
-        for scene, run, name in known:
+        for scene, run, name in available:
             mark_horizon(ax, run, colours[scene])
-            for at, peak in joint_curves.peaks(run, name):
-                ax.plot([at], [peak * factor], "v", color=colours[scene], ms=4, clip_on=False)
+            for time, peak in joint_curves.peaks(run, name):
+                ax.plot([time], [peak * factor], "v", color=colours[scene], ms=4, clip_on=False)
         if names[0].endswith(".F"):
             ax.set_ylim(bottom=0)
-        _format_time_axis(ax, label(what, text), [t for t, *_ in curves], ax is axes[-1])
+        _format_time_axis(ax, label(title, text), [t for t, *_ in curves], ax is axes[-1])
 
 
-def _format_time_axis(ax: Axes, text: str, times: Sequence[Any], last: bool) -> None:
-    """Label an axis over time; only the last row of a column has the label of the time."""
+def _format_time_axis(ax: Axes, text: str, times: Sequence[Any], is_last_row: bool) -> None:
+    """Set the labels, limits and ticks of axes over time; only the last row of a column has the label of the time.
+
+    `times` are the time arrays of the curves, which set the limits.
+    """
     ax.set_ylabel(_wrap_label(ax, text))
     start, end = min(float(t[0]) for t in times), max(float(t[-1]) for t in times)
     ax.set_xlim(start, end if end > start else start + 1.0)
-    ax.tick_params(labelbottom=last)
-    if last:
+    ax.tick_params(labelbottom=is_last_row)
+    if is_last_row:
         factor, text = scale(end, "s")
         ax.xaxis.set_major_formatter(lambda t, _: f"{t * factor:g}")
         ax.set_xlabel(label("t", text))
@@ -249,73 +286,80 @@ def _format_time_axis(ax: Axes, text: str, times: Sequence[Any], last: bool) -> 
 
 
 def _wrap_label(ax: Axes, text: str) -> str:
-    """Return a label wrapped to the height of its axes, since names of bodies may be long."""
+    """Return a label wrapped to the height of its axes, since names of bodies may be long.
+
+    Words that are too long are broken after points.
+    """
     spec = ax.get_subplotspec()
-    share = spec.rowspan.stop - spec.rowspan.start if spec else 1
-    rows = spec.get_gridspec().nrows if spec else 1
-    points = 72 * ax.figure.bbox.height / ax.figure.dpi * 0.85 * share / rows
+    n_spanned = spec.rowspan.stop - spec.rowspan.start if spec else 1
+    n_rows = spec.get_gridspec().nrows if spec else 1
+    points = 72 * ax.figure.bbox.height / ax.figure.dpi * 0.85 * n_spanned / n_rows
     width = max(8, int(points / (0.58 * float(ax.yaxis.label.get_fontsize()))))
-    words = [word if len(word) <= width else word.replace(".", ".\u200b") for word in text.split(" ")]
-    lines = textwrap.wrap(" ".join(words).replace("\u200b", " \u200b"), width, break_long_words=False)
+    tokens = [token if len(token) <= width else token.replace(".", ".\u200b") for token in text.split(" ")]
+    lines = textwrap.wrap(" ".join(tokens).replace("\u200b", " \u200b"), width, break_long_words=False)
     return "\n".join(lines).replace(" \u200b", "").replace("\u200b", "")
 
 
-def _draw_orbits(part: Any, joints: Sequence[str], runs: Mapping[str, Result], colours: Mapping[str, str]) -> None:
-    """Draw an orbit for each joint (down) and scene (across, in several rows if needed)."""
+def _draw_orbits(area: Any, joints: Sequence[str], runs: Mapping[str, Result], colours: Mapping[str, str]) -> None:
+    """Draw an orbit for each joint (down) and scene (across, in several rows if needed), all to one scale."""
     scenes = list(runs)
-    columns = min(len(scenes), ACROSS)
-    rows = -(-len(scenes) // columns)
-    grid = part.add_gridspec(len(joints) * rows, columns)
-    found = [(joint, scene) for joint in joints for scene in scenes if f"{joint}.e" in runs[scene]]
-    half = max(
-        orbit_half_width(runs[scene], joint) for joint, scene in found
+    n_columns = min(len(scenes), ACROSS)
+    n_rows = -(-len(scenes) // n_columns)
+    grid = area.add_gridspec(len(joints) * n_rows, n_columns)
+    joint_scenes = [(joint, scene) for joint in joints for scene in scenes if f"{joint}.e" in runs[scene]]
+    half_width = max(
+        orbit_half_width(runs[scene], joint) for joint, scene in joint_scenes
     )  # one scale: all circles are equally large
-    for joint, scene in found:
-        row, column = divmod(scenes.index(scene), columns)
-        place = grid[joints.index(joint) * rows + row, column]
-        ax = part.add_subplot(place)
-        draw_orbit(ax, runs[scene], joint, colours[scene], half)
-        if rows > 1:  # the title would be wider than its circle
+    for joint, scene in joint_scenes:
+        row, column = divmod(scenes.index(scene), n_columns)
+        cell = grid[joints.index(joint) * n_rows + row, column]
+        ax = area.add_subplot(cell)
+        draw_orbit(ax, runs[scene], joint, colours[scene], half_width)
+        if n_rows > 1:  # the title would be wider than its circle
             ax.set_title(f"{joint}, {scene}", fontsize=7.5)
-    part.supxlabel("journal in the circle e = c, ○ start\nforces: ▾ peak of all steps", fontsize=9, color="#444444")
+    area.supxlabel("journal in the circle e = c, ○ start\nforces: ▾ peak of all steps", fontsize=9, color="#444444")
 
 
 def _draw_title_and_legend(
-    picture: Figure, runs: Mapping[str, Result], colours: Mapping[str, str], compared: bool
+    figure: Figure, runs: Mapping[str, Result], colours: Mapping[str, str], has_reference: bool
 ) -> None:
-    """Draw the title of the mechanism and one legend for all panels."""
+    """Draw the title of the mechanism and one legend for all panels, below them if it has many entries."""
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
     run = next(iter(runs.values()))
     title = figure_title(run.source.title or run.source.mechanism, TITLE)
-    picture.suptitle(title, fontsize=13, fontweight="bold", x=0.012, ha="left")
+    figure.suptitle(title, fontsize=13, fontweight="bold", x=0.012, ha="left")
     labels = {scene: f"{scene}{_early_end_text(scene, runs)}" for scene in colours}
     handles: list[Any] = [Line2D([], [], color=colour, lw=2.2, label=labels[s]) for s, colour in colours.items()]
-    if compared:
+    if has_reference:
         handles.append(Line2D([], [], color=IDEAL, lw=1.4, ls="--", label="ideal"))
     if any(_horizon_within_run(run) is not None for run in runs.values()):
         handles.append(Patch(facecolor=UNTRUSTED, alpha=0.25, lw=0, label="not to be trusted"))
     if len(handles) > BESIDE:  # outside, below all panels
-        picture.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), BESIDE), fontsize=9.5)
+        figure.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), BESIDE), fontsize=9.5)
         return
-    picture.legend(handles=handles, loc="upper right", ncols=len(handles), fontsize=9.5, bbox_to_anchor=(0.995, 0.998))
+    figure.legend(handles=handles, loc="upper right", ncols=len(handles), fontsize=9.5, bbox_to_anchor=(0.995, 0.998))
 
 
 def _early_end_text(scene: str, runs: Mapping[str, Result]) -> str:
-    """Return a text with the end of a run that is shorter than others in the figure, else ""."""
-    end, last = (float(max(run.t[-1] for run in some)) for some in ([runs[scene]], runs.values()))
-    return f", to {end:.4g} s" if end < (1.0 - 1e-9) * last else ""
+    """Return ", to T s" for a scene whose run ends before others in the figure, else ""."""
+    run_end, last_end = (float(max(run.t[-1] for run in some_runs)) for some_runs in ([runs[scene]], runs.values()))
+    return f", to {run_end:.4g} s" if run_end < (1.0 - 1e-9) * last_end else ""
 
 
-def save_figure(picture: Figure, path: str | os.PathLike[str]) -> None:
-    """Write a figure under a temporary name and move it into place; the file has neither date nor version."""
-    path, drawn = Path(path), io.BytesIO()
+def save_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
+    """Write a figure to a file in the format of its suffix, under a temporary name that is then moved into place.
+
+    The file has neither date nor version. Raises GudgeonError if matplotlib cannot draw the numbers, OutputError if
+    writing fails.
+    """
+    path, buffer = Path(path), io.BytesIO()
     suffix = path.suffix.lower().removeprefix(".") or None
     try:
         with report_missing_glyphs():
-            picture.savefig(drawn, format=suffix, metadata={"Software": None} if suffix == "png" else None)
+            figure.savefig(buffer, format=suffix, metadata={"Software": None} if suffix == "png" else None)
     except (ValueError, ArithmeticError) as error:  # matplotlib finds no ticks for numbers near the largest one
         message = f"no picture {shortened(path)}: its numbers cannot be drawn ({error})"
         raise GudgeonError(f"{message}\n  watch others") from error
-    write_bytes(path, drawn.getvalue())
+    write_bytes(path, buffer.getvalue())

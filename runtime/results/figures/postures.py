@@ -22,7 +22,10 @@ OF_MOTION = 24  # positions that stand for a motion where a drawing makes room f
 
 
 def time_of(run: Result, t: Any) -> float:
-    """Return a time of the run (s) from a number or a text such as '0.2 s'. Raises BadValueError."""
+    """Return a time of the run in s from a number or a text such as '0.2 s'.
+
+    Raises BadValueError for None, another unit, or a time outside the run.
+    """
     if t is None:
         refuse("t", t, "a time")
     if isinstance(t, str):
@@ -30,22 +33,31 @@ def time_of(run: Result, t: Any) -> float:
         from gudgeon.model.parameters import spaced
 
         t = number_of_text(spaced(t), "t", (0, 0, 1))
-    at, begin, end = number_of(t, "t"), float(run.t[0]), float(run.t[-1])
-    if not begin <= at <= end:
-        raise BadValueError(f"t is {at:g} s: the run goes from {begin:g} s to {end:g} s", hint="take a time within it")
-    return at
+    time, begin, end = number_of(t, "t"), float(run.t[0]), float(run.t[-1])
+    if not begin <= time <= end:
+        raise BadValueError(
+            f"t is {time:g} s: the run goes from {begin:g} s to {end:g} s", hint="take a time within it"
+        )
+    return time
 
 
 def posture_at(run: Result, t: float) -> Posture:
-    """Return the posture at t (s), with loads interpolated linearly between samples."""
+    """Return the posture of the mechanism at t (s), with its forces and torques.
+
+    At a sample the stored state is used. Between samples it is a cubic, projected onto the constraints if the compiled
+    scene is available; loads are interpolated linearly.
+    """
     k = int(np.clip(np.searchsorted(run.t, t), 1, max(len(run.t) - 1, 1)))
-    near = slice(max(k - 1, 0), k + 1)
+    neighbours = slice(max(k - 1, 0), k + 1)
     loads = {
-        name: (float(np.interp(t, run.t[near], x[near])), float(np.interp(t, run.t[near], y[near])))
+        name: (
+            float(np.interp(t, run.t[neighbours], x[neighbours])),
+            float(np.interp(t, run.t[neighbours], y[neighbours])),
+        )
         for name, x, y in _load_series(run)
     }
-    if (at := np.flatnonzero(run.t == t)).size:
-        q, v = run.q[at[0]], run.v[at[0]]
+    if (sample_indices := np.flatnonzero(run.t == t)).size:
+        q, v = run.q[sample_indices[0]], run.v[sample_indices[0]]
     else:
         q, v = _interpolate_cubic(run, k, t)
         if run.compiled is not None:  # between coarse samples the cubic takes joints apart
@@ -55,16 +67,18 @@ def posture_at(run: Result, t: float) -> Posture:
 
 
 def postures_of(run: Result, count: int = OF_MOTION) -> list[Posture]:
-    """Return up to `count` postures over the whole run, the start first."""
-    places = np.unique(np.linspace(0, len(run.t) - 1, count).round().astype(int))
+    """Return up to `count` postures at samples spread evenly over the whole run, the start first."""
+    sample_indices = np.unique(np.linspace(0, len(run.t) - 1, count).round().astype(int))
     series = [*_load_series(run)]
-    loads = [{name: (float(x[k]), float(y[k])) for name, x, y in series} for k in places]
-    at = zip(places, loads, strict=True)
-    return [Posture(run.source, run.p, run.q[k], float(run.t[k]), run.v[k], own) for k, own in at]
+    loads = [{name: (float(x[k]), float(y[k])) for name, x, y in series} for k in sample_indices]
+    samples = zip(sample_indices, loads, strict=True)
+    return [Posture(run.source, run.p, run.q[k], float(run.t[k]), run.v[k], loads_there) for k, loads_there in samples]
 
 
 def _load_series(run: Result) -> Iterator[tuple[str, Any, Any]]:
-    """Yield the name and two series of each force and torque element: components of a force; a torque and 0."""
+    """Yield the name and two series (N,) of each force and torque element: Fx and Fy of a force; M and zeros of a
+    torque.
+    """
     for part in run.source.parts:
         if part.kind == "force":
             yield part.name, run[f"{part.name}.Fx"], run[f"{part.name}.Fy"]
@@ -73,7 +87,7 @@ def _load_series(run: Result) -> Iterator[tuple[str, Any, Any]]:
 
 
 def _interpolate_cubic(run: Result, k: int, t: float) -> tuple[Any, Any]:
-    """Return q and q̇ of the cubic through samples k − 1 and k and their rates, at time t."""
+    """Return q and q̇ at time t of the cubic through the states and rates of samples k − 1 and k."""
     h = float(run.t[k] - run.t[k - 1])
     s = (t - float(run.t[k - 1])) / h
     q_0, q_1, v_0, v_1 = run.q[k - 1], run.q[k], run.v[k - 1], run.v[k]
@@ -83,31 +97,38 @@ def _interpolate_cubic(run: Result, k: int, t: float) -> tuple[Any, Any]:
 
 
 def loads_at(source: KernelSource, p: Array, q: Array, v: Array) -> dict[str, tuple[float, float]]:
-    """Return forces (N, ground axes) and torques (N·m, 0) of the file at t = 0, by its expressions of q and v (n,)."""
+    """Return the loads of the file's force and torque elements at t = 0, by name, for the state q, v (n,).
+
+    A force has its components in ground axes (N), a torque its value and 0 (N·m). Used for scenes that have no run.
+    """
     from gudgeon.results.results import bare
 
-    none = np.zeros((1, 0))
-    state = np.zeros((1, len(source.clearances)), np.int8)
-    run = bare(source, None, p, np.zeros(1), q[None], v[None], none, none, state, frozenset())
-    written = {one.address: one.tree for one in source.written}
-    slots = {slot.address: float(x) for slot, x in zip(source.slots, p, strict=False)}
+    no_works = np.zeros((1, 0))
+    contact_states = np.zeros((1, len(source.clearances)), np.int8)
+    sample = bare(source, None, p, np.zeros(1), q[None], v[None], no_works, no_works, contact_states, frozenset())
+    expressions = {entry.address: entry.tree for entry in source.written}
+    parameters = {parameter.address: float(x) for parameter, x in zip(source.slots, p, strict=False)}
 
-    def number(address: str) -> float:
-        """Return the value of an address of the file at the posture, from its expression or its parameter."""
+    def evaluate_value(address: str) -> float:
+        """Return the value of an address of the file at the state, from its expression or its parameter; 0 if it has
+        neither.
+        """
         from gudgeon.language.tree import evaluate, from_json
 
-        if address not in written:
-            return slots.get(address, 0.0)
-        return float(np.ravel(evaluate(from_json(json.loads(written[address])), run.value_of))[0])
+        if address not in expressions:
+            return parameters.get(address, 0.0)
+        return float(np.ravel(evaluate(from_json(json.loads(expressions[address])), sample.value_of))[0])
 
     loads = {}
     for part in source.parts:
         if part.kind == "torque":
-            loads[part.name] = number(f"forces.{part.name}.value"), 0.0
+            loads[part.name] = evaluate_value(f"forces.{part.name}.value"), 0.0
         elif part.kind == "force":
-            x, y = (number(f"forces.{part.name}.value.{axis}") for axis in "xy")
-            turn = part.options["axes"] == "body" and part.ends[0].partition(".")[0]
-            angle = float(run[f"{turn}.theta"][0]) if turn in {body.name for body in source.bodies} else 0.0
+            x, y = (evaluate_value(f"forces.{part.name}.value.{axis}") for axis in "xy")
+            axes_body = part.options["axes"] == "body" and part.ends[0].partition(".")[0]
+            angle = (
+                float(sample[f"{axes_body}.theta"][0]) if axes_body in {body.name for body in source.bodies} else 0.0
+            )
             c, s = np.cos(angle), np.sin(angle)
             loads[part.name] = float(c * x - s * y), float(s * x + c * y)
     return loads

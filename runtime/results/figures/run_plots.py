@@ -62,33 +62,41 @@ class Plot:
         self.run = run
 
     def __call__(self, *names: str | Sequence[str]) -> Figure:
-        """Plot series with a panel for each unit; without names the default series (default_watch), drives and
-        forces.
+        """Return a figure of series with a panel for each unit, in one or two columns.
+
+        Without names these are the default series (default_watch), drives and forces. Forces include the extremes of
+        all steps.
         """
-        expected = [name for some in names for name in listed_names(some, "names", SERIES)]
+        requested_names = [name for names_argument in names for name in listed_names(names_argument, "names", SERIES)]
         run, panels = self.run, dict[str, list[str]]()
         joints = [joint.name for joint in run.source.clearances or run.source.joints]
         forces = {f"{joint}.F": joint_curves.force(run, joint) for joint in joints}  # with the extremes of all steps
         guides = [f"{guide}.{last}" for guide in run.source.guides for last in "FM"]
-        for name in expected or (*default_watch(run), *drive_series(run.source), *forces, *guides):
+        for name in requested_names or (*default_watch(run), *drive_series(run.source), *forces, *guides):
             panels.setdefault(run.unit(name), []).append(name)
-        columns = 1 if len(panels) < 3 else 2
-        rows = -(-len(panels) // columns)
+        n_columns = 1 if len(panels) < 3 else 2
+        n_rows = -(-len(panels) // n_columns)
         with matplotlib.rc_context(STYLE):
-            figure = _new_figure(6.5 * columns + 1.5, 2.6 * rows + 0.6)
-            for k, own in enumerate(panels.values()):
-                ax = figure.add_subplot(rows, columns, k + 1, axes_class=ShownAxes)
-                self._curves({name: forces.get(name, (run.t, run[name])) for name in own}, ax).set_title("")
+            figure = _new_figure(6.5 * n_columns + 1.5, 2.6 * n_rows + 0.6)
+            for k, panel_names in enumerate(panels.values()):
+                ax = figure.add_subplot(n_rows, n_columns, k + 1, axes_class=ShownAxes)
+                self._plot_curves({name: forces.get(name, (run.t, run[name])) for name in panel_names}, ax).set_title(
+                    ""
+                )
             figure.suptitle(figure_title(caption_of(run), TITLE), fontsize=10)
         return figure
 
     def series(self, *names: str | Sequence[str], ax: Axes | None = None) -> Axes:
-        """Plot series of one unit over time."""
-        every = [name for some in names for name in listed_names(some, "names", SERIES)]
-        return self._curves({name: (self.run.t, self.run[name]) for name in every}, ax)
+        """Plot series of one unit over time in one panel, and return the axes."""
+        series_names = [name for names_argument in names for name in listed_names(names_argument, "names", SERIES)]
+        return self._plot_curves({name: (self.run.t, self.run[name]) for name in series_names}, ax)
 
-    def _curves(self, curves: Mapping[str, tuple[Any, Any]], ax: Axes | None, over: str = "t [s]") -> Axes:
-        """Plot curves by name, each with times (or frequencies) and values; all have one unit."""
+    def _plot_curves(self, curves: Mapping[str, tuple[Any, Any]], ax: Axes | None, x_label: str = "t [s]") -> Axes:
+        """Plot curves of one unit by name, each with times (or frequencies) and values, and return the axes.
+
+        `x_label` is the label of the abscissa. Several curves have a legend on the right. Raises BadValueError without
+        a name.
+        """
         run, names = self.run, list(curves)
         if not names:
             raise BadValueError("plot.series: expected the name of a series at least")
@@ -97,9 +105,9 @@ class Plot:
             factor, text = drawn(max(peak_of(values) for _, values in curves.values()), run.unit(names[0]))
             for (name, (t, values)), colour in zip(curves.items(), cycle(len(names)), strict=True):
                 ax.plot(t, values * factor, color=colour, lw=1.0, label=name)
-            ax.set(xlabel=over, ylabel=label(names[0] if len(names) == 1 else "", text))
+            ax.set(xlabel=x_label, ylabel=label(names[0] if len(names) == 1 else "", text))
             ax.set_title(figure_title(caption_of(run), TITLE))
-            if over == "t [s]":
+            if x_label == "t [s]":
                 mark_horizon(ax, run, IDEAL)
             if len(names) > 1:
                 ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))  # outside: it hides no curve
@@ -112,11 +120,14 @@ class Plot:
         """
         source = self.run.source
         joints = [*(joint.name for joint in source.clearances or source.joints), *source.guides]
-        return self._curves({f"{joint}.F": joint_curves.force(self.run, joint) for joint in joints}, ax)
+        return self._plot_curves({f"{joint}.F": joint_curves.force(self.run, joint) for joint in joints}, ax)
 
     def orbit(self, joint: str, ax: Axes | None = None) -> Axes:
-        """Plot the path of the journal's centre in its clearance circle, in units of the clearance."""
-        joints = [each.name for each in self.run.source.clearances if not each.at_wall]
+        """Plot the path of the journal's centre in its clearance circle, in units of the clearance.
+
+        Raises UnknownNameError for a name that is not a journal with play.
+        """
+        joints = [clearance.name for clearance in self.run.source.clearances if not clearance.at_wall]
         if not isinstance(joint, str) or joint not in joints:
             hint = f"its journals with play: {', '.join(joints) or 'none'}"
             raise UnknownNameError(f"no orbit of {message(joint)}: expected a journal with play", hint=hint)
@@ -127,36 +138,45 @@ class Plot:
 
     def phase(self, x: str, y: str | None = None, ax: Axes | None = None) -> Axes:
         """Plot one series over another, with a ring at the start; by default the rate of "S9.y" over "S9.y"."""
-        y = self._rate_of(x) if y is None else y
-        return self._pairs(self.run[x], self.run[y], x, y, ax, "-")
+        y = self._find_rate(x) if y is None else y
+        return self._plot_series_pair(self.run[x], self.run[y], x, y, ax, "-")
 
     def section(self, event: str, x: str, y: str | None = None, ax: Axes | None = None) -> Axes:
-        """Plot a Poincaré section: the states at the located times of an event, one series over another, by default its
-        rate.
-        """
-        y, at = self._rate_of(x) if y is None else y, self.run.at_events(event)
-        if not len(at):
-            raise BadValueError(f"plot.section: {event} did not happen in this run")
-        return self._pairs(at[x], at[y], x, y, ax, ".", f", at {event}, {len(at)} states")
+        """Plot a Poincaré section: one series over another at the located times of an event.
 
-    def _rate_of(self, name: str) -> str:
-        """Return the series that is the rate of a series. Raises BadValueError if there is none."""
-        found = next((rate for rate in rates(name) if rate in self.run), "")
-        if not found:
+        Without `y` it is the rate of x. Raises BadValueError if the event did not happen.
+        """
+        y, states = self._find_rate(x) if y is None else y, self.run.at_events(event)
+        if not len(states):
+            raise BadValueError(f"plot.section: {event} did not happen in this run")
+        return self._plot_series_pair(states[x], states[y], x, y, ax, ".", f", at {event}, {len(states)} states")
+
+    def _find_rate(self, name: str) -> str:
+        """Return the name of the series that is the rate of a series, such as "S9.vy" for "S9.y".
+
+        Raises BadValueError if there is none, UnknownNameError for an unknown series.
+        """
+        rate_name = next((rate for rate in rates(name) if rate in self.run), "")
+        if not rate_name:
             self.run.unit(name)  # UnknownNameError
             raise BadValueError(f"{name} has no rate by name: name the other series too")
-        return found
+        return rate_name
 
-    def _pairs(self, xs: Any, ys: Any, x: str, y: str, ax: Axes | None, style: str, suffix: str = "") -> Axes:
-        """Plot values `ys` of the series y over values `xs` of the series x, with units."""
+    def _plot_series_pair(
+        self, xs: Any, ys: Any, x: str, y: str, ax: Axes | None, style: str, suffix: str = ""
+    ) -> Axes:
+        """Plot values `ys` of the series y over values `xs` of the series x, with units, and return the axes.
+
+        `style` is a line style of matplotlib: "-" adds a ring at the start. `suffix` is added to the caption.
+        """
         with matplotlib.rc_context(STYLE):
             ax = new_axes(5.2, 4.4) if ax is None else check_axes(ax)
-            (of_x, x_unit), (of_y, y_unit) = (
+            (x_factor, x_unit), (y_factor, y_unit) = (
                 drawn(peak_of(values), self.run.unit(name)) for name, values in ((x, xs), (y, ys))
             )
-            ax.plot(xs * of_x, ys * of_y, style, color=COLOURS[1], lw=0.8, ms=3.0)
+            ax.plot(xs * x_factor, ys * y_factor, style, color=COLOURS[1], lw=0.8, ms=3.0)
             if style == "-":
-                ax.plot(xs[:1] * of_x, ys[:1] * of_y, "o", ms=4, mfc="white", mec=IDEAL, mew=0.9)
+                ax.plot(xs[:1] * x_factor, ys[:1] * y_factor, "o", ms=4, mfc="white", mec=IDEAL, mew=0.9)
             ax.set(xlabel=label(x, x_unit), ylabel=label(y, y_unit))
             ax.set_title(figure_title(caption_of(self.run) + suffix, TITLE))
         return ax
@@ -170,9 +190,9 @@ class Plot:
         """
         from gudgeon.results.series import spectrum
 
-        every = [name for some in names for name in listed_names(some, "names", SERIES)]
-        found = {name: spectrum(self.run.t, self.run[name], window) for name in every}
-        ax = self._curves(found, ax, "f [Hz]")
+        series_names = [name for names_argument in names for name in listed_names(names_argument, "names", SERIES)]
+        spectra = {name: spectrum(self.run.t, self.run[name], window) for name in series_names}
+        ax = self._plot_curves(spectra, ax, "f [Hz]")
         ax.set_title(figure_title(f"{caption_of(self.run)}, window {window}", TITLE))
         return ax
 
@@ -215,7 +235,7 @@ class Plot:
         from gudgeon.results.figures.postures import time_of
 
         sketch, caption = sketch_at(self.run, t, velocities, forces), f"t\u00a0=\u00a0{time_of(self.run, t):.6g}\u00a0s"
-        return self._drawn(sketch, ax, lambda on: draw_on(on, sketch), f"{caption_of(self.run)}, {caption}")
+        return self._draw_with_caption(sketch, ax, lambda on: draw_on(on, sketch), f"{caption_of(self.run)}, {caption}")
 
     def path(self, *points: str | Sequence[str], ax: Axes | None = None) -> Axes:
         """Draw the paths of points over the run ("coupler.tracer"; "S9" is its centre of mass), with the mechanism in
@@ -229,33 +249,41 @@ class Plot:
             raise BadValueError("plot.path: expected the name of a point at least", hint='for example "coupler.head"')
         sketch = path_sketch(self.run)
         caption = f"{caption_of(self.run)}, drawn at t\u00a0=\u00a0{float(self.run.t[0]):.6g}\u00a0s"
-        return self._drawn(sketch, ax, lambda on: draw_path(self.run, sketch, names, on), caption, LEGEND)
+        return self._draw_with_caption(sketch, ax, lambda on: draw_path(self.run, sketch, names, on), caption, LEGEND)
 
-    def _drawn(
+    def _draw_with_caption(
         self, sketch: Sketch, ax: Axes | None, draw: Callable[[Axes], None], caption: str, margin: float = 0.0
     ) -> Axes:
-        """Draw a sketch with caption and notes on new or given axes."""
+        """Draw a sketch with caption and notes below it on new or given axes, which are returned.
+
+        `draw` paints the sketch on axes. `margin` is space in inches that new axes leave for a legend.
+        """
         from gudgeon.drawing.picture import PER_INCH, size_of
 
         with matplotlib.rc_context(STYLE):
             width, height = size_of(sketch, 7.0)
-            across = TITLE if ax is not None else min(TITLE, int(PER_INCH * (width + margin)))
+            caption_width = TITLE if ax is not None else min(TITLE, int(PER_INCH * (width + margin)))
             ax = new_axes(width + margin, height) if ax is None else check_axes(ax)
             draw(ax)
-            ax.set_title(figure_title(caption, across))
+            ax.set_title(figure_title(caption, caption_width))
             ax.text(0.0, -0.01, "\n".join(sketch.notes), transform=ax.transAxes, va="top", fontsize=7.5)
         return ax
 
 
 def plot_wear(wear: Wear, ax: Axes | None) -> Axes:
-    """Plot the wear depth over the angle for both surfaces. See Wear.plot."""
+    """Plot the wear depth over the angle for both surfaces, and return the axes; see Wear.plot.
+
+    The legend has the arc with 90 % of the worn volume.
+    """
     with matplotlib.rc_context(STYLE):
         ax = new_axes(8.0, 3.6) if ax is None else check_axes(ax)
-        sides = {"bearing": wear.bearing, "journal": wear.journal}
-        factor, unit = drawn(max(side.deepest for side in sides.values()), "m")
-        for (name, side), colour in zip(sides.items(), COLOURS, strict=False):
-            label_text = f"{name}, 90 % on {np.degrees(side.arc()):.3g}°" if side.deepest > 0.0 else f"{name}: not worn"
-            ax.plot(np.degrees(wear.angle), side.depth * factor, color=colour, lw=1.0, label=label_text)
+        surfaces = {"bearing": wear.bearing, "journal": wear.journal}
+        factor, unit = drawn(max(surface.deepest for surface in surfaces.values()), "m")
+        for (name, surface), colour in zip(surfaces.items(), COLOURS, strict=False):
+            label_text = (
+                f"{name}, 90 % on {np.degrees(surface.arc()):.3g}°" if surface.deepest > 0.0 else f"{name}: not worn"
+            )
+            ax.plot(np.degrees(wear.angle), surface.depth * factor, color=colour, lw=1.0, label=label_text)
         ax.set(xlabel="angle in the body's own frame [°]", ylabel=label("depth", unit), xlim=(0.0, 360.0))
         ax.set_title(figure_title(f"{wear.title}, {wear.joint}: wear by {wear.law.title()}", TITLE))
         ax.legend(loc="best")
@@ -266,12 +294,12 @@ class ShownFigure(Figure):
     """Figure that a notebook displays if it is the last value of a cell."""
 
     def _repr_png_(self) -> bytes | None:
-        """Return the figure as PNG; None if pyplot displays it."""
+        """Return the figure as PNG bytes; None if pyplot displays it."""
         if self.canvas.manager is not None:  # pyplot shows its own
             return None
-        drawn_as = io.BytesIO()
-        self.savefig(drawn_as, format="png", metadata={"Software": None})
-        return drawn_as.getvalue()
+        buffer = io.BytesIO()
+        self.savefig(buffer, format="png", metadata={"Software": None})
+        return buffer.getvalue()
 
 
 class ShownAxes(Axes):
@@ -285,7 +313,7 @@ class ShownAxes(Axes):
 
 @contextmanager
 def figures_for_page() -> Iterator[None]:
-    """Create figures for a page within this context: neither a window nor a notebook's cell displays them."""
+    """Create figures for a page within this context, without a manager of pyplot, so that nothing displays them."""
     token = _OF_A_PAGE.set(True)
     try:
         yield
@@ -294,10 +322,13 @@ def figures_for_page() -> Iterator[None]:
 
 
 def _new_figure(width: float, height: float) -> Figure:
-    """Return a new figure; pyplot's if the caller has imported it, so that plt.show() displays it."""
+    """Return a new figure of a size in inches.
+
+    It is pyplot's if the caller has imported pyplot, so that plt.show() displays it, except within `figures_for_page`.
+    """
     if (pyplot := sys.modules.get("matplotlib.pyplot")) is not None and not _OF_A_PAGE.get():
-        made: Figure = pyplot.figure(figsize=(width, height), layout="constrained", FigureClass=ShownFigure)
-        return made
+        figure: Figure = pyplot.figure(figsize=(width, height), layout="constrained", FigureClass=ShownFigure)
+        return figure
     return ShownFigure(figsize=(width, height), layout="constrained")
 
 
@@ -307,7 +338,10 @@ def new_axes(width: float, height: float) -> Axes:
 
 
 def check_axes(ax: Any) -> Axes:
-    """Return the argument if it is matplotlib Axes with x and y; raise BadValueError for polar, map and 3-D axes."""
+    """Return the argument if it is matplotlib Axes with Cartesian x and y on a figure.
+
+    Raises BadValueError for other objects, and for polar, map and 3-D axes.
+    """
     if not isinstance(ax, Axes) or ax.name != "rectilinear" or ax.figure is None:
         refuse("ax", ax, "Axes of matplotlib with plain x and y, of a figure, or None")
     return ax

@@ -63,38 +63,51 @@ KEYWORDS = frozenset(
 
 
 def requested_series(run: Result, names: Iterable[str] | None) -> list[str]:
-    """Return the names of series without repetitions, or all for None. Raises UnknownNameError for an unknown name."""
+    """Return the names of series without t and without repetitions, or all for None.
+
+    Raises UnknownNameError for an unknown name, BadValueError for a text instead of a list.
+    """
     if names is None:
         return list(run.names)
     if isinstance(names, str):
         refuse("names", names, "a list of names of series")
-    found = list(dict.fromkeys(plain_names(names, "names", "a list of names of series")))
-    for name in found:
+    unique_names = list(dict.fromkeys(plain_names(names, "names", "a list of names of series")))
+    for name in unique_names:
         run.unit(name)
-    return [name for name in found if name != "t"]
+    return [name for name in unique_names if name != "t"]
 
 
 def dataframe(run: Result, names: Iterable[str] | None) -> pandas.DataFrame:
-    """Return series of a run as a pandas table over t. See Result.to_dataframe."""
-    frames = _import_pandas()
+    """Return series of a run as a pandas table with t (s) as index; see Result.to_dataframe.
+
+    Units and origin are in `attrs`.
+    """
+    pandas_module = _import_pandas()
     series = requested_series(run, names)
-    table: pandas.DataFrame = frames.DataFrame(
-        {name: run[name] for name in series}, index=frames.Index(run.t, name="t"), copy=True
+    table: pandas.DataFrame = pandas_module.DataFrame(
+        {name: run[name] for name in series}, index=pandas_module.Index(run.t, name="t"), copy=True
     )
     table.attrs = {"units": {"t": "s"} | {name: run.unit(name) for name in series}} | _origin_attributes(run)
     return table
 
 
 def batch_dataframe(batch: Batch, names: Iterable[str] | None) -> pandas.DataFrame:
-    """Return series of a batch as a long pandas table. See Batch.to_dataframe."""
-    frames = _import_pandas()
-    columns_of = len(_series_of_batch(batch, names)) + len(batch.parameters) + 2
-    check_memory(2 * 8.0 * columns_of * _count_rows(batch), f"a table of {len(batch)} runs")
-    parts = list(_columns_by_run(batch, names))
-    columns = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]} if parts else {}
+    """Return series of a batch as a long pandas table with a row for each reached sample; see Batch.to_dataframe.
+
+    Raises MemoryError if the table would exceed the free memory.
+    """
+    pandas_module = _import_pandas()
+    n_columns = len(_series_of_batch(batch, names)) + len(batch.parameters) + 2
+    check_memory(2 * 8.0 * n_columns * _count_rows(batch), f"a table of {len(batch)} runs")
+    columns_by_run = list(_columns_by_run(batch, names))
+    columns = (
+        {name: np.concatenate([run_columns[name] for run_columns in columns_by_run]) for name in columns_by_run[0]}
+        if columns_by_run
+        else {}
+    )
     units = {"t": "s"} | {name: series.unit for name, series in catalogue(batch.source).items()}
-    units |= {slot.address: slot.unit for slot in batch.source.slots}
-    table: pandas.DataFrame = frames.DataFrame(columns)
+    units |= {parameter.address: parameter.unit for parameter in batch.source.slots}
+    table: pandas.DataFrame = pandas_module.DataFrame(columns)
     table.attrs = {"units": {name: units.get(name, "") for name in columns}} | _origin_attributes(batch)
     return table
 
@@ -105,7 +118,7 @@ def _origin_attributes(result: Result | Batch) -> dict[str, str]:
 
 
 def _import_pandas() -> Any:
-    """Return the module pandas. Raises GudgeonError if it is not installed."""
+    """Return the module pandas. Raises GudgeonError with the command that installs it if it is missing."""
     try:
         import pandas
     except ModuleNotFoundError as error:
@@ -114,18 +127,25 @@ def _import_pandas() -> Any:
 
 
 def _series_of_batch(batch: Batch, names: Iterable[str] | None) -> list[str]:
-    """Return the names of series without t and without repetitions, or all for None."""
-    every = batch.kept if batch.states is None else catalogue(batch.source)
-    return [name for name in (every if names is None else check_series_names(batch.source, names)) if name != "t"]
+    """Return the names of the series of a batch to export, without t and repetitions; None selects all."""
+    available_names = batch.kept if batch.states is None else catalogue(batch.source)
+    return [
+        name for name in (available_names if names is None else check_series_names(batch.source, names)) if name != "t"
+    ]
 
 
 def _columns_by_run(batch: Batch, names: Iterable[str] | None) -> Iterator[Columns]:
-    """Yield the columns of one run after the other; a run that did not begin has none."""
+    """Yield the columns of one run after the other: run, given parameters, t, series.
+
+    A run that did not begin has none.
+    """
     columns = given_columns(batch)
-    for i, t, own in iterate_rows(batch, _series_of_batch(batch, names)):
-        given = {name: values[i] for name, values in columns.items()}
-        same = {"run": np.full(len(t), i)} | {name: np.full(len(t), value) for name, value in given.items()}
-        yield same | {"t": t} | {series_column(name): values for name, values in own.items()}
+    for i, t, series_by_name in iterate_rows(batch, _series_of_batch(batch, names)):
+        given_values = {name: values[i] for name, values in columns.items()}
+        constant_columns = {"run": np.full(len(t), i)} | {
+            name: np.full(len(t), value) for name, value in given_values.items()
+        }
+        yield constant_columns | {"t": t} | {series_column(name): values for name, values in series_by_name.items()}
 
 
 def _count_rows(batch: Batch) -> float:
@@ -144,26 +164,33 @@ def batch_csv(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] |
     _write_csv(path, _columns_by_run(batch, names), _count_rows(batch))
 
 
-def _write_csv(path: str | os.PathLike[str], parts: Iterator[Columns], count: float) -> None:
+def _write_csv(path: str | os.PathLike[str], columns_by_run: Iterator[Columns], n_rows: float) -> None:
     """Write a line of names, then a line for each row, with the shortest digits that read back as the same number.
 
-    Raises OutputError at once if `count` lines of the length of some of the first do not fit on the disk.
+    Raises OutputError at once if `n_rows` lines of the length of some of the first do not fit on the disk.
     """
     with written(named(path, "path")) as file:
-        for k, part in enumerate(parts):
-            columns = list(part.values())
+        for k, run_columns in enumerate(columns_by_run):
+            columns = list(run_columns.values())
             if k == 0:
-                some = _format_lines([column[:: max(1, len(column) // SOME)] for column in columns])
-                check_disk(Path(path).parent, count * len("".join(some)) / max(1, len(some)), "it", path)
-                file.write((",".join(part) + "\n").encode())
-            for first in range(0, len(columns[0]), ROWS):
-                file.write("".join(_format_lines([column[first : first + ROWS] for column in columns])).encode())
+                sample_lines = _format_lines([column[:: max(1, len(column) // SOME)] for column in columns])
+                check_disk(
+                    Path(path).parent, n_rows * len("".join(sample_lines)) / max(1, len(sample_lines)), "it", path
+                )
+                file.write((",".join(run_columns) + "\n").encode())
+            for start in range(0, len(columns[0]), ROWS):
+                file.write("".join(_format_lines([column[start : start + ROWS] for column in columns])).encode())
 
 
 def _format_lines(columns: Sequence[Array]) -> list[str]:
-    """Return the lines of a CSV file for columns of equal length."""
-    digits = _format_cell if any(column.dtype.kind in "OU" for column in columns) else repr
-    return [",".join(map(digits, row)) + "\n" for row in zip(*(column.tolist() for column in columns), strict=True)]
+    """Return the lines of a CSV file for columns of equal length.
+
+    Columns of texts are escaped for spreadsheets.
+    """
+    format_value = _format_cell if any(column.dtype.kind in "OU" for column in columns) else repr
+    return [
+        ",".join(map(format_value, row)) + "\n" for row in zip(*(column.tolist() for column in columns), strict=True)
+    ]
 
 
 def _format_cell(value: object) -> str:
@@ -179,13 +206,19 @@ def mat(run: Result, path: str | os.PathLike[str], names: Iterable[str] | None) 
 
 
 def batch_mat(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
-    """Write series of a batch as a MATLAB file. See Batch.to_mat."""
-    known, slots = catalogue(batch.source), {slot.address: slot for slot in batch.source.slots}
+    """Write series of a batch as a MATLAB file; see Batch.to_mat.
+
+    Raises MemoryError if the series would exceed the free memory.
+    """
+    all_series, parameters = catalogue(batch.source), {parameter.address: parameter for parameter in batch.source.slots}
     names_of_series = _series_of_batch(batch, names)
-    descriptions = [("t", "s", "time"), *((name, known[name].unit, known[name].meaning) for name in names_of_series)]
+    descriptions = [
+        ("t", "s", "time"),
+        *((name, all_series[name].unit, all_series[name].meaning) for name in names_of_series),
+    ]
     given = given_columns(batch)
-    pairs = zip(given, batch.parameters, strict=True)
-    descriptions += [(column, slots[name].unit, "given to each run") for column, name in pairs]
+    columns_and_addresses = zip(given, batch.parameters, strict=True)
+    descriptions += [(column, parameters[name].unit, "given to each run") for column, name in columns_and_addresses]
     size = 8.0 * (len(names_of_series) + 1) * len(batch) * batch.t.shape[-1]
     check_memory(size, f"{len(names_of_series)} series of {len(batch)} runs")
     _write_mat(path, batch, descriptions, series(batch, ["t", *names_of_series]) | given)
@@ -194,39 +227,45 @@ def batch_mat(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] |
 def _write_mat(
     path: str | os.PathLike[str], result: Result | Batch, descriptions: Sequence[tuple[str, str, str]], columns: Columns
 ) -> None:
-    """Write columns under MATLAB's names, with `descriptions` (name, unit, meaning) as cells."""
+    """Write columns under MATLAB's names to a file, with `descriptions` (name, unit, meaning) as cells.
+
+    The header has no date. Raises OutputError if the columns do not fit on the disk.
+    """
     from scipy.io import savemat
 
-    fields = _matlab_names([name for name, *_ in descriptions])
-    found: dict[str, Any] = {fields[name]: columns[name] for name in fields}
-    found["variables"] = np.array(list(fields.values()), dtype=object)
-    for column, what in enumerate(("names", "units", "meanings")):
-        found[what] = np.array([row[column] for row in descriptions], dtype=object)
-    found |= {"mechanism": result.source.mechanism, "scene": result.source.scene}
+    matlab_names = _matlab_names([name for name, *_ in descriptions])
+    contents: dict[str, Any] = {matlab_names[name]: columns[name] for name in matlab_names}
+    contents["variables"] = np.array(list(matlab_names.values()), dtype=object)
+    for column, cell_name in enumerate(("names", "units", "meanings")):
+        contents[cell_name] = np.array([row[column] for row in descriptions], dtype=object)
+    contents |= {"mechanism": result.source.mechanism, "scene": result.source.scene}
     path = named(path, "path")
     check_disk(Path(path).parent, sum(float(column.nbytes) for column in columns.values()), "it", path)
     with written(path) as file:
-        savemat(file, found, long_field_names=True, oned_as="column")
+        savemat(file, contents, long_field_names=True, oned_as="column")
         file.seek(0)
         file.write(MATLAB.ljust(DATE))  # the same run gives the same bytes
 
 
 def _matlab_names(names: Sequence[str]) -> dict[str, str]:
-    """Return a valid and unique MATLAB name for each name: "S9.y" → "S9_y"."""
-    found: dict[str, str] = {}
+    """Return a valid and unique MATLAB name for each name: "S9.y" → "S9_y".
+
+    Keywords get an underscore, repetitions a number, and long names are cut.
+    """
+    matlab_names: dict[str, str] = {}
     used = {"variables", "names", "units", "meanings", "mechanism", "scene"}
     for name in names:
-        cleaned = re.sub(r"\W", "_", name, flags=re.ASCII)
-        cleaned = (f"{cleaned}_" if cleaned in KEYWORDS else cleaned if cleaned[0].isalpha() else f"x{cleaned}")[
-            :LONGEST
-        ]
-        candidate, number = cleaned, 2
+        valid_name = re.sub(r"\W", "_", name, flags=re.ASCII)
+        valid_name = (
+            f"{valid_name}_" if valid_name in KEYWORDS else valid_name if valid_name[0].isalpha() else f"x{valid_name}"
+        )[:LONGEST]
+        candidate, number = valid_name, 2
         while candidate in used:
-            end = f"_{number}"
-            candidate, number = cleaned[: LONGEST - len(end)] + end, number + 1
+            suffix = f"_{number}"
+            candidate, number = valid_name[: LONGEST - len(suffix)] + suffix, number + 1
         used.add(candidate)
-        found[name] = candidate
-    return found
+        matlab_names[name] = candidate
+    return matlab_names
 
 
 def join(runs: Iterable[Result | Batch]) -> xarray.Dataset:
@@ -234,34 +273,43 @@ def join(runs: Iterable[Result | Batch]) -> xarray.Dataset:
     mechanism.
 
     NaN marks series that a scene lacks and times of other scenes only. Raises BadValueError for two results of one
-    scene: those are a batch.
+    scene, which are a batch, for results of two mechanisms, and for results mixed with batches.
     """
-    kinds: Any = (Result, Batch)
-    found: list[Result | Batch] = listed(runs, "runs", kinds, "a list of results, one a scene")
-    scenes = [run.source.scene for run in found]
-    if not scenes or len({*map(type, found)}) > 1:
+    classes: Any = (Result, Batch)
+    results: list[Result | Batch] = listed(runs, "runs", classes, "a list of results, one a scene")
+    scenes = [run.source.scene for run in results]
+    if not scenes or len({*map(type, results)}) > 1:
         raise BadValueError("join: expected results, or batches, of one scene or more")
-    if twice := [scene for scene in scenes if scenes.count(scene) > 1]:
+    if repeated_scenes := [scene for scene in scenes if scenes.count(scene) > 1]:
         hint = "runs of one scene with other numbers are a batch: simulate_many"
-        raise BadValueError(f"join: two results are of the scene {twice[0]!r}", hint=hint)
-    if len(names := list(dict.fromkeys(run.source.mechanism for run in found))) > 1:
+        raise BadValueError(f"join: two results are of the scene {repeated_scenes[0]!r}", hint=hint)
+    if len(names := list(dict.fromkeys(run.source.mechanism for run in results))) > 1:
         raise BadValueError(f"join: {names[0]!r} and {names[1]!r} are two mechanisms", hint="join scenes of one")
     xarray = import_xarray()
-    _check_times(found)
-    parts, along = [run.to_xarray() for run in found], _import_pandas().Index(scenes, name="scene")
-    attributes = {"mechanism": names[0], "title": found[0].source.title}
+    _check_times(results)
+    datasets, scene_index = [run.to_xarray() for run in results], _import_pandas().Index(scenes, name="scene")
+    attributes = {"mechanism": names[0], "title": results[0].source.title}
     joined: Any = xarray.concat(
-        parts, along, data_vars="all", coords="different", compat="equals", join="outer", combine_attrs="drop_conflicts"
+        datasets,
+        scene_index,
+        data_vars="all",
+        coords="different",
+        compat="equals",
+        join="outer",
+        combine_attrs="drop_conflicts",
     )
     return joined.assign_attrs(attributes)
 
 
-def _check_times(found: list[Result | Batch]) -> None:
-    """Raise BadValueError for batches whose numbers of samples differ and whose runs have times of their own."""
-    forms = {run.t.shape[1:] for run in found}
-    if len(forms) > 1:
-        own = next(run for run in found if run.t.ndim == 2)
+def _check_times(results: list[Result | Batch]) -> None:
+    """Raise BadValueError for batches whose runs have different numbers of output times, or common times and times of
+    their own.
+    """
+    shapes = {run.t.shape[1:] for run in results}
+    if len(shapes) > 1:
+        run_with_own_times = next(run for run in results if run.t.ndim == 2)
         raise BadValueError(
-            f"join: the runs of scene {own.source.scene!r} have times of their own, and not as many as those of others",
+            f"join: the runs of scene {run_with_own_times.source.scene!r} have times of their own,"
+            " and not as many as those of others",
             hint="join batches over common times, or of as many samples each",
         )

@@ -78,38 +78,42 @@ class Table:
 
 
 def pieces(tables: Sequence[Table]) -> Iterator[Any]:
-    """Yield the bytes of a file with these tables in order, and the checksum last."""
-    image, places = apart(partial(_lay_out, tables))
-    total = at = 0
-    for offset, values in sorted(places, key=lambda place: place[0]):
-        for piece in (image.between(at, offset), np.ascontiguousarray(values).data.cast("B")):
-            total = zlib.crc32(piece, total)
-            yield piece
-        at = offset + values.nbytes
-    end = image.between(at, image.size)
-    yield end
-    yield SEAL % zlib.crc32(end, total)
+    """Yield the bytes of an HDF5 file with these tables in order, and the checksum last.
+
+    The layout is made in another thread; the arrays are not copied.
+    """
+    image, offsets_and_values = apart(partial(_lay_out, tables))
+    checksum = position = 0
+    for offset, values in sorted(offsets_and_values, key=lambda offset_and_values: offset_and_values[0]):
+        for chunk in (image.between(position, offset), np.ascontiguousarray(values).data.cast("B")):
+            checksum = zlib.crc32(chunk, checksum)
+            yield chunk
+        position = offset + values.nbytes
+    tail = image.between(position, image.size)
+    yield tail
+    yield SEAL % zlib.crc32(tail, checksum)
 
 
 def write(tables: Iterator[Table], path: str | os.PathLike[str]) -> None:
-    """Write a file with these tables.
+    """Write a file with these tables under a temporary name, then move it into place.
 
-    They are computed one after the other, and Ctrl-C is handled in between.
+    The tables are computed one after the other, and Ctrl-C is handled in between. Raises OutputError if the disk is too
+    small or writing fails.
     """
     try:
         import h5py  # noqa: F401
     except ModuleNotFoundError as error:
         raise GudgeonError("NetCDF files need h5py: pip install 'gudgeon[xarray]'") from error
-    path, found = named(path, "path"), []
+    path, table_list = named(path, "path"), []
     with CtrlC() as ctrl_c:  # Python drops what is raised in callbacks of weak references, Ctrl-C too
         for table in tables:
-            found.append(table)
+            table_list.append(table)
             ctrl_c.take()
-        size = sum(one.values.nbytes for table in found for one in table.variables)
-        check_disk(Path(path).parent, size, "it", path)
+        n_bytes = sum(variable.values.nbytes for table in table_list for variable in table.variables)
+        check_disk(Path(path).parent, n_bytes, "it", path)
         with written(path) as file:
-            for piece in pieces(found):
-                file.write(piece)
+            for chunk in pieces(table_list):
+                file.write(chunk)
                 ctrl_c.take()
     ctrl_c.take()
 
@@ -121,14 +125,14 @@ def is_damaged(path: Path) -> bool:
         if size <= 0:
             return False
         file.seek(size)
-        seal, total = file.read(), 0
-        if not seal.startswith(SEAL.partition(b"%")[0]):
+        stored_checksum, checksum = file.read(), 0
+        if not stored_checksum.startswith(SEAL.partition(b"%")[0]):
             return False
         file.seek(0)
-        while size > 0 and (piece := file.read(min(size, 1 << 20))):
-            total = zlib.crc32(piece, total)
-            size -= len(piece)
-        return seal != SEAL % total
+        while size > 0 and (chunk := file.read(min(size, 1 << 20))):
+            checksum = zlib.crc32(chunk, checksum)
+            size -= len(chunk)
+        return stored_checksum != SEAL % checksum
 
 
 class _Image(io.RawIOBase):
@@ -145,18 +149,18 @@ class _Image(io.RawIOBase):
         return self._at
 
     def write(self, data: Any) -> int:
-        """Write bytes at the position, and return their number."""
-        begin, count = self._at, len(data)
-        while self._at < begin + count:
+        """Write bytes at the position, advance it, and return their number."""
+        start, n_bytes = self._at, len(data)
+        while self._at < start + n_bytes:
             page, offset = divmod(self._at, PAGE)
-            part = data[self._at - begin :][: PAGE - offset]
-            self._pages.setdefault(page, bytearray(PAGE))[offset : offset + len(part)] = part
-            self._at += len(part)
+            page_data = data[self._at - start :][: PAGE - offset]
+            self._pages.setdefault(page, bytearray(PAGE))[offset : offset + len(page_data)] = page_data
+            self._at += len(page_data)
         self.size = max(self.size, self._at)
-        return count
+        return n_bytes
 
     def readinto(self, buffer: Any) -> int:
-        """Fill the buffer from the position, and return its length."""
+        """Fill the buffer from the position, advance it, and return the buffer's length."""
         buffer[:] = self.between(self._at, self._at + len(buffer))
         self._at += len(buffer)
         return len(buffer)
@@ -168,16 +172,19 @@ class _Image(io.RawIOBase):
 
     def between(self, begin: int, end: int) -> bytes:
         """Return the bytes [begin, end), zeros where nothing was written."""
-        nothing, first = bytes(PAGE), begin // PAGE
-        pages = (self._pages.get(page, nothing) for page in range(first, -(-end // PAGE)))
-        return b"".join(pages)[begin - first * PAGE : end - first * PAGE]
+        empty_page, first_page = bytes(PAGE), begin // PAGE
+        pages = (self._pages.get(page, empty_page) for page in range(first_page, -(-end // PAGE)))
+        return b"".join(pages)[begin - first_page * PAGE : end - first_page * PAGE]
 
 
 def _lay_out(tables: Sequence[Table]) -> tuple[_Image, list[tuple[int, Array]]]:
-    """Return the image of the file without numeric arrays, and the offset of each array."""
+    """Return the image of the file without numeric arrays, and (offset, values) of each array.
+
+    Tables without rows and attributes are left out.
+    """
     import h5py
 
-    image, places = _Image(), []
+    image, offsets_and_values = _Image(), []
     with h5py.File(image, "w", track_order=True) as file:
         for number, table in enumerate(table for table in tables if table.length or table.attributes):
             group = file.create_group(table.group, track_order=True) if table.group else file
@@ -185,57 +192,66 @@ def _lay_out(tables: Sequence[Table]) -> tuple[_Image, list[tuple[int, Array]]]:
                 for key, text in variable.attributes.items():
                     _write_text(dataset, key, text)
                 if not variable.is_text:
-                    places.append((dataset.id.get_offset(), variable.values))
+                    offsets_and_values.append((dataset.id.get_offset(), variable.values))
             for key, text in table.attributes.items():
                 _write_text(group, key, text)
-    return image, places
+    return image, offsets_and_values
 
 
 def _lay_out_table(group: Any, table: Table, number: int) -> Iterator[tuple[Any, Variable]]:
-    """Yield the dataset of each variable of a table.
+    """Yield (dataset, variable) for each variable of a table, created in the HDF5 group.
 
-    A dimension without a coordinate variable gets a placeholder dataset, which is not read.
+    A dimension without a coordinate variable gets a placeholder dataset, which is not yielded. `number` is the NetCDF
+    number of the dimension.
     """
     from h5py import h5ds
 
-    own = table.variables[0].name == table.dimension
-    first = table.variables[0] if own else Variable(table.dimension, np.zeros(table.length, ">f4"), "", "")
-    scale = _create(group, first)
-    h5ds.set_scale(scale.id, (table.dimension if own else NO_VARIABLE % table.length).encode())
+    has_coordinate = table.variables[0].name == table.dimension
+    first_variable = (
+        table.variables[0] if has_coordinate else Variable(table.dimension, np.zeros(table.length, ">f4"), "", "")
+    )
+    scale = _create_dataset(group, first_variable)
+    h5ds.set_scale(scale.id, (table.dimension if has_coordinate else NO_VARIABLE % table.length).encode())
     scale.attrs["_Netcdf4Dimid"] = np.int32(number)
-    if own:
-        yield scale, first
-    for variable in table.variables[own:]:
-        dataset = _create(group, variable)
+    if has_coordinate:
+        yield scale, first_variable
+    for variable in table.variables[has_coordinate:]:
+        dataset = _create_dataset(group, variable)
         h5ds.attach_scale(dataset.id, scale.id, 0)
         yield dataset, variable
 
 
-def _create(group: Any, variable: Variable) -> Any:
-    """Create a dataset: of numbers with space in the file but without data, of texts with its data."""
+def _create_dataset(group: Any, variable: Variable) -> Any:
+    """Create a dataset for a variable and return it.
+
+    Numbers get space in the file but no data yet, texts are written.
+    """
     import h5py
     from h5py import h5d, h5p, h5s, h5t
 
     if variable.is_text:
         return group.create_dataset(variable.name, data=variable.values, dtype=h5py.string_dtype(), track_order=True)
-    settings = h5p.create(h5p.DATASET_CREATE)
-    settings.set_alloc_time(h5d.ALLOC_TIME_EARLY)
-    settings.set_fill_time(h5d.FILL_TIME_NEVER)
-    settings.set_obj_track_times(False)
-    settings.set_attr_creation_order(h5p.CRT_ORDER_TRACKED | h5p.CRT_ORDER_INDEXED)
-    kind, space = h5t.py_create(variable.values.dtype), h5s.create_simple(variable.values.shape)
-    return h5py.Dataset(h5d.create(group.id, variable.name.encode(), kind, space, settings))
+    properties = h5p.create(h5p.DATASET_CREATE)
+    properties.set_alloc_time(h5d.ALLOC_TIME_EARLY)
+    properties.set_fill_time(h5d.FILL_TIME_NEVER)
+    properties.set_obj_track_times(False)
+    properties.set_attr_creation_order(h5p.CRT_ORDER_TRACKED | h5p.CRT_ORDER_INDEXED)
+    type_, space = h5t.py_create(variable.values.dtype), h5s.create_simple(variable.values.shape)
+    return h5py.Dataset(h5d.create(group.id, variable.name.encode(), type_, space, properties))
 
 
-def _write_text(where: Any, key: str, text: str) -> None:
-    """Write a text attribute in compact form if it is short enough, as NetCDF does; this is ten times faster."""
+def _write_text(item: Any, key: str, text: str) -> None:
+    """Write a text attribute of a group or dataset, in compact form if it is short enough, as NetCDF does.
+
+    The compact form is ten times faster.
+    """
     from h5py import h5a, h5s, h5t
 
     data = text.encode()
     if len(data) > LONGEST:
-        where.attrs[key] = text
+        item.attrs[key] = text
         return
-    kind = h5t.C_S1.copy()
-    kind.set_size(max(len(data), 1))
-    kind.set_cset(h5t.CSET_UTF8)
-    h5a.create(where.id, key.encode(), kind, h5s.create(h5s.SCALAR)).write(np.array(data), mtype=kind)
+    type_ = h5t.C_S1.copy()
+    type_.set_size(max(len(data), 1))
+    type_.set_cset(h5t.CSET_UTF8)
+    h5a.create(item.id, key.encode(), type_, h5s.create(h5s.SCALAR)).write(np.array(data), mtype=type_)

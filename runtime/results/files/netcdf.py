@@ -64,7 +64,7 @@ NAME, UNIT = re.compile(r"[A-Za-z][\w.]*", re.ASCII), re.compile(r"[\w^*/. ()-]*
 
 
 def tables(run: Result) -> Iterator[Table]:
-    """Yield all tables of a file: series over `time` at its root, groups over their own dimensions."""
+    """Yield all tables of the file of a run, also empty ones: series over `time` at its root, then groups."""
     yield Table("", "time", tuple(_series_variables(run)), attributes(run))
     yield Table(START, "time", () if run.start_row is None else tuple(_series_variables(run.start_row)), {})
     yield Table(GIVEN_START, "row", tuple(_given_start_variables(run)), {})
@@ -82,34 +82,36 @@ def tables(run: Result) -> Iterator[Table]:
 
 
 def _series_variables(run: Result) -> Iterator[Variable]:
-    """Yield the time and every series of a run."""
+    """Yield the time and every series of a run as variables; without the drift for a run of an older file."""
     yield Variable("time", run.t, "s", "time")
-    older = () if run.compiled or DRIFT[0] in run.stored else DRIFT  # read from a file that lacks it
+    missing_names = () if run.compiled or DRIFT[0] in run.stored else DRIFT  # read from a file that lacks it
     for name, unit in run.names.items():
-        if name in older:
+        if name in missing_names:
             continue
         yield Variable(variable(name), run[name], unit, run.meaning(name))
 
 
 def _given_start_variables(run: Result) -> Iterator[Variable]:
-    """Yield the given start state as one column; nothing if the run was given none."""
+    """Yield the state that the run was given as `start` as one column; nothing if it was given none."""
     if run.begun is not None:
-        parts = ([run.begun.t], run.begun.q, run.begun.v, run.begun.state, run.begun.memory)
-        values = np.concatenate([np.asarray(part, dtype=np.float64) for part in parts])
+        fields = ([run.begun.t], run.begun.q, run.begun.v, run.begun.state, run.begun.memory)
+        values = np.concatenate([np.asarray(values_of_field, dtype=np.float64) for values_of_field in fields])
         yield Variable("value", values, "", "time, coordinates, velocities, contact codes, memory, SI")
 
 
 def _event_state_variables(run: Result, events: list[str]) -> Iterator[Variable]:
-    """Yield every series at the events, with their names and times; nothing where the states are not known."""
+    """Yield the columns of events and every series at the events; nothing where the states are not known. `events` are
+    the names of the scene's events.
+    """
     try:
-        at = run.states_at_events if len(run.events) else None
-        names = [name for name in run.names if at is not None and (at.compiled or name in at.stored)]
-        found = {name: at[name][1:] for name in names} if at is not None else {}
+        states = run.states_at_events if len(run.events) else None
+        names = [name for name in run.names if states is not None and (states.compiled or name in states.stored)]
+        values_by_name = {name: states[name][1:] for name in names} if states is not None else {}
     except GudgeonError:  # an older file, a motion that cannot be followed or evaluated there: the samples are whole
         return
-    if found:
+    if values_by_name:
         yield from list(records(run.events, EVENTS, events))
-    for name, values in found.items():
+    for name, values in values_by_name.items():
         yield Variable(at_event(name), values, run.unit(name), run.meaning(name))
 
 
@@ -118,14 +120,18 @@ def at_event(name: str) -> str:
     return f"output.{name}" if name in (*EVENTS, "occurrence") else name
 
 
-def records(rows: Array, columns: dict[str, tuple[str, str]], names: list[str]) -> Iterator[Variable]:
-    """Yield the columns of impacts or events; the first column as the names for its numbers."""
+def records(table: Array, columns: dict[str, tuple[str, str]], names: list[str]) -> Iterator[Variable]:
+    """Yield the columns of a table of impacts or events as variables. `columns` has unit and meaning of each; the first
+    column holds indices, which are written as the `names`.
+    """
     for k, (name, (unit, meaning)) in enumerate(columns.items()):
-        yield Variable(name, _as_text_array([names[i] for i in rows[name]]) if k == 0 else rows[name], unit, meaning)
+        yield Variable(
+            name, _as_text_array([names[index] for index in table[name]]) if k == 0 else table[name], unit, meaning
+        )
 
 
 def _parameter_variables(run: Result) -> Iterator[Variable]:
-    """Yield the columns of the table of run-time parameters."""
+    """Yield the columns of the table of run-time parameters: address, value, unit, given value, name of a choice."""
     slots = run.source.slots
     yield Variable(
         "address", _as_text_array([slot.address for slot in slots]), "", "where the number stands in the file"
@@ -136,7 +142,7 @@ def _parameter_variables(run: Result) -> Iterator[Variable]:
     yield Variable("is_given", run.is_given.astype(np.int8), "", "1 where it was overridden")
     if any(slot.words for slot in slots):
         choice_names = [
-            str(specified(slot, float(x))) if slot.words else "" for slot, x in zip(slots, run.p, strict=False)
+            str(specified(slot, float(value))) if slot.words else "" for slot, value in zip(slots, run.p, strict=False)
         ]
         yield Variable("name", _as_text_array(choice_names), "", "of what was chosen where the value is its place")
 
@@ -147,7 +153,9 @@ def _as_text_array(values: list[str]) -> Array:
 
 
 def _envelope_variables(run: Result) -> Iterator[Variable]:
-    """Yield the envelope over the steps: extreme forces and positions of the journals; nothing if the run has none."""
+    """Yield times, extreme forces and positions of journals of the envelope over the steps; nothing without an
+    envelope.
+    """
     if run.trace is None:
         return
     yield Variable("t", run.trace.t, *TRACE_TIME)
@@ -157,16 +165,16 @@ def _envelope_variables(run: Result) -> Iterator[Variable]:
 
 
 def _peak_variables(run: Result) -> Iterator[Variable]:
-    """Yield the columns of peaks over all steps, for readers; `diagnostics` restores them."""
+    """Yield the columns of peaks over all steps, for readers of the file; `diagnostics` restores them."""
     for name, (unit, meaning) in EXTREMES.items():
-        values = [getattr(one, name) for one in run.diagnostics.extremes]
+        values = [getattr(extremes, name) for extremes in run.diagnostics.extremes]
         yield Variable(
             name, _as_text_array(values) if name in ("name", "against", "unit") else np.array(values), unit, meaning
         )
 
 
 def attributes(run: Result) -> dict[str, str]:
-    """Return the attributes of the whole file."""
+    """Return the attributes of the whole file: format, title, mechanism, scene, and the diagnostics as JSON."""
     return {
         "gudgeon": FORMAT,
         "title": run.source.title,
@@ -191,7 +199,7 @@ def import_xarray() -> Any:
 
 
 def dataset(run: Result, part: str = SERIES) -> xarray.Dataset:
-    """Return a table of the file as an xarray Dataset: the series, or one of PARTS."""
+    """Return a table of a run as an xarray Dataset: "series" or one of PARTS. Raises UnknownNameError, GudgeonError."""
     xarray = import_xarray()
     part = text(part, "part", "the name of a table")
     group = "" if part == SERIES else part
@@ -200,14 +208,13 @@ def dataset(run: Result, part: str = SERIES) -> xarray.Dataset:
 
         raise UnknownNameError(f"a result has no part {part!r}", hint=f"there are: {', '.join((SERIES, *PARTS))}")
     table = next(table for table in tables(run) if table.group == group)
-    found: dict[str, Any] = {v.name: (table.dimension, v.values, v.attributes) for v in table.variables}
-    return xarray.Dataset(found, attrs=dict(table.attributes))
+    variables: dict[str, Any] = {item.name: (table.dimension, item.values, item.attributes) for item in table.variables}
+    return xarray.Dataset(variables, attrs=dict(table.attributes))
 
 
 def save(run: Result, path: str | os.PathLike[str], user_attributes: Mapping[str, str] = MappingProxyType({})) -> None:
-    """Write a run to a file with additional attributes.
-
-    Raises OutputError if that fails, and leaves an older file unchanged.
+    """Write a run to a NetCDF file, with `user_attributes` {name: text} in addition to its own. Raises OutputError if
+    that fails, and leaves an older file unchanged; BadValueError for invalid attributes.
     """
     root, *others = tables(run)
     write(
@@ -215,15 +222,17 @@ def save(run: Result, path: str | os.PathLike[str], user_attributes: Mapping[str
     )
 
 
-def _check_attributes(given: Any, root: Table) -> dict[str, str]:
-    """Return checked attributes of the user. Raises BadValueError for names that the format itself uses."""
-    found = {}
-    for name, value in mapping(given, "attributes", "{name: text}").items():
+def _check_attributes(user_attributes: Any, root: Table) -> dict[str, str]:
+    """Return the attributes of the user as a dictionary of texts. Raises BadValueError for names that the format itself
+    uses, that are too long or not printable.
+    """
+    checked = {}
+    for name, value in mapping(user_attributes, "attributes", "{name: text}").items():
         if not 0 < len(name) <= LONGEST or not name.isprintable() or name in root.attributes:
             hint = f"expected a name other than {', '.join(root.attributes)}"
             raise BadValueError(f"attributes: {message(name)} is no name for one of your own", hint=hint)
-        found[name] = text(value, f"attributes: {name}")
-    return found
+        checked[name] = text(value, f"attributes: {name}")
+    return checked
 
 
 def read(path: str | os.PathLike[str]) -> Result:
@@ -232,7 +241,7 @@ def read(path: str | os.PathLike[str]) -> Result:
 
 
 def source_of(file: File) -> KernelSource:
-    """Return the checked kernel source of a file."""
+    """Return the kernel source of a file. Raises ValueError or TypeError for wrong types and names."""
     source = KernelSource.from_json(file.text("source", "" if file.is_old else COMPILED))
     check_typed(source, KernelSource, "source")
     _check_names(source)
@@ -248,7 +257,9 @@ def _read_result(file: File) -> Result:
 
 
 def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Result:
-    """Return the result of an open file with the named series."""
+    """Return the result of an open file with the named series; it has no compiled library. Everything is checked before
+    it is used. Raises ValueError, TypeError or KeyError for a file that is not valid.
+    """
     diagnostics = Diagnostics.from_json(file.text("diagnostics"))
     check_typed(diagnostics, Diagnostics, "diagnostics")
     t = file.numbers("time")
@@ -290,34 +301,39 @@ def check_times(t: Array) -> None:
 
 
 def _check_given(source: KernelSource, p: Array, given: Array, is_given: Array) -> None:
-    """Raise ValueError unless given values equal the values of the run."""
-    for slot, x, given_value, was_given in zip(
+    """Raise ValueError unless overridden values equal the values of the run, and flags are 0 or 1."""
+    for slot, value, overriding_value, was_overridden in zip(
         source.slots, p.tolist(), given.tolist(), is_given.tolist(), strict=False
     ):
-        if was_given not in (0, 1) or was_given and not given_value == x:
-            raise ValueError(f"{slot.address} is {x!r}, and was given as {given_value!r}")
+        if was_overridden not in (0, 1) or was_overridden and not overriding_value == value:
+            raise ValueError(f"{slot.address} is {value!r}, and was given as {overriding_value!r}")
 
 
 def check_extremes(extremes: tuple[Extremes, ...], names: Container[str]) -> tuple[Extremes, ...]:
-    """Return the extremes. Raises ValueError unless they belong to known series."""
-    for one in extremes:
-        if one.name not in names or not UNIT.fullmatch(one.unit) or one.against and not NAME.fullmatch(one.against):
-            raise ValueError(f"peaks of {one.name[:64]!r} are of no series")
+    """Return the extremes unchanged. Raises ValueError unless they belong to series in `names` and have valid units."""
+    for series_extremes in extremes:
+        if (
+            series_extremes.name not in names
+            or not UNIT.fullmatch(series_extremes.unit)
+            or series_extremes.against
+            and not NAME.fullmatch(series_extremes.against)
+        ):
+            raise ValueError(f"peaks of {series_extremes.name[:64]!r} are of no series")
     return extremes
 
 
 def _check_names(source: KernelSource) -> None:
-    """Raise ValueError unless names are identifiers with dots, since they occur in tables, figures and paths."""
-    named: list[Any] = [*source.bodies, *source.joints, *source.clearances, *source.drives, *source.events]
-    named += source.points
-    words = [word for slot in source.slots for word in slot.words]
+    """Raise ValueError unless all names of a source are identifiers with dots and all units are valid."""
+    named_items: list[Any] = [*source.bodies, *source.joints, *source.clearances, *source.drives, *source.events]
+    named_items += source.points
+    choices = [choice for slot in source.slots for choice in slot.words]
     units = [slot.unit for slot in source.slots] + [series.unit for series in source.series]
-    names = [thing.name for thing in named] + [slot.address for slot in source.slots] + [*source.outputs]
-    for name in (source.mechanism, source.scene, *names, *words, *(series.name for series in source.series)):
+    names = [item.name for item in named_items] + [slot.address for slot in source.slots] + [*source.outputs]
+    for name in (source.mechanism, source.scene, *names, *choices, *(series.name for series in source.series)):
         if not NAME.fullmatch(name):
             raise ValueError(f"{name[:64]!r} is no name")
-    if wrong := [unit for unit in units if not UNIT.fullmatch(unit)]:
-        raise ValueError(f"{wrong[0][:64]!r} is no unit")
+    if invalid_units := [unit for unit in units if not UNIT.fullmatch(unit)]:
+        raise ValueError(f"{invalid_units[0][:64]!r} is no unit")
 
 
 def _has_series(file: File, name: str) -> bool:
@@ -326,27 +342,38 @@ def _has_series(file: File, name: str) -> bool:
 
 
 def _read_series(file: File, name: str, length: int) -> Array:
-    """Return a series of the file, read-only."""
-    stored = f"output.{name}" if file.is_old and name in OLD_NAMES else name if file.is_old else variable(name)
-    stored = stored if file.has(stored) else name  # an output that is called like a group that older files have not
-    values = file.numbers(stored, length, "i1" if name.endswith(".state") else "f8")
+    """Return a series of the file, read-only, with `length` values. Older files have other names for some outputs.
+    Contact states are integers, other series floats.
+    """
+    stored_name = f"output.{name}" if file.is_old and name in OLD_NAMES else name if file.is_old else variable(name)
+    stored_name = (
+        stored_name if file.has(stored_name) else name
+    )  # an output that is called like a group that older files have not
+    values = file.numbers(stored_name, length, "i1" if name.endswith(".state") else "f8")
     values.flags.writeable = False
     return values
 
 
 def _read_parameters(file: File, source: KernelSource) -> tuple[Array, Array, Array]:
-    """Return p, given and is_given of the file."""
-    slots, derived = len(source.slots), len(source.derived)
+    """Return p, given and is_given of the file, as in Result. Raises ValueError if given values differ from those of
+    the run.
+    """
+    n_parameters, n_derived = len(source.slots), len(source.derived)
     if file.is_old:
-        p, given = file.numbers("parameters.prepared", slots + derived), file.numbers("parameters.given", slots)
-        is_given = file.numbers("parameters.is_given", slots, "i1")
+        p, given = (
+            file.numbers("parameters.prepared", n_parameters + n_derived),
+            file.numbers("parameters.given", n_parameters),
+        )
+        is_given = file.numbers("parameters.is_given", n_parameters, "i1")
         _check_given(source, p, given, is_given)
         return p, given, is_given.astype(bool)
-    values, given = (file.numbers(f"parameters/{name}", slots) if slots else np.zeros(0) for name in ("value", "given"))
-    is_given = file.numbers("parameters/is_given", slots, "i1") if slots else np.zeros(0)
-    prepared = file.numbers(f"{COMPILED}/value", derived) if derived else np.zeros(0)
+    values, given = (
+        file.numbers(f"parameters/{name}", n_parameters) if n_parameters else np.zeros(0) for name in ("value", "given")
+    )
+    is_given = file.numbers("parameters/is_given", n_parameters, "i1") if n_parameters else np.zeros(0)
+    derived_values = file.numbers(f"{COMPILED}/value", n_derived) if n_derived else np.zeros(0)
     _check_given(source, values, given, is_given)
-    return np.concatenate([values, prepared]), given, is_given.astype(bool)
+    return np.concatenate([values, derived_values]), given, is_given.astype(bool)
 
 
 def impacts_of(file: File, source: KernelSource) -> Array:
@@ -360,51 +387,53 @@ def events_of(file: File, source: KernelSource) -> Array:
 
 
 def _read_records(file: File, kind: str, dtype: np.dtype[Any], names: list[str]) -> Array:
-    """Return impacts or events from their columns, the first of which names the joint or event; empty without a
-    group.
+    """Return impacts or events from their columns as an array of `dtype`; empty without a group. The first column has
+    names of joints or events, which become indices in `names`. Raises ValueError for others.
     """
-    first, *others = dtype.names or ()
-    if not file.has(f"{kind}.{first}" if file.is_old else f"{kind}s"):
+    owner_column, *other_columns = dtype.names or ()
+    if not file.has(f"{kind}.{owner_column}" if file.is_old else f"{kind}s"):
         return np.zeros(0, dtype)
     if file.is_old:
-        owner = file.numbers(f"{kind}.{first}", None, "i4")
+        owner_indices = file.numbers(f"{kind}.{owner_column}", None, "i4")
     else:
         index: Mapping[str, int] = {name: k for k, name in enumerate(names)}
-        owner = np.array([index[name] for name in file.texts(f"{kind}s/{first}")], "i4")
-    if len(owner) and not (owner.min() >= 0 and owner.max() < len(names)):
+        owner_indices = np.array([index[name] for name in file.texts(f"{kind}s/{owner_column}")], "i4")
+    if len(owner_indices) and not (owner_indices.min() >= 0 and owner_indices.max() < len(names)):
         raise ValueError(f"the {kind}s are of something that the scene does not have")
-    table = np.empty(len(owner), dtype)
-    table[first] = owner
-    for name in others:
-        table[name] = file.numbers(f"{kind}.{name}" if file.is_old else f"{kind}s/{name}", len(owner))
+    table = np.empty(len(owner_indices), dtype)
+    table[owner_column] = owner_indices
+    for name in other_columns:
+        table[name] = file.numbers(f"{kind}.{name}" if file.is_old else f"{kind}s/{name}", len(owner_indices))
     return table
 
 
 def _read_trace(file: File, source: KernelSource) -> Trace | None:
-    """Return the envelope over the steps; None where the run had none or the file is older."""
+    """Return the envelope over the steps; None if the run had none or the file is older."""
     if not file.has(TRACE):
         return None
     t = file.numbers(f"{TRACE}/t")
     names = [[f"{TRACE}/{joint.name}.{name}" for name in TRACE_COLUMNS] for joint in source.clearances]
-    joints = [[file.numbers(name, len(t)) for name in row] for row in names]
-    return Trace(t, np.moveaxis(np.array(joints).reshape(len(joints), len(TRACE_COLUMNS), len(t)), 2, 0).copy())
+    columns = [[file.numbers(name, len(t)) for name in joint_columns] for joint_columns in names]
+    return Trace(t, np.moveaxis(np.array(columns).reshape(len(columns), len(TRACE_COLUMNS), len(t)), 2, 0).copy())
 
 
 def samples_of(source: KernelSource, stored: Mapping[str, Array], length: int) -> dict[str, Any]:
-    """Return the arrays that the integrator stores, rebuilt from their series, by their names in a Result."""
+    """Return the arrays that the integrator stores, rebuilt from their series, by their names in a Result. `stored` has
+    the series by name, `length` samples each.
+    """
     q, v, a = (_read_motion(source, stored, length, order) for order in range(3))
     return {
         "q": q,
         "v": v,
         "accelerations": a,
         "state": _read_columns(stored, [f"{joint.name}.state" for joint in source.clearances], length, np.int8),
-        "memory": _read_columns(stored, _memory_names(source), length),
+        "memory": _read_columns(stored, _list_memory_series(source), length),
         "work": _read_works(source, stored, length),
     }
 
 
 def _read_motion(source: KernelSource, stored: Mapping[str, Array], samples: int, order: int) -> Array:
-    """Return q, q̇ or q̈ (order 0, 1, 2), (N, n), from the series of the bodies."""
+    """Return q, q̇ or q̈ (order 0, 1, 2), (N, n), from series of bodies. Raises ValueError for wrong indices."""
     if sorted(body.index for body in source.bodies) != list(range(0, 3 * len(source.bodies), 3)):
         raise ValueError("the bodies' places in q are not theirs")
     values = np.empty((samples, 3 * len(source.bodies)))
@@ -415,7 +444,7 @@ def _read_motion(source: KernelSource, stored: Mapping[str, Array], samples: int
 
 
 def _read_columns(stored: Mapping[str, Array], names: list[str], samples: int, dtype: Any = float) -> Array:
-    """Return the named series as the columns of an array; 0 for an empty name."""
+    """Return the named series as the columns of an array (N, k); a column is 0 for an empty name."""
     values = np.empty((samples, len(names)), dtype)
     for column, name in enumerate(names):
         values[:, column] = stored[name] if name else 0.0  # a place that no law's state has
@@ -423,48 +452,48 @@ def _read_columns(stored: Mapping[str, Array], names: list[str], samples: int, d
 
 
 def _read_works(source: KernelSource, stored: Mapping[str, Array], samples: int) -> Array:
-    """Return the works (N, 3); NaN without masses."""
+    """Return the works of drives, forces and joints with play, (N, 3); NaN for a scene without masses."""
     if source.massless:
         return np.full((samples, 3), np.nan)
     return _read_columns(stored, ["work.drives", "work.forces", "work.clearances"], samples)
 
 
-def _memory_names(source: KernelSource) -> list[str]:
-    """Return the names of the series that contain the discrete states and friction states of a scene."""
-    latches = [f"{joint.name}.deltadot_minus" for joint in source.clearances]
-    return [*latches, *(f"{f}.mode" for f in source.frictions), *source.states]
+def _list_memory_series(source: KernelSource) -> list[str]:
+    """Return the names of the series that contain the discrete states, in the order of Result.memory."""
+    approach_speeds = [f"{joint.name}.deltadot_minus" for joint in source.clearances]
+    return [*approach_speeds, *(f"{friction}.mode" for friction in source.frictions), *source.states]
 
 
 def states_at_events(file: File, run: Result) -> Result:
-    """Return the result whose samples are the start of the run and then its events."""
-    stored, count, first = {}, len(run.events), run.start_row or run
+    """Return the result whose samples are the start of the run and then its events, read from the file."""
+    stored, count, start_row = {}, len(run.events), run.start_row or run
     for name in run.stored:
-        at = file.numbers(f"{STATES}/{at_event(name)}", count, "i1" if name.endswith(".state") else "f8")
-        stored[name] = np.concatenate([first.stored[name][:1], at])
+        values = file.numbers(f"{STATES}/{at_event(name)}", count, "i1" if name.endswith(".state") else "f8")
+        stored[name] = np.concatenate([start_row.stored[name][:1], values])
         stored[name].flags.writeable = False
-    t, rows = np.concatenate([first.t[:1], run.events["t"]]), samples_of(run.source, stored, 1 + count)
-    return replace(run, t=t, **rows, trace=None, stored=stored, start_row=None)
+    t, arrays = np.concatenate([start_row.t[:1], run.events["t"]]), samples_of(run.source, stored, 1 + count)
+    return replace(run, t=t, **arrays, trace=None, stored=stored, start_row=None)
 
 
 def start_row(file: File, run: Result) -> Result:
-    """Return the start of a run whose samples begin later."""
+    """Return the start of a run whose samples begin later: a result of one sample, read from the file."""
     t = file.numbers(f"{START}/time", 1)
-    own = {name: (f"{START}/{variable(name)}", values.dtype.str) for name, values in run.stored.items()}
-    stored = {name: file.numbers(at, 1, dtype) for name, (at, dtype) in own.items()}
+    datasets = {name: (f"{START}/{variable(name)}", values.dtype.str) for name, values in run.stored.items()}
+    stored = {name: file.numbers(dataset_name, 1, dtype) for name, (dataset_name, dtype) in datasets.items()}
     for values in stored.values():
         values.flags.writeable = False
     return replace(run, t=t, **samples_of(run.source, stored, 1), trace=None, stored=stored)
 
 
 def _read_given_start(file: File, final: State) -> State:
-    """Return the state that a run was given as `start`, of the scene of its final state."""
-    ends = np.cumsum([1, len(final.q), len(final.v), len(final.state), len(final.memory)])
-    t, q, v, state, memory = np.split(file.numbers(f"{GIVEN_START}/value", int(ends[-1])), ends[:-1])
+    """Return the state that a run was given as `start`; identity and parameters are those of its final state."""
+    offsets = np.cumsum([1, len(final.q), len(final.v), len(final.state), len(final.memory)])
+    t, q, v, state, memory = np.split(file.numbers(f"{GIVEN_START}/value", int(offsets[-1])), offsets[:-1])
     return replace(final, t=float(t[0]), q=q, v=v, state=state.astype(np.int8), memory=memory)
 
 
 def read_provenance(file: File) -> dict[str, str]:
-    """Return the provenance in a file; empty for an older file, in which an output may have the group's name."""
+    """Return the provenance in a file by the keys of PROVENANCE; empty for an older file."""
     try:
         return {name: file.text(name, PROVENANCE_GROUP) for name in PROVENANCE}
     except (KeyError, ValueError):

@@ -64,43 +64,49 @@ def save(batch: Batch, path: str | os.PathLike[str]) -> None:
 
 
 def tables(batch: Batch) -> Iterator[Table]:
-    """Yield all tables of a file."""
-    began = range(len(batch) if batch.states else 0)
-    runs = {i: run for i in began if (run := batch.partial(i)) is not None}
-    parts = [(i, table) for i, run in runs.items() for table in netcdf.tables(run)]
-    about = {"seconds": repr(batch.seconds), "threads": batch.threads, "interrupted": batch.interrupted}
-    about |= {"own_times": batch.t.ndim == 2} | ({} if batch.states else {"kept": [*batch.kept]})
+    """Yield all tables of the file of a batch: runs, given parameters, times, and the long tables of all runs. A batch
+    without states has the table `kept` of its stored series instead of all series.
+    """
+    runs_with_states = range(len(batch) if batch.states else 0)
+    runs = {i: run for i in runs_with_states if (run := batch.partial(i)) is not None}
+    tables_by_run = [(i, table) for i, run in runs.items() for table in netcdf.tables(run)]
+    batch_values = {"seconds": repr(batch.seconds), "threads": batch.threads, "interrupted": batch.interrupted}
+    batch_values |= {"own_times": batch.t.ndim == 2} | ({} if batch.states else {"kept": [*batch.kept]})
     attributes = {
         "gudgeon": FORMATS[0],
         "title": batch.source.title,
         "mechanism": batch.source.mechanism,
         "scene": batch.source.scene,
-        "batch": json.dumps(about),
+        "batch": json.dumps(batch_values),
     }
     yield Table("", "run", (Variable("run", np.arange(len(batch)), "", "number of the run"),), attributes)
     yield times(batch)
     if not batch.states:
-        parts += stored_series_tables(batch)
-        yield long_table(KEPT, [(i, table) for i, table in parts if table.group == KEPT], {})
+        tables_by_run += stored_series_tables(batch)
+        yield long_table(KEPT, [(i, table) for i, table in tables_by_run if table.group == KEPT], {})
     yield Table(RUNS, NUMBER, tuple(_run_variables(batch, runs)), {})
     units = {slot.address: slot.unit for slot in batch.source.slots}
-    given = (Variable(name, values, units.get(name, ""), "given") for name, values in batch.parameters.items())
-    yield Table(GIVEN, NUMBER, tuple(given), {})
+    given_variables = (
+        Variable(name, values, units.get(name, ""), "given") for name, values in batch.parameters.items()
+    )
+    yield Table(GIVEN, NUMBER, tuple(given_variables), {})
     for group in ("", *netcdf.PARTS, netcdf.START, netcdf.GIVEN_START, netcdf.COMPILED):
-        with_rows = [(i, table) for i, table in parts if table.group == group and table.length]
+        filled_tables = [(i, table) for i, table in tables_by_run if table.group == group and table.length]
         source = {"source": batch.source.to_json()} if group == netcdf.COMPILED else {}
-        yield long_table(group or netcdf.SERIES, with_rows, source)
+        yield long_table(group or netcdf.SERIES, filled_tables, source)
     yield Table(netcdf.PROVENANCE_GROUP, "", (), next((run.provenance for run in runs.values()), {}))
 
 
-def long_table(group: str, parts: list[tuple[int, Table]], attributes: dict[str, str]) -> Table:
-    """Return the same table of several runs as one, whose first column is the number of the run."""
-    rows = [np.full(table.length, i, np.int32) for i, table in parts]
-    found = [Variable(OWNER, np.concatenate(rows), "", "number of the run")] if parts else []
-    for k, first in enumerate(parts[0][1].variables if parts else ()):
-        values = np.concatenate([table.variables[k].values for _, table in parts])
-        found.append(Variable(column_name(first.name), values, first.unit, first.meaning))
-    return Table(group, "row", tuple(found), attributes)
+def long_table(group: str, tables_by_run: list[tuple[int, Table]], attributes: dict[str, str]) -> Table:
+    """Return the same table of several runs as one, whose first column is the number of the run. `tables_by_run` has
+    (run, table) of each run with rows; without any, the result has no variables.
+    """
+    run_numbers = [np.full(table.length, i, np.int32) for i, table in tables_by_run]
+    variables = [Variable(OWNER, np.concatenate(run_numbers), "", "number of the run")] if tables_by_run else []
+    for k, first in enumerate(tables_by_run[0][1].variables if tables_by_run else ()):
+        values = np.concatenate([table.variables[k].values for _, table in tables_by_run])
+        variables.append(Variable(column_name(first.name), values, first.unit, first.meaning))
+    return Table(group, "row", tuple(variables), attributes)
 
 
 def column_name(name: str) -> str:
@@ -114,36 +120,51 @@ def _stored_name(name: str) -> str:
 
 
 def times(batch: Batch) -> Table:
-    """Return the table of requested times: (N,) if all runs have the same; else a long table."""
-    message = "time that was asked for"
+    """Return the table of requested times: (N,) if all runs have the same; else a long table with those of each run."""
+    meaning = "time that was asked for"
     if batch.t.ndim == 1:
-        return Table(TIMES, "time", (Variable("time", batch.t, "s", message),), {})
-    own = ((i, Variable("time", row[~np.isnan(row)], "s", message)) for i, row in enumerate(batch.t))
-    return long_table(TIMES, [(i, Table(TIMES, "row", (variable,), {})) for i, variable in own], {})
+        return Table(TIMES, "time", (Variable("time", batch.t, "s", meaning),), {})
+    variables = (
+        (i, Variable("time", run_times[~np.isnan(run_times)], "s", meaning)) for i, run_times in enumerate(batch.t)
+    )
+    return long_table(TIMES, [(i, Table(TIMES, "row", (variable,), {})) for i, variable in variables], {})
 
 
 def stored_series_tables(batch: Batch) -> Iterator[tuple[int, Table]]:
-    """Yield number and tables of each run of a batch without states: stored series, contacts, events."""
-    source, known = batch.source, blank(batch.source)
+    """Yield (run, table) of a batch without states for stored series, impacts and events, without empty tables."""
+    source, empty_result = batch.source, blank(batch.source)
     joints, events = [joint.name for joint in source.clearances], [event.name for event in source.events]
-    for i, done in enumerate(batch.samples.tolist()):
-        columns = ((name, values[i, :done]) for name, values in batch.kept.items())
-        own = (Variable(_stored_name(n), x, known.unit(n), known.meaning(n)) for n, x in columns)
-        tables = (
-            Table(KEPT, "row", tuple(own), {}),
+    for i, n_samples in enumerate(batch.samples.tolist()):
+        stored_columns = ((name, values[i, :n_samples]) for name, values in batch.kept.items())
+        variables = (
+            Variable(
+                _stored_name(column),
+                x,
+                empty_result.unit(column),
+                empty_result.meaning(column),
+            )
+            for column, x in stored_columns
+        )
+        run_tables = (
+            Table(KEPT, "row", tuple(variables), {}),
             Table("impacts", "impact", tuple(netcdf.records(batch.impacts[i], netcdf.IMPACTS, joints)), {}),
             Table("events", "occurrence", tuple(netcdf.records(batch.events[i], netcdf.EVENTS, events)), {}),
         )
-        yield from ((i, table) for table in tables if table.length)
+        yield from ((i, table) for table in run_tables if table.length)
 
 
 def dataset(batch: Batch, names: Iterable[str] | str = (), part: str = netcdf.SERIES) -> xarray.Dataset:
-    """Return a batch as an xarray Dataset. See Batch.to_xarray."""
+    """Return a batch as an xarray Dataset over run and time, or one of its other tables; see Batch.to_xarray. A text as
+    `names` is the name of such a part. Raises UnknownNameError.
+    """
     names, part = ((), names) if isinstance(names, str) else (names, part)
     xarray = netcdf.import_xarray()
     if text(part, "part", "the name of a table") != netcdf.SERIES:
-        rows = {v.name: ("row", v.values, v.attributes) for v in _part_table(batch, part).variables}
-        return xarray.Dataset(rows)
+        variables = {
+            variable.name: ("row", variable.values, variable.attributes)
+            for variable in _part_table(batch, part).variables
+        }
+        return xarray.Dataset(variables)
     failure_texts = dict((failure.run, str(failure.error)) for failure in batch.failures)
     columns: dict[str, Any] = {
         "samples": ("run", batch.samples),
@@ -162,43 +183,47 @@ def dataset(batch: Batch, names: Iterable[str] | str = (), part: str = netcdf.SE
 
 
 def _sample_variables(batch: Batch, names: Iterable[str]) -> dict[str, Any]:
-    """Return the variables over run and time."""
-    over, found = ("run", "time"), dict[str, Any]()
+    """Return the variables over run and time by name: coordinates, velocities, works, stored series and those of
+    `names`. Each is (dimensions, values) or (dimensions, values, attributes).
+    """
+    dimensions, variables = ("run", "time"), dict[str, Any]()
     if batch.t.ndim == 2:
-        found["t"] = over, batch.t, {"units": "s"}
+        variables["t"] = dimensions, batch.t, {"units": "s"}
     for k, name in enumerate(batch.source.coordinates if batch.states else ()):
         for order, (column, values) in enumerate(((name, batch.q), (rates(name)[0], batch.v))):
-            found[column] = over, values[:, :, k], {"units": MOTION_UNITS[k % 3][order]}
+            variables[column] = dimensions, values[:, :, k], {"units": MOTION_UNITS[k % 3][order]}
     for k, name in enumerate(() if batch.source.massless or not batch.states else ("drives", "forces", "clearances")):
-        found[f"work.{name}"] = over, batch.work[:, :, k], {"units": "J"}
+        variables[f"work.{name}"] = dimensions, batch.work[:, :, k], {"units": "J"}
     names = [*(name for name in batch.kept if name != "t"), *check_series_names(batch.source, names)]
-    return found | {series_column(name): (over, values) for name, values in series(batch, names).items()}
+    return variables | {series_column(name): (dimensions, values) for name, values in series(batch, names).items()}
 
 
 def _part_table(batch: Batch, part: str) -> Table:
-    """Return one of netcdf.PARTS of all runs as one table, with the run of each row."""
+    """Return one of netcdf.PARTS of all runs as one table, with the run of each row. Raises UnknownNameError."""
     if part not in netcdf.PARTS:
         raise UnknownNameError(f"a batch has no part {part!r}", hint=f"there are: series, {', '.join(netcdf.PARTS)}")
     if batch.states is None and part in ("impacts", "events"):
-        with_rows = [(i, table) for i, table in stored_series_tables(batch) if table.group == part]
+        filled_tables = [(i, table) for i, table in stored_series_tables(batch) if table.group == part]
     else:
-        began = [(i, run) for i in range(len(batch)) if (run := batch.partial(i)) is not None]
-        with_rows = [
-            (i, table) for i, run in began for table in netcdf.tables(run) if table.group == part and table.length
+        begun_runs = [(i, run) for i in range(len(batch)) if (run := batch.partial(i)) is not None]
+        filled_tables = [
+            (i, table) for i, run in begun_runs for table in netcdf.tables(run) if table.group == part and table.length
         ]
-    return long_table(part, with_rows, {})
+    return long_table(part, filled_tables, {})
 
 
 def _run_variables(batch: Batch, runs: Mapping[int, Result]) -> Iterator[Variable]:
-    """Yield the columns of the table `runs`."""
-    failed = {failure.run: failure.error for failure in batch.failures}
+    """Yield the columns of the table `runs`: diagnostics or extremes, failure, number of samples, end, counts and
+    peaks. `runs` are the results of the runs that began.
+    """
+    errors_by_run = {failure.run: failure.error for failure in batch.failures}
     if batch.states:
         texts = [runs[i].diagnostics.to_json() if i in runs else "" for i in range(len(batch))]
         yield Variable("diagnostics", np.array(texts, dtype=object), "", "what the run says of itself, JSON")
     elif batch.extremes:
-        texts = [extremes_to_json(own) for own in batch.extremes]
+        texts = [extremes_to_json(run_extremes) for run_extremes in batch.extremes]
         yield Variable(EXTREMES, np.array(texts, dtype=object), "", "peaks over all steps, JSON")
-    texts = [_error_to_json(failed[i]) if i in failed else "" for i in range(len(batch))]
+    texts = [_error_to_json(errors_by_run[i]) if i in errors_by_run else "" for i in range(len(batch))]
     yield Variable("failure", np.array(texts, dtype=object), "", "why it did not come to its end, JSON")
     yield Variable("samples", batch.samples.astype(np.int64), "", "output times that were reached")
     yield Variable("t_last", batch.t_last, "s", "where the run ended")
@@ -210,19 +235,21 @@ def _run_variables(batch: Batch, runs: Mapping[int, Result]) -> Iterator[Variabl
 
 
 def _error_to_json(error: GudgeonError) -> str:
-    """Return an error as JSON: class, text and time."""
+    """Return an error as JSON: class, text, time, and the fields of a SingularError."""
     time = repr(float(getattr(error, "time", math.nan)))
-    more = {"pivot": getattr(error, "pivot", ""), "outside_model": bool(getattr(error, "outside_model", False))}
-    return json.dumps({"kind": type(error).__name__, "text": str(error), "time": time, **more}, ensure_ascii=False)
+    other_fields = {"pivot": getattr(error, "pivot", ""), "outside_model": bool(getattr(error, "outside_model", False))}
+    return json.dumps(
+        {"kind": type(error).__name__, "text": str(error), "time": time, **other_fields}, ensure_ascii=False
+    )
 
 
 def _error_from_json(text: str, partial: Result | None) -> GudgeonError:
-    """Return the error from JSON that `_error_to_json` wrote, with the partial result."""
+    """Return the error that `_error_to_json` wrote, with the partial result. Raises ValueError for an unknown class."""
     data = json.loads(text)
-    kind = getattr(errors, str(data["kind"]), None)
-    if not (isinstance(kind, type) and issubclass(kind, GudgeonError)):
+    cls = getattr(errors, str(data["kind"]), None)
+    if not (isinstance(cls, type) and issubclass(cls, GudgeonError)):
         raise ValueError(f"there is no error {data['kind']!r}")
-    error = kind.__new__(kind, str(data["text"]))
+    error = cls.__new__(cls, str(data["text"]))
     error.__dict__ |= {"time": float(data["time"]), "pivot": str(data["pivot"]), "partial": partial}
     error.__dict__ |= {"outside_model": bool(data["outside_model"]), "message": str(data["text"]), "where": None}
     return error
@@ -233,7 +260,7 @@ def load(path: str | os.PathLike[str]) -> Batch:
     return open_result_file(path, _read_batch)
 
 
-class _RunOf(File):
+class _RunRows(File):
     """The rows of one run in the long tables, with the interface of a single run's file."""
 
     def __init__(self, whole: LongTables, run: int) -> None:
@@ -256,29 +283,34 @@ class _RunOf(File):
         """Return the run's rows of a text column."""
         return list(self._check_length(name, length, self.whole.column(name, "")[self.whole.rows(name, self.run)]))
 
-    def _check_length(self, name: str, length: int | None, found: Array) -> Array:
-        """Return the rows. Raises ValueError unless their number is `length`."""
-        if length is not None and len(found) != length:
-            raise ValueError(f"run {self.run} has {len(found)} values of {name}, expected {length}")
-        return found
+    def _check_length(self, name: str, length: int | None, rows: Array) -> Array:
+        """Return the rows unchanged. Raises ValueError unless their number is `length`; None allows any number."""
+        if length is not None and len(rows) != length:
+            raise ValueError(f"run {self.run} has {len(rows)} values of {name}, expected {length}")
+        return rows
 
 
 class LongTables:
     """Columns of the long tables of a file, read once each, and the first row of each run."""
 
-    def __init__(self, file: File, count: int, states: bool) -> None:
-        """Read the diagnostics and the first rows of `count` runs; `states`: whether the batch has states."""
-        message = count and states
-        self.file, self.diagnostics = file, file.texts(f"{RUNS}/diagnostics", count) if message else [""] * count
+    def __init__(self, file: File, n_runs: int, has_states: bool) -> None:
+        """Read the first row of each run in each group and, if `has_states`, the diagnostics. Raises ValueError."""
+        has_diagnostics = n_runs and has_states
+        self.file, self.diagnostics = (
+            file,
+            file.texts(f"{RUNS}/diagnostics", n_runs) if has_diagnostics else [""] * n_runs,
+        )
         self.columns: dict[str, Array] = {}
         self.begins: dict[str, Array] = {}
         for group in (netcdf.SERIES, *netcdf.PARTS, netcdf.START, netcdf.GIVEN_START, netcdf.COMPILED, KEPT, TIMES):
-            owner, always = np.zeros(0, np.int32), group not in (netcdf.COMPILED, TIMES)
-            if file.has(group) and (always or file.has(f"{group}/{OWNER}")):
-                owner = file.numbers(f"{group}/{OWNER}", None, "i4")
-            if len(owner) and (owner[0] < 0 or owner[-1] >= count or (np.diff(owner) < 0).any()):
+            run_numbers, needs_run_numbers = np.zeros(0, np.int32), group not in (netcdf.COMPILED, TIMES)
+            if file.has(group) and (needs_run_numbers or file.has(f"{group}/{OWNER}")):
+                run_numbers = file.numbers(f"{group}/{OWNER}", None, "i4")
+            if len(run_numbers) and (
+                run_numbers[0] < 0 or run_numbers[-1] >= n_runs or (np.diff(run_numbers) < 0).any()
+            ):
                 raise ValueError(f"the rows of {group} are of no run")
-            self.begins[group] = np.searchsorted(owner, np.arange(count + 1))
+            self.begins[group] = np.searchsorted(run_numbers, np.arange(n_runs + 1))
 
     def count(self, group: str, run: int) -> int:
         """Return the number of rows of a run in a group."""
@@ -291,12 +323,14 @@ class LongTables:
         return slice(int(begins[run]), int(begins[run + 1]))
 
     def column(self, name: str, dtype: str) -> Array:
-        """Return a column by "group/name"; a name without a group is a series. `dtype` "" means texts."""
+        """Return a column of all runs by "group/name" or name of a series, read on first access; `dtype` "" means
+        texts.
+        """
         name = f"{name.rpartition('/')[0] or netcdf.SERIES}/{column_name(name.rpartition('/')[2])}"
         if name not in self.columns:
-            rows = int(self.begins[name.rpartition("/")[0]][-1])
-            texts = np.array(self.file.texts(name, rows), dtype=object) if not dtype else None
-            self.columns[name] = self.file.numbers(name, rows, dtype) if texts is None else texts
+            n_rows = int(self.begins[name.rpartition("/")[0]][-1])
+            texts = np.array(self.file.texts(name, n_rows), dtype=object) if not dtype else None
+            self.columns[name] = self.file.numbers(name, n_rows, dtype) if texts is None else texts
         return self.columns[name]
 
 
@@ -323,124 +357,133 @@ class _StoredResults:
 
 
 def _read_batch(opened_file: Any, size: int) -> Batch:
-    """Return the batch of an open file of `size` bytes."""
+    """Return the batch of an open HDF5 file of `size` bytes. Everything is checked before it is used. Raises
+    ValueError, TypeError or KeyError for a file that is not valid.
+    """
     file = File(opened_file, size, FORMATS)
     source, count = source_of(file), len(file.numbers(OWNER, None, "i8"))
-    about = json.loads(file.text("batch"))
-    kept = about.get("kept")
-    names, whole = tuple(catalogue(source)), LongTables(file, count, kept is None)
-    began = [i for i in range(count) if whole.diagnostics[i]]
-    runs, provenance = {i: result_of(_RunOf(whole, i), source, names) for i in began}, read_provenance(file)
+    batch_values = json.loads(file.text("batch"))
+    stored_names = batch_values.get("kept")
+    series_names, long_tables = tuple(catalogue(source)), LongTables(file, count, stored_names is None)
+    begun_runs = [i for i in range(count) if long_tables.diagnostics[i]]
+    runs, provenance = (
+        {i: result_of(_RunRows(long_tables, i), source, series_names) for i in begun_runs},
+        read_provenance(file),
+    )
     for run in runs.values():
         run.provenance = provenance
-    texts = file.texts(f"{RUNS}/failure", count)
-    failed = {i: _error_from_json(text, runs.get(i)) for i, text in enumerate(texts) if text}
-    if missing := [i for i in range(count) if kept is None and i not in runs and i not in failed]:
-        raise ValueError(f"run {missing[0]} has neither a result nor a failure")
-    t = read_times(whole, count, bool(about.get("own_times")))
-    numbers = {name: file.either(f"{RUNS}/{name}", count) for name in COUNTS}
-    by_run, samples = [_RunOf(whole, i) for i in range(count)], file.numbers(f"{RUNS}/samples", count, "i8")
+    failure_texts = file.texts(f"{RUNS}/failure", count)
+    errors_by_run = {i: _error_from_json(text, runs.get(i)) for i, text in enumerate(failure_texts) if text}
+    if missing_runs := [i for i in range(count) if stored_names is None and i not in runs and i not in errors_by_run]:
+        raise ValueError(f"run {missing_runs[0]} has neither a result nor a failure")
+    t = read_times(long_tables, count, bool(batch_values.get("own_times")))
+    counts = {name: file.either(f"{RUNS}/{name}", count) for name in COUNTS}
+    run_files, samples = [_RunRows(long_tables, i) for i in range(count)], file.numbers(f"{RUNS}/samples", count, "i8")
     padded = [_pad_runs(runs, name, count, t.shape[-1], source) for name in ("q", "v", "work", "state")]
     return Batch(
         source=source,
         t=t,
-        states=States(*padded) if kept is None else None,
+        states=States(*padded) if stored_names is None else None,
         samples=samples,
-        kept={} if kept is None else read_stored_series(whole, kept, names, samples, t.shape[-1]),
+        kept={}
+        if stored_names is None
+        else read_stored_series(long_tables, stored_names, series_names, samples, t.shape[-1]),
         t_last=file.numbers(f"{RUNS}/t_last", count),
         parameters=_read_given(file, source, count, runs),
-        impacts=tuple(impacts_of(run, source) for run in by_run),
-        events=tuple(events_of(run, source) for run in by_run),
+        impacts=tuple(impacts_of(run, source) for run in run_files),
+        events=tuple(events_of(run, source) for run in run_files),
         peaks=_read_peaks(file, source, count),
-        diagnostics=numbers,
-        failures=as_failures(failed),
-        seconds=float(about["seconds"]),
-        threads=int(about["threads"]),
-        interrupted=bool(about["interrupted"]),
-        result=_StoredResults(runs, failed),
-        extremes=_read_extremes(file, source, count, runs if kept is None else None),
+        diagnostics=counts,
+        failures=as_failures(errors_by_run),
+        seconds=float(batch_values["seconds"]),
+        threads=int(batch_values["threads"]),
+        interrupted=bool(batch_values["interrupted"]),
+        result=_StoredResults(runs, errors_by_run),
+        extremes=_read_extremes(file, source, count, runs if stored_names is None else None),
     )
 
 
-def read_times(whole: LongTables, count: int, separate: bool) -> Array:
-    """Return the requested times, (N,), or (n, N) where each run has its own."""
-    t = whole.file.numbers(f"{TIMES}/time")
-    if not separate:
+def read_times(long_tables: LongTables, n_runs: int, is_separate: bool) -> Array:
+    """Return the requested times: (N,), or (n, N) padded with NaN where each run has its own. Raises ValueError."""
+    t = long_tables.file.numbers(f"{TIMES}/time")
+    if not is_separate:
         check_times(t)
         return t
-    for i in range(count):
-        check_times(t[whole.begins[TIMES][i] : whole.begins[TIMES][i + 1]])
-    return _unroll_column(whole, TIMES, t, count, max(whole.count(TIMES, i) for i in range(count)))
+    for i in range(n_runs):
+        check_times(t[long_tables.begins[TIMES][i] : long_tables.begins[TIMES][i + 1]])
+    return _unroll_column(long_tables, TIMES, t, n_runs, max(long_tables.count(TIMES, i) for i in range(n_runs)))
 
 
-def _unroll_column(whole: LongTables, group: str, column: Array, count: int, samples: int) -> Array:
-    """Return a column of a long table as (n, N), NaN where a run has no row."""
-    out = np.full((count, samples), np.nan)
-    if len(column) != whole.begins[group][-1]:
-        raise ValueError(f"{group} has {len(column)} values, expected {whole.begins[group][-1]}")
-    for i in range(count):
-        own = column[whole.begins[group][i] : whole.begins[group][i + 1]]
-        out[i, : len(own)] = own
-    return out
+def _unroll_column(long_tables: LongTables, group: str, column: Array, n_runs: int, n_samples: int) -> Array:
+    """Return a column of a long table as (n, N), NaN where a run has no row. Raises ValueError for a wrong length."""
+    values = np.full((n_runs, n_samples), np.nan)
+    if len(column) != long_tables.begins[group][-1]:
+        raise ValueError(f"{group} has {len(column)} values, expected {long_tables.begins[group][-1]}")
+    for i in range(n_runs):
+        run_values = column[long_tables.begins[group][i] : long_tables.begins[group][i + 1]]
+        values[i, : len(run_values)] = run_values
+    return values
 
 
 def read_stored_series(
-    whole: LongTables, stored_names: Any, names: tuple[str, ...], samples: Array, most: int
+    long_tables: LongTables, stored_names: Any, names: tuple[str, ...], samples: Array, n_columns: int
 ) -> dict[str, Array]:
-    """Return the stored series of a batch without states, (n, N) each."""
-    known = (
+    """Return the stored series of a batch without states, (n, `n_columns`) each, by name. Raises ValueError."""
+    is_valid = (
         isinstance(stored_names, list) and "t" in stored_names and all(name in ("t", *names) for name in stored_names)
     )
-    if not known or [whole.count(KEPT, i) for i in range(len(samples))] != samples.tolist():
+    if not is_valid or [long_tables.count(KEPT, i) for i in range(len(samples))] != samples.tolist():
         raise ValueError("the series that were kept are not those of its runs")
-    found = {}
+    series_by_name = {}
     for name in stored_names:
-        stored = f"{KEPT}/{column_name(_stored_name(name))}"
-        column = whole.file.numbers(stored) if whole.file.has(KEPT) else np.zeros(0)
-        found[name] = _unroll_column(whole, KEPT, column, len(samples), most)
-    return found
+        dataset_name = f"{KEPT}/{column_name(_stored_name(name))}"
+        column = long_tables.file.numbers(dataset_name) if long_tables.file.has(KEPT) else np.zeros(0)
+        series_by_name[name] = _unroll_column(long_tables, KEPT, column, len(samples), n_columns)
+    return series_by_name
 
 
-def _read_extremes(file: File, source: KernelSource, count: int, runs: Mapping[int, Result] | None) -> Any:
-    """Return the peaks over all steps of each run, from its diagnostics or from the table `runs`."""
+def _read_extremes(file: File, source: KernelSource, n_runs: int, runs: Mapping[int, Result] | None) -> Any:
+    """Return the peaks over all steps of each run, a tuple a run; () if the file has none. They are those of the
+    diagnostics of `runs`, or with None those of the table `runs` of the file.
+    """
     if runs is not None:
-        return tuple(runs[i].diagnostics.extremes if i in runs else () for i in range(count))
+        return tuple(runs[i].diagnostics.extremes if i in runs else () for i in range(n_runs))
     if not file.has(f"{RUNS}/{EXTREMES}"):
         return ()
-    found = tuple(map(extremes_from_json, file.texts(f"{RUNS}/{EXTREMES}", count)))
-    check_typed(found, tuple[tuple[Extremes, ...], ...], EXTREMES)
-    return tuple(check_extremes(own, catalogue(source)) for own in found)
+    extremes = tuple(map(extremes_from_json, file.texts(f"{RUNS}/{EXTREMES}", n_runs)))
+    check_typed(extremes, tuple[tuple[Extremes, ...], ...], EXTREMES)
+    return tuple(check_extremes(run_extremes, catalogue(source)) for run_extremes in extremes)
 
 
-def _pad_runs(runs: Mapping[int, Result], name: str, count: int, samples: int, source: KernelSource) -> Array:
-    """Return an array of the runs as (n, N, ...), NaN (codes: 0) where a run has no sample."""
-    kind = np.int8 if name == "state" else np.float64
+def _pad_runs(runs: Mapping[int, Result], name: str, n_runs: int, n_samples: int, source: KernelSource) -> Array:
+    """Return "q", "v", "work" or "state" of all runs as (n, N, width), NaN (codes: 0) where a run has no sample."""
+    dtype = np.int8 if name == "state" else np.float64
     width = {"work": 3, "state": len(source.clearances)}.get(name, len(source.coordinates))
-    out = np.full((count, samples, width), 0 if name == "state" else np.nan, dtype=kind)
+    padded = np.full((n_runs, n_samples, width), 0 if name == "state" else np.nan, dtype=dtype)
     for i, run in runs.items():
         values = getattr(run, name)
-        out[i, : len(values)] = values
-    return out
+        padded[i, : len(values)] = values
+    return padded
 
 
-def _read_given(file: File, source: KernelSource, count: int, runs: Mapping[int, Result]) -> dict[str, Array]:
-    """Return the given parameters of the runs by address. Raises ValueError for values that differ from those of the
-    results.
+def _read_given(file: File, source: KernelSource, n_runs: int, runs: Mapping[int, Result]) -> dict[str, Array]:
+    """Return the given parameters of the runs, (n,) each, by address. Raises ValueError for unknown parameters and
+    choices, and for values that differ from those of the results.
     """
     if not file.has(GIVEN):
         return {}
-    found = {slot.address: slot for slot in source.slots if file.has(f"{GIVEN}/{slot.address}")}
-    if strange := sorted({*file.names(GIVEN)} - {*found, NUMBER}):
-        raise ValueError(f"{strange[0][:64]!r} was given, and is no number of its scene")
+    given_slots = {slot.address: slot for slot in source.slots if file.has(f"{GIVEN}/{slot.address}")}
+    if unknown_names := sorted({*file.names(GIVEN)} - {*given_slots, NUMBER}):
+        raise ValueError(f"{unknown_names[0][:64]!r} was given, and is no number of its scene")
     given = {
-        address: np.array(file.texts(f"{GIVEN}/{address}", count), dtype=object)
+        address: np.array(file.texts(f"{GIVEN}/{address}", n_runs), dtype=object)
         if slot.words
-        else file.numbers(f"{GIVEN}/{address}", count)
-        for address, slot in found.items()
+        else file.numbers(f"{GIVEN}/{address}", n_runs)
+        for address, slot in given_slots.items()
     }
     for address, values in given.items():
         for i, value in enumerate(values.tolist()):
-            if found[address].words and value not in found[address].words:
+            if given_slots[address].words and value not in given_slots[address].words:
                 raise ValueError(f"run {i}: {address} is {value[:64]!r}, which is no choice")
             if i in runs and value != runs[i].parameters[address]:
                 actual = runs[i].parameters[address]
@@ -448,10 +491,10 @@ def _read_given(file: File, source: KernelSource, count: int, runs: Mapping[int,
     return given
 
 
-def _read_peaks(file: File, source: KernelSource, count: int) -> Array:
-    """Return the peak forces of all runs, PEAK_DTYPE (n, n_clearances)."""
-    out = np.full((count, len(source.clearances)), np.nan, dtype=PEAK_DTYPE)
+def _read_peaks(file: File, source: KernelSource, n_runs: int) -> Array:
+    """Return the peak forces of all runs from the table `runs`, PEAK_DTYPE (n, n_clearances)."""
+    peaks = np.full((n_runs, len(source.clearances)), np.nan, dtype=PEAK_DTYPE)
     for k, joint in enumerate(source.clearances):
         for name in PEAK_DTYPE.names or ():
-            out[name][:, k] = file.numbers(f"{RUNS}/{joint.name}.peak.{name}", count)
-    return out
+            peaks[name][:, k] = file.numbers(f"{RUNS}/{joint.name}.peak.{name}", n_runs)
+    return peaks

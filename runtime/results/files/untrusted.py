@@ -32,46 +32,52 @@ Made = TypeVar("Made")
 AGAIN = "it is no result of gudgeon, or was damaged or cut short; run the scene again"
 
 
-def open_result_file(path: str | os.PathLike[str], make: Callable[[Any, int], Made]) -> Made:
-    """Return `make(file, size)` for an open HDF5 file and its size in bytes. Raises InputError for every fault of the
-    file.
+def open_result_file(path: str | os.PathLike[str], read_content: Callable[[Any, int], Made]) -> Made:
+    """Return `read_content(file, size)` for an open HDF5 file and its size in bytes.
+
+    Raises InputError for every fault of the file, also for what `read_content` raises; GudgeonError without h5py.
     """
     try:
         import h5py
     except ModuleNotFoundError as error:
         raise GudgeonError("NetCDF files need h5py: pip install 'gudgeon[xarray]'") from error
-    path, shown = Path(named(path, "path")), in_a_line(os.fspath(path))
+    path, path_text = Path(named(path, "path")), in_a_line(os.fspath(path))
     try:
-        found = path.stat()
+        status = path.stat()
     except OSError:  # a name that is too long, too
-        raise InputError(f"there is no file {shown}") from None
-    check_regular(found, shown)
+        raise InputError(f"there is no file {path_text}") from None
+    check_regular(status, path_text)
     try:
         if is_damaged(path):
-            raise InputError(f"{shown} is not as it was written: it was damaged", hint="run the scene again")
+            raise InputError(f"{path_text} is not as it was written: it was damaged", hint="run the scene again")
         with h5py.File(path, "r") as file:
-            return make(file, found.st_size)
+            return read_content(file, status.st_size)
     except InputError:
         raise
     except Exception as error:  # whatever HDF5, JSON or NumPy make of what should not be
         message = str(error).partition("\n")[0][:200] or type(error).__name__
-        raise InputError(f"{shown} cannot be read as a result: {message}", hint=AGAIN) from error
+        raise InputError(f"{path_text} cannot be read as a result: {message}", hint=AGAIN) from error
 
 
 class File:
     """Arrays and texts of an open file by name ("S9.y", "impacts/t_on"). Raises ValueError for unexpected contents."""
 
     def __init__(self, file: Any, size: int, formats: tuple[str, ...]) -> None:
-        """Check the format of an open HDF5 file of `size` bytes; formats[0] is the expected one."""
+        """Check the format of an open HDF5 file of `size` bytes; formats[0] is the current one.
+
+        Raises InputError for a file of the other kind of result, ValueError for any other format.
+        """
         self._file, self._left = file, float(size)
-        found = self.text("gudgeon")
-        kind = found.partition("/")[0]
-        if kind in LOADERS and not formats[0].startswith(f"{kind}/"):
-            what, loader = LOADERS[kind]
-            raise InputError(f"{in_a_line(file.filename)} holds {what} ({found})", hint=f"read it with {loader}")
-        if found not in formats:
-            raise ValueError(f"expected the attribute gudgeon = {formats[0]!r}, found {found!r}")
-        self.is_old = found == OLD_FORMAT
+        stored_format = self.text("gudgeon")
+        format_name = stored_format.partition("/")[0]
+        if format_name in LOADERS and not formats[0].startswith(f"{format_name}/"):
+            content, loader = LOADERS[format_name]
+            raise InputError(
+                f"{in_a_line(file.filename)} holds {content} ({stored_format})", hint=f"read it with {loader}"
+            )
+        if stored_format not in formats:
+            raise ValueError(f"expected the attribute gudgeon = {formats[0]!r}, found {stored_format!r}")
+        self.is_old = stored_format == OLD_FORMAT
 
     def has(self, group: str) -> bool:
         """Return whether the file contains a group or dataset."""
@@ -82,16 +88,22 @@ class File:
         return list(self._group(group))
 
     def text(self, key: str, group: str = "") -> str:
-        """Return a text attribute of the file or of a group."""
-        found = (self._group(group) if group else self._file).attrs[key]
-        if isinstance(found, bytes):
-            found = found.decode()
-        if not isinstance(found, str):
+        """Return a text attribute of the file or of a group.
+
+        Raises ValueError if it is not a text, KeyError if there is none.
+        """
+        value = (self._group(group) if group else self._file).attrs[key]
+        if isinstance(value, bytes):
+            value = value.decode()
+        if not isinstance(value, str):
             raise ValueError(f"the attribute {key!r} is no text")
-        return str(found)
+        return str(value)
 
     def numbers(self, name: str, length: int | None = None, dtype: str = "f8") -> Array:
-        """Return an array of the given type and length; of any length for None."""
+        """Return a numeric array (n,) of the file; raise ValueError for another type or length.
+
+        `length` None allows any length.
+        """
         item = self._dataset(name, length)
         if item.dtype.newbyteorder("=") != np.dtype(dtype):
             raise ValueError(f"{name} has numbers of type {item.dtype}, expected {dtype}")
@@ -103,7 +115,10 @@ class File:
         return self.numbers(name, length, "i8" if self._dataset(name, length).dtype.kind == "i" else "f8")
 
     def texts(self, name: str, length: int | None = None) -> list[str]:
-        """Return an array of texts of the given length as a list; of any length for None."""
+        """Return an array of texts of the file as a list; raise ValueError for numbers or another length.
+
+        `length` None allows any length.
+        """
         import h5py
 
         item = self._dataset(name, length)
@@ -112,22 +127,26 @@ class File:
         return [str(text) for text in item.asstr()[...]]
 
     def _dataset(self, name: str, length: int | None) -> Any:
-        """Return a one-dimensional dataset with its data in this file and no larger than the file allows."""
+        """Return a one-dimensional dataset whose data is in this file and no larger than the file allows.
+
+        Its size is subtracted from what remains of the file. Raises ValueError otherwise. `length` None allows any
+        length.
+        """
         import h5py
         from h5py import h5d
 
-        group, _, last = name.rpartition("/")
-        item = _hard_linked(self._group(group) if group else self._file, last)
+        group, _, entry_name = name.rpartition("/")
+        item = _get_hard_linked_entry(self._group(group) if group else self._file, entry_name)
         if not isinstance(item, h5py.Dataset) or len(item.shape or ()) != 1:
             raise ValueError(f"{name} is no variable over one dimension")
         if length is not None and item.shape[0] != length:
             raise ValueError(f"{name} has {item.shape[0]} values, expected {length}")
-        settings, size = item.id.get_create_plist(), item.shape[0] * item.dtype.itemsize
-        if settings.get_layout() == h5d.VIRTUAL or settings.get_external_count():
+        creation_properties, n_bytes = item.id.get_create_plist(), item.shape[0] * item.dtype.itemsize
+        if creation_properties.get_layout() == h5d.VIRTUAL or creation_properties.get_external_count():
             raise ValueError(f"{name} is in another file")
-        packed = DEFLATE if settings.get_nfilters() else 1
-        self._left -= size / packed
-        if self._left < 0 or item.id.get_storage_size() * packed < size:
+        compression_limit = DEFLATE if creation_properties.get_nfilters() else 1
+        self._left -= n_bytes / compression_limit
+        if self._left < 0 or item.id.get_storage_size() * compression_limit < n_bytes:
             raise ValueError(f"{name} has more values than the file has room for")
         return item
 
@@ -135,14 +154,14 @@ class File:
         """Return a group. Raises ValueError if there is none."""
         import h5py
 
-        item = _hard_linked(self._file, name)
+        item = _get_hard_linked_entry(self._file, name)
         if not isinstance(item, h5py.Group):
             raise ValueError(f"{name} is no group")
         return item
 
 
-def _hard_linked(group: Any, name: str) -> Any:
-    """Return the entry of a group that is stored in the file itself; a link raises ValueError."""
+def _get_hard_linked_entry(group: Any, name: str) -> Any:
+    """Return the entry of a group that is stored in the file itself; a link or a missing entry raises ValueError."""
     import h5py
 
     if not isinstance(group.get(name, getlink=True), h5py.HardLink):
@@ -150,56 +169,57 @@ def _hard_linked(group: Any, name: str) -> Any:
     return group[name]
 
 
-def check_typed(value: Any, kind: Any, where: str) -> None:
-    """Raise TypeError with the location unless `value` is of `kind`: a dataclass, tuple, mapping, union, str or
-    number.
+def check_typed(value: Any, expected_type: Any, location: str) -> None:
+    """Raise TypeError unless `value` has the expected type, at any depth; `location` names the value in the error.
+
+    Types are dataclasses, tuples, mappings with texts as keys, unions, str and numbers; an int is allowed for float.
     """
-    if kind is Any:
+    if expected_type is Any:
         return
-    origin = get_origin(kind)
+    origin = get_origin(expected_type)
     if origin is tuple:
-        _check_tuple(value, get_args(kind), where)
+        _check_tuple(value, get_args(expected_type), location)
     elif isinstance(origin, type) and issubclass(origin, Mapping):
-        _check_class(value, Mapping, where)
+        _check_class(value, Mapping, location)
         for key, item in value.items():
-            _check_class(key, str, where)
-            check_typed(item, get_args(kind)[1], f"{where}.{key}")
-    elif isinstance(kind, UnionType):
-        if not any(_is_typed(value, one) for one in get_args(kind)):
-            raise TypeError(f"{where} is {type(value).__name__}, expected {kind}")
-    elif isinstance(kind, type) and is_dataclass(kind):
-        _check_class(value, kind, where)
-        for name, one in _field_types(kind).items():
-            check_typed(getattr(value, name), one, f"{where}.{name}")
+            _check_class(key, str, location)
+            check_typed(item, get_args(expected_type)[1], f"{location}.{key}")
+    elif isinstance(expected_type, UnionType):
+        if not any(_has_type(value, member_type) for member_type in get_args(expected_type)):
+            raise TypeError(f"{location} is {type(value).__name__}, expected {expected_type}")
+    elif isinstance(expected_type, type) and is_dataclass(expected_type):
+        _check_class(value, expected_type, location)
+        for name, member_type in _field_types(expected_type).items():
+            check_typed(getattr(value, name), member_type, f"{location}.{name}")
     else:
-        _check_class(value, {float: (float, int)}.get(kind, kind), where)
+        _check_class(value, {float: (float, int)}.get(expected_type, expected_type), location)
 
 
-def _is_typed(value: Any, kind: Any) -> bool:
-    """Return whether a value is of a kind, by `check_typed`."""
+def _has_type(value: Any, expected_type: Any) -> bool:
+    """Return whether a value has the expected type, by `check_typed`."""
     try:
-        check_typed(value, kind, "")
+        check_typed(value, expected_type, "")
     except TypeError:
         return False
     return True
 
 
-def _check_tuple(value: Any, kinds: tuple[Any, ...], where: str) -> None:
-    """Raise TypeError unless a value is a tuple with entries of these kinds."""
-    _check_class(value, tuple, where)
-    if len(kinds) == 2 and kinds[1] is Ellipsis:
-        kinds = kinds[:1] * len(value)
-    if len(kinds) != len(value):
-        raise TypeError(f"{where} has {len(value)} entries, expected {len(kinds)}")
-    for k, (item, kind) in enumerate(zip(value, kinds, strict=True)):
-        check_typed(item, kind, f"{where}[{k}]")
+def _check_tuple(value: Any, item_types: tuple[Any, ...], location: str) -> None:
+    """Raise TypeError unless a value is a tuple with entries of these types; (T, ...) allows any number of T."""
+    _check_class(value, tuple, location)
+    if len(item_types) == 2 and item_types[1] is Ellipsis:
+        item_types = item_types[:1] * len(value)
+    if len(item_types) != len(value):
+        raise TypeError(f"{location} has {len(value)} entries, expected {len(item_types)}")
+    for k, (item, item_type) in enumerate(zip(value, item_types, strict=True)):
+        check_typed(item, item_type, f"{location}[{k}]")
 
 
-def _check_class(value: Any, kind: Any, where: str) -> None:
-    """Raise TypeError unless a value is an instance of a class; a bool does not count as a number."""
-    is_bool = isinstance(value, bool) and kind is not bool
-    if is_bool or not isinstance(value, NoneType if kind is None else kind):
-        raise TypeError(f"{where} is {type(value).__name__}, expected {kind}")
+def _check_class(value: Any, expected_class: Any, location: str) -> None:
+    """Raise TypeError unless a value is an instance of a class or None for None; a bool does not count as a number."""
+    is_unexpected_bool = isinstance(value, bool) and expected_class is not bool
+    if is_unexpected_bool or not isinstance(value, NoneType if expected_class is None else expected_class):
+        raise TypeError(f"{location} is {type(value).__name__}, expected {expected_class}")
 
 
 @cache

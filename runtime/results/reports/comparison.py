@@ -48,74 +48,105 @@ class SceneReport:
 
 
 def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> SceneReport:
-    """Return the main values of one run.
+    """Return the main values of one run for tables and JSON.
 
-    `reference` is the ideal run at the same times, None for the ideal run itself; `watch` are names of series.
+    `reference` is the ideal run at the same times, None for the ideal run itself; `watch` are names of series, which
+    are shown with their rates. Names that the run lacks are left out.
     """
-    expected = dict.fromkeys(name for watched in watch for name in (watched, *rates(watched)) if name)
-    series = [name for name in expected if name in run]
+    watched_and_rates = dict.fromkeys(
+        name for position_name in watch for name in (position_name, *rates(position_name)) if name
+    )
+    series = [name for name in watched_and_rates if name in run]
     motion = tuple(sample_extreme(name, run.unit(name), run.t, run[name]) for name in series)
     errors: tuple[Extreme, ...] = ()
     if reference is not None:
-        compared = [name for name in series if name in reference]
-        errors = tuple(sample_extreme(name, run.unit(name), run.t, run[name] - reference[name]) for name in compared)
+        common_names = [name for name in series if name in reference]
+        errors = tuple(
+            sample_extreme(name, run.unit(name), run.t, run[name] - reference[name]) for name in common_names
+        )
     forces = {peak.joint: (peak.F, peak.t) for peak in run.diagnostics.peaks}
     for joint in run.source.joints if not (run.source.clearances or run.source.massless) else ():
         reaction = sample_extreme("", "N", run.t, run[f"{joint.name}.F"])
         forces[joint.name] = reaction.peak, reaction.t
     events = {event.name: tuple(run.events_of(event.name).tolist()) for event in run.source.events}
-    driven = () if run.source.massless else drive_series(run.source)
-    sliding = [joint.name for joint in rigid_guides(run.source) if not run.source.clearances]
-    guided = [f"{name}.{last}" for name in run.source.guides or sliding for last in "FM" if not run.source.massless]
+    drive_names = () if run.source.massless else drive_series(run.source)
+    ideal_guides = [joint.name for joint in rigid_guides(run.source) if not run.source.clearances]
+    guide_names = [
+        f"{name}.{component}"
+        for name in run.source.guides or ideal_guides
+        for component in "FM"
+        if not run.source.massless
+    ]
     drives, guides = (
-        tuple(sample_extreme(name, run.unit(name), run.t, run[name]) for name in names) for names in (driven, guided)
+        tuple(sample_extreme(name, run.unit(name), run.t, run[name]) for name in names)
+        for names in (drive_names, guide_names)
     )
-    rows = run.source.rows if run.source.formulation == "full" else run.source.closures
-    found = run.source.scene, motion, errors, forces, run.constants, run.diagnostics, events, drives, guides
+    remaining_rows = run.source.rows if run.source.formulation == "full" else run.source.closures
+    values = run.source.scene, motion, errors, forces, run.constants, run.diagnostics, events, drives, guides
     return SceneReport(
-        *found, bool(rows) or run.diagnostics.phi_max > 0.0, _largest_by_unit(run, forces, (*drives, *guides))
+        *values,
+        bool(remaining_rows) or run.diagnostics.phi_max > 0.0,
+        _largest_by_unit(run, forces, (*drives, *guides)),
     )
 
 
 def _largest_by_unit(
-    run: Result, forces: Mapping[str, tuple[float, float]], drives: Sequence[Extreme]
+    run: Result, forces: Mapping[str, tuple[float, float]], drives_and_guides: Sequence[Extreme]
 ) -> dict[str, float]:
-    """Return the largest magnitude in a run by unit, with which rounding errors are compared."""
-    found: dict[str, float] = {}
-    sizes = [("N", force) for force, _ in forces.values()] + [(drive.unit, abs(drive.peak)) for drive in drives]
+    """Return the largest magnitude in a run by unit, with which rounding errors are compared.
+
+    The entry of an angle is at least that of the length divided by the largest length.
+    """
+    largest: dict[str, float] = {}
+    magnitudes = [("N", force) for force, _ in forces.values()] + [
+        (drive.unit, abs(drive.peak)) for drive in drives_and_guides
+    ]
     for order, array in enumerate((run.q, run.v, run.a)):
-        sizes += [(MOTION_UNITS[k % 3][order], float(np.nanmax(np.abs(x), initial=0.0))) for k, x in enumerate(array.T)]
-    for unit, size in sizes:
-        if math.isfinite(size):
-            found[unit] = max(size, found.get(unit, 0.0))
-    for of_place, of_angle in zip(*MOTION_UNITS[::2], strict=True):  # where nothing turns: what turned as far would
-        if extent := found.get("m", 0.0):
-            found[of_angle] = max(found.get(of_angle, 0.0), found.get(of_place, 0.0) / extent)
-    return found
+        magnitudes += [
+            (MOTION_UNITS[k % 3][order], float(np.nanmax(np.abs(x), initial=0.0))) for k, x in enumerate(array.T)
+        ]
+    for unit, magnitude in magnitudes:
+        if math.isfinite(magnitude):
+            largest[unit] = max(magnitude, largest.get(unit, 0.0))
+    for length_unit, angle_unit in zip(
+        *MOTION_UNITS[::2], strict=True
+    ):  # where nothing turns: what turned as far would
+        if max_length := largest.get("m", 0.0):
+            largest[angle_unit] = max(largest.get(angle_unit, 0.0), largest.get(length_unit, 0.0) / max_length)
+    return largest
 
 
 def as_json(reports: Sequence[SceneReport]) -> dict[str, Any]:
-    """Return plain values for `--json`; NaN and infinity, which JSON lacks, are null."""
+    """Return the values of all scenes as a dictionary for `--json`, by scene; NaN and infinity, which JSON lacks, are
+    None.
+    """
     scenes = {}
     for report in reports:
         scenes[report.scene] = {
-            "motion": {e.name: asdict(e) for e in report.motion},
-            "errors": {e.name: asdict(e) for e in report.errors},
+            "motion": {extreme.name: asdict(extreme) for extreme in report.motion},
+            "errors": {extreme.name: asdict(extreme) for extreme in report.errors},
             "peak_forces": {joint: {"F": force, "t": t} for joint, (force, t) in report.forces.items()},
-            "drives": {e.name: asdict(e) for e in report.drives},
-            "guides": {e.name: asdict(e) for e in report.guides},
-            "peaks": {x.name: asdict(x) for x in report.diagnostics.extremes if not x.against},
-            "peak_errors": {x.name: asdict(x) for x in report.diagnostics.extremes if x.against},
+            "drives": {extreme.name: asdict(extreme) for extreme in report.drives},
+            "guides": {extreme.name: asdict(extreme) for extreme in report.guides},
+            "peaks": {
+                extremes.name: asdict(extremes) for extremes in report.diagnostics.extremes if not extremes.against
+            },
+            "peak_errors": {
+                extremes.name: asdict(extremes) for extremes in report.diagnostics.extremes if extremes.against
+            },
             "constants": dict(report.constants),
             "events": {name: list(times) for name, times in report.events.items()},
             "diagnostics": asdict(report.diagnostics),
         }
-    clean: dict[str, Any] = replace_non_finite(scenes)
-    return clean
+    json_values: dict[str, Any] = replace_non_finite(scenes)
+    return json_values
 
 
 def replace_non_finite(value: Any) -> Any:
-    """Return the value with NaN and infinity, which JSON lacks, replaced by None at any depth."""
+    """Return a value with NaN and infinity, which JSON lacks, replaced by None at any depth of lists and dicts.
+
+    Tuples become lists, NumPy scalars Python numbers.
+    """
     if isinstance(value, dict):
         return {key: replace_non_finite(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
@@ -126,28 +157,30 @@ def replace_non_finite(value: Any) -> Any:
 
 
 def tables(title: str, reports: Sequence[SceneReport], width: int, verbose: bool = False) -> list[Table]:
-    """Return tables with a column for each scene and a row for each quantity, as many columns as fit `width`
-    characters.
+    """Return tables with a column for each scene and a row for each quantity.
 
-    `verbose` adds the rows of NEED_A_LEGEND.
+    Each table has as many columns as fit `width` characters, at most COLUMNS, at least one. `verbose` adds the rows of
+    NEED_A_LEGEND. Only the first table has the title.
     """
     from rich.measure import Measurement
 
     from gudgeon.language.shown import plain_console
 
-    endless = plain_console(10_000)
-    rows = [row for row in _rows(reports) if verbose or not row[0].endswith(NEED_A_LEGEND)]
-    found: list[Table] = []
-    for count in range(min(COLUMNS, len(reports)), 0, -1):
-        parts = [slice(first, first + count) for first in range(0, len(reports), count)]
-        found = [_table("" if part.start else title, reports, rows, part) for part in parts]
-        if all(Measurement.get(endless, endless.options, table).maximum <= width for table in found):
+    wide_console = plain_console(10_000)
+    rows = [row for row in _build_rows(reports) if verbose or not row[0].endswith(NEED_A_LEGEND)]
+    table_list: list[Table] = []
+    for n_columns in range(min(COLUMNS, len(reports)), 0, -1):
+        column_ranges = [slice(first, first + n_columns) for first in range(0, len(reports), n_columns)]
+        table_list = [_build_table("" if columns.start else title, reports, rows, columns) for columns in column_ranges]
+        if all(Measurement.get(wide_console, wide_console.options, table).maximum <= width for table in table_list):
             break
-    return found
+    return table_list
 
 
-def _table(title: str, reports: Sequence[SceneReport], rows: list[tuple[str, list[str]]], part: slice) -> Table:
-    """Return one rich Table of some of the reports."""
+def _build_table(
+    title: str, reports: Sequence[SceneReport], rows: list[tuple[str, list[str]]], columns: slice
+) -> Table:
+    """Return one rich Table with the columns `columns` of the rows; a row without cells is a heading."""
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
     from rich.text import Text
@@ -157,28 +190,34 @@ def _table(title: str, reports: Sequence[SceneReport], rows: list[tuple[str, lis
     title = one_line(title)
     table = Table(title=title or None, title_justify="left", title_style="bold", box=SIMPLE_HEAD, pad_edge=False)
     table.add_column("", no_wrap=True)
-    for report in reports[part]:
+    for report in reports[columns]:
         table.add_column(report.scene, justify="right", no_wrap=True)
     for name, cells in rows:
         if not cells:
             table.add_section()
             table.add_row(Text(name, style="bold"))
         else:
-            table.add_row(f"  {name}", *cells[part])
+            table.add_row(f"  {name}", *cells[columns])
     return table
 
 
-def _rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    """Return the rows (name, one cell a scene); a heading has no cells, and rows that are empty in all scenes are left
-    out.
+def _build_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    """Return the rows (name, one cell a scene) of all sections; a heading has no cells.
+
+    Rows that are empty in all scenes, and sections without rows, are left out.
     """
     rows: list[tuple[str, list[str]]] = []
-    for heading, part in (
+    for heading, section_rows in (
         ("Peak error against ideal", _error_rows(reports)),
         ("Peak error against ideal, all steps", _extreme_rows(reports, True)),
         ("Peaks, all steps", _extreme_rows(reports, False)),
         ("Motion", _motion_rows(reports)),
-        ("Peak force" if any(r.diagnostics.peaks for r in reports) else "Peak force, of samples", _force_rows(reports)),
+        (
+            "Peak force"
+            if any(scene_report.diagnostics.peaks for scene_report in reports)
+            else "Peak force, of samples",
+            _force_rows(reports),
+        ),
         ("Peak of guides, of samples", _guide_rows(reports)),
         ("Peak of drives, of samples", _peak_rows(reports, [report.drives for report in reports])),
         ("Joints with play", _play_rows(reports)),
@@ -186,18 +225,21 @@ def _rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         ("Trust", _trust_rows(reports)),
         ("Cost", _cost_rows(reports)),
     ):
-        kept = [(name, cells) for name, cells in part if any(cell not in ("", "–") for cell in cells)]
-        rows += [(heading, []), *kept] if kept else []
+        filled_rows = [(name, cells) for name, cells in section_rows if any(cell not in ("", "–") for cell in cells)]
+        rows += [(heading, []), *filled_rows] if filled_rows else []
     return rows
 
 
 def _peak_cell(value: float, unit: str, t: float, scales: Mapping[str, float]) -> str:
-    """Return a peak and its time as a cell, "–" if it is not known."""
+    """Return a peak and its time as a cell, "–" if it is not known, "≈ 0" if it is rounding error.
+
+    `scales` has the largest magnitude of the run by unit.
+    """
     if math.isfinite(t) and _is_noise(abs(value), unit, scales):
         return ZERO
-    factor, text = drawn(value, unit)
-    when = quantity(t, "s") if 0.0 < abs(t) < 1e-3 else f"{t:.4f} s"
-    return f"{value * factor + 0.0:.4g} {text}".strip() + f" at {when}" if math.isfinite(t) else "–"
+    factor, unit_text = drawn(value, unit)
+    time_text = quantity(t, "s") if 0.0 < abs(t) < 1e-3 else f"{t:.4f} s"
+    return f"{value * factor + 0.0:.4g} {unit_text}".strip() + f" at {time_text}" if math.isfinite(t) else "–"
 
 
 def _is_noise(size: float, unit: str, scales: Mapping[str, float]) -> bool:
@@ -206,45 +248,60 @@ def _is_noise(size: float, unit: str, scales: Mapping[str, float]) -> bool:
 
 
 def _error_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    """Return the rows of peak errors against the ideal scene at the samples."""
-    names = dict.fromkeys(e.name for report in reports for e in report.errors)
-    found = [{e.name: _peak_cell(e.peak, e.unit, e.t, report.scales) for e in report.errors} for report in reports]
-    return [(name, [cells.get(name, "–") for cells in found]) for name in names]
+    """Return the rows (error, one cell a scene) of peak errors against the ideal scene at the samples."""
+    names = dict.fromkeys(error.name for report in reports for error in report.errors)
+    cells_by_scene = [
+        {error.name: _peak_cell(error.peak, error.unit, error.t, report.scales) for error in report.errors}
+        for report in reports
+    ]
+    return [(name, [cells.get(name, "–") for cells in cells_by_scene]) for name in names]
 
 
 def _motion_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    """Return the rows of the ranges of the watched series."""
-    found = [{e.name: _range_cell(e, report.scales) for e in report.motion} for report in reports]
-    names = dict.fromkeys(e.name for report in reports for e in report.motion)
-    return [(name, [cells.get(name, "–") for cells in found]) for name in names]
+    """Return the rows (series, one cell a scene) of smallest and largest value of the watched series at the samples."""
+    cells_by_scene = [
+        {extreme.name: _range_cell(extreme, report.scales) for extreme in report.motion} for report in reports
+    ]
+    names = dict.fromkeys(extreme.name for report in reports for extreme in report.motion)
+    return [(name, [cells.get(name, "–") for cells in cells_by_scene]) for name in names]
 
 
-def _extreme_rows(reports: Sequence[SceneReport], errors: bool) -> list[tuple[str, list[str]]]:
-    """Return the rows of peaks over all steps of the series in `peaks:` of a scene."""
-    cells = [partial(_peak_cell, scales=report.scales) for report in reports]
-    return table_rows([report.diagnostics.extremes for report in reports], cells, errors)
+def _extreme_rows(reports: Sequence[SceneReport], of_errors: bool) -> list[tuple[str, list[str]]]:
+    """Return the rows of peaks over all steps of the series in `peaks:` of a scene.
+
+    With `of_errors` they are those of the errors against another scene.
+    """
+    formatters = [partial(_peak_cell, scales=report.scales) for report in reports]
+    return table_rows([report.diagnostics.extremes for report in reports], formatters, of_errors)
 
 
 def _range_cell(extreme: Extreme, scales: Mapping[str, float]) -> str:
-    """Return the smallest and largest value of a series as a cell."""
-    if _is_noise(size := max(abs(extreme.low), abs(extreme.high)), extreme.unit, scales):
+    """Return the smallest and largest value of a series as a cell; "≈ 0" if both are rounding errors."""
+    if _is_noise(magnitude := max(abs(extreme.low), abs(extreme.high)), extreme.unit, scales):
         return ZERO
-    factor, text = drawn(size, extreme.unit)
-    low, high = (0.0 if _is_noise(abs(x), extreme.unit, scales) else x * factor for x in (extreme.low, extreme.high))
-    return f"{low:.5g} … {high:.5g} {text}".strip()
+    factor, unit_text = drawn(magnitude, extreme.unit)
+    low, high = (
+        0.0 if _is_noise(abs(value), extreme.unit, scales) else value * factor for value in (extreme.low, extreme.high)
+    )
+    return f"{low:.5g} … {high:.5g} {unit_text}".strip()
 
 
 def _force_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     """Return the rows of peak forces at the joints that have play in any scene, or else at all joints."""
-    played = dict.fromkeys(peak.joint for report in reports for peak in report.diagnostics.peaks)
-    joints = played or dict.fromkeys(joint for report in reports for joint in report.forces)
-    missing = (math.nan, math.nan)
+    joints_with_play = dict.fromkeys(peak.joint for report in reports for peak in report.diagnostics.peaks)
+    joints = joints_with_play or dict.fromkeys(joint for report in reports for joint in report.forces)
+    unknown_peak = (math.nan, math.nan)
     return [
         (
             joint,
             [
-                _peak_cell(r.forces.get(joint, missing)[0], "N", r.forces.get(joint, missing)[1], r.scales)
-                for r in reports
+                _peak_cell(
+                    scene_report.forces.get(joint, unknown_peak)[0],
+                    "N",
+                    scene_report.forces.get(joint, unknown_peak)[1],
+                    scene_report.scales,
+                )
+                for scene_report in reports
             ],
         )
         for joint in joints
@@ -252,41 +309,63 @@ def _force_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
 
 
 def _guide_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    """Return the rows of peak forces and moments of guides that have play in any scene."""
-    played = {f"{peak.joint.partition('.')[0]}." for r in reports for peak in r.diagnostics.peaks if "." in peak.joint}
-    own = [tuple(e for e in report.guides if e.name[:-1] in played) for report in reports]
-    return _peak_rows(reports, own)
+    """Return the rows of peak forces and moments of the guides that have play in any scene, at the samples."""
+    prefixes = {
+        f"{peak.joint.partition('.')[0]}."
+        for scene_report in reports
+        for peak in scene_report.diagnostics.peaks
+        if "." in peak.joint
+    }
+    guide_extremes = [
+        tuple(extreme for extreme in report.guides if extreme.name[:-1] in prefixes) for report in reports
+    ]
+    return _peak_rows(reports, guide_extremes)
 
 
 def _peak_rows(reports: Sequence[SceneReport], peaks: Sequence[tuple[Extreme, ...]]) -> list[tuple[str, list[str]]]:
-    """Return the rows of peaks at the samples, without those that are known over all steps."""
-    found = [
-        {e.name: _peak_cell(e.peak, e.unit, e.t, r.scales) for e in own} for r, own in zip(reports, peaks, strict=True)
+    """Return the rows of peaks at the samples of each scene, without series whose peaks over all steps are known."""
+    cells_by_scene = [
+        {peak.name: _peak_cell(peak.peak, peak.unit, peak.t, scene_report.scales) for peak in scene_peaks}
+        for scene_report, scene_peaks in zip(reports, peaks, strict=True)
     ]
-    known = {x.name for report in reports for x in report.diagnostics.extremes}  # over all steps, which is more
-    names = dict.fromkeys(e.name for own in peaks for e in own if e.name not in known)
-    return [(name, [cells.get(name, "–") for cells in found]) for name in names]
+    names_over_all_steps = {
+        extremes.name for report in reports for extremes in report.diagnostics.extremes
+    }  # over all steps, which is more
+    names = dict.fromkeys(
+        peak.name for scene_peaks in peaks for peak in scene_peaks if peak.name not in names_over_all_steps
+    )
+    return [(name, [cells.get(name, "–") for cells in cells_by_scene]) for name in names]
 
 
 def _play_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    """Return the rows of each joint with play: first contact, its peak, largest eccentricity, constants."""
-    peaks = [{peak.joint: peak for peak in report.diagnostics.peaks} for report in reports]
+    """Return the rows of each joint with play: first contact, its peak, largest eccentricity, constants of its laws."""
+    peaks_by_scene = [{peak.joint: peak for peak in report.diagnostics.peaks} for report in reports]
     rows = []
-    for joint in dict.fromkeys(name for found in peaks for name in found):
-        shown = [found.get(joint) for found in peaks]
-        contacts = [p.first_contact if p else math.nan for p in shown]
-        rows.append((f"{joint} first contact", [quantity(t, "s") for t in contacts]))
-        rows.append((f"{joint} peak of that contact", [quantity(p.first_peak, "N", 5) if p else "–" for p in shown]))
-        rows.append((f"{joint} largest e", [quantity(p.e_max, "m", 5) if p else "–" for p in shown]))
-        for name, (unit, what) in CONSTANTS.items():
+    for joint in dict.fromkeys(name for peaks_by_joint in peaks_by_scene for name in peaks_by_joint):
+        joint_peaks = [peaks_by_joint.get(joint) for peaks_by_joint in peaks_by_scene]
+        contact_times = [joint_peak.first_contact if joint_peak else math.nan for joint_peak in joint_peaks]
+        rows.append((f"{joint} first contact", [quantity(t, "s") for t in contact_times]))
+        rows.append(
+            (
+                f"{joint} peak of that contact",
+                [quantity(joint_peak.first_peak, "N", 5) if joint_peak else "–" for joint_peak in joint_peaks],
+            )
+        )
+        rows.append(
+            (
+                f"{joint} largest e",
+                [quantity(joint_peak.e_max, "m", 5) if joint_peak else "–" for joint_peak in joint_peaks],
+            )
+        )
+        for name, (unit, meaning) in CONSTANTS.items():
             values = (report.constants.get(f"{joint}.{name}", math.nan) for report in reports)
-            message = what.replace("clearance", "gap") if "." in joint else what
-            rows.append((f"{joint} {message}", [quantity(value, unit) for value in values]))
+            label = meaning.replace("clearance", "gap") if "." in joint else meaning
+            rows.append((f"{joint} {label}", [quantity(value, unit) for value in values]))
     return rows
 
 
 def _event_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    """Return the rows of events: number and first time; a dash in scenes that do not have the event."""
+    """Return the rows of events: their number and first time; a dash in scenes that do not have the event."""
 
     def cell(times: tuple[float, ...] | None) -> str:
         """Return number and first time of an event as a cell."""
@@ -294,36 +373,70 @@ def _event_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
             return "–" if times is None else "none"
         return f"at {times[0]:.7g} s" if len(times) == 1 else f"{len(times)}, first at {times[0]:.7g} s"
 
-    names = dict.fromkeys(name for r in reports for name in r.events)
-    return [(name, [cell(r.events.get(name)) for r in reports]) for name in names]
+    names = dict.fromkeys(name for report in reports for name in report.events)
+    return [(name, [cell(report.events.get(name)) for report in reports]) for name in names]
 
 
 def _trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     """Return the rows of accuracy: drift, energy residual, predictability horizon, contacts, audit."""
-    every = [report.diagnostics for report in reports]
-    play = [bool(d.peaks) for d in every]
-    ratio = [f"{d.ratio_min:.3g} … {d.ratio_max:.3g}" if math.isfinite(d.ratio_min) else "–" for d in every]
+    diagnostics = [report.diagnostics for report in reports]
+    has_play = [bool(run.peaks) for run in diagnostics]
+    ratio_cells = [
+        f"{run.ratio_min:.3g} … {run.ratio_max:.3g}" if math.isfinite(run.ratio_min) else "–" for run in diagnostics
+    ]
     return [
-        ("max |Φ|", [f"{r.diagnostics.phi_max:.2e}" if r.constrained else "no row is left" for r in reports]),
-        ("max |Φ̇|", [f"{r.diagnostics.phi_dot_max:.2e}" if r.constrained else "–" for r in reports]),
-        ("energy residual", [quantity(d.energy_residual, "J", 3) for d in every]),
-        ("energy turned over", [quantity(d.energy_turned_over, "J", 3) for d in every]),
-        ("trusted until", [_horizon_cell(d.horizon) for d in every]),
-        ("contacts that began", [str(d.onsets) if p else "–" for d, p in zip(every, play, strict=True)]),
-        ("δ̇/δ̇⁻ while latched", ratio),
-        ("steps with it outside ±1", [str(d.ratio_outside) if math.isfinite(d.ratio_min) else "–" for d in every]),
+        (
+            "max |Φ|",
+            [
+                f"{scene_report.diagnostics.phi_max:.2e}" if scene_report.constrained else "no row is left"
+                for scene_report in reports
+            ],
+        ),
+        (
+            "max |Φ̇|",
+            [
+                f"{scene_report.diagnostics.phi_dot_max:.2e}" if scene_report.constrained else "–"
+                for scene_report in reports
+            ],
+        ),
+        ("energy residual", [quantity(run.energy_residual, "J", 3) for run in diagnostics]),
+        ("energy turned over", [quantity(run.energy_turned_over, "J", 3) for run in diagnostics]),
+        ("trusted until", [_horizon_cell(run.horizon) for run in diagnostics]),
+        (
+            "contacts that began",
+            [str(run.onsets) if has_contacts else "–" for run, has_contacts in zip(diagnostics, has_play, strict=True)],
+        ),
+        ("δ̇/δ̇⁻ while latched", ratio_cells),
+        (
+            "steps with it outside ±1",
+            [str(run.ratio_outside) if math.isfinite(run.ratio_min) else "–" for run in diagnostics],
+        ),
         *_audit_rows(reports),
     ]
 
 
 def _audit_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    """Return the rows of the largest value of each check of the audit, in its limits, if it is above rounding."""
-    found = [{one.check: one.worst for one in report.diagnostics.audit} for report in reports]
-    checks = dict.fromkeys(check for one in found for check, worst in one.items() if worst >= AUDIT_SHOWN)
-    largest = [max(one.values(), default=math.nan) for one in found]
+    """Return a row with the largest value of the audit, in limits, and one for each check that is above rounding."""
+    worst_by_scene = [
+        {worst_by_check.check: worst_by_check.worst for worst_by_check in report.diagnostics.audit}
+        for report in reports
+    ]
+    checks = dict.fromkeys(
+        check for worst_by_check in worst_by_scene for check, worst in worst_by_check.items() if worst >= AUDIT_SHOWN
+    )
+    max_values = [max(worst_by_check.values(), default=math.nan) for worst_by_check in worst_by_scene]
     return [
-        ("audit, in limits", [f"{worst:.1e}" if math.isfinite(worst) else "–" for worst in largest]),
-        *((f"audit of {check}", [f"{one[check]:.1e}" if check in one else "–" for one in found]) for check in checks),
+        ("audit, in limits", [f"{worst:.1e}" if math.isfinite(worst) else "–" for worst in max_values]),
+        *(
+            (
+                f"audit of {check}",
+                [
+                    f"{worst_by_check[check]:.1e}" if check in worst_by_check else "–"
+                    for worst_by_check in worst_by_scene
+                ],
+            )
+            for check in checks
+        ),
     ]
 
 
@@ -333,14 +446,14 @@ def _horizon_cell(horizon: float) -> str:
 
 
 def _cost_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    """Return the rows of cost: method, steps, evaluations and run time."""
-    every = [report.diagnostics for report in reports]
+    """Return the rows of cost: method, steps, evaluations of the right-hand side, and run time."""
+    diagnostics = [report.diagnostics for report in reports]
     return [
-        ("method", [d.method for d in every]),
-        ("step", [quantity(d.step, "s") for d in every]),
-        ("last step", [quantity(d.last_step, "s") for d in every]),
-        ("tolerance of a step", [f"{d.rtol:.3g}" if math.isfinite(d.rtol) else "–" for d in every]),
-        ("steps", [f"{d.steps:,}" if d.steps else "–" for d in every]),
-        ("right-hand sides", [f"{d.right_hand_sides:,}" if d.right_hand_sides else "–" for d in every]),
-        ("s per simulated s", [f"{d.seconds_per_simulated_second:.3g}" for d in every]),
+        ("method", [run.method for run in diagnostics]),
+        ("step", [quantity(run.step, "s") for run in diagnostics]),
+        ("last step", [quantity(run.last_step, "s") for run in diagnostics]),
+        ("tolerance of a step", [f"{run.rtol:.3g}" if math.isfinite(run.rtol) else "–" for run in diagnostics]),
+        ("steps", [f"{run.steps:,}" if run.steps else "–" for run in diagnostics]),
+        ("right-hand sides", [f"{run.right_hand_sides:,}" if run.right_hand_sides else "–" for run in diagnostics]),
+        ("s per simulated s", [f"{run.seconds_per_simulated_second:.3g}" for run in diagnostics]),
     ]

@@ -64,47 +64,59 @@ body {{ margin: 0; }} body > .g-report {{ max-width: 68rem; margin: 0 auto; padd
 """
 
 
-def page(title: str, about: str, sections: Iterable[Section], chapters: Iterable[str] = ()) -> str:
-    """Return a complete HTML file.
+def page(title: str, description: str, sections: Iterable[Section], chapters: Iterable[str] = ()) -> str:
+    """Return the text of a complete HTML file; sections without content are left out.
 
-    `title` and `about` are text; `chapters` are headings to which links are listed at the top.
+    `title` and `description` are text; `chapters` are headings to which links are listed at the top.
     """
-    head = f"<h1>{text(title)}</h1><p class='g-quiet'>{escape(visible(about))}</p>"
-    every = [(name, inside) for name, inside in sections if inside]
-    linked = [name for name in dict.fromkeys(chapters) if any(name == own for own, _ in every)]
-    links = "".join(f'<li><a href="#{_PLACE}{k}">{escape(visible(name))}</a></li>' for k, name in enumerate(linked))
-    contents = f"<nav class='g-contents'><ul>{links}</ul></nav>" if links else ""
-    return PAGE.format(title=text(title), article=article(every, head + contents, linked))
-
-
-def article(sections: Iterable[Section], head: str = "", linked: Sequence[str] = ()) -> str:
-    """Return the article of a page, as a notebook displays it."""
-    places = {name: f' id="{_PLACE}{k}"' for k, name in enumerate(linked)}
-    parts = [
-        f"<section{places.pop(name, '')}><h2>{escape(visible(name))}</h2>{inside}</section>"
-        for name, inside in sections
-        if inside
+    head = f"<h1>{text(title)}</h1><p class='g-quiet'>{escape(visible(description))}</p>"
+    filled_sections = [(name, content) for name, content in sections if content]
+    linked_headings = [
+        name for name in dict.fromkeys(chapters) if any(name == section_name for section_name, _ in filled_sections)
     ]
-    return f"<article class='g-report'><style>{STYLE}</style>{head}{''.join(parts)}</article>"
+    links = "".join(
+        f'<li><a href="#{_PLACE}{k}">{escape(visible(name))}</a></li>' for k, name in enumerate(linked_headings)
+    )
+    table_of_contents = f"<nav class='g-contents'><ul>{links}</ul></nav>" if links else ""
+    return PAGE.format(title=text(title), article=article(filled_sections, head + table_of_contents, linked_headings))
 
 
-def text(words: str) -> str:
+def article(sections: Iterable[Section], head: str = "", linked_headings: Sequence[str] = ()) -> str:
+    """Return the HTML article of a page with its style, as a notebook displays it; sections without content are left
+    out.
+
+    `head` is HTML above the sections, `linked_headings` the headings that get an id for links.
+    """
+    id_attributes = {name: f' id="{_PLACE}{k}"' for k, name in enumerate(linked_headings)}
+    section_elements = [
+        f"<section{id_attributes.pop(name, '')}><h2>{escape(visible(name))}</h2>{content}</section>"
+        for name, content in sections
+        if content
+    ]
+    return f"<article class='g-report'><style>{STYLE}</style>{head}{''.join(section_elements)}</article>"
+
+
+def text(content: str) -> str:
     """Return a text of a file as one escaped line."""
-    return escape(one_line(words))
+    return escape(one_line(content))
 
 
-def table(head: Sequence[str], rows: Iterable[Sequence[str]], words: bool = False) -> str:
-    """Return an HTML table of escaped cells; "" without rows. `words`: the cells are words, not numbers."""
-    body = "".join(f"<tr>{''.join(f'<td>{escape(visible(cell))}</td>' for cell in row)}</tr>" for row in rows)
-    if not body:
+def table(column_names: Sequence[str], rows: Iterable[Sequence[str]], holds_words: bool = False) -> str:
+    """Return an HTML table of escaped cells; "" without rows.
+
+    `holds_words` aligns the cells as words, not as numbers. Empty `column_names` leave out the header.
+    """
+    body_rows = "".join(f"<tr>{''.join(f'<td>{escape(visible(cell))}</td>' for cell in row)}</tr>" for row in rows)
+    if not body_rows:
         return ""
-    names = "".join(f"<th scope='col'>{escape(visible(name))}</th>" for name in head)
-    above = f"<thead><tr>{names}</tr></thead>" if any(head) else ""
-    kind = " class='g-words'" if words else "" if any(head) else " class='g-pairs'"
-    return f"<div class='g-wide' tabindex='0'><table{kind}>{above}<tbody>{body}</tbody></table></div>"
+    header_cells = "".join(f"<th scope='col'>{escape(visible(name))}</th>" for name in column_names)
+    head_element = f"<thead><tr>{header_cells}</tr></thead>" if any(column_names) else ""
+    class_attribute = " class='g-words'" if holds_words else "" if any(column_names) else " class='g-pairs'"
+    element = f"<table{class_attribute}>{head_element}<tbody>{body_rows}</tbody></table>"
+    return f"<div class='g-wide' tabindex='0'>{element}</div>"
 
 
-def lines(texts: Iterable[str], kind: str = "") -> str:
-    """Return an HTML paragraph for each text, of the CSS class `kind`."""
-    of = f" class='{kind}'" if kind else ""
-    return "".join(f"<p{of}>{escape(visible(one))}</p>" for one in texts)
+def lines(texts: Iterable[str], css_class: str = "") -> str:
+    """Return an HTML paragraph of escaped text for each text, of the CSS class `css_class` if it is not empty."""
+    class_attribute = f" class='{css_class}'" if css_class else ""
+    return "".join(f"<p{class_attribute}>{escape(visible(text))}</p>" for text in texts)

@@ -24,18 +24,21 @@ Rows = list[tuple[str, str]]
 
 def page_of(run: Result, report: Mapping[str, Any]) -> str:
     """Return the report as a complete HTML file."""
-    return page(_title(report), _about(report), sections(run, report))
+    return page(_title(report), _describe_run(report), sections(run, report))
 
 
 def sections(run: Result, report: Mapping[str, Any]) -> Iterator[Section]:
-    """Yield heading and HTML of each section of the report."""
+    """Yield (heading, HTML) of each section of the report: warnings, guides, joints, energy, accuracy, laws.
+
+    A section without content has an empty HTML text. `report` has the values of RunReport.
+    """
     yield "What to know", lines(report["warnings"], "g-warning")
     for name, guide in report["guides"].items():
         yield f"Guide {name}", table(("", ""), guide_rows(guide, report["trust"]["asked"]))
     for name, joint in report["joints"].items():
-        orbit = "" if "." in name else orbit_svg(run, name)  # of a journal, no corner of a slider
-        inside = f"{orbit}<div>{table(('', ''), joint_rows(joint, report['trust']['asked']))}</div>"
-        yield f"{'Corner' if '.' in name else 'Joint'} {name}", f"<div class='g-beside'>{inside}</div>"
+        orbit_element = "" if "." in name else orbit_svg(run, name)  # of a journal, no corner of a slider
+        content = f"{orbit_element}<div>{table(('', ''), joint_rows(joint, report['trust']['asked']))}</div>"
+        yield f"{'Corner' if '.' in name else 'Joint'} {name}", f"<div class='g-beside'>{content}</div>"
     yield "Energy", table(("", ""), energy_rows(report))
     trust = report["trust"]
     yield "How far to believe it", table(("", ""), trust_rows(trust)) + lines(trust["notes"], "g-quiet")
@@ -56,13 +59,13 @@ def sections(run: Result, report: Mapping[str, Any]) -> Iterator[Section]:
 
 
 def as_text(report: Mapping[str, Any]) -> str:
-    """Return the report as text for a terminal."""
-    parts: list[tuple[str, Rows]] = [("", [("", _about(report))])]
-    is_examined = report["trust"]["asked"]
-    parts += [(f"guide {name}", guide_rows(one, is_examined)) for name, one in report["guides"].items()]
+    """Return the report as text for a terminal, section by section, with warnings and notes at the end."""
+    parts: list[tuple[str, Rows]] = [("", [("", _describe_run(report))])]
+    has_examination = report["trust"]["asked"]
+    parts += [(f"guide {name}", guide_rows(values, has_examination)) for name, values in report["guides"].items()]
     parts += [
-        (f"{'corner' if one['corner'] else 'joint'} {name}", joint_rows(one, is_examined))
-        for name, one in report["joints"].items()
+        (f"{'corner' if values['corner'] else 'joint'} {name}", joint_rows(values, has_examination))
+        for name, values in report["joints"].items()
     ]
     parts += [("energy", energy_rows(report)), ("how far to believe it", trust_rows(report["trust"]))]
     lines_of_text = [_title(report)]
@@ -74,7 +77,9 @@ def as_text(report: Mapping[str, Any]) -> str:
         for law in report["laws"]
     ]
     return visible(
-        "\n".join([*lines_of_text, *(f"note: {one}" for one in (*report["warnings"], *report["trust"]["notes"]))])
+        "\n".join(
+            [*lines_of_text, *(f"note: {sentence}" for sentence in (*report["warnings"], *report["trust"]["notes"]))]
+        )
     )
 
 
@@ -83,69 +88,87 @@ def _title(report: Mapping[str, Any]) -> str:
     return f"{one_line(report['title'] or report['mechanism'])}: {report['scene']}"
 
 
-def _about(report: Mapping[str, Any]) -> str:
-    """Return time span, samples, method and steps in one line."""
+def _describe_run(report: Mapping[str, Any]) -> str:
+    """Return time span, number of samples, method and number of steps in one line."""
     begin, end = report["t"]
     return (
         f"{begin:.6g} … {end:.6g} s, {report['samples']} samples, {report['method']}, {report['trust']['steps']} steps"
     )
 
 
-def joint_rows(joint: Mapping[str, Any], is_examined: bool) -> Rows:
-    """Return the rows (name, cell) of a joint with play; `is_examined`: whether additional runs were requested."""
-    shares = ((name, joint["time"][name]) for name in ("free", "impacting", "contact", "film"))
-    time = ", ".join(f"{name} {100 * x:.4g} %" for name, x in shares if x or name == "free")
-    rows = [("gap c" if joint["corner"] else "clearance c", quantity(joint["c"], "m")), ("share of the time", time)]
-    still = f", {joint['still_closed']} to the end" if joint["still_closed"] else ""
-    rows.append(("contacts", f"{joint['contacts']}{still}"))
+def joint_rows(joint: Mapping[str, Any], has_examination: bool) -> Rows:
+    """Return the rows (name, cell) of a joint with play, or of a slider's corner.
+
+    `has_examination` is whether additional runs were requested: otherwise rows that need them say how to request them.
+    Quantities without a value have no row.
+    """
+    time_fractions = ((name, joint["time"][name]) for name in ("free", "impacting", "contact", "film"))
+    time_text = ", ".join(
+        f"{name} {100 * fraction:.4g} %" for name, fraction in time_fractions if fraction or name == "free"
+    )
+    rows = [
+        ("gap c" if joint["corner"] else "clearance c", quantity(joint["c"], "m")),
+        ("share of the time", time_text),
+    ]
+    closed_text = f", {joint['still_closed']} to the end" if joint["still_closed"] else ""
+    rows.append(("contacts", f"{joint['contacts']}{closed_text}"))
     if stiffness := joint["stiffness"]:
         rows.append(("stiffness K of its law", f"{stiffness['K']:.4g} {stiffness['unit']}"))
     if joint["asked"] is not None:
-        free = joint["free_impact"]
-        text = "" if free is None else f", of which a free impact delivers {free:.5g}"
+        free_restitution = joint["free_impact"]
+        text = "" if free_restitution is None else f", of which a free impact delivers {free_restitution:.5g}"
         rows.append(("restitution asked for", f"{joint['asked']:g}{text}"))
     if joint["approach"]:
         rows.append(("approach, least … median … largest", _range_cell(joint["approach"], "m/s")))
-        back = joint["restitution"]
-        known = back is not None and math.isfinite(back["median"])
-        none = "no contact that met at a rate ended" if back is not None else NOT_ASKED
-        rows.append(("restitution delivered, the same", _range_cell(back, "") if known else none))
+        restitution = joint["restitution"]
+        is_known = restitution is not None and math.isfinite(restitution["median"])
+        reason = "no contact that met at a rate ended" if restitution is not None else NOT_ASKED
+        rows.append(("restitution delivered, the same", _range_cell(restitution, "") if is_known else reason))
     rows.append(("peak force", f"{quantity(joint['peak']['F'], 'N')} at {quantity(joint['peak']['t'], 's')}"))
     rows.append((f"RMS force, of {joint['rms_of']}", quantity(joint["rms"], "N")))
-    rows += [] if joint["corner"] else _ideal_rows(joint, is_examined)  # of a guide the sum has one
+    rows += [] if joint["corner"] else _ideal_rows(joint, has_examination)  # of a guide the sum has one
     if math.isfinite(joint["penetration"]):
         text = f"{quantity(joint['penetration'], 'm')}, {joint['penetration_share']:.3g} c"
         rows.append(("deepest penetration", text if joint["penetration"] else "none"))
     if math.isfinite(joint["film_least"]):
         rows.append(("least film thickness", quantity(joint["film_least"], "m")))
-    return rows + _work_rows(joint["work"], is_examined)
+    return rows + _work_rows(joint["work"], has_examination)
 
 
-def guide_rows(guide: Mapping[str, Any], is_examined: bool) -> Rows:
-    """Return the rows (name, cell) of a guide with play; `is_examined` as in `joint_rows`."""
+def guide_rows(guide: Mapping[str, Any], has_examination: bool) -> Rows:
+    """Return the rows (name, cell) of a guide with play: force and moment on the slider, and the ideal force.
+
+    `has_examination` as in `joint_rows`.
+    """
     peak, moment = guide["peak"], guide["M"]
     return [
         ("force on the slider, peak of samples", f"{quantity(peak['F'], 'N')} at {quantity(peak['t'], 's')}"),
         ("RMS force, of samples", quantity(guide["rms"], "N")),
         ("moment on the slider, peak of samples", f"{quantity(moment['peak'], 'N*m')} at {quantity(moment['t'], 's')}"),
-        *_ideal_rows(guide, is_examined),
+        *_ideal_rows(guide, has_examination),
     ]
 
 
-def _ideal_rows(joint: Mapping[str, Any], is_examined: bool) -> Rows:
-    """Return the rows of the forces in the ideal scene."""
+def _ideal_rows(joint: Mapping[str, Any], has_examination: bool) -> Rows:
+    """Return the rows of peak and RMS force in the ideal scene, each with the ratio to them.
+
+    If they are not known, one row says so, or how to request them.
+    """
     if not (ideal := joint["ideal"]):
-        return [("ideal forces", NOT_ASKED if not is_examined else "not known")]
+        return [("ideal forces", NOT_ASKED if not has_examination else "not known")]
     return [
         ("ideal peak force", f"{quantity(ideal['F'], 'N')}{_ratio_text(joint['peak']['F'], ideal['F'])}"),
         ("ideal RMS force", f"{quantity(ideal['rms'], 'N')}{_ratio_text(joint['rms'], ideal['rms'])}"),
     ]
 
 
-def _work_rows(work: Mapping[str, float] | None, is_examined: bool) -> Rows:
-    """Return the rows of the energies that contact, friction and film dissipate."""
+def _work_rows(work: Mapping[str, float] | None, has_examination: bool) -> Rows:
+    """Return the rows of the energies that contact, friction and film dissipate, without those that are not finite.
+
+    If `work` is None, one row says that they are not known, or how to request them.
+    """
     if work is None:
-        return [("where its work went", NOT_ASKED if not is_examined else "not known")]
+        return [("where its work went", NOT_ASKED if not has_examination else "not known")]
     names = {
         "taken": "energy into contact",
         "returned": "given back",
@@ -167,7 +190,11 @@ def _ratio_text(value: float, ideal: float) -> str:
 
 
 def energy_rows(report: Mapping[str, Any]) -> Rows:
-    """Return the rows (name, cell) of the energy balance."""
+    """Return the rows (name, cell) of the energy balance.
+
+    Without masses one row says that it is not known. Works of joints with play have a row only if there are such
+    joints.
+    """
     energy = report["energy"]
     if energy is None:
         return [("energy", "not known: a body has no mass or no inertia")]
@@ -185,37 +212,46 @@ def energy_rows(report: Mapping[str, Any]) -> Rows:
 
 
 def trust_rows(trust: Mapping[str, Any]) -> Rows:
-    """Return the rows (name, cell) of the accuracy of a run."""
+    """Return the rows (name, cell) of the accuracy of a run: drift, tolerance or step, predictability horizon,
+    differences.
+    """
     rows = [("drift, max |Φ|", f"{trust['phi_max']:.2e}"), ("drift, max |Φ̇|", f"{trust['phi_dot_max']:.2e}")]
     if math.isfinite(trust["rtol"]):
         rows.append(("tolerance of a step", f"{trust['rtol']:.3g}"))
     if math.isfinite(trust["step"]):
         rows.append(("step", quantity(trust["step"], "s")))
     horizon = trust["horizon"]
-    until = horizon if isinstance(horizon, str) else quantity(horizon, "s") if math.isfinite(horizon) else "not sought"
-    rows.append(("believed until (horizon)", until))
-    for one in trust["differences"]:
-        text = f"{quantity(one['largest'], one['unit'])} at {quantity(one['t'], 's')}"
-        rows.append((f"{one['name']}, against {trust['compared_with']}", text))
+    horizon_text = (
+        horizon if isinstance(horizon, str) else quantity(horizon, "s") if math.isfinite(horizon) else "not sought"
+    )
+    rows.append(("believed until (horizon)", horizon_text))
+    for difference in trust["differences"]:
+        text = f"{quantity(difference['largest'], difference['unit'])} at {quantity(difference['t'], 's')}"
+        rows.append((f"{difference['name']}, against {trust['compared_with']}", text))
     return rows if trust["asked"] else [*rows, ("against smaller steps", NOT_ASKED)]
 
 
 def orbit_svg(run: Result, joint: str) -> str:
-    """Return the journal's path through all steps in the circle e = c as an SVG figure, thinned to MOST points."""
+    """Return the journal's path through all steps in the circle e = c as an SVG figure, thinned to MOST points.
+
+    `joint` is a bearing with play. The start is a small circle.
+    """
     c = run.constants[f"{joint}.c"]
     _, x, y = joint_curves.path(run, joint)
-    good = np.isfinite(x) & np.isfinite(y)
-    x, y = x[good] / c, y[good] / c
-    reach = 1.06 * max(1.0, float(np.hypot(x, y).max(initial=0.0)))
-    scale = SIDE / (2.0 * reach)
-    kept = slice(None, None, max(1, -(-len(x) // MOST)))
-    points = zip(SIDE / 2 + scale * x[kept], SIDE / 2 - scale * y[kept], strict=True)
-    path = " ".join(f"{a:.1f},{b:.1f}" for a, b in points)
-    first = path.partition(" ")[0].partition(",")
-    start = f"<circle class='g-start' cx='{first[0]}' cy='{first[2]}' r='3.5'/>" if path else ""
+    is_finite = np.isfinite(x) & np.isfinite(y)
+    x, y = x[is_finite] / c, y[is_finite] / c
+    half_width = 1.06 * max(1.0, float(np.hypot(x, y).max(initial=0.0)))
+    scale = SIDE / (2.0 * half_width)
+    stride = slice(None, None, max(1, -(-len(x) // MOST)))
+    points_in_pixels = zip(SIDE / 2 + scale * x[stride], SIDE / 2 - scale * y[stride], strict=True)
+    path = " ".join(f"{pixel_x:.1f},{pixel_y:.1f}" for pixel_x, pixel_y in points_in_pixels)
+    start_coordinates = path.partition(" ")[0].partition(",")
+    start_element = (
+        f"<circle class='g-start' cx='{start_coordinates[0]}' cy='{start_coordinates[2]}' r='3.5'/>" if path else ""
+    )
     return (
         f"<figure><svg role='img' aria-label='orbit of the journal of {escape(joint, quote=True)}' width='{SIDE}'"
         f" height='{SIDE}' viewBox='0 0 {SIDE} {SIDE}'><circle class='g-circle' cx='{SIDE / 2:g}' cy='{SIDE / 2:g}'"
-        f" r='{scale:.1f}'/><polyline class='g-path' stroke-width='.8' points='{path}'/>{start}</svg>"
+        f" r='{scale:.1f}'/><polyline class='g-path' stroke-width='.8' points='{path}'/>{start_element}</svg>"
         "<figcaption>the journal in the circle e = c, ○ start</figcaption></figure>"
     )
