@@ -23,11 +23,11 @@ class CachedPrinter:
     """Provide cached versions of methods of SymPy's code printers; a base class before one of these."""
 
     def doprint(self, expr: sp.Expr) -> str:
-        """Return one expression as code, without a statement. Raises ValueError if the language has no counterpart."""
+        """Return an expression as code. Raises ValueError if the language has no counterpart."""
         return self._print(sp.sympify(expr))
 
     def _print(self, expr: Any, **settings: Any) -> str:
-        """Print an expression by the method of its class, which is cached."""
+        """Print an expression by the printer's method for its class; found methods are cached by both classes."""
         key = (type(self), type(expr))
         if (method := _METHODS.get(key)) is None:
             method = _METHODS[key] = _find_method(*key)
@@ -38,47 +38,55 @@ class CachedPrinter:
         raise ValueError(f"{type(self).__name__} does not know {expr}")
 
     def _print_Add(self, expr: sp.Add, order: str | None = None) -> str:
-        """Print the sum of terms in SymPy's order."""
+        """Print the sum of terms in the order of `order_terms`, with the signs of negative terms between them."""
         text = ""
         for term in order_terms(expr):
-            own = self._print(term)
-            minus = own.startswith("-") and not term.is_Add
-            own = own[1:] if minus else own
+            printed = self._print(term)
+            is_negative = printed.startswith("-") and not term.is_Add
+            printed = printed[1:] if is_negative else printed
             if term.is_Add or not (term.is_Mul or term.is_Symbol or term.is_Pow) and _precedence(term) < _SUM:
-                own = f"({own})"
-            text += f" {'-' if minus else '+'} {own}" if text else f"-{own}" if minus else own
+                printed = f"({printed})"
+            text += f" {'-' if is_negative else '+'} {printed}" if text else f"-{printed}" if is_negative else printed
         return text
 
     def _print_Mul(self, expr: sp.Mul) -> str:
-        """Print a product; divisors come last, in brackets if there are several."""
-        number, rest = expr.as_coeff_Mul()
-        factors = list(rest.as_ordered_factors())
-        negative = number.is_extended_negative
-        if (size := -number if negative else number) is not sp.S.One:
+        """Print a product as numerator/divisors; divisors come last, in brackets if there are several."""
+        coefficient, others = expr.as_coeff_Mul()
+        factors = list(others.as_ordered_factors())
+        negative = coefficient.is_extended_negative
+        if (size := -coefficient if negative else coefficient) is not sp.S.One:
             factors.insert(0, size)
-        above, below = list[sp.Expr](), list[sp.Expr]()
+        numerator, denominator = list[sp.Expr](), list[sp.Expr]()
         bracketed = set[sp.Expr]()
         for factor in factors:
             if not (factor.is_Pow and factor.exp.is_Rational and factor.exp.is_negative):
-                above.append(factor)
+                numerator.append(factor)
                 continue
-            below.append(sp.Pow(factor.base, -factor.exp, evaluate=factor.exp is sp.S.NegativeOne))
+            denominator.append(sp.Pow(factor.base, -factor.exp, evaluate=factor.exp is sp.S.NegativeOne))
             if factor.exp is sp.S.NegativeOne and factor.base.is_Mul:
                 bracketed.add(factor.base)
-        binds = _precedence(expr)
-        alone = _UNARY_MINUS if negative and len(above) == 1 else binds
-        text = "*".join([self.parenthesize(factor, alone) for factor in above or [sp.S.One]])
+        level = _precedence(expr)
+        numerator_level = _UNARY_MINUS if negative and len(numerator) == 1 else level
+        text = "*".join([self.parenthesize(factor, numerator_level) for factor in numerator or [sp.S.One]])
         text = f"-{text}" if negative else text
-        if not below:
+        if not denominator:
             return text
-        divisors = [self.parenthesize(factor, binds) for factor in below]
-        divisors = [f"({own})" if factor in bracketed else own for own, factor in zip(divisors, below, strict=True)]
-        return f"{text}/{divisors[0]}" if len(below) == 1 else f"{text}/({'*'.join(divisors)})"
+        divisors = [self.parenthesize(factor, level) for factor in denominator]
+        divisors = [
+            f"({printed})" if factor in bracketed else printed
+            for printed, factor in zip(divisors, denominator, strict=True)
+        ]
+        return f"{text}/{divisors[0]}" if len(denominator) == 1 else f"{text}/({'*'.join(divisors)})"
 
     def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
-        """Print an expression, in brackets if its operator binds less than `level`."""
-        binds = _precedence(item)
-        return f"({self._print(item)})" if binds < level or (not strict and binds <= level) else self._print(item)
+        """Print an expression, in brackets if its operator binds less than `level`.
+
+        An operator that binds equally gets brackets, too, unless `strict`.
+        """
+        own_level = _precedence(item)
+        return (
+            f"({self._print(item)})" if own_level < level or (not strict and own_level <= level) else self._print(item)
+        )
 
 
 _precedence = lru_cache(100_000)(precedence)
@@ -87,53 +95,60 @@ _UNARY_MINUS = (PRECEDENCE["Pow"] + PRECEDENCE["Mul"]) / 2
 _METHODS: dict[tuple[type, type], Method] = {}  # of printers, by the class that is printed
 
 
-def _find_method(printer: type, kind: type) -> Method:
-    """Return the printer's method for a class, found as SymPy does; functions match by their own name only."""
-    if kind in CLASSES and (of_table := getattr(printer, "_print_of_table", None)):
-        return of_table
-    classes = kind.__mro__
+def _find_method(printer: type, expression_class: type) -> Method:
+    """Return the printer's method for a class, found along its bases as SymPy does.
+
+    Functions of the table of functions have one method. Other functions match by their own name only. Raises
+    ValueError if there is no method.
+    """
+    if expression_class in CLASSES and (table_method := getattr(printer, "_print_of_table", None)):
+        return table_method
+    classes = expression_class.__mro__
     if sp.Function in classes:
         first = classes.index(sp.Function)
-        named = [c for c in classes[:first] if c.__name__ == kind.__name__ or c.__name__.endswith("Base")]
+        named = [c for c in classes[:first] if c.__name__ == expression_class.__name__ or c.__name__.endswith("Base")]
         classes = (*named, *classes[first:])
-    if issubclass(kind, AppliedUndef):
+    if issubclass(expression_class, AppliedUndef):
         classes = classes[classes.index(AppliedUndef) :]
-    for each in classes:
-        if method := getattr(printer, f"_print_{each.__name__}", None):
+    for candidate in classes:
+        if method := getattr(printer, f"_print_{candidate.__name__}", None):
             return method
-    raise ValueError(f"{printer.__name__} does not know {kind.__name__}")
+    raise ValueError(f"{printer.__name__} does not know {expression_class.__name__}")
 
 
 @lru_cache(20_000)
 def order_terms(total: sp.Expr) -> tuple[sp.Expr, ...]:
-    """Return the terms of a sum in SymPy's printing order: by the powers of their factors, higher ones first."""
+    """Return the terms of a sum in SymPy's printing order: by the powers of their factors, higher ones first.
+
+    Sums with numbers are ordered by SymPy itself. Results are cached.
+    """
     terms = total.args
     if not total.is_Add or any(
         isinstance(term, (sp.Number, sp.NumberSymbol)) or not term.is_commutative for term in terms
     ):
         return tuple(total.as_ordered_terms())
-    parts = {term: _powers(term) for term in terms}
-    bases = sorted({base for powers, _ in parts.values() for base in powers}, key=sp.default_sort_key)
+    powers_and_number = {term: _split_powers(term) for term in terms}
+    bases = sorted({base for powers, _ in powers_and_number.values() for base in powers}, key=sp.default_sort_key)
 
     def key(term: sp.Expr) -> tuple[list[int], bool, float, float]:
         """Return the sort key of a term."""
-        powers, number = parts[term]
+        powers, number = powers_and_number[term]
         return [-powers.get(base, 0) for base in bases], bool(number.imag), number.imag, number.real
 
     return tuple(sorted(terms, key=key))
 
 
-def _powers(term: sp.Expr) -> tuple[dict[sp.Expr, int], complex]:
-    """Return the whole powers of a term's factors by base, and its numerical coefficient."""
-    number, rest = term.as_coeff_Mul()
-    size = complex(float(number)) if number.is_Rational or number.is_Float else complex(number)
+def _split_powers(term: sp.Expr) -> tuple[dict[sp.Expr, int], complex]:
+    """Return ({base: whole power} of a term's factors, numerical coefficient as a complex number)."""
+    coefficient, others = term.as_coeff_Mul()
+    value = complex(float(coefficient)) if coefficient.is_Rational or coefficient.is_Float else complex(coefficient)
     powers = {}
-    for factor in sp.Mul.make_args(rest):
+    for factor in sp.Mul.make_args(others):
         if factor.is_Symbol:
             powers[factor] = 1
         elif factor.is_number:
-            size *= complex(factor)
+            value *= complex(factor)
         else:
             base, power = decompose_power(factor)
             powers[base] = power
-    return powers, size
+    return powers, value

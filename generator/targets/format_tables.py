@@ -33,128 +33,153 @@ _HEAD = ("key", "holds", "without it", "condition", "meaning")
 
 
 def tables() -> str:
-    """Return all tables as Markdown with headings."""
-    return "\n".join((*_of_functions(), *_of_record("The file", FILE, "", set())))
+    """Return all tables of docs/format.md as Markdown with headings: functions, then the keys of each mapping."""
+    return "\n".join((*_print_functions_table(), *_print_mapping_tables("The file", FILE, "", set())))
 
 
-def _of_functions() -> Iterator[str]:
+def _print_functions_table() -> Iterator[str]:
     """Yield the lines of the table of functions that expressions may call."""
-    rows = [(f"`{f.call(*f.arguments)}`", f.meaning, f.units.value, _domain(f)) for f in FUNCTIONS.values()]
+    rows = [(f"`{f.call(*f.arguments)}`", f.meaning, f.units.value, _format_domain(f)) for f in FUNCTIONS.values()]
     head = ("function", "value", "dimensions", "defined for")
-    yield from _table("Functions", "what expressions may call", head, rows)
+    yield from _print_table("Functions", "what expressions may call", head, rows)
 
 
-def _domain(function: Function) -> str:
-    """Return the domain of a function as text; "" for all numbers."""
+def _format_domain(function: Function) -> str:
+    """Return the domain of a function as text, "x ≥ 0" or "−1 ≤ x ≤ 1"; "" for all numbers."""
     low, high = function.domain
     if math.isinf(low) and math.isinf(high):
         return ""
     return f"x ≥ {low:g}" if math.isinf(high) else f"{low:g} ≤ x ≤ {high:g}".replace("-", "−")
 
 
-def _of_record(heading: str, of: Field, path: str, seen: set[str]) -> Iterator[str]:
-    """Yield the table of a mapping with known keys, then the tables of mappings inside it."""
-    seen.add(of.name)
-    yield from _table(heading, of.meaning, _HEAD, [_row(field) for field in of.fields])
-    for field in of.fields:
-        inner, place = field, f"{path}{field.name}"
+def _print_mapping_tables(heading: str, mapping: Field, path: str, printed_names: set[str]) -> Iterator[str]:
+    """Yield the table of a mapping with known keys, then the tables of the mappings inside it.
+
+    path: the address before its keys. printed_names: the mappings that already have a table; this one is added.
+    """
+    printed_names.add(mapping.name)
+    yield from _print_table(heading, mapping.meaning, _HEAD, [_list_field_cells(field) for field in mapping.fields])
+    for field in mapping.fields:
+        inner, inner_path = field, f"{path}{field.name}"
         if field.kind == MAPPING and field.entry is not None:
-            inner, place = field.entry, f"{place}.NAME"
-        if inner.kind == RECORD and inner.name not in seen:
-            yield from _of_record(f"`{place}`", inner, f"{place}.", seen)
+            inner, inner_path = field.entry, f"{inner_path}.NAME"
+        if inner.kind == RECORD and inner.name not in printed_names:
+            yield from _print_mapping_tables(f"`{inner_path}`", inner, f"{inner_path}.", printed_names)
         elif inner.kinds is not None:
-            yield from _of_kinds(f"`{place}`", inner)
+            yield from _print_kinds_table(f"`{inner_path}`", inner)
 
 
-def _of_kinds(heading: str, of: Field) -> Iterator[str]:
-    """Yield the table of an entry that is one of several kinds: a row for each kind, then one for each of its keys."""
+def _print_kinds_table(heading: str, entry: Field) -> Iterator[str]:
+    """Yield the table of an entry that is one of several kinds: a row for each kind, then one for each of its keys.
+
+    A kind that is like another one refers to that one instead of repeating its keys.
+    """
     rows: list[Row] = []
-    for name, kind in of.kinds().items() if of.kinds else ():
-        itself = ("`law`", f"`{name}`") if of.kind == LAW else (f"`{name}`", _targets(kind))
+    for name, kind in entry.kinds().items() if entry.kinds else ():
+        key_and_values = ("`law`", f"`{name}`") if entry.kind == LAW else (f"`{name}`", _describe_targets(kind))
         if kind.like:
-            needed = " and ".join(f"`{field.name}`" for field in kind.fields if field.required)
-            rows.append((f"`{name}`", *itself, "needed", "", f"{kind.title}: has its other keys, {needed} is needed"))
+            required_keys = " and ".join(f"`{field.name}`" for field in kind.fields if field.required)
+            rows.append(
+                (
+                    f"`{name}`",
+                    *key_and_values,
+                    "needed",
+                    "",
+                    f"{kind.title}: has its other keys, {required_keys} is needed",
+                )
+            )
             continue
-        rows.append((f"`{name}`", *itself, "needed", "", kind.title))
-        rows += [("", *_row(field)) for field in kind.fields]
-    yield from _table(heading, of.meaning, ("kind", *_HEAD), rows)
+        rows.append((f"`{name}`", *key_and_values, "needed", "", kind.title))
+        rows += [("", *_list_field_cells(field)) for field in kind.fields]
+    yield from _print_table(heading, entry.meaning, ("kind", *_HEAD), rows)
 
 
-def _table(heading: str, meaning: str, head: Row, rows: Sequence[Row]) -> Iterator[str]:
-    """Yield the lines of a table with heading and meaning."""
+def _print_table(heading: str, meaning: str, header: Row, rows: Sequence[Row]) -> Iterator[str]:
+    """Yield the lines of a Markdown table with its heading and meaning."""
     yield from (f"## {heading}", "", f"{meaning[0].upper()}{meaning[1:]}.", "")
-    yield from (_line(head), "|" + "---|" * len(head), *map(_line, rows), "")
+    yield from (_print_table_row(header), "|" + "---|" * len(header), *map(_print_table_row, rows), "")
 
 
-def _line(cells: Row) -> str:
+def _print_table_row(cells: Row) -> str:
     """Return a row of a Markdown table."""
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
 
 
-def _row(field: Field) -> Row:
+def _list_field_cells(field: Field) -> Row:
     """Return the cells of a field: key, values, default, condition, meaning."""
-    return f"`{field.name}`", _holds(field), _without(field), condition(field), field.meaning
+    return f"`{field.name}`", _describe_values(field), _describe_default(field), condition(field), field.meaning
 
 
-def _holds(field: Field) -> str:
-    """Return the cell that says what a field holds."""
+def _describe_values(field: Field) -> str:
+    """Return the cell with the values that a field accepts: a number with its unit, words, a list, a mapping or a name.
+
+    A mapping with known keys or addresses lists them.
+    """
     if field.kind == NUMBER:
-        words = "".join(f" or `{word}`" for word in field.words)
-        return f"number, {_unit(field.dimension)}{words}" + (f"; of {field.varies}" if field.varies else "")
+        alternatives = "".join(f" or `{word}`" for word in field.words)
+        return f"number, {_describe_unit(field.dimension)}{alternatives}" + (
+            f"; of {field.varies}" if field.varies else ""
+        )
     if field.kind == VECTOR:
-        return f"[x, y], {_unit(field.dimension)}" + (f"; of {field.varies}" if field.varies else "")
+        return f"[x, y], {_describe_unit(field.dimension)}" + (f"; of {field.varies}" if field.varies else "")
     if field.kind in (WORD, FLAG):
-        return " or ".join(f"`{_word(value)}`" for value in field.values)
+        return " or ".join(f"`{_format_value(value)}`" for value in field.values)
     if field.kind == POINTS:
         return "[[x, y], …], numbers"
     if field.kind == DEPTHS:
-        return f"[number, …], {_unit(field.dimension)}; or how many"
+        return f"[number, …], {_describe_unit(field.dimension)}; or how many"
     if field.kind == RESULTS:
         return "[NAME, …], names of results"
     if field.kind == NAME:
         return f"name in `{field.names}`" if field.names else "name"
     if field.kind == MAPPING:
-        entry = field.entry.kind if field.entry else ""
+        entry_kind = field.entry.kind if field.entry else ""
         if field.keys:
             points = "; `BODY.POINT`, [x, y], m" if field.entry and field.entry.kind == PLACE else ""
-            return "numbers: " + ", ".join(f"`BODY.{key}`, {_unit(of)}" for key, of in field.keys.items()) + points
+            return (
+                "numbers: "
+                + ", ".join(f"`BODY.{key}`, {_describe_unit(dimension)}" for key, dimension in field.keys.items())
+                + points
+            )
         if field.addresses and field.entry:
-            return f"{', '.join(f'`{address}`' for address in field.addresses)}: {_holds(field.entry)}"
-        return f"names: {_holds(field.entry) if field.entry and entry in (NUMBER, VECTOR) else 'mappings'}"
+            return f"{', '.join(f'`{address}`' for address in field.addresses)}: {_describe_values(field.entry)}"
+        return (
+            f"names: {_describe_values(field.entry) if field.entry and entry_kind in (NUMBER, VECTOR) else 'mappings'}"
+        )
     if field.kind == CORNERS:
         return "[POINT, POINT, POINT]"
     return {RECORD: "mapping", KINDS: "mapping", LAW: "mapping", BODY: "body or `ground`"}.get(field.kind, field.kind)
 
 
-def _unit(of: Dimension | None) -> str:
-    """Return the cell of a unit."""
-    if of is None:
+def _describe_unit(dimension: Dimension | None) -> str:
+    """Return the cell of a unit: its SI symbol, "any unit" for None, or that the number has none."""
+    if dimension is None:
         return "any unit"
-    return si_unit(of) or "no unit or an angle"
+    return si_unit(dimension) or "no unit or an angle"
 
 
-def _targets(kind: Kind) -> str:
-    """Return the form of a kind's targets."""
-    one = {"points": "BODY.POINT", "bodies": "BODY", "coordinates": "BODY.x, .y or .theta"}[kind.targets]
-    return " or ".join(one if count == 1 else f"[{', '.join([one] * count)}]" for count in kind.counts)
+def _describe_targets(kind: Kind) -> str:
+    """Return the form in which a kind names its targets: BODY.POINT, BODY or a coordinate, one or a list."""
+    target = {"points": "BODY.POINT", "bodies": "BODY", "coordinates": "BODY.x, .y or .theta"}[kind.targets]
+    return " or ".join(target if count == 1 else f"[{', '.join([target] * count)}]" for count in kind.counts)
 
 
-def _without(field: Field) -> str:
-    """Return what applies if a key is missing."""
+def _describe_default(field: Field) -> str:
+    """Return the cell that says what applies if a key is missing: "needed", the default, or the field's own words."""
     if field.required:
         return "needed"
     if field.default is not None:
-        return f"`{_word(field.default)}`"
+        return f"`{_format_value(field.default)}`"
     return field.otherwise
 
 
-def _word(value: float | str | bool) -> str:
+def _format_value(value: float | str | bool) -> str:
     """Return a value as a file writes it."""
     return str(value).lower() if isinstance(value, bool) else f"{value:g}" if isinstance(value, float) else value
 
 
 def condition(field: Field) -> str:
-    """Return the bounds of a field as text, and whether it is whole."""
+    """Return the bounds of a field as text, then "not both 0" and "whole" if they apply; "" without conditions."""
     limits = (f"`{limit}`" if isinstance(limit, str) else f"{limit:g}" for _, limit, _ in field.bounds)
-    found = [f"{bound.relation} {limit}" for bound, limit in zip(field.bounds, limits, strict=True)]
-    return ", ".join([*found, *(["not both 0"] if field.nonzero else []), *(["whole"] if field.whole else [])])
+    conditions = [f"{bound.relation} {limit}" for bound, limit in zip(field.bounds, limits, strict=True)]
+    return ", ".join([*conditions, *(["not both 0"] if field.nonzero else []), *(["whole"] if field.whole else [])])

@@ -10,38 +10,43 @@ _AFTER = (", ", " = ", "{")
 _TIGHT = "*"  # in a product that is written without spaces: where there is nothing better
 
 
-def broken(line: str, width: int, within: int | None = None) -> list[str]:
+def broken(line: str, width: int, min_depth: int | None = None) -> list[str]:
     """Return a line of code as lines of at most `width`; continuation lines are indented by four more spaces.
 
-    `within`: each break has at least this number of open brackets before it (1 for Python).
+    min_depth: the number of open brackets that each break needs before it (1 for Python); None for C. A line without
+    a possible break stays long.
     """
     indent = line[: len(line) - len(line.lstrip())]
     lines: list[str] = []
-    while len(line) > width and (index := _find_break(line, len(indent), width, within)):
+    while len(line) > width and (index := _find_break(line, len(indent), width, min_depth)):
         lines.append(line[:index].rstrip())
-        if within is not None:
-            within -= sum((c in "([{") - (c in ")]}") for c in lines[-1])  # of those that were open before
+        if min_depth is not None:
+            min_depth -= sum((c in "([{") - (c in ")]}") for c in lines[-1])  # of those that were open before
         line = f"{indent}{_INDENT}{line[index:].lstrip()}"
     return [*lines, line]
 
 
-def _find_break(line: str, first: int, width: int, within: int | None) -> int:
+def _find_break(line: str, first: int, width: int, min_depth: int | None) -> int:
     """Return the index at which a line is broken; 0 if there is none.
 
-    A break in the latter half is preferred, then the one with the fewest open brackets, then the latest.
+    first: the index of the first character after the indent. A break in the latter half of `width` is preferred, then
+    the one with the fewest open brackets, then the latest.
     """
-    found: list[tuple[float, int]] = []
-    for depth, place in _possible_breaks(line):
-        if place > width and found:
+    candidates: list[tuple[float, int]] = []
+    for depth, index in _find_possible_breaks(line):
+        if index > width and candidates:
             break  # of a line of a megabyte no more is read than of a short one
-        if place > first + len(_INDENT) and (within is None or depth >= within):
-            found.append((depth, place))
-    late = [(depth, place) for depth, place in found if place > width // 2] or found
-    return min(late, key=lambda x: (x[0], -x[1]))[1] if late else 0
+        if index > first + len(_INDENT) and (min_depth is None or depth >= min_depth):
+            candidates.append((depth, index))
+    late_breaks = [(depth, index) for depth, index in candidates if index > width // 2] or candidates
+    return min(late_breaks, key=lambda x: (x[0], -x[1]))[1] if late_breaks else 0
 
 
-def _possible_breaks(line: str) -> Iterator[tuple[float, int]]:
-    """Yield (number of open brackets, index) of each place at which a line may be broken."""
+def _find_possible_breaks(line: str) -> Iterator[tuple[float, int]]:
+    """Yield (number of open brackets, index) of each position at which a line may be broken.
+
+    The number is a rank: a product within a sum gets 0.5 more, a break without spaces 100 more.
+    """
     depth = 0
     for k, c in enumerate(line):
         if c in ")]}":

@@ -109,7 +109,7 @@ def read(text: str) -> sp.Expr:
 def test_how_a_whole_is_written(form: str, c: str, ranges: str, tex: str | None, text: str | None) -> None:
     value = read(form)
     assert printer.expression(value) == c
-    assert ranges_printer.RangesPrinter()._range(value) == ranges
+    assert ranges_printer.RangesPrinter()._print_range(value) == ranges
     assert tex is None or TexPrinter({}, {}).doprint(value) == tex
     assert text is None or TextPrinter({}, {}).doprint(value) == text
 
@@ -121,7 +121,7 @@ def test_a_coefficient_that_binary64_has_not_stands_on_both_sides(number: sp.Exp
     at = -np.sign(float(sp.log(abs(number)))) * 700.0
     found = eval(text, {"exp": np.exp, "x": at})  # two products and a call: Python reads them as C does
     assert found == pytest.approx(float(number * sp.exp(sp.Integer(int(at)))), rel=1e-12, abs=0.0)
-    assert "INFINITY" not in ranges_printer.RangesPrinter()._range(number * x)
+    assert "INFINITY" not in ranges_printer.RangesPrinter()._print_range(number * x)
 
 
 @pytest.mark.parametrize("value", ["1e-200*1e-200*a.x/(1 m)", "0.01**161*a.x/(1 m)", "p**2*a.x/(1 m)", "exp(p*1e-150)"])

@@ -15,26 +15,36 @@ NAME = "curves.c"
 
 
 def curves_code(curves: Mapping[str, Curve], texts: Iterable[str]) -> str:
-    """Return the text of curves.c; "" if no text calls a curve."""
+    """Return the text of curves.c with the tables of the curves that the C texts call; "" if none calls a curve.
+
+    curves: all curves of the file by name. texts: the printed C of the scene. Curves without a call are left out.
+    """
     called = [curve for curve in curves.values() if any(f"({c_name(curve.name)}," in text for text in texts)]
     if not called:
         return ""
-    parts = ['#include "engine/scene/curves.h"\n', *map(_table, called)]
-    names = ", ".join(c_name(curve.name) for curve in called)
-    entries = [
+    tables = ['#include "engine/scene/curves.h"\n', *map(_print_curve_table, called)]
+    constants = ", ".join(c_name(curve.name) for curve in called)
+    struct_entries = [
         f"    {{{len(curve.coefficients)}, {int(curve.repeats)}, "
-        f"knots_of_{curve.name}{numbers}, pieces_of_{curve.name}{numbers}}},"
-        for curve, numbers in ((curve, ".numbers" * curve.is_long) for curve in called)
+        f"knots_of_{curve.name}{member}, pieces_of_{curve.name}{member}}},"
+        for curve, member in ((curve, ".numbers" * curve.is_long) for curve in called)
     ]
-    return "\n".join([*parts, f"enum {{ {names} }};", "static const Curve curves[] = {", *entries, "};", ""])
+    return "\n".join(
+        [*tables, f"enum {{ {constants} }};", "static const Curve curves[] = {", *struct_entries, "};", ""]
+    )
 
 
-def _table(curve: Curve) -> str:
-    """Return the C tables of one curve: knots, and the coefficients of the pieces between them."""
+def _print_curve_table(curve: Curve) -> str:
+    """Return the C arrays of one curve: its knots, and the four coefficients of each piece between them.
+
+    A long curve is written as little-endian bytes (`_print_byte_table`), a short one as numbers.
+    """
     description = comment_text(f"{curve.name}: {curve.message()}")
     if curve.is_long:
-        tables = _byte_table("knots", curve.name, curve.x) + _byte_table("pieces", curve.name, curve.coefficients)
-        return "\n".join([f"/* {description} */", _LITTLE_ENDIAN, *tables, ""])
+        byte_tables = _print_byte_table("knots", curve.name, curve.x) + _print_byte_table(
+            "pieces", curve.name, curve.coefficients
+        )
+        return "\n".join([f"/* {description} */", _LITTLE_ENDIAN, *byte_tables, ""])
     knots = [", ".join(map(repr, curve.x[k : k + 4])) for k in range(0, len(curve.x), 4)]
     pieces = [f"    {{{', '.join(map(repr, piece))}}}," for piece in curve.coefficients]
     return "\n".join(
@@ -51,15 +61,18 @@ def _table(curve: Curve) -> str:
     )
 
 
-def _byte_table(what: str, name: str, table: Any) -> list[str]:
-    """Return a long table as the bytes of its numbers, which a compiler reads much faster than numbers."""
+def _print_byte_table(prefix: str, name: str, table: Any) -> list[str]:
+    """Return the lines of a union named `prefix`_of_`name` that contains an array as the bytes of its doubles.
+
+    Long tables are written so, since a compiler reads one string much faster than many numbers.
+    """
     data = np.asarray(table, "<f8")
     shape = "".join(f"[{n}]" for n in data.shape)
-    octal = np.array([f"\\{k:03o}".encode() for k in range(256)])[np.frombuffer(data.tobytes(), np.uint8)]
-    text = octal.tobytes().decode("ascii")
-    rows = [f'"{text[k : k + 4 * _ROW]}"' for k in range(0, len(text), 4 * _ROW)]
+    octal_escapes = np.array([f"\\{k:03o}".encode() for k in range(256)])[np.frombuffer(data.tobytes(), np.uint8)]
+    text = octal_escapes.tobytes().decode("ascii")
+    strings = [f'"{text[k : k + 4 * _ROW]}"' for k in range(0, len(text), 4 * _ROW)]
     union = f"union {{ unsigned char bytes[{data.nbytes}]; double numbers{shape}; }}"
-    return [f"static const {union} {what}_of_{name} = {{", *rows, "};"]
+    return [f"static const {union} {prefix}_of_{name} = {{", *strings, "};"]
 
 
 _ROW = 256  # bytes

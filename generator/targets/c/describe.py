@@ -57,13 +57,17 @@ def describe(
     chain: Chain | None = None,
     stages: bool = False,
 ) -> KernelSource:
-    """Return everything that the runtime must know of a scene; facts about the code are empty before it is emitted."""
+    """Return the KernelSource of a scene: everything that the runtime must know of the model and of its emitted C.
+
+    Facts about the code (files, pivots, lanes, operations) are arguments. They stay empty while only the model is
+    known.
+    """
     scene, mechanism = model.scene, model.scene.mechanism
-    place = {symbol: k for k, symbol in enumerate(_parameter_symbols(model))}
+    parameter_index = {symbol: k for k, symbol in enumerate(_list_parameter_symbols(model))}
     body_of = {name: k for k, name in enumerate(model.geometry.bodies)} | {GROUND: -1}
     row_of = {row.name: r for r, row in enumerate(model.rows)}
     unit_of = {row.name: row.unit for row in model.all_rows}
-    start = mechanism.start
+    start_values = mechanism.start
     return KernelSource(
         mechanism=mechanism.name,
         scene=scene.name,
@@ -75,26 +79,26 @@ def describe(
         stages=stages,
         coordinates=tuple(model.symbols.info[q].meaning for q in model.q),
         bodies=tuple(BodyInfo(body.name, body.index) for body in model.bodies),
-        points=_point_infos(model, place, body_of),
-        rows=tuple(map(_row_info, model.rows)),
-        joints=_joint_infos(model, body_of, row_of),
+        points=_describe_points(model, parameter_index, body_of),
+        rows=tuple(map(_describe_constraint, model.rows)),
+        joints=_describe_joints(model, body_of, row_of),
         drives=tuple(DriveInfo(name, row_of.get(name, -1), unit_of[name]) for name in mechanism.drives),
-        clearances=_clearance_infos(model, place, body_of),
+        clearances=_describe_clearances(model, parameter_index, body_of),
         series=tuple(SeriesInfo(name, unit) for name, (_, unit) in element_series(model).items()),
-        start_rows=tuple(map(_row_info, model.all_rows)),
-        start_guess=tuple(start.guess),
-        start_set=tuple(start.set),
-        start_rates=tuple(start.rates),
+        start_rows=tuple(map(_describe_constraint, model.all_rows)),
+        start_guess=tuple(start_values.guess),
+        start_set=tuple(start_values.set),
+        start_rates=tuple(start_values.rates),
         frictions=tuple(friction.name for friction in model.frictions),
         pivots=pivots,
         start_pivots=start_pivots,
         indeterminate=model.redundancy.indeterminate,
         rate_jumps=tuple(drive.name for drive in model.scene.mechanism.drives.values() if rate_jumps(drive)),
-        slots=tuple(_parameter_slots(model)),
+        slots=tuple(_describe_parameters(model)),
         derived=tuple(symbol.name.removesuffix("_") for symbol in model.slots.derived),
-        conditions=_conditions(model),
+        conditions=_select_conditions(model),
         outputs={name: to_json(quantity.value) for name, quantity in mechanism.outputs.items()},
-        simulate=_default_settings(model),
+        simulate=_evaluate_settings(model),
         operations=dict(operations),
         notes=scene_notes(model),
         gravity=any(c != 0 for c in model.gravity),
@@ -105,57 +109,74 @@ def describe(
         chain=chain.names if chain else (),
         chain_rows=tuple(row.name for row in chain.rows) if chain else (),
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
-        lines=_file_lines(mechanism),
+        lines=_find_file_lines(mechanism),
         massless=tuple(body.name for body in mechanism.bodies.values() if body.lacks),
         tables=tuple(mechanism.tables.items()),
         laws=tuple(sorted(mechanism.laws.items())),
         start_apart=tuple(model.all_rows[k].name for k, _, _ in eccentricity_rows(model)),
         peaks=tuple(map(str, model.scene.peaks)),
-        written=tuple(_written_expressions(model)),
-        expressions=tuple(_written_info(one, one.written) for one in mechanism.expressions.values()),
-        simulate_written=tuple(_written_settings(model)),
-        states=_inner_states(model),
+        written=tuple(_describe_file_expressions(model)),
+        expressions=tuple(_describe_file_expression(one, one.written) for one in mechanism.expressions.values()),
+        simulate_written=tuple(_describe_settings(model)),
+        states=_name_inner_states(model),
         story=story,
         lanes=lanes,
-        parts=tuple(_connections(mechanism)),
+        parts=tuple(_describe_connections(mechanism)),
         rigid=model.rigid,
-        contours=tuple(_contour_infos(model)),
+        contours=tuple(_describe_contours(model)),
     )
 
 
-def _parameter_slots(model: Model) -> Iterator[Slot]:
-    """Yield the run-time parameters with address, unit, default and their expression if it may be undefined."""
-    for e in model.slots.entries.values():
-        exponents = _exponents(e.dimension)
-        tree = "" if e.written is None or is_total_expression(e.written) else json.dumps(to_json(e.written))
-        yield Slot(e.address, base_units(exponents), e.default, e.follows, exponents, e.words, tree)
+def _describe_parameters(model: Model) -> Iterator[Slot]:
+    """Yield the run-time parameters in the order of the struct: address, SI unit, default, dependency, choices.
+
+    The expression of the default is added as JSON only if some parameter values leave it undefined; else it is "".
+    """
+    for entry in model.slots.entries.values():
+        exponents = _get_unit_exponents(entry.dimension)
+        expression = (
+            "" if entry.written is None or is_total_expression(entry.written) else json.dumps(to_json(entry.written))
+        )
+        yield Slot(
+            entry.address, base_units(exponents), entry.default, entry.follows, exponents, entry.words, expression
+        )
 
 
-def _file_lines(mechanism: Mechanism) -> tuple[tuple[str, int], ...]:
-    """Return the lines of joints and drives in the file."""
+def _find_file_lines(mechanism: Mechanism) -> tuple[tuple[str, int], ...]:
+    """Return (name, line in the file) of each joint, then of each drive."""
     joints = [(name, joint.where.line) for name, joint in mechanism.joints.items()]
     return (*joints, *((name, drive.where.line) for name, drive in mechanism.drives.items()))
 
 
-def _connections(mechanism: Mechanism) -> Iterator[PartInfo]:
-    """Yield joints, drives and forces with the points that they connect."""
+def _describe_connections(mechanism: Mechanism) -> Iterator[PartInfo]:
+    """Yield a PartInfo of each joint, drive and force: its kind, its options and the points that it connects.
+
+    A drive without points has the centres of mass of its bodies instead; only a drive of a coordinate has an option.
+    """
     for joint in mechanism.joints.values():
-        yield PartInfo("joints", joint.name, joint.kind, _point_names(joint.first, joint.second), dict(joint.options))
+        yield PartInfo(
+            "joints", joint.name, joint.kind, _format_point_names(joint.first, joint.second), dict(joint.options)
+        )
     for drive in mechanism.drives.values():
-        ends = _point_names(*drive.points) or tuple(f"{body}.com" for body in (drive.body, drive.reference) if body)
+        ends = _format_point_names(*drive.points) or tuple(
+            f"{body}.com" for body in (drive.body, drive.reference) if body
+        )
         options = {"coordinate": drive.coordinate} if drive.kind == "coordinate" else {}
         yield PartInfo("drives", drive.name, drive.kind, ends, options)
     for force in mechanism.forces.values():
-        yield PartInfo("forces", force.name, force.kind, _point_names(*force.targets), dict(force.options))
+        yield PartInfo("forces", force.name, force.kind, _format_point_names(*force.targets), dict(force.options))
 
 
-def _point_names(*points: PointRef) -> tuple[str, ...]:
-    """Return points as "body.point"."""
+def _format_point_names(*points: PointRef) -> tuple[str, ...]:
+    """Return each point as the text "body.point"."""
     return tuple(f"{point.body}.{point.point}" for point in points)
 
 
-def _inner_states(model: Model) -> tuple[str, ...]:
-    """Return the inner states of laws in the order of DiscreteState, equally many for each joint; "" for none."""
+def _name_inner_states(model: Model) -> tuple[str, ...]:
+    """Return the names "joint.state" of the inner states of laws in the order of DiscreteState.
+
+    Each joint with play has `model.law_states` entries; those that its law does not use are "".
+    """
     return tuple(
         f"{c.name}.{c.states[k].name}" if k < len(c.states) else ""
         for c in model.clearances
@@ -163,90 +184,122 @@ def _inner_states(model: Model) -> tuple[str, ...]:
     )
 
 
-def _joint_infos(model: Model, body_of: Mapping[str, int], row_of: Mapping[str, int]) -> tuple[JointInfo, ...]:
-    """Return the joints without play, with their bodies and constraint equations."""
+def _describe_joints(model: Model, body_of: Mapping[str, int], row_of: Mapping[str, int]) -> tuple[JointInfo, ...]:
+    """Return a JointInfo of each joint without play.
+
+    It contains the name, the kind, the indices of both bodies, the point of the reaction and the indices of its rows.
+    """
     return tuple(
         JointInfo(
             joint.name,
             joint.kind,
             body_of[joint.first.body],
             body_of[joint.second.body],
-            _point_names(joint.first if joint_types()[joint.kind].reaction_at == "first" else joint.second)[0],
+            _format_point_names(joint.first if joint_types()[joint.kind].reaction_at == "first" else joint.second)[0],
             tuple(row_of[row.name] for row in model.rows if row.owner == joint.name),
         )
         for joint in constraining_joints(model)
     )
 
 
-def _conditions(model: Model) -> tuple[Condition, ...]:
-    """Return the file's conditions on parameters of this scene, and those on signs that its equations assume."""
-    used = set(model.slots.entries)
+def _select_conditions(model: Model) -> tuple[Condition, ...]:
+    """Return the conditions on run-time parameters that apply to this scene, first those of the file.
+
+    A condition of the file is left out if a parameter that it names is not in the scene. Signs that the equations
+    assume of directions along an axis follow.
+    """
+    addresses = set(model.slots.entries)
     return tuple(
         Condition(c.address, c.relation, c.bound, c.message)
         for c in model.scene.mechanism.conditions
-        if c.address in used and (not isinstance(c.bound, str) or used.issuperset(c.bound.split(" + ")))
+        if c.address in addresses and (not isinstance(c.bound, str) or addresses.issuperset(c.bound.split(" + ")))
     ) + tuple(
         Condition(address, relation, 0.0, "a direction along an axis turns round with load(overrides=...) only")
         for address, relation in model.slots.signs.items()
     )
 
 
-def _written_expressions(model: Model) -> Iterator[WrittenInfo]:
-    """Yield expressions of t and motion and literal zeros, for messages about addresses that are not parameters."""
+def _describe_file_expressions(model: Model) -> Iterator[WrittenInfo]:
+    """Yield file expressions that are not run-time parameters, for error messages about their addresses.
+
+    These are drives, forces and events that depend on time or motion, and zeros that the file writes as numbers.
+    """
     mechanism, scene = model.scene.mechanism, model.scene
-    found = [drive.value for drive in mechanism.drives.values()]
+    expressions = [drive.value for drive in mechanism.drives.values()]
     for force in mechanism.forces.values():
-        found += [*force.quantities.values(), *(x for pair in force.vectors.values() for x in pair)]
-    found += [event.zero for event in scene.events.values()]
-    for quantity in found:
+        expressions += [*force.quantities.values(), *(x for pair in force.vectors.values() for x in pair)]
+    expressions += [event.zero for event in scene.events.values()]
+    for quantity in expressions:
         if any(name.path == "t" or "." in name.path for name in names(quantity.value)):
-            yield _written_info(quantity)
+            yield _describe_file_expression(quantity)
     zeros = {one.address: one for one in quantities(scene) if one.is_zero and one.address not in model.slots.entries}
-    yield from map(_written_info, zeros.values())
+    yield from map(_describe_file_expression, zeros.values())
 
 
-def _written_info(quantity: Quantity, tree: Expr | None = None) -> WrittenInfo:
-    """Return an expression of the file with its location."""
-    where, tree = quantity.where, tree or quantity.value
-    return WrittenInfo(quantity.address, json.dumps(to_json(tree)), where.line, where.column)
+def _describe_file_expression(quantity: Quantity, expression: Expr | None = None) -> WrittenInfo:
+    """Return a file expression as JSON with its address, line and column.
+
+    `expression`, if given, replaces the quantity's value.
+    """
+    location, expression = quantity.where, expression or quantity.value
+    return WrittenInfo(quantity.address, json.dumps(to_json(expression)), location.line, location.column)
 
 
-def _parameter_symbols(model: Model) -> list[sp.Symbol]:
-    """Return the members of `Parameters` in their order."""
+def _list_parameter_symbols(model: Model) -> list[sp.Symbol]:
+    """Return the symbols of the struct `Parameters` in order: entries of the file, then derived ones."""
     return [entry.symbol for entry in model.slots.entries.values()] + list(model.slots.derived)
 
 
-def _row_info(row: Row) -> RowInfo:
-    """Return the description of a constraint equation."""
+def _describe_constraint(row: Row) -> RowInfo:
+    """Return name, owner, kind and unit of a constraint equation."""
     return RowInfo(row.name, row.owner, row.kind, row.unit)
 
 
-def _parameter_index(place: Mapping[sp.Symbol, int], value: sp.Expr) -> tuple[int, int]:
-    """Return (index in p, sign) of a value that is a parameter, its negative, or zero (index −1)."""
+def _find_parameter_index(parameter_index: Mapping[sp.Symbol, int], value: sp.Expr) -> tuple[int, int]:
+    """Return (index in p, sign) of a value that is a parameter or its negative; (−1, 1) for zero.
+
+    Raises KeyError for any other expression.
+    """
     if value == 0:
         return -1, 1
-    return (place[value], 1) if value in place else (place[-value], -1)
+    return (parameter_index[value], 1) if value in parameter_index else (parameter_index[-value], -1)
 
 
-def _point_infos(model: Model, place: Mapping[sp.Symbol, int], body_of: Mapping[str, int]) -> tuple[PointInfo, ...]:
-    """Return the points of bodies and ground with the indices of their coordinates in p."""
+def _describe_points(
+    model: Model, parameter_index: Mapping[sp.Symbol, int], body_of: Mapping[str, int]
+) -> tuple[PointInfo, ...]:
+    """Return a PointInfo of each point of a body, then of the ground: body, indices and signs of x and y in p.
+
+    A point of the ground is left out if one of its coordinates is neither zero nor a parameter.
+    """
     points = []
     for (body, name), (x, y) in model.geometry.local.items():
-        (ix, sx), (iy, sy) = _parameter_index(place, x), _parameter_index(place, y)
+        (ix, sx), (iy, sy) = _find_parameter_index(parameter_index, x), _find_parameter_index(parameter_index, y)
         points.append(PointInfo(f"{body}.{name}", body_of[body], ix, iy, sx, sy))
     for name, vector in model.scene.mechanism.ground.items():
         x, y = model.geometry.ground_vector(vector)
-        if all(value == 0 or value in place for value in (x, y)):
+        if all(value == 0 or value in parameter_index for value in (x, y)):
             points.append(
-                PointInfo(f"{GROUND}.{name}", -1, _parameter_index(place, x)[0], _parameter_index(place, y)[0], 1, 1)
+                PointInfo(
+                    f"{GROUND}.{name}",
+                    -1,
+                    _find_parameter_index(parameter_index, x)[0],
+                    _find_parameter_index(parameter_index, y)[0],
+                    1,
+                    1,
+                )
             )
     return tuple(points)
 
 
-def _clearance_infos(
-    model: Model, place: Mapping[sp.Symbol, int], body_of: Mapping[str, int]
+def _describe_clearances(
+    model: Model, parameter_index: Mapping[sp.Symbol, int], body_of: Mapping[str, int]
 ) -> tuple[ClearanceInfo, ...]:
-    """Return the joints with play, with their bodies, laws and constants."""
+    """Return a ClearanceInfo of each joint with play.
+
+    It contains both bodies, the point of the journal, and whether there are dry contact and film. The clearance and
+    constants of laws that are parameters are given by their indices in p.
+    """
     return tuple(
         ClearanceInfo(
             c.name,
@@ -255,24 +308,24 @@ def _clearance_infos(
             f"{c.joint.second.body}.{c.joint.second.point}",
             c.normal is not None,
             c.film is not None,
-            place[c.pair.c],
-            {name: place[value] for name, value in c.constants.items() if value in place},
+            parameter_index[c.pair.c],
+            {name: parameter_index[value] for name, value in c.constants.items() if value in parameter_index},
         )
         for c in model.clearances
     )
 
 
-def _contour_infos(model: Model) -> Iterator[ContourInfo]:
-    """Yield the contours of bearings with the index of their first depth in p."""
-    place = {entry.symbol: k for k, entry in enumerate(model.slots.entries.values())}
+def _describe_contours(model: Model) -> Iterator[ContourInfo]:
+    """Yield a ContourInfo of each bearing with a contour: joint, index in p of the first depth, number of depths."""
+    parameter_index = {entry.symbol: k for k, entry in enumerate(model.slots.entries.values())}
     for clearance in model.clearances:
         if clearance.contour:
             first = model.slots.tables[clearance.contour.table][0]
-            yield ContourInfo(clearance.name, place[first], clearance.contour.count)
+            yield ContourInfo(clearance.name, parameter_index[first], clearance.contour.count)
 
 
-def _default_settings(model: Model) -> dict[str, float]:
-    """Return the default values of t_end, output and step."""
+def _evaluate_settings(model: Model) -> dict[str, float]:
+    """Return t_end, output and step of the scene, evaluated with the default parameters."""
     from gudgeon.language.tree import evaluate
 
     defaults = {e.address: e.default for e in model.slots.entries.values()}
@@ -282,15 +335,18 @@ def _default_settings(model: Model) -> dict[str, float]:
     }
 
 
-def _written_settings(model: Model) -> Iterator[WrittenInfo]:
-    """Yield the scene's t_end, output and step that depend on parameters."""
+def _describe_settings(model: Model) -> Iterator[WrittenInfo]:
+    """Yield the scene's t_end, output and step whose expressions contain parameters; plain numbers are left out."""
     for quantity in model.scene.simulate.values():
         if next(names(quantity.value), None) is not None:
-            yield _written_info(quantity)
+            yield _describe_file_expression(quantity)
 
 
-def _exponents(dimension: Dimension) -> tuple[float, float, float]:
-    """Return the exponents of m, kg and s; zeros for exponents finer than halves, which accept bare numbers only."""
+def _get_unit_exponents(dimension: Dimension) -> tuple[float, float, float]:
+    """Return the exponents of m, kg and s of a dimension, integers where they are whole.
+
+    Zeros are returned for exponents finer than halves; such parameters accept only numbers without a unit.
+    """
     if not dimension.has_halves_at_most:
         return 0, 0, 0
     length, mass, time = (int(x) if x.denominator == 1 else float(x) for x in vars(dimension).values())

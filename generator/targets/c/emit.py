@@ -35,29 +35,30 @@ CLEARANCES = "clearance.c"
 NOT_AT_START = ("acceleration_rhs", "outputs")  # functions of the closed linkage that a start does not call
 ABSOLUTE, REDUCED, METHODS = 1, 2, 3  # the parts of MAIN, as PART in C counts them
 Begun = Callable[[int, Mapping[str, str]], None]
-Texts = dict[str, Callable[[], str]]  # file -> function that prints it, called when needed
+FilePrinters = dict[str, Callable[[], str]]  # file -> function that prints it, called when needed
 
 
 def emit(program: Program, begun: Begun | None = None) -> KernelSource:
-    """Return the C files of a scene with their description; with a series they contain Taylor's method.
+    """Return the KernelSource of a scene: its C files by name, with their description for the runtime.
 
-    `begun` is called with the engine and with each part of MAIN as soon as all files that it includes are printed.
+    With a Taylor series, the method `taylor` is included. `begun`, if given, is called while later files are still
+    printed: once for the engine, then with each part of MAIN and all files that the part includes.
     """
     model, series = program.model, program.series
     bounds = known_bounds(program)
     files = {HEADER: within(render("model.h.jinja", **header_values(program, bounds)))}
     if begun:
         begun(ENGINE_PART, files)
-    parts, shared = _files_of_parts(program, bounds), _shared_files(program)
+    parts, shared = _list_files_of_parts(program, bounds), _list_shared_files(program)
     if series:
         parts[REDUCED][taylor.FILE] = lambda: taylor.taylor_code(series)
-    files |= {MAIN: _main_code(parts, shared), **_print_files(shared)}
+    files |= {MAIN: _print_main_file(parts, shared), **_print_files(shared)}
     for number, texts in parts.items():
         files |= _print_files(texts)
         if begun and not model.scene.mechanism.curves:
             begun(number, files)
     if tables := curves_code(model.scene.mechanism.curves, files.values()):
-        files |= {MAIN: _main_code(parts, [CURVES, *shared]), CURVES: tables}
+        files |= {MAIN: _print_main_file(parts, [CURVES, *shared]), CURVES: tables}
     if program.has_lanes:
         files |= {name: within(text) for name, text in lanes_code.lanes_code(program, render).items()}
     files[readme.NAME] = readme.readme(program, files)
@@ -66,7 +67,11 @@ def emit(program: Program, begun: Begun | None = None) -> KernelSource:
 
 
 def describe_program(program: Program, files: Mapping[str, str], units: tuple[int, ...] = ()) -> KernelSource:
-    """Return the description of a scene and its files for the runtime."""
+    """Return the KernelSource of a program whose `files` are already printed.
+
+    It contains names of coordinates and results, parameters, pivots, operation counts and the log of the reduction.
+    units: the parts of MAIN that are compiled separately; () for one unit.
+    """
     model, tree, integrated, course = program.model, program.tree, program.integrated, program.course
     return describe(
         model,
@@ -94,80 +99,102 @@ def describe_program(program: Program, files: Mapping[str, str], units: tuple[in
 
 
 def file_names(program: Program) -> list[str]:
-    """Return the names of the files that `emit` writes, except curves.c and README.md, without printing them."""
-    parts = _files_of_parts(program, known_bounds(program))
-    printed = [name for texts in parts.values() for name in texts]
-    return [HEADER, MAIN, *_shared_files(program), *printed, *([lanes_code.MAIN] if program.has_lanes else [])]
+    """Return the names of the files that `emit` writes, without printing them.
+
+    curves.c and README.md are left out, since their presence depends on the printed text.
+    """
+    files_of_parts = _list_files_of_parts(program, known_bounds(program))
+    names_in_parts = [name for texts in files_of_parts.values() for name in texts]
+    return [
+        HEADER,
+        MAIN,
+        *_list_shared_files(program),
+        *names_in_parts,
+        *([lanes_code.MAIN] if program.has_lanes else []),
+    ]
 
 
-def _shared_files(program: Program) -> Texts:
-    """Return the files that every part except METHODS includes."""
+def _list_shared_files(program: Program) -> FilePrinters:
+    """Return {file: function that prints it} of the files that all parts except METHODS include.
+
+    It is clearance.c, or {} without joints with play.
+    """
     return {CLEARANCES: lambda: clearances_code(program, render)} if program.pins else {}
 
 
-def _files_of_parts(program: Program, bounds: Kernel | None) -> dict[int, Texts]:
-    """Return the files of each part of MAIN in the order in which they are included."""
+def _list_files_of_parts(program: Program, bounds: Kernel | None) -> dict[int, FilePrinters]:
+    """Return {part of MAIN: {file: function that prints it}}, files in the order of their inclusion.
+
+    A part exists only if the scene needs it: the reduced formulation, the implicit methods or positions from drives.
+    bounds: the kernel that bounds event functions, or None.
+    """
     tree, course = program.tree, program.course
-    parts: dict[int, Texts] = {
+    parts: dict[int, FilePrinters] = {
         ABSOLUTE: {
-            "parameters.c": lambda: _parameters_code(program),
-            "constraints.c": lambda: _constraints_code(program),
+            "parameters.c": lambda: _print_parameters_file(program),
+            "constraints.c": lambda: _print_constraints_file(program),
             "dynamics.c": lambda: _print_kernels(*program.right_hand_side),
         }
     }
     if tree:
-        parts[REDUCED] = {"reduced.c": lambda: reduced_code(program.model, tree, render, _print_kernels)}
+        parts[REDUCED] = {"reduced.c": lambda: print_reduced_file(program.model, tree, render, _print_kernels)}
     if course:
         parts[METHODS] = {"positions.c": lambda: _print_kernels(*course.kernels)}
     elif program.methods:
-        parts[METHODS] = {"newton.c": lambda: _newton_code(program)}
+        parts[METHODS] = {"newton.c": lambda: _print_newton_file(program)}
     if program.methods and program.staged:
         parts[METHODS]["newton_complex.c"] = partial(_print_kernels, *program.methods.at_complex)
     if _has_bounds(program, bounds):
-        parts[METHODS]["watched.c"] = lambda: _bounds_code(program, bounds)
+        parts[METHODS]["watched.c"] = lambda: _print_bounds_file(program, bounds)
     return parts
 
 
-def _print_files(texts: Texts) -> dict[str, str]:
-    """Print files."""
-    return {name: within(text()) for name, text in texts.items()}
+def _print_files(printers: FilePrinters) -> dict[str, str]:
+    """Return {file: text}: each file is printed by its function, and long lines are wrapped."""
+    return {name: within(text()) for name, text in printers.items()}
 
 
-def _main_code(parts: Mapping[int, Iterable[str]], shared: Iterable[str]) -> str:
-    """Return MAIN, which includes all other files, or those of one part, and the engine's additions."""
-    first = (HEADER, "engine/scene/kernels.h", "engine/scene/trigonometry.h")
+def _print_main_file(files_of_parts: Mapping[int, Iterable[str]], shared_files: Iterable[str]) -> str:
+    """Return the text of scene.c, which includes the files of all parts, each part within an #if on PART.
+
+    shared_files: files that all parts except METHODS include.
+    """
+    headers = (HEADER, "engine/scene/kernels.h", "engine/scene/trigonometry.h")
     lines = ["/* All files together, or with -DPART=1, 2, 3 those of a part: these are compiled side by side. */"]
-    lines += [*map(_include_line, first), *_include_if(f"PART != {METHODS}", shared)]
-    for number, names in parts.items():
-        lines += _include_if(f"!PART || PART == {number}", names)
-    return "\n".join([*lines, _include_line("engine/scene/scene.c"), ""])
+    lines += [*map(_print_include, headers), *_print_conditional_includes(f"PART != {METHODS}", shared_files)]
+    for number, names in files_of_parts.items():
+        lines += _print_conditional_includes(f"!PART || PART == {number}", names)
+    return "\n".join([*lines, _print_include("engine/scene/scene.c"), ""])
 
 
-def _include_if(condition: str, names: Iterable[str]) -> list[str]:
-    """Return the includes of files within an #if."""
-    lines = [_include_line(name) for name in names]
+def _print_conditional_includes(condition: str, names: Iterable[str]) -> list[str]:
+    """Return the lines of an #if that includes files; [] without files."""
+    lines = [_print_include(name) for name in names]
     return [f"#if {condition}", *lines, "#endif"] if lines else []
 
 
-def _include_line(name: str) -> str:
+def _print_include(name: str) -> str:
     """Return an #include line."""
     return f'#include "{name}"'
 
 
-def _parameters_code(program: Program) -> str:
-    """Return parameters.c: `prepare`, and the functions for parameters of joints with play."""
+def _print_parameters_file(program: Program) -> str:
+    """Return the text of parameters.c: `prepare`, and with play the functions that return a parameter of joint i."""
     functions_of_joints = render("of_joints.c.jinja", of_joints=joint_parameters(program.model)) if program.pins else ""
     return _print_kernels(program.prepare) + functions_of_joints
 
 
-def _constraints_code(program: Program) -> str:
-    """Return constraints.c: functions of the closed linkage, and `same_start` for scenes that are integrated."""
+def _print_constraints_file(program: Program) -> str:
+    """Return the text of constraints.c: functions of the closed linkage, and `same_start` for integrated scenes."""
     at_start = (kernel for kernel in program.closed if kernel.name not in NOT_AT_START)
-    return _print_kernels(*program.closed) + (same_start(at_start) if program.integrates else "")
+    return _print_kernels(*program.closed) + (print_same_start(at_start) if program.integrates else "")
 
 
-def _newton_code(program: Program) -> str:
-    """Return newton.c: the linearized equations, Newton's matrix, and the projection onto the constraints."""
+def _print_newton_file(program: Program) -> str:
+    """Return the text of newton.c: linearized equations, Newton's matrix and the projection onto the constraints.
+
+    "" for a scene without implicit methods.
+    """
     methods = program.methods
     if methods is None:
         return ""
@@ -175,73 +202,93 @@ def _newton_code(program: Program) -> str:
     return slopes + newton_code(methods.newton, render) + functions.kernel(methods.closing)
 
 
-def _has_bounds(program: Program, watched: Kernel | None) -> bool:
-    """Return whether bounds over a step are known for any event function or term of time."""
-    return bool(program.terms.kernel or watched)
+def _has_bounds(program: Program, bounds: Kernel | None) -> bool:
+    """Return whether bounds over a step are known for any event function or any term that depends on time only."""
+    return bool(program.terms.kernel or bounds)
 
 
-def _bounds_code(program: Program, watched: Kernel | None) -> str:
-    """Return watched.c: bounds of event functions and of terms of time over ranges of time and state."""
-    return "\n".join(ranges_printer.kernel(kernel) for kernel in (program.terms.kernel, watched) if kernel)
+def _print_bounds_file(program: Program, bounds: Kernel | None) -> str:
+    """Return the text of watched.c: bounds of time terms and event functions over ranges of time and state.
+
+    Either kernel may be missing (None); its text is then left out.
+    """
+    return "\n".join(ranges_printer.kernel(kernel) for kernel in (program.terms.kernel, bounds) if kernel)
 
 
 def render(name: str, /, **values: Any) -> str:
-    """Return a template with its substitutions. Raises an error for an undefined name."""
-    return _environment().get_template(name).render(**values) + "\n"
+    """Return the text of the template `name` with `values` substituted, and a final line break.
+
+    Raises jinja2.UndefinedError if the template uses a name that is not in `values`.
+    """
+    return _get_template_environment().get_template(name).render(**values) + "\n"
 
 
 @cache
-def _environment() -> jinja2.Environment:
-    """Return the environment of the templates, one for all scenes: reading them takes half of a small scene's time."""
+def _get_template_environment() -> jinja2.Environment:
+    """Return the Jinja environment of all C templates; it is created at the first call and cached.
 
-    def load(name: str) -> str:
-        """Return the text of a template."""
+    Without the cache, reading the templates takes half of the time of a small scene.
+    """
+
+    def load_template(name: str) -> str:
+        """Return the text of a template from the package folder templates/c."""
         return resources.files("gudgeon.templates").joinpath("c", name).read_text(encoding="utf-8")
 
     return jinja2.Environment(
-        loader=jinja2.FunctionLoader(load), undefined=jinja2.StrictUndefined, autoescape=False, trim_blocks=True
+        loader=jinja2.FunctionLoader(load_template),
+        undefined=jinja2.StrictUndefined,
+        autoescape=False,
+        trim_blocks=True,
     )
 
 
 def _print_kernels(*kernels: Kernel) -> str:
-    """Print several kernels."""
+    """Return the C functions of several kernels, one after another."""
     return "\n".join(map(functions.kernel, kernels))
 
 
-def _all_kernels(program: Program) -> list[Kernel]:
-    """Return all kernels of a program."""
-    tree, extra = program.tree, program.methods or program.course
+def _list_kernels(program: Program) -> list[Kernel]:
+    """Return all kernels of a program: both formulations, the closed linkage, `prepare`, implicit methods and laws."""
+    tree, method_kernels = program.tree, program.methods or program.course
     kernels = [*program.right_hand_side, *program.closed, *(tree.every if tree else ()), program.prepare]
-    return [*kernels, *(extra.kernels if extra else ()), *program.laws]
+    return [*kernels, *(method_kernels.kernels if method_kernels else ()), *program.laws]
 
 
 def _count_operations(program: Program) -> dict[str, int]:
-    """Return the number of operations of each function, for `check -v`; laws are listed for each joint."""
+    """Return {function: number of arithmetic operations}, which `gudgeon check -v` prints.
+
+    A law that several joints share is listed once for each joint, as ROLE_JOINT_force.
+    """
     calls = [(pin.clearance.name, *call) for pin in program.pins for call in pin.laws.items()]
     laws = {f"{role}_{joint}_force": call.kernel for joint, role, call in calls}
-    own = {kernel.name: kernel for kernel in _all_kernels(program) if kernel not in program.laws}
-    return {name: kernel.operations for name, kernel in (own | laws).items()}
+    counted = {kernel.name: kernel for kernel in _list_kernels(program) if kernel not in program.laws}
+    return {name: kernel.operations for name, kernel in (counted | laws).items()}
 
 
-def same_start(called: Iterable[Kernel]) -> str:
-    """Return the C function that compares the parameters that the kernels `called` by a start read.
+def print_same_start(kernels: Iterable[Kernel]) -> str:
+    """Return the C function `same_start`, which compares all parameters that the `kernels` of a start read.
 
-    It returns 0 if these kernels read tables, or pass on all parameters (engine/scene/start.c).
+    The C function returns 0 if the kernels read tables or pass on all parameters, since members cannot be listed
+    then.
     """
-    lines = [line for kernel in called for section in kernel.sections for line in section.statements]
-    read = [name for line in lines for name in _parameters_read(line)]
-    names = [*dict.fromkeys(read)]
-    tests = "\n        && ".join(f"same_number(p->{name}, other->{name})" for name in names)
-    known = all(name.isidentifier() for name in names)
-    body = f"    return {tests};\n" if known and tests else f"    (void)p, (void)other;\n    return {int(known)};\n"
+    lines = [line for kernel in kernels for section in kernel.sections for line in section.statements]
+    parameters_read = [name for line in lines for name in _list_parameters_read(line)]
+    members = [*dict.fromkeys(parameters_read)]
+    tests = "\n        && ".join(f"same_number(p->{name}, other->{name})" for name in members)
+    is_comparable = all(name.isidentifier() for name in members)
+    function_body = (
+        f"    return {tests};\n"
+        if is_comparable and tests
+        else f"    (void)p, (void)other;\n    return {int(is_comparable)};\n"
+    )
     return (
         "\n/* Whether a start with these numbers is that with the others: what closing the linkage reads. */\n"
-        f"int same_start(const Parameters *p, const Parameters *other)\n{{\n{body}}}\n"
+        f"int same_start(const Parameters *p, const Parameters *other)\n{{\n{function_body}}}\n"
     )
 
 
-def _parameters_read(line: Line) -> list[str]:
-    """Return the members of Parameters that a line reads; [""] for all of them."""
+def _list_parameters_read(line: Line) -> list[str]:
+    """Return the members of Parameters that a line reads: [] for none, [""] if the line passes on the whole struct."""
     if isinstance(line, Statement) and isinstance(line.value, Place) and line.value.is_parameter:
         return [line.value.member]
     return [""] if PARAMETERS in line.reads else []
@@ -250,47 +297,63 @@ def _parameters_read(line: Line) -> list[str]:
 Render = Callable[..., str]
 
 
-def reduced_code(model: Model, tree: TreeFunctions, render: Render, print_kernels: Render) -> str:
-    """Return reduced.c: kernels in tree coordinates, the conversion from and to all coordinates, driven loops."""
-    parts = [functions.comment(reduced_summary(tree.system))]
-    parts += [print_kernels(*tree.around), print_kernels(*tree.kernels)]
+def print_reduced_file(model: Model, tree: TreeFunctions, render: Render, print_kernels: Render) -> str:
+    """Return the text of reduced.c, the equations of motion in coordinates of the spanning tree.
+
+    The text contains the conversion from and to all coordinates and the kernels. Code for vanishing pivots and for
+    driven loops follows if the tree has them.
+    """
+    texts = [functions.comment(reduced_summary(tree.system))]
+    texts += [print_kernels(*tree.around), print_kernels(*tree.kernels)]
     if tree.rescued:
-        parts.append(render("multipliers.c.jinja", multipliers=_multipliers_of_closures(model, tree.system)))
+        texts.append(render("multipliers.c.jinja", multipliers=_print_closure_multipliers(model, tree.system)))
     if chains := tree.chains:
         kernels = print_kernels(*chains.kernels)
-        parts.append(
-            render("driven_loops.c.jinja", kernels=kernels, shares=_step_factors(chains), turned=_turn_angles(chains))
+        texts.append(
+            render(
+                "driven_loops.c.jinja",
+                kernels=kernels,
+                shares=_print_step_scales(chains),
+                turned=_list_direction_turns(chains),
+            )
         )
-    return "\n".join(parts)
+    return "\n".join(texts)
 
 
-def _step_factors(chains: ChainKernels) -> list[str]:
-    """Return the factor that makes a step of each coordinate dimensionless: 1 for angles, 1/size for slides."""
-    size = f"1.0 / (p->{chains.size} + DBL_MIN)" if chains.size.is_Symbol else "1.0"  # without one all points are one
-    return ["1.0" if "." not in name else size for name in chains.chain.names]
+def _print_step_scales(chains: ChainKernels) -> list[str]:
+    """Return the C expressions that make a step of each coordinate of driven loops dimensionless.
+
+    The factor is 1 for an angle and 1/size for a sliding distance; 1 for all if the linkage has no size.
+    """
+    # without a size all points are one
+    inverse_size = f"1.0 / (p->{chains.size} + DBL_MIN)" if chains.size.is_Symbol else "1.0"
+    return ["1.0" if "." not in name else inverse_size for name in chains.chain.names]
 
 
-def _turn_angles(chains: ChainKernels) -> list[tuple[int, str]]:
-    """Return the index in q of each direction that a step of the loops' coordinates turns, and its angle."""
+def _list_direction_turns(chains: ChainKernels) -> list[tuple[int, str]]:
+    """Return (index in q, C expression of the angle) of each direction that a step of the driven loops turns.
 
-    def factor(c: sp.Expr) -> str:
-        """Return a coefficient as a factor in C."""
+    Each direction has two entries in q, cosine and sine; the index is that of the cosine.
+    """
+
+    def print_factor(c: sp.Expr) -> str:
+        """Return a coefficient as the factor in front of a step in C: "" for 1, a number, or ± a parameter."""
         if c == 1:
             return ""
         return f"{float(c)!r} * " if c.is_Number else f"-p->{-c} * " if (-c).is_Symbol else f"p->{c} * "
 
-    first = chains.first + len(chains.chain.names)
+    first_direction = chains.first + len(chains.chain.names)
     return [
-        (first + 2 * k, " + ".join(f"{factor(c)}step[{j}]" for j, c in d.turns.items()))
+        (first_direction + 2 * k, " + ".join(f"{print_factor(c)}step[{j}]" for j, c in d.turns.items()))
         for k, d in enumerate(chains.chain.directions)
         if d.turns
     ]
 
 
-def _multipliers_of_closures(model: Model, system: TreeSystem) -> list[str]:
-    """Return each closure's multiplier in terms of the multipliers of the full formulation."""
-    place = {row.name: r for r, row in enumerate(model.rows)}
+def _print_closure_multipliers(model: Model, system: TreeSystem) -> list[str]:
+    """Return each closure's multiplier as a signed sum of the multipliers `lambda` of the full formulation, in C."""
+    row_index = {row.name: r for r, row in enumerate(model.rows)}
     return [
-        " ".join(f"{'+' if sign > 0 else '-'} lambda[{place[name]}]" for name, sign in shares.items())
+        " ".join(f"{'+' if sign > 0 else '-'} lambda[{row_index[name]}]" for name, sign in shares.items())
         for shares in (system.tree.multiplier(row.name) for row in system.rows)
     ]

@@ -29,37 +29,43 @@ _RISING = """
 
 
 def function_table() -> str:
-    """Return the text of the header."""
+    """Return the text of function_table.h: macros that list functions of expressions by their C name.
+
+    The first macro lists functions without vector code, the second monotonic functions with their derivatives.
+    """
     by_lane = [f for f in IN_SYMPY.values() if not f.has_vector_code]
     calls = [f"{'OF_ONE' if len(f.arguments) == 1 else 'OF_TWO'}({f.in_c})" for f in by_lane]
-    rising = [_rising(f) for f in FUNCTIONS.values() if f.bounds]
+    entries = [_print_monotonic_entry(f) for f in FUNCTIONS.values() if f.bounds]
     return "".join(
         (
             _HEAD,
-            _macro("LANE_AFTER_LANE_FUNCTIONS(OF_ONE, OF_TWO)", calls),
+            _print_macro("LANE_AFTER_LANE_FUNCTIONS(OF_ONE, OF_TWO)", calls),
             _RISING,
-            _macro("RISING_FUNCTIONS(RISING)", rising),
+            _print_macro("RISING_FUNCTIONS(RISING)", entries),
             "\n#endif\n",
         )
     )
 
 
-def _macro(head: str, calls: list[str]) -> str:
-    """Return a macro that lists calls, one a line."""
-    return " \\\n".join((f"#define {head}", *(f"    {call}" for call in calls))) + "\n"
+def _print_macro(signature: str, calls: list[str]) -> str:
+    """Return a #define of `signature` that lists calls, one per line."""
+    return " \\\n".join((f"#define {signature}", *(f"    {call}" for call in calls))) + "\n"
 
 
-def _rising(function: Function) -> str:
-    """Return the entry of a rising function: its domain, the extremum of its slope and the slope."""
+def _print_monotonic_entry(function: Function) -> str:
+    """Return the RISING entry of a monotonic function in C: domain, extremum of the derivative and the derivative.
+
+    The derivative is the one that the function specifies, else it is derived with SymPy.
+    """
     assert function.bounds
     x, f = sp.Symbol("x", real=True), sp.Symbol(f"{function.in_c}(x)", real=True)
     slope = function.bounds.slope or printer.expression(derivative_at(function.derivative, x, f))
-    places = map(_number, (*function.domain, function.bounds.slope_extremum))
-    return f"RISING({function.in_c}, {', '.join(places)}, {slope})"
+    limits = map(_print_number, (*function.domain, function.bounds.slope_extremum))
+    return f"RISING({function.in_c}, {', '.join(limits)}, {slope})"
 
 
-def _number(value: float) -> str:
-    """Return a number as C."""
+def _print_number(value: float) -> str:
+    """Return a number as C: NAN, INFINITY or -INFINITY if it is not finite."""
     if math.isnan(value):
         return "NAN"
     return repr(value) if math.isfinite(value) else "-INFINITY" if value < 0.0 else "INFINITY"

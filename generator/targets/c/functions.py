@@ -88,45 +88,50 @@ _PLAIN: dict[type, str] = {
 
 
 class Lines(Text):
-    """Print the lines of one function as C; `number` is the type of its locals."""
+    """Print the lines of one function as C; `number` is the C type of its locals."""
 
     def __init__(self, printer: CPrinter, number: str = "double") -> None:
         super().__init__(printer)
         self.number = number
 
     def line(self, item: Line) -> str:
-        """Return any line of a kernel as C, broken where it is too long."""
+        """Return a line of a kernel as indented C, broken into several lines if it is longer than WIDTH."""
         if isinstance(item, Statement):
-            return self.statement(item)
-        return "\n".join(part for text in self._lines(item) for part in broken(f"    {text}"))
+            return self.print_statement(item)
+        return "\n".join(part for text in self._print_line(item) for part in broken(f"    {text}"))
 
-    def _lines(self, item: Line) -> Sequence[str]:
-        """Return one line of a kernel as lines of C without indent."""
+    def _print_line(self, item: Line) -> Sequence[str]:
+        """Return one line of a kernel that is not an assignment as unindented lines of C.
+
+        Each class of lines has its own form. A class with a fixed text is looked up in `_PLAIN`.
+        """
         match item:
             case Branch():
-                return self._branch(item)
+                return self._print_branch(item)
             case Declare():
-                return [f"{type_name(item.type)} {item.name}{''.join(f'[{n}]' for n in item.sizes)};"]
+                return [f"{print_type(item.type)} {item.name}{''.join(f'[{n}]' for n in item.sizes)};"]
             case Call():
-                return [f"{self._call(item)};"]
+                return [f"{self._print_call(item)};"]
             case Guard():
-                return self._guard(item)
+                return self._print_guard(item)
             case When():
-                return [f"if ({self.test(item.test)})", f"    {self.statement(item.statement).lstrip()}"]
+                return [f"if ({self.test(item.test)})", f"    {self.print_statement(item.statement).lstrip()}"]
             case JointsAlone():
                 return ["if (!a)", "    return 0;"]
             case Return():
                 return ["return pivot;" if item.pivot else "return 0;"]
             case AssignStatus():
-                return [f"{'' if item.status == 'pivot' else 'const int '}{item.status} = {self._call(item.call)};"]
+                return [
+                    f"{'' if item.status == 'pivot' else 'const int '}{item.status} = {self._print_call(item.call)};"
+                ]
             case ReturnIfFailed():
                 return [f"if ({item.status})", f"    {'goto dependent' if item.jumps else f'return {item.status}'};"]
             case Branches():
-                return _branch_arrays(item)
+                return _print_branch_arrays(item)
             case Sines():
-                return self._sines(item)
+                return self._print_sines(item)
             case Rescue():
-                return self._rescue(item)
+                return self._print_dependent_solution(item)
             case Largest():
                 name = f"*{item.target}"
                 before = ["0.0", *[name] * len(item.values)]
@@ -136,98 +141,114 @@ class Lines(Text):
                 ]
                 return largest or [f"{name} = 0.0;"]
             case LargestRow():
-                return self._largest_row(item)
+                return self._print_largest_row(item)
             case Gathered():
                 values = ", ".join(map(self.expression, item.values))
                 return [f"{item.array}[{item.row}] = (Wide){{{values}}};"]
             case Unread():
-                return [f"(void){self.printer.called(item.name)};"]
+                return [f"(void){self.printer.get_name(item.name)};"]
         return [_PLAIN[type(item)]]
 
-    def _branch(self, item: Branch) -> list[str]:
-        """Return an if statement that assigns one of two values by the sign of a condition."""
-        target = self.printer.called(item.target)
-        declared = [f"{self.number} {target};"] if item.defines else []
+    def _print_branch(self, item: Branch) -> list[str]:
+        """Return an if statement that assigns one of two values by the sign of a condition, below zero or not.
+
+        A declaration of the target precedes it if the branch defines the target, and its comment if there is one.
+        """
+        target = self.printer.get_name(item.target)
+        declaration = [f"{self.number} {target};"] if item.defines else []
         comment = [f"/* {comment_text(item.comment)} */"] if item.comment else []
         return [
             *comment,
-            *declared,
+            *declaration,
             f"if ({self.expression(item.side)} < 0.0)",
             f"    {target} = {self.expression(item.otherwise)};",
             "else",
             f"    {target} = {self.expression(item.then)};",
         ]
 
-    def _call(self, item: Call) -> str:
-        """Return the call of a function."""
-        given = [self.as_argument(x) if isinstance(x, Place) else self._number(x) for x in item.given]
-        return f"{item.function}({', '.join([*given, *map(self.as_argument, item.results)])})"
+    def _print_call(self, item: Call) -> str:
+        """Return the call of a function in C without a semicolon: its arguments, then the places of its results."""
+        arguments = [
+            self.print_argument(x) if isinstance(x, Place) else self._print_argument_value(x) for x in item.given
+        ]
+        return f"{item.function}({', '.join([*arguments, *map(self.print_argument, item.results)])})"
 
-    def _number(self, value: sp.Basic) -> str:
-        """Return an argument as C; integers are not written as doubles."""
+    def _print_argument_value(self, value: sp.Basic) -> str:
+        """Return the value of an argument as C; an integer stays an integer, all others are printed as doubles."""
         return str(value) if isinstance(value, sp.Integer) else self.expression(value)
 
-    def as_argument(self, place: Place) -> str:
-        """Return a place as an argument: a struct inside another by its address, others as they are."""
-        text = self.printer.called(place)
+    def print_argument(self, place: Place) -> str:
+        """Return a place as an argument in C: a struct inside another struct by its address, all others by name."""
+        text = self.printer.get_name(place)
         return f"&{text}" if place.path else text
 
-    def _guard(self, item: Guard) -> list[str]:
-        """Return the code that returns, or jumps to the fallback, if a pivot fails its test."""
-        fails = self._call(item.test) if isinstance(item.test, Call) else f"!({self.test(item.test)})"
-        only = f"{self.test(item.only)} && " if item.only else ""
-        if not item.jumps:
-            return [f"if ({only}{fails})", f"    return {item.number};"]
-        return [f"if ({only}{fails}) {{", f"    pivot = {item.number};", "    goto dependent;", "}"]
+    def _print_guard(self, item: Guard) -> list[str]:
+        """Return the if statement that leaves the function, or jumps to `dependent`, if a pivot fails its test.
 
-    def _sines(self, item: Sines) -> list[str]:
-        """Return the calls that compute sines and cosines of several angles in vectors."""
-        names, of = [self.expression(angle) for angle in item.angles], item.suffix
+        The test is a comparison or a call of a function. `item.only` restricts it to states that satisfy a condition.
+        """
+        failure = self._print_call(item.test) if isinstance(item.test, Call) else f"!({self.test(item.test)})"
+        condition = f"{self.test(item.only)} && " if item.only else ""
+        if not item.jumps:
+            return [f"if ({condition}{failure})", f"    return {item.number};"]
+        return [f"if ({condition}{failure}) {{", f"    pivot = {item.number};", "    goto dependent;", "}"]
+
+    def _print_sines(self, item: Sines) -> list[str]:
+        """Return the declarations and the call that compute sines and cosines of several angles in vectors of four.
+
+        In lanes one call computes one angle of all runs. Otherwise four angles share a call, and `item.count` groups
+        of four share one call of many_sines_and_cosines.
+        """
+        angles, suffix = [self.expression(angle) for angle in item.angles], item.suffix
         if item.lanes:
-            call = f"sines_and_cosines({names[0]}, &sines_{of}, &cosines_{of}, rare);"
-            return [f"Lanes sines_{of}, cosines_{of};", call]
-        groups = [", ".join(names[k : k + 4]) for k in range(0, len(names), 4)]
+            lanes_call = f"sines_and_cosines({angles[0]}, &sines_{suffix}, &cosines_{suffix}, rare);"
+            return [f"Lanes sines_{suffix}, cosines_{suffix};", lanes_call]
+        groups = [", ".join(angles[k : k + 4]) for k in range(0, len(angles), 4)]
         if item.count:
             values = ", ".join(f"{{{group}}}" for group in groups)
             return [
-                f"const Four angles_{of}[{item.count}] = {{{values}}};",
-                f"Four sines_{of}[{item.count}], cosines_{of}[{item.count}];",
-                f"many_sines_and_cosines({item.count}, angles_{of}, sines_{of}, cosines_{of});",
+                f"const Four angles_{suffix}[{item.count}] = {{{values}}};",
+                f"Four sines_{suffix}[{item.count}], cosines_{suffix}[{item.count}];",
+                f"many_sines_and_cosines({item.count}, angles_{suffix}, sines_{suffix}, cosines_{suffix});",
             ]
         return [
-            f"const Four angles_{of} = {{{groups[0]}}};",
-            f"Four sines_{of}, cosines_{of};",
-            f"sines_and_cosines(&angles_{of}, &sines_{of}, &cosines_{of});",
+            f"const Four angles_{suffix} = {{{groups[0]}}};",
+            f"Four sines_{suffix}, cosines_{suffix};",
+            f"sines_and_cosines(&angles_{suffix}, &sines_{suffix}, &cosines_{suffix});",
         ]
 
-    def _rescue(self, item: Rescue) -> list[str]:
-        """Return the code after a vanished pivot: a solution with dependent constraint equations."""
+    def _print_dependent_solution(self, item: Rescue) -> list[str]:
+        """Return the code at the label `dependent`, which solves dependent equations after a vanished pivot.
+
+        Without forces in `item`, the equations of all bodies are solved instead. The label `powers` follows in both
+        cases.
+        """
         if not item.force:
             return ["dependent:", "pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);", "powers:"]
-        given = (("force", item.force), ("gamma_stab", item.rhs))
-        stored = (f"{name}[{k}] = {self.expression(x)};" for name, some in given for k, x in enumerate(some))
+        arrays = (("force", item.force), ("gamma_stab", item.rhs))
+        stores = (f"{name}[{k}] = {self.expression(x)};" for name, values in arrays for k, x in enumerate(values))
         return [
             "dependent: {",
             "    double force[N_Q], gamma_stab[N_ROWS];",
-            *("\n".join(broken(f"        {code}"))[4:] for code in stored),
+            *("\n".join(broken(f"        {code}"))[4:] for code in stores),
             "    pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);",
             "}",
             "powers:",
         ]
 
-    def _largest_row(self, item: LargestRow) -> list[str]:
-        """Return the code that finds the row of the largest absolute value."""
+    def _print_largest_row(self, item: LargestRow) -> list[str]:
+        """Return the code that sets *row to the number (from 1) of the value with the largest magnitude."""
         first, *others = map(self.expression, item.values)
         lines = ["*row = 1;", *([f"double most = fabs({first});"] if others else [])]
         for r, value in enumerate(others, 2):
             lines += [f"if (fabs({value}) > most) {{", f"    most = fabs({value});", f"    *row = {r};", "}"]
         return lines
 
-    def statement(self, item: Statement) -> str:
-        """Return one assignment; its comment follows if it fits in the line, else precedes."""
-        target = self.printer.called(item.target)
-        head = f"const {self.number} {target}" if item.defines else target
-        code = broken(f"    {head} = {self.expression(item.value)};")
+    def print_statement(self, item: Statement) -> str:
+        """Return one assignment as indented C; its comment follows if it fits in the line, else precedes it."""
+        target = self.printer.get_name(item.target)
+        left_side = f"const {self.number} {target}" if item.defines else target
+        code = broken(f"    {left_side} = {self.expression(item.value)};")
         if not item.comment:
             return "\n".join(code)
         comment = f"/* {comment_text(item.comment)} */"
@@ -236,87 +257,98 @@ class Lines(Text):
         return "\n".join([f"    {comment}", *code])
 
 
-def _branch_arrays(item: Branches) -> list[str]:
-    """Return the declarations of the arrays of active branches and of switching functions."""
-    held = (
+def _print_branch_arrays(item: Branches) -> list[str]:
+    """Return the declarations of `branch` (the active branches) and of `g` (values of switching functions).
+
+    `branch` is NULL if no branch is held. `g` is omitted, a local array, or part of the results, as `item` specifies.
+    """
+    stored_branches = (
         "discrete->held ? discrete->branch : NULL;"
         if item.held
         else "NULL; /* of corners within corners: as they are */"
     )
-    message = {"": [], "nobody": ["double g[N_SWITCHES + 1];"], "rhs": ["double *const g = rhs->g;"]}[item.message]
-    return [f"const double *const branch = {held}", *message]
+    declarations = {"": [], "nobody": ["double g[N_SWITCHES + 1];"], "rhs": ["double *const g = rhs->g;"]}[item.message]
+    return [f"const double *const branch = {stored_branches}", *declarations]
 
 
 def statements(items: Sequence[Statement]) -> str:
-    """Return statements as lines within a function of a template."""
+    """Return statements as lines of C for the body of a function in a template; "" without statements."""
     return "\n".join(text for text, _ in one_by_one(items))
 
 
 def one_by_one(items: Sequence[Statement]) -> list[tuple[str, Line]]:
-    """Return each statement as text, with branches before it, and the line that it prints."""
-    own = lines(items)
-    writer = Lines(CPrinter(own))
-    return [(writer.line(line), line) for section in own.sections for line in section.statements]
+    """Return (text in C, line of the kernel) of each statement; branches that a statement needs precede it."""
+    readable_lines = lines(items)
+    writer = Lines(CPrinter(readable_lines))
+    return [(writer.line(line), line) for section in readable_lines.sections for line in section.statements]
 
 
-def shared_call(call: SharedFunctionCall, given: Sequence[str], results: Sequence[str]) -> str:
-    """Return a joint's call of a function that several joints share."""
-    held = ["branch", "g", str(call.corner)] if call.corner is not None else []
-    numbers = map(expression, call.numbers)
-    return f"{call.kernel.name}({', '.join([*given, *numbers, *held, *results])});"
+def shared_call(call: SharedFunctionCall, arguments: Sequence[str], results: Sequence[str]) -> str:
+    """Return a joint's call of a function that several joints share, in C.
+
+    Arguments are `arguments`, the parameters of this joint, the branches and their first index if the function has
+    switching functions, then `results`.
+    """
+    branch_arguments = ["branch", "g", str(call.corner)] if call.corner is not None else []
+    parameters = map(expression, call.numbers)
+    return f"{call.kernel.name}({', '.join([*arguments, *parameters, *branch_arguments, *results])});"
 
 
 def unread_branches(calls: Iterable[SharedFunctionCall], statements: Iterable[Statement] = ()) -> list[str]:
-    """Return which of the arguments `branch` and `g` neither the calls nor the statements read."""
-    read = NONE.union(*(line.reads for line in statements))
-    corners = any(call.corner is not None for call in calls)
-    return [] if corners else [name for name in ("branch", "g") if name not in read]
+    """Return which of the arguments `branch` and `g` neither the calls nor the statements read.
+
+    The list is empty if any of the called functions has switching functions, since these get both.
+    """
+    names_read = NONE.union(*(line.reads for line in statements))
+    has_switches = any(call.corner is not None for call in calls)
+    return [] if has_switches else [name for name in ("branch", "g") if name not in names_read]
 
 
-def declare_arguments(items: tuple[Argument, ...]) -> str:
-    """Return the declaration of a function's arguments."""
+def print_arguments(items: tuple[Argument, ...]) -> str:
+    """Return the declarations of a function's arguments in C, separated by commas."""
     return ", ".join(map(_declare_argument, items))
 
 
 def _declare_argument(item: Argument) -> str:
-    """Return the declaration of one argument."""
+    """Return the declaration of one argument in C; arguments that are read or written through a pointer get a star."""
     constant = "const " * (item.access in (Access.CONSTANT, Access.READ))
     pointer = "*" * (item.access in (Access.READ, Access.WRITTEN))
-    return f"{constant}{type_name(item.type)} {pointer}{item.name}"
+    return f"{constant}{print_type(item.type)} {pointer}{item.name}"
 
 
-def type_name(of: Type) -> str:
-    """Return the type of one number or struct."""
+def print_type(of: Type) -> str:
+    """Return the C type of a number, or the name of a struct as it is."""
     return _NUMBERS[of] if isinstance(of, Number) else of
 
 
 def kernel(item: Kernel) -> str:
-    """Return a whole function as C; the parts of a long one precede it."""
-    return "\n".join("".join(f"{text}\n" for text, _ in own) for _, _, own in printed_parts(item))
+    """Return a kernel as a C function; a long kernel is split into parts, whose functions precede it."""
+    return "\n".join("".join(f"{text}\n" for text, _ in texts) for _, _, texts in printed_parts(item))
 
 
-def _names_used(item: Kernel) -> frozenset[str]:
-    """Return the names of everything that a function's lines read or write."""
+def _find_names_used(item: Kernel) -> frozenset[str]:
+    """Return the C names of all arguments and locals that a function's lines read or write."""
     lines = [line for section in item.sections for line in section.statements]
     names = NONE.union(*(line.reads | line.writes for line in lines))
     keys = names | {key_of(s) for line in lines for x in line.expressions for s in symbols_of(x)}
     called = (item.names.get(key, key) for key in keys)
-    corner = NONE if item.first_corner is None else {CORNER.name}
-    return names | corner | {key.base if isinstance(key, Place) else key for key in called}
+    corner_argument = NONE if item.first_corner is None else {CORNER.name}
+    return names | corner_argument | {key.base if isinstance(key, Place) else key for key in called}
 
 
 def comment(doc: Sequence[str]) -> str:
-    """Return paragraphs as a comment of C."""
-    text = "\n".join(f" * {comment_text(one)}".rstrip() for one in doc)
+    """Return paragraphs as a block comment in C."""
+    text = "\n".join(f" * {comment_text(paragraph)}".rstrip() for paragraph in doc)
     return f"/*\n{text}\n */\n"
 
 
 def function(
     item: Kernel, writer: Lines, own: Readable, names_used: frozenset[str] = NONE, *, called: bool = False
 ) -> str:
-    """Return a function with its comment; unread arguments are cast to void.
+    """Return a kernel as one C function with its comment; arguments that no line reads are cast to void.
 
-    `called`: from another unit, not static.
+    own: its lines with the names of their symbols. names_used: further names that count as read. `called`: another
+    unit calls the function, so that it is not static.
     """
     return "".join(f"{text}\n" for text, _ in pieces(item, writer, own, names_used, called=called))
 
@@ -324,22 +356,26 @@ def function(
 def pieces(
     item: Kernel, writer: Lines, own: Readable, names_used: frozenset[str] = NONE, *, called: bool = False
 ) -> Iterator[tuple[str, Line | None]]:
-    """Yield the texts of a function in order, each with the line of the kernel that it prints, or None."""
+    """Yield (text, line of the kernel or None) of a function in C, in order.
+
+    None belongs to the head, to the casts of unread arguments, to titles of sections and to the closing brace. The
+    arguments are those of `function`.
+    """
     attribute = f"__attribute__(({item.attribute})) " if item.attribute else ""
     inline = "inline " if item.inline else ""
     static = "" if called else "static "
     result = "int" if item.status else "void"
-    head = f"{attribute}{static}{inline}{result} {item.name}({declare_arguments(item.arguments)})"
-    together = head.replace(", ", ",\n").replace(" ", "\0").replace("\n", " ")  # an argument is never parted
-    head = "\n".join(textwrap.wrap(together, WIDTH, subsequent_indent="    ")).replace("\0", " ")
-    yield f"{comment(item.doc)}{head}\n{{", None
-    names_used |= _names_used(item)
+    signature = f"{attribute}{static}{inline}{result} {item.name}({print_arguments(item.arguments)})"
+    joined = signature.replace(", ", ",\n").replace(" ", "\0").replace("\n", " ")  # an argument is never parted
+    signature = "\n".join(textwrap.wrap(joined, WIDTH, subsequent_indent="    ")).replace("\0", " ")
+    yield f"{comment(item.doc)}{signature}\n{{", None
+    names_used |= _find_names_used(item)
     if unread := ", ".join(f"(void){a.name}" for a in item.arguments if a.name not in names_used):
         yield "\n".join(broken(f"    {unread};")), None
     for k, section in enumerate(own.sections):
         title = [f"    /* {comment_text(section.title)} */"] * bool(section.title)
-        if before := [*([""] * bool(k)), *title]:
-            yield "\n".join(before), None
+        if heading := [*([""] * bool(k)), *title]:
+            yield "\n".join(heading), None
         yield from ((writer.line(line), line) for line in section.statements)
     if not own.sections:
         yield "    /* this scene has none */", None
@@ -347,7 +383,10 @@ def pieces(
 
 
 def printed_parts(item: Kernel) -> Iterator[tuple[Kernel, Readable, list[tuple[str, Line | None]]]]:
-    """Yield the parts of a function in the order of their use, with their text line by line."""
+    """Yield (kernel, its readable lines, [(text, line or None)]) of each part into which a kernel is split.
+
+    A short kernel is its only part. Parts come before the functions that call them.
+    """
     for part in cut(item):
         own = readable(part)
         yield part, own, list(pieces(part, Lines(CPrinter(own)), own, called=part.name in CALLED_BY_ENGINE))

@@ -33,21 +33,25 @@ Render = Callable[..., str]  # template name, substitutions -> text
 
 
 def lanes_code(program: Program, render: Render) -> dict[str, str]:
-    """Return lanes.c: the kernels of single runs, printed for vectors. With a series it has Taylor's method only."""
+    """Return {"lanes.c": text}: the kernels of single runs in the reduced formulation, printed for vectors of runs.
+
+    With a Taylor series the file has Taylor's method, else the linearized equations and Newton's matrix. It includes
+    the file's curves if the text calls one.
+    """
     assert program.tree and program.methods
     model = program.model
-    pins = [
+    joint_functions = [
         *map(lanes_printer.kernel, program.laws),
-        *(_pin_code(pin, render, model.law_states) for pin in program.pins),
+        *(_print_joint_function(pin, render, model.law_states) for pin in program.pins),
     ]
     kernels = (*program.tree.plain, program.methods.plain_closing)
     parameters = [model.slots.field(symbol) for symbol in model.slots.members()]
     kernels_in_lanes = [kernel for kernel in kernels if kernel.name in _KERNELS]
-    text = "\n".join([*pins, *map(lanes_printer.motion_kernel, kernels_in_lanes)])
+    text = "\n".join([*joint_functions, *map(lanes_printer.motion_kernel, kernels_in_lanes)])
     if program.series:
         methods = taylor.lanes_code(program.series)
     else:
-        methods = _linearized_code(program.pins, program.methods, render, model.law_states)
+        methods = _print_linearized_equations(program.pins, program.methods, render, model.law_states)
     curves = bool(curves_code(model.scene.mechanism.curves, (text, methods)))
     return {
         MAIN: render(
@@ -60,15 +64,18 @@ def lanes_code(program: Program, render: Render) -> dict[str, str]:
     }
 
 
-def _pin_code(pin: Pin, render: Render, states: int) -> str:
-    """Return the function of a joint with play for lanes; each joint has `states` inner states of laws."""
+def _print_joint_function(pin: Pin, render: Render, states: int) -> str:
+    """Return the function of a joint with play for lanes, from a template.
+
+    Each joint has `states` inner states of laws. Dry contact and film are included as far as the joint has them.
+    """
     clearance = pin.clearance
-    steps = ("gap", "before_dry", "after_dry", "before_film", "after_film", "share")
-    parts = {name: lanes_printer.statements(getattr(pin, name)) for name in steps}
+    step_names = ("gap", "before_dry", "after_dry", "before_film", "after_film", "share")
+    substitutions = {name: lanes_printer.statements(getattr(pin, name)) for name in step_names}
     if clearance.normal is not None:
-        parts["dry_law"] = calls_of_dry(pin, "lanes_max_of(delta, all_of(0.0))", "Lanes")
+        substitutions["dry_law"] = calls_of_dry(pin, "lanes_max_of(delta, all_of(0.0))", "Lanes")
     if clearance.film is not None:
-        parts["film_law"] = call_of_film(pin, "Lanes")
+        substitutions["film_law"] = call_of_film(pin, "Lanes")
     return render(
         "play/lane_pin.c.jinja",
         joint=clearance.label,
@@ -82,32 +89,42 @@ def _pin_code(pin: Pin, render: Render, states: int) -> str:
         last=pin.corners.stop,
         states=states,
         wall=bool(clearance.wall),
-        **parts,
+        **substitutions,
     )
 
 
-def _linearized_code(pins: Sequence[Pin], methods: Methods, render: Render, states: int) -> str:
-    """Return the linearized equations of motion and Newton's matrix for lanes: newton.c without its tables."""
+def _print_linearized_equations(pins: Sequence[Pin], methods: Methods, render: Render, states: int) -> str:
+    """Return the linearized equations of motion and Newton's matrix for lanes, without the tables of newton.c.
+
+    Derivatives of the joints' forces come first, then the kernels for real and complex steps.
+    """
     newton = methods.newton
-    picking = _PICK_SLOPES.replace("i < 4", f"i < {4 + states}").replace("k < 5", f"k < {5 + states}")
-    slopes = [shared_slopes_code(pins, render, "Lanes", "LaneSlopes", states) + picking] if pins else []
+    pick_slopes = _PICK_SLOPES.replace("i < 4", f"i < {4 + states}").replace("k < 5", f"k < {5 + states}")
+    slopes = [shared_slopes_code(pins, render, "Lanes", "LaneSlopes", states) + pick_slopes] if pins else []
     slopes += map(lanes_printer.kernel, methods.sloping)
     for clearance in (pin.clearance for pin in pins):
-        slopes.append(_tangent_code(newton.system.model, clearance, methods.slopes[clearance.name], render, states))
-    of_state = map(lanes_printer.kernel_with_rare, (newton.linearize, newton.factor))
-    factor, solved = methods.at_complex[:1], methods.at_complex[1:]
-    complex_ = [*map(lanes_printer.kernel_with_rare, factor), *map(lanes_printer.kernel, solved)]
-    return "\n".join([*slopes, *of_state, *map(lanes_printer.kernel, (newton.substitute, newton.solve)), *complex_])
+        slopes.append(
+            _print_force_tangent(newton.system.model, clearance, methods.slopes[clearance.name], render, states)
+        )
+    state_kernels = map(lanes_printer.kernel_with_rare, (newton.linearize, newton.factor))
+    factor, solve_kernels = methods.at_complex[:1], methods.at_complex[1:]
+    complex_ = [*map(lanes_printer.kernel_with_rare, factor), *map(lanes_printer.kernel, solve_kernels)]
+    return "\n".join(
+        [*slopes, *state_kernels, *map(lanes_printer.kernel, (newton.substitute, newton.solve)), *complex_]
+    )
 
 
-def _tangent_code(
+def _print_force_tangent(
     model: Model, clearance: Clearance, parts: Mapping[str, SharedFunctionCall], render: Render, states: int
 ) -> str:
-    """Return the linearized force of a joint with play for lanes."""
-    given = {"film": (STATE, "out"), "dry": (STATE, "&dry"), "share": (("delta",), "share")}
+    """Return the function with the derivatives of the force of a joint with play, for lanes.
+
+    parts: the calls of the derivatives of film, dry contact and their blend; a missing part is left out.
+    """
+    arguments_and_result = {"film": (STATE, "out"), "dry": (STATE, "&dry"), "share": (("delta",), "share")}
     calls = {
-        part: functions.shared_call(parts[part], what, (where,)) if part in parts else ""
-        for part, (what, where) in given.items()
+        part: functions.shared_call(parts[part], arguments, (result,)) if part in parts else ""
+        for part, (arguments, result) in arguments_and_result.items()
     }
     calls |= {"joint": clearance.label, "kind": clearance.kind.capitalize(), "c": f"p->{clearance.pair.c}"}
     calls["rise"] = lanes_printer.expression(in_place(model, clearance.wall.rise)) if clearance.wall else ""

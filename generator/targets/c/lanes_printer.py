@@ -57,59 +57,60 @@ _LEFT_OUT = (Status, JointsAlone, Jump, Rescue, Return)
 class LanesPrinter(printer.CPrinter):
     """Print symbols as vectors; numbers stay numbers where C allows it."""
 
-    def _vector(self, expr: sp.Expr) -> str:
-        """Print an expression as a vector."""
+    def _print_vector(self, expr: sp.Expr) -> str:
+        """Print an expression as a vector: a constant fills all lanes."""
         text: str = self._print(expr)
         return text if expr.free_symbols else f"all_of({text})"
 
-    def _call(self, function: str, *arguments: sp.Expr) -> str:
-        """Print a call of a function of vectors."""
+    def _print_call(self, function: str, *arguments: sp.Expr) -> str:
+        """Print a call of a function of vectors; with constant arguments only, the call of the function of numbers."""
         if not any(argument.free_symbols for argument in arguments):
-            return super()._call(function, *arguments)
-        return f"lanes_{function}({', '.join(map(self._vector, arguments))})"
+            return super()._print_call(function, *arguments)
+        return f"lanes_{function}({', '.join(map(self._print_vector, arguments))})"
 
-    def _nested(self, function: str, expr: sp.Expr) -> str:
-        """Print nested calls such as the maximum of several vectors."""
+    def _print_nested_calls(self, function: str, expr: sp.Expr) -> str:
+        """Print nested calls of a function of two vectors, for example a maximum; constants come last."""
         if not expr.free_symbols:
-            return super()._nested(function, expr)
+            return super()._print_nested_calls(function, expr)
         arguments = sorted(expr.args, key=lambda a: (a.is_Number, str(a)))
-        text = self._vector(arguments[0])
+        text = self._print_vector(arguments[0])
         for argument in arguments[1:]:
-            text = f"lanes_{function}({text}, {self._vector(argument)})"
+            text = f"lanes_{function}({text}, {self._print_vector(argument)})"
         return text
 
     def _print_Heaviside(self, expr: sp.Expr) -> str:
         """Print the step function of a vector."""
-        return f"pick({self._vector(expr.args[0])} >= 0.0, all_of(1.0), all_of(0.0))"
+        return f"pick({self._print_vector(expr.args[0])} >= 0.0, all_of(1.0), all_of(0.0))"
 
     def _print_BranchOf(self, expr: sp.Expr) -> str:
         """Print the active branch of a switching function of vectors."""
-        return f"lanes_branch_of(branch, g, {self.corner(int(expr.args[0]))}, {self._vector(expr.args[1])})"
+        index = self.print_switch_index(int(expr.args[0]))
+        return f"lanes_branch_of(branch, g, {index}, {self._print_vector(expr.args[1])})"
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:
         """Print the absolute value of a vector."""
-        return f"(lanes_fabs({self._vector(expr.args[0])}) + 1e-150)"
+        return f"(lanes_fabs({self._print_vector(expr.args[0])}) + 1e-150)"
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
         """Print the value of a curve at a vector."""
         if not expr.free_symbols:
             return super()._print_CurveOf(expr)
-        return f"lanes_curve({c_name(expr.name)}, {expr.order}, {self._vector(expr.args[2])})"
+        return f"lanes_curve({c_name(expr.name)}, {expr.order}, {self._print_vector(expr.args[2])})"
 
     def _print_CurveOn(self, expr: CurveOn) -> str:
         """Print the value of a curve at a vector, on the pieces that its branch selects."""
-        x, side = map(self._vector, expr.args[2:])
+        x, side = map(self._print_vector, expr.args[2:])
         return f"lanes_curve_on({c_name(expr.name)}, {expr.order}, {x}, {side})"
 
     def _print_KnotsOf(self, expr: KnotsOf) -> str:
         """Print the event function of a curve's knots at a vector."""
-        return f"lanes_knots({c_name(expr.name)}, {self._vector(expr.args[1])})"
+        return f"lanes_knots({c_name(expr.name)}, {self._print_vector(expr.args[1])})"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
         """Print a choice by the signs of a vector."""
         if expr in self.of.branches:
             return self.of.branches[expr]
-        side, a, b = map(self._vector, expr.args)
+        side, a, b = map(self._print_vector, expr.args)
         return f"pick({side} < 0.0, {b}, {a})"
 
 
@@ -122,10 +123,10 @@ class LaneLines(functions.Lines):
         super().__init__(printer, "Lanes")
 
     def expression(self, value: Value) -> str:
-        """Return a value as a vector."""
+        """Return a value as a vector in C; a condition becomes a choice by a mask."""
         match value:
             case sp.Basic():
-                return self.printer._vector(value)
+                return self.printer._print_vector(value)
             case Conditional():
                 then, otherwise = self.expression(value.then), self.expression(value.otherwise)
                 return f"pick({self.test(value.test)}, {then}, {otherwise})"
@@ -133,42 +134,48 @@ class LaneLines(functions.Lines):
                 return super().expression(value)
 
     def test(self, item: Test) -> str:
-        """Return a comparison as a mask; bounds stay numbers where possible."""
+        """Return a comparison as a mask of lanes in C; bounds stay numbers where possible."""
         plain = Text(self.printer)
         if not item.relation:
             return f"{plain.expression(item.value)} > 0.0"
         if not item.of_itself:
-            bare = plain.test(replace(item, size=False))
+            number_test = plain.test(replace(item, size=False))
             return (
-                f"lanes_fabs({plain.expression(item.value)}){bare.removeprefix(plain.expression(item.value))}"
+                f"lanes_fabs({plain.expression(item.value)}){number_test.removeprefix(plain.expression(item.value))}"
                 if item.size
-                else bare
+                else number_test
             )
         value = plain.expression(item.value)
         size = f"lanes_fabs({value})" if item.size else value
         return f"({size} > 0.0) & ({size} < INFINITY)"
 
-    def _lines(self, item: Line) -> Sequence[str]:
-        """Return one line of a kernel as lines of C."""
+    def _print_line(self, item: Line) -> Sequence[str]:
+        """Return one line of a kernel as lines of C for vectors.
+
+        Branches become choices by masks. A lane whose pivot fails its test is marked in `rare` instead of leaving.
+        """
         match item:
             case Branch():
-                head = f"{'const Lanes ' * bool(item.defines)}{self.printer.called(item.target)}"
+                declaration = f"{'const Lanes ' * bool(item.defines)}{self.printer.get_name(item.target)}"
                 side, then, otherwise = map(self.expression, (item.side, item.then, item.otherwise))
-                return [f"{head} = pick({side} < 0.0, {otherwise}, {then});"]
+                return [f"{declaration} = pick({side} < 0.0, {otherwise}, {then});"]
             case Guard(test=Test() as test, only=None):
                 return [f"*rare |= ~({self.test(test)});"]
             case Call():
-                passed = (*item.given, *item.results)
-                given = [self.as_argument(x) if isinstance(x, Place) else self.expression(x) for x in passed]
-                return [f"{item.function}({', '.join(given)});"]
+                values = (*item.given, *item.results)
+                arguments = [self.print_argument(x) if isinstance(x, Place) else self.expression(x) for x in values]
+                return [f"{item.function}({', '.join(arguments)});"]
             case Declare(type=Number.REAL):
-                return super()._lines(replace(item, type="Lanes"))
+                return super()._print_line(replace(item, type="Lanes"))
             case RunNumbers():
                 return ["const LaneParameters *const p = lin->p;"]
             case Branches():
-                held, own = "held_branches(discrete)" if item.held else "NULL", "Lanes g[N_SWITCHES + 1];"
-                message = {"": [], "nobody": [own], "rhs": ["Lanes *const g = reported_branches(rhs);"]}
-                return [f"const Lanes *const branch = {held};", *message[item.message]]
+                stored_branches, local_array = (
+                    "held_branches(discrete)" if item.held else "NULL",
+                    "Lanes g[N_SWITCHES + 1];",
+                )
+                message = {"": [], "nobody": [local_array], "rhs": ["Lanes *const g = reported_branches(rhs);"]}
+                return [f"const Lanes *const branch = {stored_branches};", *message[item.message]]
             case Largest():
                 name = f"*{item.target}"
                 before = ["all_of(0.0)", *[name] * len(item.values)]
@@ -182,40 +189,58 @@ class LaneLines(functions.Lines):
                     f"{item.array}[{WIDE * item.row + i}] = {self.expression(x)};" for i, x in enumerate(item.values)
                 ]
             case Sines():
-                return super()._lines(item)
+                return super()._print_line(item)
         raise ValueError(f"a line of a kernel that has no counterpart for vectors: {item}")
 
 
 def expression(value: Value) -> str:
-    """Return a value as a vector, outside of a function of its own."""
+    """Return a value as a vector in C, for use outside of a printed function."""
     return LaneLines(LanesPrinter()).expression(value)
 
 
 def statements(items: Sequence[Statement]) -> str:
-    """Return statements as lines within a function of a template."""
-    own = lines(items)
-    return "\n".join(map(LaneLines(LanesPrinter(own)).line, own.sections[0].statements)) if own.sections else ""
+    """Return statements as lines of C for the body of a lane function in a template; "" without statements."""
+    readable_lines = lines(items)
+    return (
+        "\n".join(map(LaneLines(LanesPrinter(readable_lines)).line, readable_lines.sections[0].statements))
+        if readable_lines.sections
+        else ""
+    )
 
 
 def kernel(item: Kernel) -> str:
-    """Return the function of a kernel for vectors; it marks lanes that it cannot compute in `rare`."""
-    kept = (
+    """Return a kernel as a C function for vectors, which marks the lanes that it cannot compute in `rare`.
+
+    Lines of single runs without a counterpart in lanes are left out. The function returns no status.
+    """
+    kept_sections = (
         Section(section.title, tuple(x for x in section.statements if not isinstance(x, _LEFT_OUT)))
         for section in item.sections
     )
     arguments = tuple(replace(a, type=_TYPES.get(a.type, a.type)) for a in item.arguments)
-    sections = tuple(section for section in kept if section.statements)
-    lanes = replace(item, sections=sections, arguments=arguments, status=False)
+    sections = tuple(section for section in kept_sections if section.statements)
+    lanes_kernel = replace(item, sections=sections, arguments=arguments, status=False)
     marks_rare = any(isinstance(x, (Guard, Sines)) for section in sections for x in section.statements)
-    own = readable(lanes)
-    return functions.function(lanes, LaneLines(LanesPrinter(own)), own, frozenset([_RARE.name] if marks_rare else []))
+    readable_lines = readable(lanes_kernel)
+    return functions.function(
+        lanes_kernel,
+        LaneLines(LanesPrinter(readable_lines)),
+        readable_lines,
+        frozenset([_RARE.name] if marks_rare else []),
+    )
 
 
 def motion_kernel(item: Kernel) -> str:
-    """Return a kernel for vectors whose sines a single run computes in vectors, too, with the argument `rare`."""
+    """Return a kernel as a C function for vectors whose sines are computed one angle at a time for all lanes.
+
+    The function has the further argument `rare`. Kernels of the motion are printed so.
+    """
     return kernel_with_rare(call_sines_by_lane(item))
 
 
 def kernel_with_rare(item: Kernel) -> str:
-    """Return a kernel for vectors with the argument `rare`."""
+    """Return a kernel as a C function for vectors with the further argument `rare`.
+
+    It is the mask of lanes that need a single run.
+    """
     return kernel(replace(item, arguments=(*item.arguments, _RARE)))

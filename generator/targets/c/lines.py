@@ -16,20 +16,20 @@ from gudgeon.generator.targets.c.printer import within
 
 @dataclass(frozen=True)
 class Stored:
-    """Represent a store to a variable and its lines (from 1); a branch has two.
+    """Represent the lines (from 1) of a file that store to a variable; a branch has two such entries.
 
-    `where`: "<" and the name of the condition for the store where it is below zero, ">" for the other; "": a plain
-    line.
+    `condition`: "<" and the name of the condition for the store where the condition is below zero, ">" for the other
+    store; "" for a line without a branch.
     """
 
     target: Key
     lines: range
-    where: str = ""
+    condition: str = ""
 
 
 @dataclass(frozen=True)
-class Found:
-    """Represent a function, or a part of one, and its lines in a file."""
+class LocatedFunction:
+    """Represent a function, or a part of one, with its lines in a file and the stores in these lines."""
 
     file: str
     name: str
@@ -39,56 +39,65 @@ class Found:
     lines: tuple[Stored, ...]
 
 
-def find_function(kernel: Kernel, files: Mapping[str, str]) -> Iterator[Found]:
-    """Yield the printed parts of a function with their locations; parts that no file contains are left out."""
-    for part, own, pieces in printed_parts(kernel):
-        texts = [within(text).split("\n") for text, _ in pieces]
-        whole = "\n".join(line for text in texts for line in text)
-        file = next((name for name, text in files.items() if f"{whole}\n" in text), None)
+def find_function(kernel: Kernel, files: Mapping[str, str]) -> Iterator[LocatedFunction]:
+    """Yield the printed parts of a kernel with their locations in the C files.
+
+    files: the text of each file by name. Parts that no file contains are left out.
+    """
+    for part, readable_part, texts_with_lines in printed_parts(kernel):
+        texts = [within(text).split("\n") for text, _ in texts_with_lines]
+        function_text = "\n".join(line for text in texts for line in text)
+        file = next((name for name, text in files.items() if f"{function_text}\n" in text), None)
         if file is None:
             continue
-        number = first = 1 + files[file].count("\n", 0, files[file].index(f"{whole}\n"))
-        stored: list[Stored] = []
-        for text, (_, line) in zip(texts, pieces, strict=True):
-            stored += _find_stores(text, line, number)
-            number += len(text)
-        yield Found(file, part.name, own, first, number - 1, tuple(stored))
+        line_number = first_line = 1 + files[file].count("\n", 0, files[file].index(f"{function_text}\n"))
+        stores: list[Stored] = []
+        for text, (_, line) in zip(texts, texts_with_lines, strict=True):
+            stores += _find_stores(text, line, line_number)
+            line_number += len(text)
+        yield LocatedFunction(file, part.name, readable_part, first_line, line_number - 1, tuple(stores))
 
 
 def _find_stores(text: Sequence[str], line: Line | str | None, first: int) -> list[Stored]:
-    """Return the stores in a text of C; `line` is its statement, or the name of a local."""
-    here = range(first, first + len(text))
+    """Return the stores in a text of C that begins at line `first` of a file.
+
+    line: the statement that the text prints, or the name of a local; other lines of a kernel store nothing.
+    """
+    lines = range(first, first + len(text))
     if isinstance(line, str):
-        return [Stored(line, here)]
+        return [Stored(line, lines)]
     if isinstance(line, Statement):
-        return [Stored(line.target, here)]
+        return [Stored(line.target, lines)]
     if not isinstance(line, Branch):
         return []
-    other, side = first + text.index("    else"), line.side.name if line.side.is_Symbol else ""
-    below, above = range(first, other), range(other, here.stop)
-    return [Stored(line.target, below, f"<{side}"), Stored(line.target, above, f">{side}")]
+    else_line, condition = first + text.index("    else"), line.side.name if line.side.is_Symbol else ""
+    below, above = range(first, else_line), range(else_line, lines.stop)
+    return [Stored(line.target, below, f"<{condition}"), Stored(line.target, above, f">{condition}")]
 
 
 def find_stores_in_text(
-    whole: str, stores: Iterable[tuple[str, Line | str]], files: Mapping[str, str]
+    function_text: str, stores: Iterable[tuple[str, Line | str]], files: Mapping[str, str]
 ) -> tuple[str, list[Stored]]:
-    """Return the file and the stores in a text that a template printed, in order, each with its own text."""
-    file, lines = locate_text(whole, files)
-    left, number, found = within(whole), lines.start, list[Stored]()
+    """Return (file, stores) of a function that a template printed; each store is found by its text, in order.
+
+    ("", []) is returned if no file contains the function.
+    """
+    file, lines = locate_text(function_text, files)
+    rest, line_number, located_stores = within(function_text), lines.start, list[Stored]()
     for text, line in stores if file else ():
-        own = within(text)
-        before, _, left = left.partition(f"{own}\n")
-        number += before.count("\n")
-        found += _find_stores(own.split("\n"), line, number)
-        number += own.count("\n") + 1
-    return file, found
+        store_text = within(text)
+        skipped, _, rest = rest.partition(f"{store_text}\n")
+        line_number += skipped.count("\n")
+        located_stores += _find_stores(store_text.split("\n"), line, line_number)
+        line_number += store_text.count("\n") + 1
+    return file, located_stores
 
 
 def locate_text(text: str, files: Mapping[str, str]) -> tuple[str, range]:
-    """Return file and lines of a text that was printed whole; ("", empty range) if no file contains it."""
-    whole = within(text)
-    file = next((name for name, own in files.items() if whole in own), "")
-    if not file or not whole.strip():
+    """Return (file, lines) of a text that is printed in one piece; ("", empty range) if no file contains it."""
+    wrapped = within(text)
+    file = next((name for name, file_text in files.items() if wrapped in file_text), "")
+    if not file or not wrapped.strip():
         return "", range(0)
-    first = 1 + files[file].count("\n", 0, files[file].index(whole))
-    return file, range(first, first + whole.rstrip("\n").count("\n") + 1)
+    first_line = 1 + files[file].count("\n", 0, files[file].index(wrapped))
+    return file, range(first_line, first_line + wrapped.rstrip("\n").count("\n") + 1)

@@ -34,31 +34,35 @@ from gudgeon.language.units import DIMENSIONLESS, POWER, PRESSURE, VISCOSITY, Di
 _NAMED = {PRESSURE: "Pa", VISCOSITY: "Pa*s", POWER: "W"}
 
 
-def parameter_fields(slots: ParameterTable) -> list[tuple[str, str]]:
-    """Return name and comment of each field of Parameters, in the order of the struct."""
-    known: dict[sp.Symbol, Dimension | None] = {}
+def list_parameter_fields(slots: ParameterTable) -> list[tuple[str, str]]:
+    """Return (name, comment) of each field of the C struct Parameters, in order.
+
+    Entries of the file come first, then derived parameters. A table is one array field. The comment has the address
+    and the unit.
+    """
+    dimensions: dict[sp.Symbol, Dimension | None] = {}
     fields = []
-    inner = {symbol for table in slots.tables.values() for symbol in table[1:]}
+    table_entries = {symbol for table in slots.tables.values() for symbol in table[1:]}
     sizes = {table[0]: f"{name}[{len(table)}]" for name, table in slots.tables.items()}
     for entry in slots.entries.values():
-        known[entry.symbol] = entry.dimension
-        if entry.symbol in inner:
+        dimensions[entry.symbol] = entry.dimension
+        if entry.symbol in table_entries:
             continue
-        turn = entry.address.endswith(".theta") and entry.dimension == DIMENSIONLESS
-        unit = "rad" if turn else _unit_of_law(entry.address) or unit_text(entry.dimension)
+        is_angle = entry.address.endswith(".theta") and entry.dimension == DIMENSIONLESS
+        unit = "rad" if is_angle else _describe_law_unit(entry.address) or unit_text(entry.dimension)
         name = sizes.get(entry.symbol, slots.field(entry.symbol))
         address = entry.address.rpartition(".")[0] if entry.symbol in sizes else entry.address
         fields.append((name, comment_text(f"{address}, {unit}")))
     for symbol, value in slots.derived.items():
-        known[symbol] = _dimension(value, known)
-        own = known[symbol]
-        message = (slots.symbols.info[symbol].meaning, unit_text(own) if own else "")
-        fields.append((slots.field(symbol), comment_text(", ".join(filter(None, message)))))
+        dimensions[symbol] = _derive_dimension(value, dimensions)
+        dimension = dimensions[symbol]
+        comment_parts = (slots.symbols.info[symbol].meaning, unit_text(dimension) if dimension else "")
+        fields.append((slots.field(symbol), comment_text(", ".join(filter(None, comment_parts)))))
     return fields
 
 
-def _unit_of_law(address: str) -> str:
-    """Return the meaning of a law's coefficient in N/m^n, whose unit depends on an exponent; "" for others."""
+def _describe_law_unit(address: str) -> str:
+    """Return the meaning of a law's coefficient in N/m^n, whose unit depends on an exponent; "" for other addresses."""
     field: Field | None = FILE if address.startswith("contacts.") else None
     for part in address.split("."):
         field = field and field.below(part)
@@ -66,42 +70,47 @@ def _unit_of_law(address: str) -> str:
 
 
 def unit_text(dimension: Dimension) -> str:
-    """Return a dimension as a unit: N*m, Pa, N*s/m^1.5, kg*m^2; 1 for a plain number and rad."""
+    """Return a dimension as a unit in ASCII: N*m, Pa, N*s/m^1.5, kg*m^2; "1" for a plain number and rad."""
     if unit := _NAMED.get(dimension):
         return unit
     powers = {"kg": dimension.mass, "m": dimension.length, "s": dimension.time}
     if dimension.mass == 1 and dimension.time in (-1, -2):
         powers = {"N": Fraction(1), "m": dimension.length - 1, "s": dimension.time + 2}
-    above, below = _product(powers), _product({unit: -n for unit, n in powers.items()})
-    many = f"({below})" if "*" in below else below
-    return f"{above or 1}/{many}" if below else above or "1"
+    numerator, divisors = _print_unit_product(powers), _print_unit_product({unit: -n for unit, n in powers.items()})
+    denominator = f"({divisors})" if "*" in divisors else divisors
+    return f"{numerator or 1}/{denominator}" if divisors else numerator or "1"
 
 
-def _product(powers: Mapping[str, Fraction]) -> str:
-    """Return the product of units with positive powers: N*s, m^1.5."""
-    exact = {unit: f"{float(n):g}" if n.denominator in (1, 2, 4) else f"({n})" for unit, n in powers.items() if n > 0}
-    return "*".join(unit if n == "1" else f"{unit}^{n}" for unit, n in exact.items())
+def _print_unit_product(powers: Mapping[str, Fraction]) -> str:
+    """Return the product of the units with positive powers: "N*s", "m^1.5"; "" if there are none."""
+    printed_powers = {
+        unit: f"{float(n):g}" if n.denominator in (1, 2, 4) else f"({n})" for unit, n in powers.items() if n > 0
+    }
+    return "*".join(unit if n == "1" else f"{unit}^{n}" for unit, n in printed_powers.items())
 
 
-def _dimension(value: sp.Expr, known: dict[sp.Symbol, Dimension | None]) -> Dimension | None:
-    """Return the dimension of a derived parameter; None if it depends on an exponent that is a parameter."""
+def _derive_dimension(value: sp.Expr, dimensions: dict[sp.Symbol, Dimension | None]) -> Dimension | None:
+    """Return the dimension of a derived parameter's expression; None if it depends on an exponent that is a parameter.
+
+    dimensions: those of the parameters before it. Other functions and numbers have no dimension.
+    """
     if value.is_Symbol:
-        return known.get(value)
+        return dimensions.get(value)
     if value.is_Add:
-        return next((d for term in value.args if (d := _dimension(term, known))), DIMENSIONLESS)
+        return next((d for term in value.args if (d := _derive_dimension(term, dimensions))), DIMENSIONLESS)
     if value.is_Mul:
         product: Dimension | None = DIMENSIONLESS
         for factor in value.args:
-            own = _dimension(factor, known)
-            product = product * own if product and own else None
+            factor_dimension = _derive_dimension(factor, dimensions)
+            product = product * factor_dimension if product and factor_dimension else None
         return product
     if value.is_Pow:
-        base, exponent = _dimension(value.base, known), value.exp
+        base, exponent = _derive_dimension(value.base, dimensions), value.exp
         if base is None or base == DIMENSIONLESS:
             return base
         return base ** Fraction(int(exponent.p), int(exponent.q)) if exponent.is_Rational else None
     if isinstance(value, (sp.Max, sp.Min, sp.Abs)):
-        return _dimension(value.args[0], known)
+        return _derive_dimension(value.args[0], dimensions)
     return DIMENSIONLESS
 
 
@@ -131,32 +140,44 @@ _GAINS = {"two_alpha": "baumgarte_two_alpha", "beta_squared": "baumgarte_beta_sq
 
 
 def header_values(program: Program, bounds: Kernel | None) -> dict[str, Any]:
-    """Return the substitutions of the template of model.h; `bounds` is the kernel of `known_bounds`."""
-    model, of_scene = program.model, sizes(program, bounds)
+    """Return the substitutions of the template of model.h by name.
+
+    They are fields of Parameters, #defines of sizes and thresholds, tables, and gains of Newton's matrix. bounds: the
+    kernel of `known_bounds`, or None.
+    """
+    model, scene_sizes = program.model, sizes(program, bounds)
     if series := program.series:
-        of_scene["TAYLOR"] = (max(len(series.products), 1), "products of the Taylor series of the motion")
+        scene_sizes["TAYLOR"] = (max(len(series.products), 1), "products of the Taylor series of the motion")
     mechanism = model.scene.mechanism
     return {
         "title": printer.comment_text(mechanism.title or mechanism.name),
         "mechanism": mechanism.name,
         "scene": model.scene.name,
         "sha256": mechanism.sha256,
-        "parameters": parameter_fields(model.slots),
-        "sizes": _defines(of_scene),
-        "thresholds": _defines(_THRESHOLDS),
-        "tables": _tables(program, of_scene),
+        "parameters": list_parameter_fields(model.slots),
+        "sizes": _print_defines(scene_sizes),
+        "thresholds": _print_defines(_THRESHOLDS),
+        "tables": _print_tables(program, scene_sizes),
         "engine_ends": ENGINE_ENDS,
-        "gains": _gains(program),
+        "gains": _list_gains(program),
     }
 
 
 def sizes(program: Program, bounds: Kernel | None) -> Sizes:
-    """Return sizes by name with their meaning; code for what has size 0 is left out of the library."""
-    return _linkage_sizes(program) | _motion_sizes(program) | _monitoring_sizes(program, bounds) | _start_sizes(program)
+    """Return {macro: (value, meaning)} of all sizes in model.h; code for what has size 0 is left out of the library.
+
+    bounds: the kernel of `known_bounds`, or None.
+    """
+    return (
+        _count_linkage(program)
+        | _count_motion(program)
+        | _count_monitored(program, bounds)
+        | _count_start_values(program)
+    )
 
 
-def _linkage_sizes(program: Program) -> Sizes:
-    """Return the numbers of coordinates, constraint equations, joints, switching functions and others."""
+def _count_linkage(program: Program) -> Sizes:
+    """Return {macro: (value, meaning)} of coordinates, constraint equations, joints, drives and switching functions."""
     model = program.model
     switches = max(model.symbols.switches.count, program.integrated.system.model.symbols.switches.count)
     return {
@@ -174,8 +195,11 @@ def _linkage_sizes(program: Program) -> Sizes:
     }
 
 
-def _motion_sizes(program: Program) -> Sizes:
-    """Return the sizes of the integrated equations and of their matrices."""
+def _count_motion(program: Program) -> Sizes:
+    """Return {macro: (value, meaning)} of the integrated equations, driven loops, Newton's matrix and its factors.
+
+    Flags have the values 0 and 1.
+    """
     integrated, chain, course, tree = program.integrated, program.integrated.chain, program.course, program.tree
     system, newton = integrated.system, program.methods.newton if program.methods else None
     return {
@@ -189,7 +213,7 @@ def _motion_sizes(program: Program) -> Sizes:
         "SMOOTH_CHAINS": (int(bool(tree and tree.chains and not tree.chains.corners)), "their drives have no corners"),
         "TREE_PIVOTS": (len(integrated.pivots) - len(chain.rows) if chain else 0, "statuses of chains follow these"),
         "RESCUED": (int(tree is not None and tree.rescued), "pivots may vanish: all bodies' equations help"),
-        "LARGEST_BLOCK": (_largest_block(program), "rows that are solved together"),
+        "LARGEST_BLOCK": (_find_largest_block(program), "rows that are solved together"),
         "N_VALUES": (newton.values.size if newton else 0, "of the linearized equations"),
         "N_FACTORS": (newton.factors.size if newton else 0, "of their factors L and U"),
         "IMPLICIT_STAGES": (int(program.staged), "1: there are methods that find their stages together"),
@@ -197,8 +221,11 @@ def _motion_sizes(program: Program) -> Sizes:
     }
 
 
-def _monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
-    """Return the sizes of what is monitored within a step: event functions, terms of time, jumps."""
+def _count_monitored(program: Program, bounds: Kernel | None) -> Sizes:
+    """Return {macro: (value, meaning)} of what is monitored within a step: event functions, time terms, jumps.
+
+    Macros for rigid contacts, remainders, curves, contours and guides exist only if the scene has them.
+    """
     model = program.model
     sizes: Sizes = {
         "DRIVE_IMPULSES": (
@@ -206,7 +233,7 @@ def _monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
             "drives' rates may jump, and something is free to move",
         ),
         "RATE_JUMPS": (int(has_jumps(model)), "the rate of some drive may jump"),
-        "N_WATCHED": (len(watched_corners(program)) + len(model.events), "corners of expressions, and events"),
+        "N_WATCHED": (len(find_monitored_switches(program)) + len(model.events), "corners of expressions, and events"),
         "KNOWN_BOUNDS": (int(bounds is not None), "bounds of what is watched are known over ranges of the state"),
         "WATCHES_STATE": (int(bounds is not None and depends_on_state(bounds)), "they hang on more than time"),
         "N_TERMS": (program.terms.count, "terms of time alone, which may hide within a step"),
@@ -218,162 +245,204 @@ def _monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
         sizes["N_RIGID"] = (len(model.rigid), "joints with play whose surfaces do not give")
     if model.rigid_with_friction:
         sizes["N_RUBBED"] = (len(model.rigid_with_friction), "of them, with friction")
-    if idle := idle_switches(program):
-        sizes["N_IDLE"] = (len(idle), "of N_SWITCHES that what is integrated does not have")
+    if unused_switches := find_unused_switches(program):
+        sizes["N_IDLE"] = (len(unused_switches), "of N_SWITCHES that what is integrated does not have")
     if any(g.has(PeriodsOf) for g in switches):
         sizes["PERIODS"] = (1, "mod begins anew within the motion")
     if any(g.has(KnotsOf) for g in switches):
         sizes["KNOTS"] = (1, "curves change from piece to piece within the motion")
     if any(clearance.contour for clearance in model.clearances):
         sizes["CONTOURS"] = (1, "bearings are no circles")
-    if corners := first_corners(model):
+    if corners := find_first_corners(model):
         sizes["WALLS"] = (len(corners), "guides in which sliders have play: corners at walls")
         sizes["SLIDER_CORNERS"] = (len(CORNERS), "of each slider")
     return sizes
 
 
-def _start_sizes(program: Program) -> Sizes:
-    """Return the sizes of the start."""
-    start, guess = _start_indices(program.model), program.model.scene.mechanism.start.guess
-    apart = eccentricity_rows(program.model)
+def _count_start_values(program: Program) -> Sizes:
+    """Return {macro: (value, meaning)} of the coordinates that the start guesses or sets and of the rates that it sets.
+
+    N_APART, the number of specified eccentricities of journals, exists only if there are any.
+    """
+    start_indices, guess = _find_start_indices(program.model), program.model.scene.mechanism.start.guess
+    eccentricity_constraints = eccentricity_rows(program.model)
     sizes: Sizes = {
-        "N_GUESS": (len(start["guess_place"]), "coordinates that the start guesses"),
+        "N_GUESS": (len(start_indices["guess_place"]), "coordinates that the start guesses"),
         "GUESSED_POINTS": (int(any(name.count(".") > 1 for name in guess)), "some of them are those of points"),
-        "N_SET": (len(start["set_place"]), "those that it sets"),
-        "N_RATES": (len(start["rate_place"]), "velocities that it sets"),
+        "N_SET": (len(start_indices["set_place"]), "those that it sets"),
+        "N_RATES": (len(start_indices["rate_place"]), "velocities that it sets"),
     }
-    return sizes | {"N_APART": (len(apart), "rows that it holds apart: eccentricities of journals")} if apart else sizes
+    return (
+        sizes | {"N_APART": (len(eccentricity_constraints), "rows that it holds apart: eccentricities of journals")}
+        if eccentricity_constraints
+        else sizes
+    )
 
 
-def first_corners(model: Model) -> list[int]:
-    """Return the index of the first corner of each guide with play among joints with play; three others follow it."""
+def find_first_corners(model: Model) -> list[int]:
+    """Return the index among joints with play of the first corner of each guide with play; three others follow it."""
     return [k for k, c in enumerate(model.clearances) if c.wall][:: len(CORNERS)]
 
 
 def known_bounds(program: Program) -> Kernel | None:
-    """Return the kernel that bounds event functions, None if they depend on forces or driven loops."""
-    model, corners = program.model, watched_corners(program)
+    """Return the kernel that bounds event functions over ranges of the state.
+
+    None is returned if nothing is monitored, or if event functions depend on forces or driven loops.
+    """
+    model, corners = program.model, find_monitored_switches(program)
     watched = program.integrated.watched if program.integrates else program.watched if model.events else None
     if watched is None or not (corners or model.events):
         return None
     return ranges_kernel(watched, corners, len(model.events))
 
 
-def watched_corners(program: Program) -> list[int]:
-    """Return the indices of the scene's own switching functions."""
+def find_monitored_switches(program: Program) -> list[int]:
+    """Return the indices of the switching functions that the integrator monitors.
+
+    Without integration they are those of the scene itself, without those of laws.
+    """
     if program.integrates:
         return program.integrated.corners
     return sorted(switch.index for switch in program.model.symbols.switches.of(""))
 
 
-def idle_switches(program: Program) -> list[int]:
-    """Return the indices of switching functions that only the full formulation evaluates."""
-    own, every = program.integrated.system.model.symbols.switches, program.model.symbols.switches
-    used = {switch.index for switch in own.found.values()}
-    return [k for k in range(max(own.count, every.count)) if k not in used] if program.integrates else []
+def find_unused_switches(program: Program) -> list[int]:
+    """Return the indices of switching functions that only the full formulation evaluates; [] without integration."""
+    integrated_switches, all_switches = program.integrated.system.model.symbols.switches, program.model.symbols.switches
+    used = {switch.index for switch in integrated_switches.found.values()}
+    return (
+        [k for k in range(max(integrated_switches.count, all_switches.count)) if k not in used]
+        if program.integrates
+        else []
+    )
 
 
-def deepest(clearance: Clearance) -> sp.Expr:
-    """Return the penetration up to which contact laws are valid: a tenth of the bearing's radius or a law's own."""
+def get_max_penetration(clearance: Clearance) -> sp.Expr:
+    """Return the penetration in m up to which contact laws are valid.
+
+    It is a tenth of the bearing's radius, or the law's own limit if that is smaller.
+    """
     tenth = sp.sympify(clearance.pair.R_i) / 10
     return sp.Min(clearance.constants[DEEPEST], tenth) if DEEPEST in clearance.constants else tenth
 
 
-def _largest_block(program: Program) -> int:
-    """Return the largest number of constraint equations that are solved together."""
+def _find_largest_block(program: Program) -> int:
+    """Return the largest number of constraint equations that are solved together; 0 for none.
+
+    Such blocks occur in positions that follow from drives and in driven loops.
+    """
     rows, chains = program.course and program.course.rows, program.tree and program.tree.chains
     return max(rows.largest if rows else 0, chains.square.largest if chains else 0)
 
 
-def _defines(values: Sizes) -> list[str]:
-    """Return #define lines with comments."""
+def _print_defines(values: Sizes) -> list[str]:
+    """Return aligned #define lines with the value and its meaning as a comment."""
     width = max(len(f"{name} {value}") for name, (value, _) in values.items())
     return [f"#define {f'{name} {value}':<{width}} /* {meaning} */" for name, (value, meaning) in values.items()]
 
 
-def _tables(program: Program, of_scene: Sizes) -> list[str]:
-    """Return the tables of model.h as C: indices of start values, constraint equations and coordinates."""
-    model, start, drives = program.model, _start_indices(program.model), program.model.scene.mechanism.drives
-    place = {row.name: r for r, row in enumerate(model.all_rows)}
-    column = {q: k for k, q in enumerate(model.q)}
+def _print_tables(program: Program, scene_sizes: Sizes) -> list[str]:
+    """Return the tables of model.h as C: indices of start values, constraint equations and coordinates, and flags.
+
+    Tables for rigid contacts, guides, eccentricities and monitoring exist only if the scene needs them.
+    """
+    model, start_indices, drives = (
+        program.model,
+        _find_start_indices(program.model),
+        program.model.scene.mechanism.drives,
+    )
+    row_index = {row.name: r for r, row in enumerate(model.all_rows)}
+    coordinate_index = {q: k for k, q in enumerate(model.q)}
     tables: dict[tuple[str, str], Sequence[int]] = {
         ("signed char", "event_direction"): [SIGNS[event.direction] for event in model.events],
         ("unsigned char", "event_stops"): [int(event.action == "stop") for event in model.events],
-        ("int", "guess_place"): start["guess_place"],
-        ("int", "set_place"): start["set_place"],
-        ("int", "rate_place"): start["rate_place"],
-        ("int", "drive_row"): [place[d] for d in drives],
+        ("int", "guess_place"): start_indices["guess_place"],
+        ("int", "set_place"): start_indices["set_place"],
+        ("int", "rate_place"): start_indices["rate_place"],
+        ("int", "drive_row"): [row_index[d] for d in drives],
         ("unsigned char", "row_is_length"): [int(row.unit == "m") for row in model.all_rows],
-        ("int", "kept_row"): [place[row.name] for row in model.rows],
+        ("int", "kept_row"): [row_index[row.name] for row in model.rows],
         ("int", "phi_q_first"): [0, *accumulate(len(row.phi_q) for row in model.all_rows)],
-        ("short", "phi_q_place"): [column[q] for row in model.all_rows for q in row.phi_q],
+        ("short", "phi_q_place"): [coordinate_index[q] for row in model.all_rows for q in row.phi_q],
         ("unsigned char", "is_angle"): program.integrated.angles,
         ("unsigned char", "film_joint"): [int(c.film is not None) for c in model.clearances],
     }
-    if apart := [k for k, _, _ in eccentricity_rows(model)]:
-        tables |= {("int", "apart_row"): apart}
+    if eccentricity_constraints := [k for k, _, _ in eccentricity_rows(model)]:
+        tables |= {("int", "apart_row"): eccentricity_constraints}
     if model.rigid:
         tables |= {("unsigned char", "rigid_joint"): [int(c.rigid) for c in model.clearances]}
-    if corners := first_corners(model):
+    if corners := find_first_corners(model):
         tables |= {("int", "first_corner"): corners}
-    if idle := idle_switches(program):
-        tables |= {("short", "idle"): idle}
+    if unused_switches := find_unused_switches(program):
+        tables |= {("short", "idle"): unused_switches}
     if program.integrates:
-        tables |= _monitoring_tables(program, of_scene) | {
-            ("int", "friction_of_pivot"): _friction_pivots(program.integrated.kkt)
+        tables |= _list_monitoring_tables(program, scene_sizes) | {
+            ("int", "friction_of_pivot"): _find_friction_of_pivots(program.integrated.kkt)
         }
-    return [_table(kind, name, values) for (kind, name), values in tables.items()]
+    return [_print_table(kind, name, values) for (kind, name), values in tables.items()]
 
 
-def _table(kind: str, name: str, values: Iterable[int]) -> str:
-    """Return one table as C; an empty one contains one unused number."""
-    return "\n".join(broken(f"static const {kind} {name}[] = {{{', '.join(map(str, values)) or 0}}};"))
+def _print_table(c_type: str, name: str, values: Iterable[int]) -> str:
+    """Return one table as a static array in C; an empty table gets one unused 0."""
+    return "\n".join(broken(f"static const {c_type} {name}[] = {{{', '.join(map(str, values)) or 0}}};"))
 
 
-def _monitoring_tables(program: Program, of_scene: Sizes) -> dict[tuple[str, str], Sequence[int]]:
-    """Return the tables of monitored event functions in C's order, and of switches whose branches meet."""
-    count = {name: value for name, (value, _) in of_scene.items()}
+def _list_monitoring_tables(program: Program, scene_sizes: Sizes) -> dict[tuple[str, str], Sequence[int]]:
+    """Return {(C type, name): values} of the monitored event functions, their inverse index and continuous switches.
+
+    Indices count gaps of joints with play, then switching functions, frictions and user events, as in C.
+    """
+    count = {name: value for name, (value, _) in scene_sizes.items()}
     first = int(count["N_CLEARANCES"] + count["N_SWITCHES"] + count["N_FRICTIONS"])
     event_functions = [int(count["N_CLEARANCES"]) + k for k in program.integrated.corners]
     event_functions += range(first, first + int(count["N_USER_EVENTS"]))
-    place = {k: i for i, k in enumerate(event_functions)}
+    position = {k: i for i, k in enumerate(event_functions)}
     return {
         ("short", "watched"): event_functions,
-        ("short", "watched_as"): [place.get(k, -1) for k in range(first + int(count["N_USER_EVENTS"]))],
-        ("unsigned char", "meets"): _continuous_switches(program.model, int(count["N_SWITCHES"])),
+        ("short", "watched_as"): [position.get(k, -1) for k in range(first + int(count["N_USER_EVENTS"]))],
+        ("unsigned char", "meets"): _mark_continuous_switches(program.model, int(count["N_SWITCHES"])),
     }
 
 
-def _continuous_switches(model: Model, count: int) -> list[int]:
-    """Return 1 for switching functions of contact laws, whose branches meet; others, and laws as printed, may jump."""
-    printed = {c.name for c in model.clearances if c.film is not None and c.film.options.get("as_printed")}
+def _mark_continuous_switches(model: Model, count: int) -> list[int]:
+    """Return a list of `count` flags, 1 for switching functions of contact laws whose branches meet without a jump.
+
+    Other switching functions, and those of films with the option `as_printed`, may jump and have 0.
+    """
+    joints_as_printed = {c.name for c in model.clearances if c.film is not None and c.film.options.get("as_printed")}
     owners = {switch.index: switch.owner for switch in model.symbols.switches.found.values()}
-    return [int(bool(owners.get(k)) and owners[k] not in printed) for k in range(count)]
+    return [int(bool(owners.get(k)) and owners[k] not in joints_as_printed) for k in range(count)]
 
 
-def _friction_pivots(kkt: KKT) -> list[int]:
-    """Return the index of the friction element of each pivot after those of constraint equations."""
+def _find_friction_of_pivots(kkt: KKT) -> list[int]:
+    """Return the index of the friction element of each pivot that follows the pivots of constraint equations."""
     names = [friction.name for friction in kkt.frictions]
     return [names.index(pivot) for pivot in kkt.pivots[len(kkt.rows) : len(kkt.rows) + len(names)]]
 
 
-def _start_indices(model: Model) -> dict[str, list[int]]:
-    """Return the indices in q of guessed and set coordinates, and of set velocities."""
-    place = {model.symbols.info[q].meaning: k for k, q in enumerate(model.q)}
+def _find_start_indices(model: Model) -> dict[str, list[int]]:
+    """Return the indices in q of guessed and set coordinates, and in v of set velocities, by table name.
+
+    A guess that is not a coordinate, but that of a point, has the index 0.
+    """
+    coordinate_index = {model.symbols.info[q].meaning: k for k, q in enumerate(model.q)}
     start = model.scene.mechanism.start
     rates = (name.partition(".") for name in start.rates)
     return {
-        "guess_place": [place.get(name, 0) for name in start.guess],
-        "set_place": [place[name] for name in start.set],
-        "rate_place": [place[f"{body}.{_POSITION[rate]}"] for body, _, rate in rates],
+        "guess_place": [coordinate_index.get(name, 0) for name in start.guess],
+        "set_place": [coordinate_index[name] for name in start.set],
+        "rate_place": [coordinate_index[f"{body}.{_POSITION[rate]}"] for body, _, rate in rates],
     }
 
 
 def joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
-    """Return parameters of joints with play: their meaning, the function that returns them, a value for each joint."""
+    """Return (meaning, name of the C function, [C expression for each joint]) of the parameters of joints with play.
+
+    Breakaway, restitution and threshold are included only if laws with inner states or rigid contacts exist.
+    """
     values = {
         "radial_clearance": [c.pair.c for c in model.clearances],
-        "deepest": [deepest(c) for c in model.clearances],
+        "deepest": [get_max_penetration(c) for c in model.clearances],
         "min_approach_speed": [c.velocity_floor for c in model.clearances],
     }
     if model.law_states:
@@ -383,19 +452,22 @@ def joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
             f"{name}_of": [c.normal.numbers[name] if c.rigid and c.normal else 0 for c in model.clearances]
             for name in ("restitution", "threshold")
         }
-    message = dict(_OF_JOINTS)
+    meanings = dict(_OF_JOINTS)
     if any(DEEPEST in c.constants for c in model.clearances):
-        message["deepest"] = message["deepest"].replace("radius.", "radius, or a law's own.")
+        meanings["deepest"] = meanings["deepest"].replace("radius.", "radius, or a law's own.")
     if any(c.wall for c in model.clearances):
-        message["deepest"] = message["deepest"].replace("radius", "radius, of half a guide's width", 1)
+        meanings["deepest"] = meanings["deepest"].replace("radius", "radius, of half a guide's width", 1)
     return [
-        (message[name], name, [printer.expression(model.symbols.in_place(sp.sympify(x))) for x in some])
-        for name, some in values.items()
+        (meanings[name], name, [printer.expression(model.symbols.in_place(sp.sympify(x))) for x in joint_values])
+        for name, joint_values in values.items()
     ]
 
 
-def _gains(program: Program) -> list[tuple[str, str]]:
-    """Return the gains of Newton's matrix as C; the reduced formulation has no Baumgarte terms."""
+def _list_gains(program: Program) -> list[tuple[str, str]]:
+    """Return (name, C expression) of the gains of Newton's matrix; gains that the formulation lacks are 0.
+
+    [] without implicit methods.
+    """
     if program.methods is None:
         return []
     gains = program.methods.gains

@@ -34,90 +34,112 @@ static inline void blend_slopes({type} *F, const {type} *film, const {number} *s
 
 
 def newton_code(newton: Newton, render: Render) -> str:
-    """Return kernels and tables of the linearized equations of one system."""
+    """Return the kernels and index tables of one linearized system as C: linearize, factorize, substitute, solve."""
     kernels = [newton.linearize, newton.factor, newton.substitute, newton.solve]
     counts = [(f"n_{name}".upper(), len(entries)) for name, entries in newton.tables.items()]
     return render(
         "newton.c.jinja",
         kernels="\n".join(map(functions.kernel, kernels)),
-        tables=[(name, _table_rows(entries)) for name, entries in newton.tables.items()],
+        tables=[(name, _print_table_rows(entries)) for name, entries in newton.tables.items()],
         counts=[*counts, ("N_NODES", newton.nodes)],
     )
 
 
 def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render, states: int) -> str:
-    """Return `tangent_<joint>` of every joint with play, after the derivatives of laws that the joints share.
+    """Return the C function `tangent_<joint>` of every joint with play, after the shared derivatives of laws.
 
-    Each joint has `states` inner states of laws.
+    Each joint has `states` inner states of laws. Contours and walls of guides have their own templates. "" without
+    play.
     """
     if not pins:
         return ""
     contours = any(pin.clearance.contour for pin in pins)
-    sizes = {"rows": 4 + states, "columns": 5 + states}
-    parts = [CONTOURS * contours + shared_slopes_code(pins, render, "double", "PinSlopes", states)]
-    parts += [render("play/contour_slopes.c.jinja")] * contours
-    parts += map(functions.kernel, methods.sloping)
+    dimensions = {"rows": 4 + states, "columns": 5 + states}
+    functions_ = [CONTOURS * contours + shared_slopes_code(pins, render, "double", "PinSlopes", states)]
+    functions_ += [render("play/contour_slopes.c.jinja")] * contours
+    functions_ += map(functions.kernel, methods.sloping)
     for clearance in (pin.clearance for pin in pins):
         if clearance.contour:
-            parts.append(_contour_tangent(clearance, clearance.contour, methods.slopes[clearance.name]["dry"], render))
-            continue
-        c = f"p->{clearance.pair.c}"
-        slopes = _select_slopes(clearance, c, methods.slopes[clearance.name])
-        if clearance.wall:
-            rise = expression(in_place(methods.newton.system.model, clearance.wall.rise))
-            parts.append(
-                render("play/wall_tangent.c.jinja", joint=clearance.label, c=c, rise=rise, slopes=slopes, **sizes)
+            functions_.append(
+                _print_contour_tangent(clearance, clearance.contour, methods.slopes[clearance.name]["dry"], render)
             )
             continue
-        parts.append(render("play/tangent.c.jinja", joint=clearance.label, c=c, slopes=slopes, **sizes))
-    return "\n".join(parts)
+        clearance_parameter = f"p->{clearance.pair.c}"
+        code = _print_slope_selection(clearance, clearance_parameter, methods.slopes[clearance.name])
+        if clearance.wall:
+            rise = expression(in_place(methods.newton.system.model, clearance.wall.rise))
+            functions_.append(
+                render(
+                    "play/wall_tangent.c.jinja",
+                    joint=clearance.label,
+                    c=clearance_parameter,
+                    rise=rise,
+                    slopes=code,
+                    **dimensions,
+                )
+            )
+            continue
+        functions_.append(
+            render("play/tangent.c.jinja", joint=clearance.label, c=clearance_parameter, slopes=code, **dimensions)
+        )
+    return "\n".join(functions_)
 
 
-def _contour_tangent(clearance: Clearance, contour: Contour, dry: SharedFunctionCall, render: Render) -> str:
-    """Return the tangent function of a bearing with a contour."""
-    given = [symbol.name for symbol in OF_CONTOUR]
+def _print_contour_tangent(
+    clearance: Clearance, contour: Contour, dry_slopes: SharedFunctionCall, render: Render
+) -> str:
+    """Return the tangent function of a bearing with a contour, which has dry contact only."""
+    arguments = [symbol.name for symbol in OF_CONTOUR]
     return render(
         "play/contour_tangent.c.jinja",
         joint=clearance.label,
         c=f"p->{clearance.pair.c}",
         worn=[expression(contour.at(beta_i, order)) for order in range(3)],
-        unread="g" in functions.unread_branches([dry]),
-        call=functions.shared_call(dry, (*given, "contact"), ("&F",)),
+        unread="g" in functions.unread_branches([dry_slopes]),
+        call=functions.shared_call(dry_slopes, (*arguments, "contact"), ("&F",)),
     )
 
 
 def shared_slopes_code(pins: Sequence[Pin], render: Render, number: str, type_: str, states: int) -> str:
-    """Return the functions that combine derivatives of all joints with play, for numbers or for vectors."""
-    blending = _BLENDING.replace("{number}", number).replace("{type}", type_).replace("k < 5", f"k < {5 + states}")
-    shown = blending if any(pin.has_transition for pin in pins) else ""
-    given = {"number": number, "type": type_, "rows": 4 + states, "columns": 5 + states}
-    of_walls = render("play/wall_slopes.c.jinja", **given) if any(pin.clearance.wall for pin in pins) else ""
-    return render("play/pin_slopes.c.jinja", blending=shown, **given) + of_walls
+    """Return the C functions that combine derivatives of joints with play, for numbers or for vectors.
+
+    number, type_: the C types of a value and of a set of derivatives. Blending and walls of guides are included if a
+    joint needs them.
+    """
+    blend_function = (
+        _BLENDING.replace("{number}", number).replace("{type}", type_).replace("k < 5", f"k < {5 + states}")
+    )
+    blending = blend_function if any(pin.has_transition for pin in pins) else ""
+    substitutions = {"number": number, "type": type_, "rows": 4 + states, "columns": 5 + states}
+    wall_slopes = render("play/wall_slopes.c.jinja", **substitutions) if any(pin.clearance.wall for pin in pins) else ""
+    return render("play/pin_slopes.c.jinja", blending=blending, **substitutions) + wall_slopes
 
 
-def _select_slopes(clearance: Clearance, c: str, calls: Mapping[str, SharedFunctionCall]) -> str:
-    """Return the code that selects dry contact, film or both, as in the joint's force (clearance_*.c.jinja)."""
+def _print_slope_selection(
+    clearance: Clearance, clearance_parameter: str, calls: Mapping[str, SharedFunctionCall]
+) -> str:
+    """Return the C code that selects the derivatives of dry contact, film or their blend, as in the joint's force."""
 
-    def call(part: str, result: str, *given: str) -> str:
-        """Return the call of the derivatives of one part."""
-        return functions.shared_call(calls[part], given or STATE, (result,))
+    def print_call(part_name: str, result: str, *arguments: str) -> str:
+        """Return the call of the derivatives of one part, `dry`, `film` or `share`."""
+        return functions.shared_call(calls[part_name], arguments or STATE, (result,))
 
     unread = functions.unread_branches(calls.values())
     if clearance.normal is None:
-        return "\n".join(f"    {line}" for line in (*(f"(void){name};" for name in unread), call("film", "out")))
-    lines = [*["(void)g;"] * ("g" in unread), f"const double delta = e - {c};"]
+        return "\n".join(f"    {line}" for line in (*(f"(void){name};" for name in unread), print_call("film", "out")))
+    lines = [*["(void)g;"] * ("g" in unread), f"const double delta = e - {clearance_parameter};"]
     if clearance.film is None:
-        lines += ["*out = (PinSlopes){0};", f"if ({CLOSED})", f"    {call('dry', 'out')}"]
+        lines += ["*out = (PinSlopes){0};", f"if ({CLOSED})", f"    {print_call('dry', 'out')}"]
     else:
-        lines += [f"if (!({CLOSED})) {{", f"    {call('film', 'out')}", "    return;", "}"]
-        lines += [call("dry", "out"), "double share[2];", call("share", "share", "delta")]
-        lines += ["if (share[0] < 1.0) {", "    PinSlopes film;", f"    {call('film', '&film')}"]
+        lines += [f"if (!({CLOSED})) {{", f"    {print_call('film', 'out')}", "    return;", "}"]
+        lines += [print_call("dry", "out"), "double share[2];", print_call("share", "share", "delta")]
+        lines += ["if (share[0] < 1.0) {", "    PinSlopes film;", f"    {print_call('film', '&film')}"]
         lines += ["    blend_slopes(out, &film, share);", "}"]
     return textwrap.indent("\n".join(lines), "    ")
 
 
-def _table_rows(entries: list[tuple[int, int, int, int]]) -> str:
-    """Return the rows of a table as C; an empty one contains one unused row."""
-    rows = [f"{{{', '.join(map(str, entry))}}}" for entry in entries] or ["{0, 0, 0, 0}"]
-    together = " ".join(f"{row},".replace(" ", "\0") for row in rows).removesuffix(",")  # a row is never parted
-    return textwrap.fill(together, 110, initial_indent="    ", subsequent_indent="    ").replace("\0", " ")
+def _print_table_rows(entries: list[tuple[int, int, int, int]]) -> str:
+    """Return the rows of an index table as wrapped lines of C; an empty table gets one unused row of zeros."""
+    row_texts = [f"{{{', '.join(map(str, entry))}}}" for entry in entries] or ["{0, 0, 0, 0}"]
+    joined = " ".join(f"{row},".replace(" ", "\0") for row in row_texts).removesuffix(",")  # a row is never parted
+    return textwrap.fill(joined, 110, initial_indent="    ", subsequent_indent="    ").replace("\0", " ")

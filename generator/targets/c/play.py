@@ -46,15 +46,15 @@ class PinFunction:
 
 
 def clearances_code(program: Program, render: Render) -> str:
-    """Return the force laws, then the functions of each joint with play."""
+    """Return the text of clearance.c: all force laws, then the functions of each joint with play."""
     states = program.model.law_states
-    pins = (clearance_code(pin, render, states) for pin in program.pins)
-    head = CONTOURS * any(pin.clearance.contour is not None for pin in program.pins)
-    return head + "\n".join([*map(functions.kernel, program.laws), *pins])
+    joint_functions = (print_clearance_functions(pin, render, states) for pin in program.pins)
+    include = CONTOURS * any(pin.clearance.contour is not None for pin in program.pins)
+    return include + "\n".join([*map(functions.kernel, program.laws), *joint_functions])
 
 
-def clearance_code(pin: Pin, render: Render, states: int) -> str:
-    """Return the functions of one joint with play; each joint has `states` inner states of laws."""
+def print_clearance_functions(pin: Pin, render: Render, states: int) -> str:
+    """Return the C functions of one joint with play; each joint has `states` inner states of laws."""
     return "\n".join(part.text for part in pin_functions(pin, render, states))
 
 
@@ -64,42 +64,47 @@ def function_name(part: str, joint: str) -> str:
 
 
 def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction]:
-    """Yield the functions of a joint: dry contact and film, if it has them, then the choice between them."""
+    """Yield the functions of a joint with their stores: dry contact and film, if it has them, then the total force.
+
+    states: the number of inner states of laws that each joint has.
+    """
     joint, clearance = pin.clearance.label, pin.clearance
     if clearance.normal is not None:
-        yield _dry_function(pin, render, states)
+        yield _print_dry_function(pin, render, states)
     if clearance.film is not None:
-        yield _film_function(pin, render, states)
+        yield _print_film_function(pin, render, states)
     text = render(
-        _template(pin),
+        _select_template(pin),
         joint=joint,
         kind=clearance.kind,
-        arguments=_ARGUMENTS % _further_parameters(clearance),
-        further="".join(f", {name}" for name in _further_arguments(pin)),
-        gap=_statements_code(pin.gap),
-        share=_statements_code(pin.share),
+        arguments=_ARGUMENTS % _print_further_parameters(clearance),
+        further="".join(f", {name}" for name in _list_further_arguments(pin)),
+        gap=_print_statements(pin.gap),
+        share=_print_statements(pin.share),
         rigid=clearance.rigid,
         closed="contact->closed" if clearance.rigid else CLOSED,
-        store=_store_code(clearance, states),
-        message=_transition_comment(clearance),
-        law=_mixed_law_comment(clearance),
+        store=_print_result_store(clearance, states),
+        message=_print_transition_comment(clearance),
+        law=_print_mixed_law_comment(clearance),
         first=pin.corners.start,
         last=pin.corners.stop,
     )
     stores: Stores = [*functions.one_by_one(pin.gap), *functions.one_by_one(pin.share)]
-    stores += [(_BLENDED.format(one), f"F.{one}") for one in ("n", "t", "M_i", "M_j") if pin.has_transition]
+    stores += [
+        (_BLENDED.format(component), f"F.{component}") for component in ("n", "t", "M_i", "M_j") if pin.has_transition
+    ]
     yield PinFunction(function_name("clearance", joint), text, stores)
 
 
-def _further_parameters(clearance: Clearance) -> str:
-    """Return the declarations of a joint's further arguments (Clearance.also)."""
+def _print_further_parameters(clearance: Clearance) -> str:
+    """Return the declarations of a joint's further arguments: n_x, n_y at a wall, theta_i with a contour, else ""."""
     if clearance.wall:
         return " double n_x, double n_y,"
     return " double theta_i," * bool(clearance.contour)
 
 
-def _transition_comment(clearance: Clearance) -> str:
-    """Return the comment about film and dry contact acting together."""
+def _print_transition_comment(clearance: Clearance) -> str:
+    """Return the text of a C comment about film and dry contact acting together: linear blend or mixed lubrication."""
     if clearance.mixed is None:
         return (
             "film for e < c, dry contact for e > c + e_0, a linear blend between them\n"
@@ -111,124 +116,139 @@ def _transition_comment(clearance: Clearance) -> str:
     )
 
 
-def _mixed_law_comment(clearance: Clearance) -> str:
+def _print_mixed_law_comment(clearance: Clearance) -> str:
     """Return the comment on a law of mixed lubrication, which has no function of its own; "" if there is none."""
     return functions.comment(law_doc(clearance.mixed)) if clearance.mixed else ""
 
 
-def _dry_function(pin: Pin, render: Render, states: int) -> PinFunction:
-    """Return the function of a joint's dry contact."""
+def _print_dry_function(pin: Pin, render: Render, states: int) -> PinFunction:
+    """Return the function of a joint's dry contact: its text from a template, and its stores in order."""
     joint, clearance = pin.clearance.label, pin.clearance
-    ratio = "unclipped" if clearance.clip_ratio else "ratio"
-    calls = _calls_of_dry(pin, "max_of(delta, 0.0)", "double")
-    steps: dict[str, Any] = {"before": _statements_code(pin.before_dry), "after": _statements_code(pin.after_dry)}
-    steps["along"] = "-F_N" if clearance.contour else "-F_n"
-    steps["further"] = "".join(f", double {name}" for name in _further_arguments(pin))
+    ratio_name = "unclipped" if clearance.clip_ratio else "ratio"
+    calls = _list_dry_calls(pin, "max_of(delta, 0.0)", "double")
+    substitutions: dict[str, Any] = {
+        "before": _print_statements(pin.before_dry),
+        "after": _print_statements(pin.after_dry),
+    }
+    substitutions["along"] = "-F_N" if clearance.contour else "-F_n"
+    substitutions["further"] = "".join(f", double {name}" for name in _list_further_arguments(pin))
     laws = [pin.laws[role] for role in ("normal", "friction") if role in pin.laws]
-    steps["unread"] = functions.unread_branches(laws, (*pin.before_dry, *pin.after_dry))
-    steps |= {"law": _join_code(calls), "rates": braced("rate", clearance, states)}
-    text = render("play/dry.c.jinja", joint=joint, kind=clearance.kind, ratio=_RATIO, ratio_name=ratio, **steps)
-    own: Stores = [(f"    const double {ratio} = {_RATIO};", ratio), *functions.one_by_one(pin.before_dry)]
-    own += [*((code, local) for code, local in calls if local), *functions.one_by_one(pin.after_dry)]
-    return PinFunction(function_name("dry", joint), text, own)
+    substitutions["unread"] = functions.unread_branches(laws, (*pin.before_dry, *pin.after_dry))
+    substitutions |= {"law": _join_calls(calls), "rates": braced("rate", clearance, states)}
+    text = render(
+        "play/dry.c.jinja", joint=joint, kind=clearance.kind, ratio=_RATIO, ratio_name=ratio_name, **substitutions
+    )
+    stores: Stores = [(f"    const double {ratio_name} = {_RATIO};", ratio_name), *functions.one_by_one(pin.before_dry)]
+    stores += [*((code, local) for code, local in calls if local), *functions.one_by_one(pin.after_dry)]
+    return PinFunction(function_name("dry", joint), text, stores)
 
 
-def _further_arguments(pin: Pin) -> tuple[str, ...]:
-    """Return the names of further arguments of the dry contact."""
+def _list_further_arguments(pin: Pin) -> tuple[str, ...]:
+    """Return the names of further arguments of the dry contact of a contour; () for other joints."""
     return _OF_CONTOUR if pin.clearance.contour else ()
 
 
-def _film_function(pin: Pin, render: Render, states: int) -> PinFunction:
-    """Return the function of a joint's film."""
-    calls, joint = _calls_of_film(pin, "double"), pin.clearance.label
-    steps: dict[str, Any] = {
-        "before": _statements_code(pin.before_film),
-        "after": _statements_code(pin.after_film),
-        "law": _join_code(calls),
+def _print_film_function(pin: Pin, render: Render, states: int) -> PinFunction:
+    """Return the function of a joint's film: its text from a template, and its stores in order."""
+    calls, joint = _list_film_calls(pin, "double"), pin.clearance.label
+    substitutions: dict[str, Any] = {
+        "before": _print_statements(pin.before_film),
+        "after": _print_statements(pin.after_film),
+        "law": _join_calls(calls),
     }
-    steps["unread"] = functions.unread_branches([pin.laws["film"]], (*pin.before_film, *pin.after_film))
-    text = render("play/film.c.jinja", joint=joint, rates=braced("", pin.clearance, states), **steps)
-    own: Stores = [*functions.one_by_one(pin.before_film), *((code, local) for code, local in calls if local)]
-    return PinFunction(function_name("film", joint), text, [*own, *functions.one_by_one(pin.after_film)])
+    substitutions["unread"] = functions.unread_branches([pin.laws["film"]], (*pin.before_film, *pin.after_film))
+    text = render("play/film.c.jinja", joint=joint, rates=braced("", pin.clearance, states), **substitutions)
+    stores: Stores = [*functions.one_by_one(pin.before_film), *((code, local) for code, local in calls if local)]
+    return PinFunction(function_name("film", joint), text, [*stores, *functions.one_by_one(pin.after_film)])
 
 
-def _store_code(clearance: Clearance, states: int) -> str:
-    """Return the code that stores a joint's force, motion and torques."""
+def _print_result_store(clearance: Clearance, states: int) -> str:
+    """Return the C code that stores a joint's force, motion and torques in *out.
+
+    Rates of inner states and the position at a guide's wall are added if the joint has them.
+    """
     rates = braced("F.state_rate", clearance, states)
-    own = _AT_WALL if clearance.wall else _JOURNAL
-    more = f", .state_rate = {rates}" if rates else ""
-    more += ",\n        .from_x = e_x, .from_y = e_y" * bool(clearance.wall)
-    return _STORE % (*own, more + ", .at_wall = 1" * bool(clearance.wall and clearance.rigid))
+    position = _AT_WALL if clearance.wall else _JOURNAL
+    further_members = f", .state_rate = {rates}" if rates else ""
+    further_members += ",\n        .from_x = e_x, .from_y = e_y" * bool(clearance.wall)
+    return _STORE % (*position, further_members + ", .at_wall = 1" * bool(clearance.wall and clearance.rigid))
 
 
 def braced(array: str, clearance: Clearance, states: int, none: str = "0.0") -> str:
-    """Return the rates of a joint's inner states as an initializer; "" if no law has states.
+    """Return an array of the rates of a joint's inner states as an initializer in C; "" if no law has states.
 
-    `none` stands for the states that this joint does not have."""
-    own = len(clearance.states) if array else 0
-    rates = [f"{array}[{k}]" if k < own else none for k in range(states)]
+    `none` stands for the states that this joint does not have. An empty name `array` means that it has none.
+    """
+    count = len(clearance.states) if array else 0
+    rates = [f"{array}[{k}]" if k < count else none for k in range(states)]
     return f"{{{', '.join(rates)}}}" if rates else ""
 
 
 def calls_of_dry(pin: Pin, delta: str, number: str) -> str:
-    """Return the code for normal force and friction; `delta` is the penetration that the normal law gets."""
-    return _join_code(_calls_of_dry(pin, delta, number))
+    """Return the C code that calls normal force and friction, one call per line.
+
+    delta: the penetration that the normal law gets. number: the C type of a number.
+    """
+    return _join_calls(_list_dry_calls(pin, delta, number))
 
 
-def _calls_of_dry(pin: Pin, delta: str, number: str) -> list[tuple[str, str]]:
-    """Return (code, local that it sets or "") of normal force and friction."""
-    given: Sequence[str] = [delta, "ratio", *map(expression, pin.given)]
-    normal = functions.shared_call(pin.laws["normal"], given, ("&F_n",))
-    found = [(f"{number} F_n;", ""), (normal, "F_n")]
-    pressed = "F_N" if pin.pressing else "F_n"
-    pressing = zip(functions.one_by_one(pin.pressing), pin.pressing, strict=True)
-    found += [(code.strip(), step.defines) for (code, _), step in pressing]
+def _list_dry_calls(pin: Pin, delta: str, number: str) -> list[tuple[str, str]]:
+    """Return (code, local that it sets or "") for each line of normal force and friction.
+
+    Without friction its force is 0. For rigid surfaces, a line takes the friction force of an impact instead.
+    """
+    arguments: Sequence[str] = [delta, "ratio", *map(expression, pin.given)]
+    normal = functions.shared_call(pin.laws["normal"], arguments, ("&F_n",))
+    calls = [(f"{number} F_n;", ""), (normal, "F_n")]
+    normal_force = "F_N" if pin.pressing else "F_n"
+    normal_steps = zip(functions.one_by_one(pin.pressing), pin.pressing, strict=True)
+    calls += [(code.strip(), step.defines) for (code, _), step in normal_steps]
     if "friction" in pin.laws:
         states = range(len(pin.clearance.states))
-        given, message = [f"contact->state[{k}]" for k in states], [f"&rate[{k}]" for k in states]
-        results = ("&F_along_t_dry", *message)
-        friction = functions.shared_call(pin.laws["friction"], (pressed, "v_t", *given), results)
-        found.append((f"{number} F_along_t_dry{f', rate[{len(states)}]' if states else ''};", ""))
-        found.append((friction, "F_along_t_dry"))
+        arguments, rates = [f"contact->state[{k}]" for k in states], [f"&rate[{k}]" for k in states]
+        results = ("&F_along_t_dry", *rates)
+        friction = functions.shared_call(pin.laws["friction"], (normal_force, "v_t", *arguments), results)
+        calls.append((f"{number} F_along_t_dry{f', rate[{len(states)}]' if states else ''};", ""))
+        calls.append((friction, "F_along_t_dry"))
         if pin.clearance.rigid:
-            found.append((_IN_BLOW, ""))
+            calls.append((_IN_BLOW, ""))
     else:
         zero = "0.0" if number == "double" else "all_of(0.0)"
-        found.append((f"const {number} F_along_t_dry = {zero}; /* no friction */", "F_along_t_dry"))
-    return [(_break_code(code), local) for code, local in found]
+        calls.append((f"const {number} F_along_t_dry = {zero}; /* no friction */", "F_along_t_dry"))
+    return [(_break_line(code), local) for code, local in calls]
 
 
 def call_of_film(pin: Pin, number: str) -> str:
-    """Return the code for the film's forces and shear torque."""
-    return _join_code(_calls_of_film(pin, number))
+    """Return the C code that calls the film law for its two forces and its shear torque; `number` is the C type."""
+    return _join_calls(_list_film_calls(pin, number))
 
 
-def _calls_of_film(pin: Pin, number: str) -> list[tuple[str, str]]:
+def _list_film_calls(pin: Pin, number: str) -> list[tuple[str, str]]:
     """Return (code, local that it sets or "") of the film's forces."""
     results = ("&F_r", "&F_along_t_film", "&T0")
     call = functions.shared_call(pin.laws["film"], ("epsilon", "w_n", "w_t"), results)
     unread = "(void)T0; /* read only with shear */"
-    found = [(f"{number} F_r, F_along_t_film, T0;", ""), (call, "F_r"), (unread, "")]
-    return [(_break_code(code), local) for code, local in found]
+    calls = [(f"{number} F_r, F_along_t_film, T0;", ""), (call, "F_r"), (unread, "")]
+    return [(_break_line(code), local) for code, local in calls]
 
 
-def _join_code(found: Sequence[tuple[str, str]]) -> str:
-    """Return the code of calls, one a line."""
-    return "\n".join(code for code, _ in found)
+def _join_calls(calls: Sequence[tuple[str, str]]) -> str:
+    """Return the code of several calls, one per line."""
+    return "\n".join(code for code, _ in calls)
 
 
-def _break_code(code: str) -> str:
-    """Return a line of code, broken if it is too long."""
+def _break_line(code: str) -> str:
+    """Return an indented line of C, broken into several lines if it is too long."""
     return "\n".join(broken(f"    {code}"))
 
 
-def _statements_code(statements: Sequence[Statement]) -> str:
+def _print_statements(statements: Sequence[Statement]) -> str:
     """Return statements as C."""
     return functions.statements(statements)
 
 
-def _template(pin: Pin) -> str:
-    """Return the template for a joint's laws: dry, film, or both."""
+def _select_template(pin: Pin) -> str:
+    """Return the name of the template for a joint's force: dry contact, film, or film and dry contact."""
     if pin.clearance.film is None:
         return "play/clearance_dry.c.jinja"
     return "play/clearance_transition.c.jinja" if pin.has_transition else "play/clearance_film.c.jinja"

@@ -24,23 +24,23 @@ _PLAIN = Readable(())
 class CPrinter(CachedPrinter, C99CodePrinter):
     """Print expressions as C: doubles that round-trip, small powers as products, min and max that propagate NaN.
 
-    `of`: the function that is written, with the names of its symbols and branches.
+    `of`: the readable lines of the printed function, with the names of its symbols and branches.
     """
 
     def __init__(self, of: Readable = _PLAIN) -> None:
         super().__init__({"math_macros": {}})  # M_PI_2 and the like are not in C11
         self.of = of
 
-    def called(self, key: Key) -> str:
+    def get_name(self, key: Key) -> str:
         """Return the C name of a symbol, local or place in this function."""
-        found = self.of.names.get(key, key)
-        return self.place(found) if isinstance(found, Place) else found
+        c_name_or_place = self.of.names.get(key, key)
+        return self.print_place(c_name_or_place) if isinstance(c_name_or_place, Place) else c_name_or_place
 
-    def place(self, place: Place) -> str:
-        """Return a place as an lvalue; arguments that are structs are pointers."""
+    def print_place(self, place: Place) -> str:
+        """Return a place as an lvalue in C: a result as `*name`, members of a struct by `->`, `.` or index."""
         if isinstance(place, Result):
             return f"*{place.base}"
-        text = place.base if place.path else self.called(place.base)
+        text = place.base if place.path else self.get_name(place.base)
         for step in place.path:
             arrow = "->" if text == place.base else "."
             text += f"[{step}]" if isinstance(step, int) else f"{arrow}{step}"
@@ -48,10 +48,13 @@ class CPrinter(CachedPrinter, C99CodePrinter):
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         """Print a symbol by its name in the function."""
-        return self.called(key_of(expr))
+        return self.get_name(key_of(expr))
 
     def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
-        """Print an expression, in brackets if it binds less than `level`: not 0.5, but 2*PI/3 in a product."""
+        """Print an expression, in brackets if it binds less than `level`.
+
+        A decimal number gets none, a fraction of π such as 2*PI/3 does.
+        """
         if item.is_Float and (share := share_of_pi(item)) and not share.is_one:
             return f"({self._print(item)})"
         if item.is_Rational and item.p > 0 and "/" not in (text := self._print(item)):
@@ -61,7 +64,7 @@ class CPrinter(CachedPrinter, C99CodePrinter):
     def _print_Float(self, expr: sp.Float) -> str:
         """Print a float, a fraction of π as such."""
         share = share_of_pi(expr)
-        return share.text("PI", ".0") if share else _double(expr)
+        return share.text("PI", ".0") if share else _print_double(expr)
 
     def _print_NumberSymbol(self, expr: sp.NumberSymbol) -> str:
         """Print a constant such as e as a double."""
@@ -75,7 +78,7 @@ class CPrinter(CachedPrinter, C99CodePrinter):
 
     def _print_Integer(self, expr: sp.Integer) -> str:
         """Print an integer as a double."""
-        return f"{int(expr)}.0" if abs(int(expr)) < 10**300 else _double(expr)
+        return f"{int(expr)}.0" if abs(int(expr)) < 10**300 else _print_double(expr)
 
     def _print_int(self, expr: int) -> str:
         """Print a Python integer as a double."""
@@ -84,12 +87,15 @@ class CPrinter(CachedPrinter, C99CodePrinter):
     def _print_Rational(self, expr: sp.Rational) -> str:
         """Print a rational number: as a quotient, or as a double if that is exact."""
         if max(abs(int(expr.p)), int(expr.q)) > 10**15:
-            return _double(expr)
+            return _print_double(expr)
         p, q = int(expr.p), int(expr.q)
         return repr(p / q) if q & (q - 1) == 0 else f"{p}.0/{q}.0"  # a power of two divides exactly
 
     def _print_Mul(self, expr: sp.Mul) -> str:
-        """Print a product; a coefficient outside binary64 is split into two factors, one on each side."""
+        """Print a product; a coefficient outside binary64 is split into two factors, one on each side.
+
+        A fraction of π is printed as such.
+        """
         if share := share_of_pi(expr):
             return share.text("PI", ".0")
         number, rest = expr.as_coeff_Mul()
@@ -108,17 +114,20 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         if exponent == -1:
             return f"1.0/{self.parenthesize(base, 60)}"
         if exponent == sp.Rational(1, 2):
-            return self._call("sqrt", base)
+            return self._print_call("sqrt", base)
         if exponent == sp.Rational(-1, 2):
-            return f"1.0/{self._call('sqrt', base)}"
-        return self._call("pow", base, exponent)
+            return f"1.0/{self._print_call('sqrt', base)}"
+        return self._print_call("pow", base, exponent)
 
-    def _call(self, function: str, *arguments: sp.Expr) -> str:
-        """Print a call of a C function."""
+    def _print_call(self, function: str, *arguments: sp.Expr) -> str:
+        """Print a call of a C function with its arguments."""
         return f"{function}({', '.join(map(self._print, arguments))})"
 
-    def _nested(self, function: str, expr: sp.Expr) -> str:
-        """Print nested calls of a function of two arguments; numbers come last, since max_of(x, 0) keeps a NaN in x."""
+    def _print_nested_calls(self, function: str, expr: sp.Expr) -> str:
+        """Print nested calls of a function of two arguments.
+
+        Numbers come last, since max_of(x, 0) keeps a NaN in x.
+        """
         arguments = sorted(expr.args, key=lambda a: (a.is_Number, str(a)))
         text = self._print(arguments[0])
         for argument in arguments[1:]:
@@ -128,11 +137,15 @@ class CPrinter(CachedPrinter, C99CodePrinter):
     def _print_of_table(self, expr: sp.Expr) -> str:
         """Print a function of the table of functions (gudgeon.language.functions)."""
         name = CLASSES[type(expr)].in_c
-        return self._nested(name, expr) if isinstance(expr, (sp.Max, sp.Min)) else self._call(name, *expr.args)
+        return (
+            self._print_nested_calls(name, expr)
+            if isinstance(expr, (sp.Max, sp.Min))
+            else self._print_call(name, *expr.args)
+        )
 
     def _print_Size(self, expr: sp.Expr) -> str:
         """Print an absolute value."""
-        return self._call("fabs", expr.args[0])
+        return self._print_call("fabs", expr.args[0])
 
     def _print_Whole(self, expr: sp.Expr) -> str:
         """Print an unevaluated operand (symbols/unevaluated.py) in brackets."""
@@ -146,14 +159,14 @@ class CPrinter(CachedPrinter, C99CodePrinter):
 
     def _print_BranchOf(self, expr: sp.Expr) -> str:
         """Print the active branch of a switching function (symbols/switches.py)."""
-        return f"branch_of(branch, g, {self.corner(int(expr.args[0]))}, {self._print(expr.args[1])})"
+        return f"branch_of(branch, g, {self.print_switch_index(int(expr.args[0]))}, {self._print(expr.args[1])})"
 
-    def corner(self, index: int) -> str:
-        """Return the number of a switching function, or its offset from the function's first one."""
+    def print_switch_index(self, index: int) -> str:
+        """Return the index of a switching function in C, relative to `corner` in shared functions."""
         if self.of.first_corner is None:
             return str(index)
-        further = index - self.of.first_corner
-        return f"corner + {further}" if further else "corner"
+        offset = index - self.of.first_corner
+        return f"corner + {offset}" if offset else "corner"
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:
         """Print an absolute value that is never 0 (symbols/switches.py)."""
@@ -181,90 +194,100 @@ class CPrinter(CachedPrinter, C99CodePrinter):
 
     def _print_ContourOf(self, expr: ContourOf) -> str:
         """Print the depth of a contour or its derivative (symbols/curves.py)."""
-        table, angle = self.called(Place(PARAMETERS)[expr.table]), self._print(expr.args[3])
+        table, angle = self.get_name(Place(PARAMETERS)[expr.table]), self._print(expr.args[3])
         return f"contour({table}, {expr.count}, {expr.order}, {angle})"
 
     def _print_ModOf(self, expr: sp.Expr) -> str:
         """Print a remainder (symbols/switches.py)."""
-        return self._call("mod_of", *expr.args)
+        return self._print_call("mod_of", *expr.args)
 
     def _print_ModOn(self, expr: sp.Expr) -> str:
         """Print a remainder on the period that its branch selects."""
-        return self._call("mod_on", *expr.args)
+        return self._print_call("mod_on", *expr.args)
 
     def _print_PeriodsOf(self, expr: sp.Expr) -> str:
         """Print the event function of a remainder's periods."""
-        return self._call("period_branch", *expr.args)
+        return self._print_call("period_branch", *expr.args)
 
     def _print_Slope(self, expr: sp.Expr) -> str:
         """Print a derivative, or a difference quotient where it is not finite (symbols/finite_slopes.py)."""
-        return self._call("finite_slope", *expr.args)
+        return self._print_call("finite_slope", *expr.args)
 
     def _print_JustAhead(self, expr: sp.Expr) -> str:
         """Print a value slightly above its argument."""
-        return self._call("just_ahead", expr.args[0])
+        return self._print_call("just_ahead", expr.args[0])
 
     def _print_JustBehind(self, expr: sp.Expr) -> str:
         """Print a value slightly below its argument."""
-        return self._call("just_behind", expr.args[0])
+        return self._print_call("just_behind", expr.args[0])
 
 
 def is_normal(number: sp.Expr) -> bool:
-    """Return whether a number is in the normal range of binary64."""
-    return number.is_Integer and abs(int(number)) < 10**15 or sys.float_info.min <= abs(_as_float(number)) < math.inf
+    """Return whether a number is in the normal range of binary64, so that it needs no splitting."""
+    return (
+        number.is_Integer
+        and abs(int(number)) < 10**15
+        or sys.float_info.min <= abs(_convert_to_float(number)) < math.inf
+    )
 
 
 def split_number(number: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """Split a number into two factors of similar size, the second a power of two."""
-    last = sp.Integer(2) ** (int(sp.floor(sp.log(abs(number), 2).n())) // 2)
-    return sp.Float(number, 17) / last, last
+    """Split a number outside binary64 into two factors of similar size, the second a power of two."""
+    power_of_two = sp.Integer(2) ** (int(sp.floor(sp.log(abs(number), 2).n())) // 2)
+    return sp.Float(number, 17) / power_of_two, power_of_two
 
 
-def _as_float(number: sp.Expr) -> float:
-    """Return a number as a float."""
+def _convert_to_float(number: sp.Expr) -> float:
+    """Return a SymPy number as a Python float, from 17 digits."""
     return float(sp.Float(number, 17))
 
 
-def _double(number: sp.Expr) -> str:
-    """Return a number as a C double; one that is too large becomes INFINITY."""
-    value = _as_float(number)
+def _print_double(number: sp.Expr) -> str:
+    """Return a number as a C double that round-trips; INFINITY with its sign if the number is too large."""
+    value = _convert_to_float(number)
     return repr(value) if math.isfinite(value) else f"{'-' if value < 0 else ''}INFINITY"
 
 
 class Text:
-    """Print the values of one function."""
+    """Print values of kernels as C: places, conditions, sums, defaults and expressions."""
 
     def __init__(self, printer: CPrinter) -> None:
         self.printer = printer
 
     def expression(self, value: Value) -> str:
-        """Return a value as C."""
+        """Return a value as C by its class; any other value is printed as a SymPy expression."""
         match value:
             case Place():
-                return self.printer.called(value)
+                return self.printer.get_name(value)
             case Conditional():
                 then, otherwise = self.expression(value.then), self.expression(value.otherwise)
                 return f"{self.test(value.test)} ? {then} : {otherwise}"
             case Sum():
-                return " + ".join(map(self.printer.called, value.places))
+                return " + ".join(map(self.printer.get_name, value.places))
             case Defaulted():
                 return f"is_given[{value.k}] ? given[{value.k}] : {self.expression(value.default)}"
             case _:
                 return self.printer.doprint(value)
 
     def test(self, item: Test) -> str:
-        """Return a comparison as C."""
-        value = self.expression(item.value)
-        left = f"fabs({value})" if item.size else value
-        if item.of_itself:
-            return f"{left} > 0.0 && {value} < INFINITY" if not item.size else f"{value} != 0.0 && isfinite({value})"
-        bound = " * ".join(map(self._factor, item.bound))
-        return f"{left} {item.relation} {bound}" if item.relation else left
+        """Return a comparison as C.
 
-    def _factor(self, value: sp.Basic | float) -> str:
-        """Return a factor of a bound as C; thresholds have names in model.h."""
+        A test of a value itself checks that it is positive (or not 0) and finite. A test without a relation is its
+        value.
+        """
+        value = self.expression(item.value)
+        left_side = f"fabs({value})" if item.size else value
+        if item.of_itself:
+            return (
+                f"{left_side} > 0.0 && {value} < INFINITY" if not item.size else f"{value} != 0.0 && isfinite({value})"
+            )
+        bound = " * ".join(map(self._print_factor, item.bound))
+        return f"{left_side} {item.relation} {bound}" if item.relation else left_side
+
+    def _print_factor(self, value: sp.Basic | float) -> str:
+        """Return a factor of a bound as C; a threshold is printed by its name in model.h or by its place."""
         if isinstance(value, Threshold):
-            return self.printer.called(value.place) if value.place else value.name
+            return self.printer.get_name(value.place) if value.place else value.name
         return repr(value) if isinstance(value, float) else self.expression(value)
 
 
@@ -273,7 +296,7 @@ expression, test = _text.expression, _text.test
 
 
 def comment_text(text: str) -> str:
-    """Return ASCII text that can neither end a C comment nor continue a line."""
+    """Return a user's text in ASCII so that it can neither end a C comment nor continue a line."""
     return (
         re.sub(r"[^\x20-\x7e]", "?", text)
         .replace("*/", "* /")
@@ -287,37 +310,40 @@ WIDTH = 120
 
 
 def broken(line: str) -> list[str]:
-    """Break a line of code into lines of at most WIDTH characters."""
+    """Return a line of C code as lines of at most WIDTH characters."""
     return line_breaks.broken(line, WIDTH)
 
 
 def within(text: str) -> str:
-    """Return a whole C file with no line longer than WIDTH: code is broken, comments are wrapped."""
-    found: list[str] = []
+    """Return the text of a C file with no line longer than WIDTH: code is broken, comments are wrapped."""
+    wrapped: list[str] = []
     in_comment = False
     for line in text.split("\n"):
-        found += _wrap_comment_line(line) if in_comment else _fit_line(line)
+        wrapped += _wrap_comment_line(line) if in_comment else _break_code_line(line)
         in_comment = line.rfind("/*") > line.rfind("*/") or in_comment and "*/" not in line
-    return "\n".join(found)
+    return "\n".join(wrapped)
 
 
 def _wrap_comment_line(line: str) -> list[str]:
-    """Wrap a line inside a comment of several lines."""
+    """Return a line inside a block comment as lines of at most WIDTH; lines without the prefix " * " are kept."""
     if len(line) <= WIDTH or not line.startswith(" * "):
         return [line]
     return textwrap.wrap(line[3:], WIDTH, initial_indent=" * ", subsequent_indent=" * ")
 
 
-def _fit_line(line: str) -> list[str]:
-    """Break one line; a long comment after code is put before it."""
+def _break_code_line(line: str) -> list[str]:
+    """Return a line outside of comments as lines of at most WIDTH; directives of the preprocessor are kept.
+
+    A long comment becomes a block comment; a comment after long code is put before it.
+    """
     if len(line) <= WIDTH:
         return [line]
     indent = line[: len(line) - len(line.lstrip())]
-    if (bare := line.strip()).startswith("/* ") and bare.endswith(" */") and bare.count("*/") == 1:
-        star = f"{indent} * "
-        comment_lines = textwrap.wrap(bare[3:-3], WIDTH, initial_indent=star, subsequent_indent=star)
+    if (stripped := line.strip()).startswith("/* ") and stripped.endswith(" */") and stripped.count("*/") == 1:
+        prefix = f"{indent} * "
+        comment_lines = textwrap.wrap(stripped[3:-3], WIDTH, initial_indent=prefix, subsequent_indent=prefix)
         return [f"{indent}/*", *comment_lines, f"{indent} */"]
-    code, mark, comment = line.rpartition("/* ")
-    if mark and comment.endswith(" */") and code.strip() and "/*" not in code:
-        return [*_fit_line(f"{indent}/* {comment}"), *_fit_line(code.rstrip())]
+    code, comment_start, comment = line.rpartition("/* ")
+    if comment_start and comment.endswith(" */") and code.strip() and "/*" not in code:
+        return [*_break_code_line(f"{indent}/* {comment}"), *_break_code_line(code.rstrip())]
     return [line] if line.startswith("#") else broken(line)

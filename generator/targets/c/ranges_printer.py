@@ -26,34 +26,34 @@ _RANGES = {"q", "v", "t"}  # arguments that are ranges; all others are numbers
 class RangesPrinter(printer.CPrinter):
     """Print every operation as a call on ranges; expressions without symbols stay numbers."""
 
-    def place(self, place: Place) -> str:
-        """Return a place; a parameter becomes a range of one value."""
-        text = super().place(place)
+    def print_place(self, place: Place) -> str:
+        """Return a place as C; a parameter becomes a range of one value."""
+        text = super().print_place(place)
         return f"only({text})" if place.is_parameter else text
 
-    def _range(self, expr: sp.Expr) -> str:
-        """Print an expression as a range."""
+    def _print_range(self, expr: sp.Expr) -> str:
+        """Print an expression as a range; a constant becomes a range of one value."""
         text: str = self._print(expr)
         return text if expr.free_symbols else f"only({text})"
 
-    def _call(self, function: str, *arguments: sp.Expr) -> str:
-        """Print a call of a function of ranges."""
+    def _print_call(self, function: str, *arguments: sp.Expr) -> str:
+        """Print a call of a function of ranges; with constant arguments only, the call of the function of numbers."""
         if not any(argument.free_symbols for argument in arguments):
-            return super()._call(function, *arguments)
-        return f"range_{function}({', '.join(map(self._range, arguments))})"
+            return super()._print_call(function, *arguments)
+        return f"range_{function}({', '.join(map(self._print_range, arguments))})"
 
-    def _chained(self, function: str, arguments: tuple[sp.Expr, ...]) -> str:
-        """Print a chain of calls of a function of two ranges."""
-        text = self._range(arguments[0])
+    def _print_chained_calls(self, function: str, arguments: tuple[sp.Expr, ...]) -> str:
+        """Print a function of two ranges applied to all arguments, from the first on."""
+        text = self._print_range(arguments[0])
         for argument in arguments[1:]:
-            text = f"range_{function}({text}, {self._range(argument)})"
+            text = f"range_{function}({text}, {self._print_range(argument)})"
         return text
 
     def _print_Add(self, expr: sp.Expr, order: object = None) -> str:
         """Print a sum of ranges."""
         if not expr.free_symbols:
             return str(super()._print_Add(expr))
-        return self._chained("add", order_terms(expr))
+        return self._print_chained_calls("add", order_terms(expr))
 
     def _print_Mul(self, expr: sp.Expr) -> str:
         """Print a product of ranges."""
@@ -63,8 +63,8 @@ class RangesPrinter(printer.CPrinter):
         factors = rest.as_ordered_factors()
         if not printer.is_normal(number):
             first, last = printer.split_number(number)
-            return self._chained("times", (first, *factors, last))
-        return self._chained("times", (number, *factors) if number != 1 else tuple(factors))
+            return self._print_chained_calls("times", (first, *factors, last))
+        return self._print_chained_calls("times", (number, *factors) if number != 1 else tuple(factors))
 
     def _print_Pow(self, expr: sp.Pow) -> str:
         """Print a power of a range."""
@@ -73,51 +73,51 @@ class RangesPrinter(printer.CPrinter):
         base, exponent = expr.as_base_exp()
         named = {-1: "inverse", 2: "square", sp.Rational(1, 2): "sqrt"}
         if exponent in named:
-            return self._call(named[exponent], base)
+            return self._print_call(named[exponent], base)
         if exponent == sp.Rational(-1, 2):
-            return f"range_inverse({self._call('sqrt', base)})"
-        return self._call("pow", base, exponent)
+            return f"range_inverse({self._print_call('sqrt', base)})"
+        return self._print_call("pow", base, exponent)
 
-    def _nested(self, function: str, expr: sp.Expr) -> str:
-        """Print nested calls such as the maximum of several ranges."""
+    def _print_nested_calls(self, function: str, expr: sp.Expr) -> str:
+        """Print nested calls of a function of two ranges, for example a maximum; constants come last."""
         if not expr.free_symbols:
-            return super()._nested(function, expr)
-        return self._chained(function, tuple(sorted(expr.args, key=lambda a: (a.is_Number, str(a)))))
+            return super()._print_nested_calls(function, expr)
+        return self._print_chained_calls(function, tuple(sorted(expr.args, key=lambda a: (a.is_Number, str(a)))))
 
     def _print_Heaviside(self, expr: sp.Expr) -> str:
         """Print the step function of a range."""
-        return self._call("heaviside", expr.args[0])
+        return self._print_call("heaviside", expr.args[0])
 
     def _print_BranchOf(self, expr: sp.Expr) -> str:
         """Print the active branch of a switching function of ranges."""
-        return f"range_branch(branch, {int(expr.args[0])}, {self._range(expr.args[1])})"
+        return f"range_branch(branch, {int(expr.args[0])}, {self._print_range(expr.args[1])})"
 
     def _print_Slope(self, expr: sp.Expr) -> str:
         """Print a derivative without its replacement: for ranges 0 times infinity is 0."""
-        return self._range(expr.args[0])
+        return self._print_range(expr.args[0])
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:
         """Print the absolute value of a range."""
-        return self._call("magnitude", expr.args[0])
+        return self._print_call("magnitude", expr.args[0])
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
         """Print the value of a curve over a range."""
         if not expr.free_symbols:
             return super()._print_CurveOf(expr)
-        return f"range_curve({c_name(expr.name)}, {expr.order}, {self._range(expr.args[2])})"
+        return f"range_curve({c_name(expr.name)}, {expr.order}, {self._print_range(expr.args[2])})"
 
     def _print_CurveOn(self, expr: CurveOn) -> str:
         """Print the value of a curve over a range, on the piece that its branch selects."""
-        x, side = map(self._range, expr.args[2:])
+        x, side = map(self._print_range, expr.args[2:])
         return f"range_curve_on({c_name(expr.name)}, {expr.order}, {x}, {side})"
 
     def _print_KnotsOf(self, expr: KnotsOf) -> str:
         """Print the event function of a curve's knots over a range."""
-        return f"range_knots({c_name(expr.name)}, {self._range(expr.args[1])})"
+        return f"range_knots({c_name(expr.name)}, {self._print_range(expr.args[1])})"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
         """Print a choice by the sign of a range."""
-        return self._call("pick", *expr.args)
+        return self._print_call("pick", *expr.args)
 
 
 class _RangeLines(functions.Lines):
@@ -126,18 +126,23 @@ class _RangeLines(functions.Lines):
     printer: RangesPrinter
 
     def expression(self, value: Value) -> str:
-        """Return a value as a range."""
+        """Return a value as a range; a value that depends on no state becomes a range of one value."""
         if isinstance(value, sp.Basic):
-            return self.printer._range(value)
+            return self.printer._print_range(value)
         text = super().expression(value)
         return text if value.names & _RANGES else f"only({text})"
 
 
 def kernel(item: Kernel) -> str:
-    """Return the C function of a kernel with ranges for time, coordinates and velocities; parameters stay numbers."""
+    """Return a kernel as a C function of ranges for t, q and v; parameters stay numbers.
+
+    The results in RhsOutputs become ranges in the argument `out`. The engine calls the function.
+    """
     arguments = tuple(
         replace(a, name=_NAMES.get(a.name, a.name), type=_TYPES.get(a.type, a.type)) for a in item.arguments
     )
-    ranged = replace(item, arguments=arguments)
-    own = readable(ranged, branching=False)
-    return functions.function(ranged, _RangeLines(RangesPrinter(own), "Range"), own, called=True)
+    range_kernel = replace(item, arguments=arguments)
+    readable_lines = readable(range_kernel, branching=False)
+    return functions.function(
+        range_kernel, _RangeLines(RangesPrinter(readable_lines), "Range"), readable_lines, called=True
+    )

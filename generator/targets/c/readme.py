@@ -44,74 +44,88 @@ _COMPILED = "With `ROOT=..` where `gudgeon emit` wrote this, or gudgeon's own fo
 
 
 def readme(program: Program, files: Mapping[str, str], others: Collection[str] = ("kernel.json",)) -> str:
-    """Return the Markdown text over a scene's files; unknown files are described by their first comment."""
+    """Return the Markdown text of README.md: the order in which to read a scene's files, and what each contains.
+
+    others: names of further files in the folder. A file without an entry is described by its first comment.
+    """
     mechanism, scene = program.model.scene.mechanism, program.model.scene
     names = [*files, *others]
     equations = [name for name in _EQUATIONS if name in names]
-    rest = [name for name in _NUMERICS if name in names]
-    rest = [*(name for name in names if name not in (*equations, *rest)), *rest]
-    message = purposes(program)
+    numerics = [name for name in _NUMERICS if name in names]
+    numerics = [*(name for name in names if name not in (*equations, *numerics)), *numerics]
+    purpose_by_file = purposes(program)
     return "\n".join(
         [
-            f"# {_plain(mechanism.title or mechanism.name)}: scene {scene.name}",
+            f"# {_escape_markdown(mechanism.title or mechanism.name)}: scene {scene.name}",
             "",
-            f"C that gudgeon wrote for the mechanism `{mechanism.name}`. {_sizes(program)}",
+            f"C that gudgeon wrote for the mechanism `{mechanism.name}`. {_describe_sizes(program)}",
             "",
-            *_first(program, names),
+            *_describe_reading_order(program, names),
             "",
             "## The equations, in the order in which they are to be read",
             "",
-            *(f"- `{name}`: {message[name]}" for name in equations),
+            *(f"- `{name}`: {purpose_by_file[name]}" for name in equations),
             "",
             "## How they are solved",
             "",
-            *(f"- `{name}`: {message.get(name) or _comment(files.get(name, ''))}" for name in rest),
+            *(
+                f"- `{name}`: {purpose_by_file.get(name) or _extract_first_sentence(files.get(name, ''))}"
+                for name in numerics
+            ),
             "",
-            *_calls(program, names),
+            *_describe_calls(program, names),
         ]
     )
 
 
 def purposes(program: Program) -> dict[str, str]:
-    """Return the purpose of each file that a scene may have, in the order in which they are to be read."""
+    """Return {file: purpose} of all files that a scene may have, in the order in which they are to be read."""
     return _EQUATIONS | _NUMERICS | ({} if program.integrates else _FOLLOWED)
 
 
-def _sizes(program: Program) -> str:
-    """Return a sentence about the sizes of the scene."""
+def _describe_sizes(program: Program) -> str:
+    """Return a sentence about the sizes of the scene: bodies, coordinates, constraint equations, joints with play."""
     model, system = program.model, program.integrated.system
-    played = {clearance.joint.name for clearance in model.clearances}
-    left = f"{_count(system.q, 'coordinate')}, {_count(system.rows, 'row')}"
+    joints_with_play = {clearance.joint.name for clearance in model.clearances}
+    integrated = f"{_format_count(system.q, 'coordinate')}, {_format_count(system.rows, 'row')}"
     return (
-        f"{_count(model.bodies, 'body', 'bodies')} with {_count(model.q, 'coordinate')}, "
-        f"{_count(model.rows, 'row')} of constraints, {_count(played, 'joint')} with play. "
-        f"What is integrated: {left if program.integrates else 'nothing, for drives say all'}."
+        f"{_format_count(model.bodies, 'body', 'bodies')} with {_format_count(model.q, 'coordinate')}, "
+        f"{_format_count(model.rows, 'row')} of constraints, {_format_count(joints_with_play, 'joint')} with play. "
+        f"What is integrated: {integrated if program.integrates else 'nothing, for drives say all'}."
     )
 
 
-def _count(some: Sized, one: str, many: str = "") -> str:
-    """Return a number with its noun: "1 body", "2 bodies"."""
-    return f"{len(some)} {one if len(some) == 1 else many or one + 's'}"
+def _format_count(items: Sized, singular: str, plural: str = "") -> str:
+    """Return the number of items with its noun: "1 body", "2 bodies"; the plural is singular + "s" unless given."""
+    return f"{len(items)} {singular if len(items) == 1 else plural or singular + 's'}"
 
 
-def _first(program: Program, names: Collection[str]) -> list[str]:
-    """Return the lines that say what to read first."""
-    runs = next((name for name in ("positions.c", "reduced.c") if name in names), "")
-    follows = f", and `{runs}`, which is what runs" if runs else ""
+def _describe_reading_order(program: Program, names: Collection[str]) -> list[str]:
+    """Return the lines of README.md that say which files to read first and which symbols they use.
+
+    names: the files of the scene, of which positions.c or reduced.c is mentioned if present.
+    """
+    integrated_file = next((name for name in ("positions.c", "reduced.c") if name in names), "")
+    continuation = f", and `{integrated_file}`, which is what runs" if integrated_file else ""
     return [
-        f"Read `model.h` first, for the names, then `dynamics.c`, which is the textbook's{follows}.",
+        f"Read `model.h` first, for the names, then `dynamics.c`, which is the textbook's{continuation}.",
         "Units are SI; `q` and `v` are positions and velocities, `p` is the `Parameters` of a run.",
     ]
 
 
-def _calls(program: Program, names: Collection[str]) -> list[str]:
-    """Return the lines that say how the scene is compiled and called."""
-    runs = (
+def _describe_calls(program: Program, names: Collection[str]) -> list[str]:
+    """Return the lines of README.md that say how the scene is compiled, and which C functions start and run it.
+
+    The functions differ for scenes that are integrated and kinematically driven ones.
+    """
+    run_functions = (
         "`gudgeon_run_start`, `gudgeon_adaptive_setup`, then `gudgeon_adaptive_run`"
         if program.integrates
         else ("`gudgeon_kinematic_begin`, then `gudgeon_kinematic`")
     )
-    lanes = ["`lanes.c` is a library of its own, compiled in the same way without the engine."] * ("lanes.c" in names)
+    lanes_note = ["`lanes.c` is a library of its own, compiled in the same way without the engine."] * (
+        "lanes.c" in names
+    )
     return [
         "## How it is called",
         "",
@@ -124,21 +138,21 @@ def _calls(program: Program, names: Collection[str]) -> list[str]:
         "-I. -I$ROOT scene.c $ROOT/engine/engine.c -lm -o scene.so",
         "```",
         "",
-        *lanes,
+        *lanes_note,
         "What is called from outside is declared in `engine/scene/calls.h`: `gudgeon_prepare` fills the parameters, "
-        f"`gudgeon_start` closes the linkage, `gudgeon_rhs` is the right-hand side; a run is {runs}. "
+        f"`gudgeon_start` closes the linkage, `gudgeon_rhs` is the right-hand side; a run is {run_functions}. "
         "From Python all of it is `gudgeon.load(…).simulate(…)`.",
         "",
     ]
 
 
-def _plain(text: str) -> str:
+def _escape_markdown(text: str) -> str:
     """Return a text as one line with Markdown's signs escaped."""
     return re.sub(r"[\\`*_<>\[\]#|]", r"\\\g<0>", " ".join(text.split()))
 
 
-def _comment(text: str) -> str:
-    """Return the first sentence of a file's first comment."""
-    _, _, message = text.partition("/*")
-    lines = [line.strip().removeprefix("*").strip() for line in message.partition("*/")[0].splitlines()]
+def _extract_first_sentence(text: str) -> str:
+    """Return the first sentence of the first block comment of a C file; "more of it" if there is none."""
+    _, _, comment = text.partition("/*")
+    lines = [line.strip().removeprefix("*").strip() for line in comment.partition("*/")[0].splitlines()]
     return " ".join(filter(None, lines)).partition(". ")[0] or "more of it"

@@ -14,10 +14,14 @@ _MAX_LISTED = 40  # bodies, unknowns or closures
 
 
 def reduced_summary(system: TreeSystem) -> list[str]:
-    """Return the comment at the beginning of reduced.c: the tree, the unknowns, the closures, what is stored where."""
+    """Return the lines of the comment at the beginning of reduced.c.
+
+    They list the spanning tree, the unknowns with their indices, the loop closures with their multipliers, and the
+    joints with play.
+    """
     tree, unknowns = system.tree, list(map(coordinate_name, system.unknowns))
-    links = [f"{link.body}: {_carried_by(link)}; {_angle_of(system, link.body)}" for link in tree.links]
-    stored = [f"q[{k}] = {name} ({_unit(name)})" for k, name in enumerate(unknowns)]
+    links = [f"{link.body}: {_describe_position(link)}; {_describe_angle(system, link.body)}" for link in tree.links]
+    stored = [f"q[{k}] = {name} ({_get_unit(name)})" for k, name in enumerate(unknowns)]
     if system.chain:
         names = map(coordinate_name, system.chain.names)
         stored += [f"q[{k}] = {name}, dependent" for k, name in enumerate(names, len(unknowns))]
@@ -28,12 +32,12 @@ def reduced_summary(system: TreeSystem) -> list[str]:
         "M a + Phi_q^T lambda = g and Phi_q a = gamma with q = s. Joints outside the tree are the loop closures Phi.",
         "",
         "Tree, parents first (body: how it is positioned; its angle):",
-        *_listed(links, "\n"),
+        *_format_list(links, "\n"),
         "Unknowns, with rates in v and accelerations in a at the same index:",
-        *_listed(stored or ["none"]),
+        *_format_list(stored or ["none"]),
         "Loop closures, with the places of their multipliers:",
-        *_listed(closures or ["none"]),
-        *(["Joints with play, whose forces are applied loads:", *_listed(joints)] if joints else []),
+        *_format_list(closures or ["none"]),
+        *(["Joints with play, whose forces are applied loads:", *_format_list(joints)] if joints else []),
         "",
         "expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).",
         "reduce_state: the opposite direction. closures, closure_rates: Phi and its rate.",
@@ -41,15 +45,15 @@ def reduced_summary(system: TreeSystem) -> list[str]:
     ]
 
 
-def _carried_by(link: Link) -> str:
-    """Return in words how a link of the tree positions its body."""
+def _describe_position(link: Link) -> str:
+    """Return in words how a link of the tree positions its body: freely, or on its parent by a joint."""
     if link.joint is None:
         return "moves freely, x and y are unknowns"
-    along = f", displaced by {link.coordinates[0]}" if link.slides else ""
-    return f"on {link.parent} by {link.joint.name}{along}"
+    displacement = f", displaced by {link.coordinates[0]}" if link.slides else ""
+    return f"on {link.parent} by {link.joint.name}{displacement}"
 
 
-def _angle_of(system: TreeSystem, body: str) -> str:
+def _describe_angle(system: TreeSystem, body: str) -> str:
     """Return in words what the angle of a body is: unknown, prescribed, constant or dependent."""
     terms = [name for name in system.tree.angles[body] if name != CONSTANT]
     if terms == [body]:
@@ -62,14 +66,17 @@ def _angle_of(system: TreeSystem, body: str) -> str:
     return f"its angle is {kind} {', '.join(terms)}"
 
 
-def _unit(name: str) -> str:
-    """Return the unit of a tree coordinate."""
+def _get_unit(name: str) -> str:
+    """Return the unit of a tree coordinate: "rad" for an angle, "m" for others."""
     return "rad" if name.endswith(".theta") else "m"
 
 
-def _listed(items: Sequence[str], between: str = "; ") -> list[str]:
-    """Return items as indented comment lines, the first _MAX_LISTED of them."""
+def _format_list(items: Sequence[str], separator: str = "; ") -> list[str]:
+    """Return items as indented comment lines, wrapped, or one item per line if the separator is a line break.
+
+    Only the first _MAX_LISTED items are printed, followed by the number of the others.
+    """
     shown = [*items[:_MAX_LISTED], *([f"and {len(items) - _MAX_LISTED} more"] if len(items) > _MAX_LISTED else [])]
-    joined = between.join(item.replace(" ", "\0") for item in shown)
-    lines = shown if between == "\n" else textwrap.wrap(joined, 104)
+    joined = separator.join(item.replace(" ", "\0") for item in shown)
+    lines = shown if separator == "\n" else textwrap.wrap(joined, 104)
     return ["    " + line.replace("\0", " ") for line in lines]

@@ -19,25 +19,28 @@ typedef double Wide __attribute__((vector_size({8 * WIDE}), aligned(16)));
 
 
 def taylor_code(series: Series) -> str:
-    """Return the text of taylor.c."""
+    """Return the text of taylor.c: its structs, the function of order 0 and that of each higher order."""
     kernels = (functions.kernel(pair_sines(series.values)), functions.kernel(series.terms))
-    return "\n".join([_HEAD, _structs(series, "double"), *kernels])
+    return "\n".join([_HEAD, _print_structs(series, "double"), *kernels])
 
 
 def lanes_code(series: Series) -> str:
-    """Return the same functions for several runs in SIMD lanes."""
+    """Return the structs and functions of the Taylor series for several runs in SIMD lanes."""
     kernels = (lanes_printer.motion_kernel(series.values), lanes_printer.kernel(series.terms))
-    return "\n".join([_structs(series, "Lanes"), *kernels])
+    return "\n".join([_print_structs(series, "Lanes"), *kernels])
 
 
-def _structs(series: Series, number: str) -> str:
-    """Return the structs of coefficients of order 0 and of factors of products."""
+def _print_structs(series: Series, c_type: str) -> str:
+    """Return the C structs TaylorValues (coefficients of order 0) and TaylorFactors (factors of products).
+
+    c_type: the C type of their fields, "double" or "Lanes".
+    """
     products = [product.name for product in series.products]
-    factors = _struct("Factors of products, or their sums over lower orders.", "TaylorFactors", products, number)
-    return "\n".join([_struct("Coefficients of order 0.", "TaylorValues", series.kept, number), factors])
+    factors = _print_struct("Factors of products, or their sums over lower orders.", "TaylorFactors", products, c_type)
+    return "\n".join([_print_struct("Coefficients of order 0.", "TaylorValues", series.kept, c_type), factors])
 
 
-def _struct(meaning: str, name: str, fields: Sequence[str], number: str) -> str:
-    """Return one struct with fields of one type."""
-    lines = [f"/* {meaning} */", "typedef struct {", *(f"    {number} {field};" for field in fields or ["none"])]
+def _print_struct(meaning: str, name: str, fields: Sequence[str], c_type: str) -> str:
+    """Return one C struct with fields of one type and a comment; a struct without fields gets the field `none`."""
+    lines = [f"/* {meaning} */", "typedef struct {", *(f"    {c_type} {field};" for field in fields or ["none"])]
     return "\n".join([*lines, f"}} {name};", ""])

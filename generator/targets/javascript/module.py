@@ -52,102 +52,115 @@ def equations_script(program: Program) -> str:
     closed linkage's, `names` their names. Raises ValueError for curves.
     """
     model, dynamics = program.model, program.dynamics
-    kernels = [*closed_linkage.row_kernels(model), *([play_kernel(model)] if model.clearances else [])]
-    read: set[str] = set()
-    texts = [function(dynamics, read, right_hand_sides(dynamics, model))]
-    texts += [function(kernel, read) for kernel in (*kernels, *program.laws)]
-    texts += [text for pin in program.pins for text in joint_functions(pin, read)]
-    in_tree = tree_functions(program, read)
-    texts = [*in_tree.values(), *texts]  # nearest to what they are like in C: packed, that takes the least room
-    kernels += [dynamics, *(kernel for kernel in _tree_kernels(program) if kernel.name in in_tree)]
-    text = ",\n".join(texts)
+    kernels = [*closed_linkage.row_kernels(model), *([make_play_kernel(model)] if model.clearances else [])]
+    members_read: set[str] = set()
+    methods = [function(dynamics, members_read, right_hand_sides(dynamics, model))]
+    methods += [function(kernel, members_read) for kernel in (*kernels, *program.laws)]
+    methods += [method_text for pin in program.pins for method_text in joint_functions(pin, members_read)]
+    tree_methods = tree_functions(program, members_read)
+    methods = [
+        *tree_methods.values(),
+        *methods,
+    ]  # nearest to what they are like in C: packed, that takes the least room
+    kernels += [dynamics, *(kernel for kernel in _list_tree_kernels(program) if kernel.name in tree_methods)]
+    method_text = ",\n".join(methods)
     members = map(model.slots.field, model.slots.members())
-    place = {row.name: k for k, row in enumerate(model.all_rows)}
-    message = {
-        "numbers": {one: k for k, one in enumerate(members) if one in read},
-        "rows": [place[row.name] for row in model.rows],
+    row_index = {row.name: k for k, row in enumerate(model.all_rows)}
+    description = {
+        "numbers": {member: k for k, member in enumerate(members) if member in members_read},
+        "rows": [row_index[row.name] for row in model.rows],
         "names": [row.name for row in model.rows],
         "given": {kernel.name: arguments(kernel) for kernel in kernels},
-        "joints": {clearance.label: _motion_locals(model, i) for i, clearance in enumerate(model.clearances)},
-        "called": _joints_of_functions(program),
+        "joints": {clearance.label: _name_motion_locals(model, i) for i, clearance in enumerate(model.clearances)},
+        "called": _map_functions_to_joints(program),
         "states": model.law_states,
         "bodies": [body.name for body in model.bodies],
-        "closing": _closure_indices(program),
+        "closing": _find_closure_indices(program),
     }
     if model.slots.tables:
-        place_of = {symbol: k for k, symbol in enumerate(model.slots.members())}
-        first = {name: place_of[own[0]] for name, own in model.slots.tables.items()}
-        message["tables"] = {name: [first[name], first[name] + len(own)] for name, own in model.slots.tables.items()}
+        member_index = {symbol: k for k, symbol in enumerate(model.slots.members())}
+        first_index = {name: member_index[symbols[0]] for name, symbols in model.slots.tables.items()}
+        description["tables"] = {
+            name: [first_index[name], first_index[name] + len(symbols)] for name, symbols in model.slots.tables.items()
+        }
     prelude = PRELUDE + CONTOUR * bool(model.slots.tables)
-    parts = ", ".join(f"{key}: {json.dumps(value, separators=(',', ':'))}" for key, value in message.items())
+    description_text = ", ".join(
+        f"{key}: {json.dumps(value, separators=(',', ':'))}" for key, value in description.items()
+    )
     return (
-        f"const gudgeonEquations = (() => {{\n{prelude}const functions = {{\n{text},\n}};\n"
-        f"return {{{parts}, functions}};\n}})();\n"
+        f"const gudgeonEquations = (() => {{\n{prelude}const functions = {{\n{method_text},\n}};\n"
+        f"return {{{description_text}, functions}};\n}})();\n"
     )
 
 
-def tree_functions(program: Program, read: set[str]) -> dict[str, str]:
-    """Return the functions of reduced.c that a sample suffices to evaluate, by name; `read` gets the members of p.
+def tree_functions(program: Program, members_read: set[str]) -> dict[str, str]:
+    """Return {name: JavaScript method} of the functions of reduced.c that can be evaluated from a sample.
 
-    Driven loops are closed in a sample, and their rates follow from their coordinates. Friction modes are not known.
+    members_read: a set that gets the members of p. Driven loops are closed in a sample, and their rates follow from
+    their coordinates. Functions that need friction modes have no counterpart and are left out.
     """
-    found = dict[str, str]()
-    for kernel in _tree_kernels(program):
+    functions = dict[str, str]()
+    for kernel in _list_tree_kernels(program):
         with suppress(ValueError):
-            found[kernel.name] = function(kernel, read)
-    return found
+            functions[kernel.name] = function(kernel, members_read)
+    return functions
 
 
-def _tree_kernels(program: Program) -> list[Kernel]:
-    """Return the kernels in tree coordinates that can be evaluated from a sample."""
+def _list_tree_kernels(program: Program) -> list[Kernel]:
+    """Return the kernels in tree coordinates that a sample suffices to evaluate; [] in the full formulation."""
     tree = program.tree
     return [kernel for kernel in tree.every if kernel.name in _OF_STATES] if tree else []
 
 
-def _closure_indices(program: Program) -> list[int]:
-    """Return the index of each loop closure among all rows of the tree's linkage."""
+def _find_closure_indices(program: Program) -> list[int]:
+    """Return the index of each loop closure among all rows of the tree's linkage; [] in the full formulation."""
     if program.tree is None:
         return []
     system = program.tree.system
-    place = {row.name: k for k, row in enumerate(system.model.all_rows)}
-    return [place[row.name] for row in system.rows]
+    row_index = {row.name: k for k, row in enumerate(system.model.all_rows)}
+    return [row_index[row.name] for row in system.rows]
 
 
 def right_hand_sides(dynamics: Kernel, model: Model) -> set[str]:
-    """Return the locals of `dynamics` on which the right-hand sides of its linear system depend."""
+    """Return the names of the locals of `dynamics` on which the right-hand sides of its linear system depend."""
     names = {made_name(f"rhs_{row.name}") for row in model.rows}
-    found = slices(readable(dynamics), lambda line: frozenset({"rhs"} if line.target in names else ()))
-    return {name for name in found.stored if isinstance(name, str)}
+    dependence = slices(readable(dynamics), lambda line: frozenset({"rhs"} if line.target in names else ()))
+    return {name for name in dependence.stored if isinstance(name, str)}
 
 
-def _joints_of_functions(program: Program) -> dict[str, list[str]]:
-    """Return the joints in which each function of clearance.c acts."""
-    found: defaultdict[str, list[str]] = defaultdict(list)
+def _map_functions_to_joints(program: Program) -> dict[str, list[str]]:
+    """Return {function of clearance.c: labels of the joints in which it acts}."""
+    joints: defaultdict[str, list[str]] = defaultdict(list)
     for pin in program.pins:
         parts = (f"{part}_{pin.clearance.label}_" for part in ("clearance", "dry", "film"))
         for name in (*parts, *(call.kernel.name for call in pin.laws.values())):
-            found[name].append(pin.clearance.label)
-    return found
+            joints[name].append(pin.clearance.label)
+    return joints
 
 
-def _motion_locals(model: Model, index: int) -> list[str]:
-    """Return the locals of `play` that contain the motion in a joint."""
-    used = {symbol.name for symbol in model.symbols.info}
-    first = next(word for word in ("play", "joint", "with_play") if not any(one.startswith(word) for one in used))
-    return [f"{first}_{index + 1}_{symbol.name}" for symbol in motion(model.clearances[index])]
+def _name_motion_locals(model: Model, index: int) -> list[str]:
+    """Return the names of the locals of `play` that contain the motion in joint `index`.
+
+    They begin with the first of "play", "joint" and "with_play" that no symbol of the scene begins with.
+    """
+    symbol_names = {symbol.name for symbol in model.symbols.info}
+    prefix = next(
+        word for word in ("play", "joint", "with_play") if not any(one.startswith(word) for one in symbol_names)
+    )
+    return [f"{prefix}_{index + 1}_{symbol.name}" for symbol in motion(model.clearances[index])]
 
 
-def play_kernel(model: Model) -> Kernel:
-    """Return the kernel of eccentricity, its rate and angular velocities of each joint with play."""
-    build = KernelBuilder(model.symbols, "play", ["Joints with play: eccentricity, its rate, angular velocities."])
+def make_play_kernel(model: Model) -> Kernel:
+    """Return the kernel `play`: eccentricity, its rate and angular velocities of each joint with play."""
+    builder = KernelBuilder(model.symbols, "play", ["Joints with play: eccentricity, its rate, angular velocities."])
     for i, clearance in enumerate(model.clearances):
-        build.section(f"{clearance.kind} {clearance.name}")
-        turning = clearance.first.omega, clearance.second.omega
-        values = (*clearance.eccentricity, *clearance.eccentricity_rate, *turning)
+        builder.section(f"{clearance.kind} {clearance.name}")
+        angular_velocities = clearance.first.omega, clearance.second.omega
+        values = (*clearance.eccentricity, *clearance.eccentricity_rate, *angular_velocities)
         values += clearance.also
-        for name, value in zip(_motion_locals(model, i), values, strict=True):
-            build.line(Statement(name, sp.sympify(value)))
-    return build.build((*STATE, PARAMETERS))
+        for name, value in zip(_name_motion_locals(model, i), values, strict=True):
+            builder.line(Statement(name, sp.sympify(value)))
+    return builder.build((*STATE, PARAMETERS))
 
 
 _TEXT = re.compile(r"""("(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*')""")  # strings within a line of JavaScript
@@ -159,11 +172,11 @@ def embedded_script(text: str) -> str:
 
     Lines are kept, since they end statements. Lines with or within template strings keep their spaces.
     """
-    lines, inside = [], False
+    lines, in_template_string = [], False
     for line in re.sub(r"(?m)^ +|^\n", "", _COMMENT.sub("", text)).split("\n"):
         parts = _TEXT.split(line)
-        if not inside and "`" not in line:
+        if not in_template_string and "`" not in line:
             parts[::2] = (_SPACED.sub(r"\1", part) for part in parts[::2])
         lines.append("".join(parts))
-        inside ^= line.count("`") % 2 == 1
+        in_template_string ^= line.count("`") % 2 == 1
     return "\n".join(lines)

@@ -25,118 +25,141 @@ _OF_CONTOUR = ("e", "steep", "worn_slope")
 _FILM = ("e", "deltadot", "de_t", "omega_i", "omega_j", "p", "of")
 
 
-def joint_functions(own: Pin, read: set[str]) -> list[str]:
-    """Return `dry_A`, `film_A` and `clearance_A` of joint A, if it has them; `read` gets the members of p.
+def joint_functions(pin: Pin, members_read: set[str]) -> list[str]:
+    """Return the JavaScript methods `dry_A`, `film_A` and `clearance_A` of joint A.
 
-    Values that a function and the laws that it calls store go to `of` by the function's name: `of.dry_A.a_i`; the force
-    in ground axes goes to `of.force`.
+    The first two exist only if the joint has them.
+    members_read: a set that gets the read members of p. The methods store their values in `of` by the function's
+    name: `of.dry_A.a_i`; the force in ground axes goes to `of.force`.
     """
-    joint, found = own.clearance.label, []
-    if own.clearance.normal is not None:
-        found.append(_method_code(f"dry_{joint}_", _dry_arguments(own), _dry(own, read)))
-    if own.clearance.film is not None:
-        found.append(_method_code(f"film_{joint}_", _FILM, _film(own, read)))
-    given = (*map(str, motion(own.clearance)), "contact", "p", "of")
-    return [*found, _method_code(f"clearance_{joint}_", given, _clearance(own, read))]
+    joint, methods = pin.clearance.label, []
+    if pin.clearance.normal is not None:
+        methods.append(_print_method(f"dry_{joint}_", _list_dry_arguments(pin), _print_dry_contact(pin, members_read)))
+    if pin.clearance.film is not None:
+        methods.append(_print_method(f"film_{joint}_", _FILM, _print_film(pin, members_read)))
+    arguments = (*map(str, motion(pin.clearance)), "contact", "p", "of")
+    return [*methods, _print_method(f"clearance_{joint}_", arguments, _print_joint_force(pin, members_read))]
 
 
 def motion(clearance: Clearance) -> tuple[sp.Symbol, ...]:
-    """Return the symbols of the motion that a joint's function gets."""
+    """Return the symbols of the relative motion that a joint's function gets.
+
+    A corner at a wall gets the normal, too; a bearing with a contour gets its angle.
+    """
     if clearance.wall:
         return (*MOTION, contact.n_x, contact.n_y)
     return (*MOTION, contact.theta_i) if clearance.contour else MOTION
 
 
-def _dry_arguments(own: Pin) -> tuple[str, ...]:
-    """Return the arguments of a joint's dry contact."""
-    return (*_DRY[:5], *_OF_CONTOUR, *_DRY[5:]) if own.clearance.contour else _DRY
+def _list_dry_arguments(pin: Pin) -> tuple[str, ...]:
+    """Return the argument names of a joint's dry contact; those of a contour have three more."""
+    return (*_DRY[:5], *_OF_CONTOUR, *_DRY[5:]) if pin.clearance.contour else _DRY
 
 
-def _method_code(name: str, given: Iterable[str], body: Iterable[str]) -> str:
-    """Return a method of an object."""
-    return "\n".join([f"{name}({', '.join(given)}) {{", *(f"    {line}" for line in body), "}"])
+def _print_method(name: str, arguments: Iterable[str], body: Iterable[str]) -> str:
+    """Return a JavaScript method with its arguments and the lines of its body."""
+    return "\n".join([f"{name}({', '.join(arguments)}) {{", *(f"    {line}" for line in body), "}"])
 
 
-def _dry(own: Pin, read: set[str]) -> list[str]:
-    """Return the lines of dry contact."""
-    ratio = "unclipped" if own.clearance.clip_ratio else "ratio"
-    before, after = _Part(own.before_dry, read), _Part(own.after_dry, read)
-    body = [f"const {ratio} = contact.closed ? deltadot / contact.deltadot_minus : 1;", *before.text]
-    body += _call(own.laws["normal"], ("max_of(delta, 0)", "ratio", *map(str, own.given)), ("F_n",), read)
-    pressing = _Part(own.pressing, read)
-    pressed, body = "F_N" if own.pressing else "F_n", [*body, *pressing.text]
-    if "friction" in own.laws:
-        states = (f"contact.state[{k}]" for k in range(len(own.clearance.states)))
-        body += _call(own.laws["friction"], (pressed, "v_t", *states), ("F_along_t_dry",), read)
+def _print_dry_contact(pin: Pin, members_read: set[str]) -> list[str]:
+    """Return the lines of a joint's dry contact: normal force, friction (0 if there is none) and moments."""
+    ratio_name = "unclipped" if pin.clearance.clip_ratio else "ratio"
+    before, after = _PrintedStatements(pin.before_dry, members_read), _PrintedStatements(pin.after_dry, members_read)
+    body = [f"const {ratio_name} = contact.closed ? deltadot / contact.deltadot_minus : 1;", *before.text]
+    body += _print_law_call(
+        pin.laws["normal"], ("max_of(delta, 0)", "ratio", *map(str, pin.given)), ("F_n",), members_read
+    )
+    pressing = _PrintedStatements(pin.pressing, members_read)
+    normal_force, body = "F_N" if pin.pressing else "F_n", [*body, *pressing.text]
+    if "friction" in pin.laws:
+        states = (f"contact.state[{k}]" for k in range(len(pin.clearance.states)))
+        body += _print_law_call(pin.laws["friction"], (normal_force, "v_t", *states), ("F_along_t_dry",), members_read)
     else:
         body.append("const F_along_t_dry = 0;")
-    stored = [ratio, *before.locals, "F_n", *pressing.locals, "F_along_t_dry", *after.locals]
-    return [*body, *after.text, _store(f"dry_{own.clearance.label}_", stored), _return_force(f"-{pressed}", "dry")]
-
-
-def _film(own: Pin, read: set[str]) -> list[str]:
-    """Return the lines of a film."""
-    before, after = _Part(own.before_film, read), _Part(own.after_film, read)
-    forces = ("F_r", "F_along_t_film", "T0")
-    body = [*before.text, *_call(own.laws["film"], ("epsilon", "w_n", "w_t"), forces, read), *after.text]
-    stored = [*before.locals, *forces, *after.locals]
-    return [*body, _store(f"film_{own.clearance.label}_", stored), _return_force("F_r", "film")]
-
-
-def _clearance(own: Pin, read: set[str]) -> list[str]:
-    """Return the lines of a joint's force: the normal direction, then dry contact, film or their blend."""
-    joint = own.clearance.label
-    gap, share = _Part(own.gap, read), _Part(own.share, read)
-    parts = (("dry", _dry_arguments(own)), ("film", _FILM))
-    dry, film = (f"functions.{part}_{joint}_({', '.join(given)})" for part, given in parts)
-    body = [*gap.text, _store(f"clearance_{joint}_", gap.locals)]
-    if own.clearance.film is None:
-        acts = "contact.closed" if own.clearance.rigid else "delta > 0"
-        at_wall = "{...F, M_i: F.M_i + along * F.n}" if own.clearance.wall else "F"
-        return [*body, f"const F = {acts} ? {dry} : {_NOTHING};", _return_in_ground_axes(at_wall)]
-    if own.clearance.normal is None:
-        return [*body, _return_in_ground_axes(film)]
-    kept = ", ".join(share.locals)
-    blended = (f'own["F.{one}"] = F.{one} += (1 - share) * (film.{one} - F.{one});' for one in BLENDED)
+    locals_ = [ratio_name, *before.locals, "F_n", *pressing.locals, "F_along_t_dry", *after.locals]
     return [
         *body,
-        f"if (!(delta > 0)) {_return_in_ground_axes(film)}",
-        *share.text,
-        f"const F = {dry}, own = Object.assign(of.clearance_{joint}_, {{{kept}}});",
-        "if (share < 1) {",
-        f"    const film = {film};",
-        *(f"    {line}" for line in blended),
-        "}",
-        _return_in_ground_axes("F"),
+        *after.text,
+        _print_store(f"dry_{pin.clearance.label}_", locals_),
+        _print_return_force(f"-{normal_force}", "dry"),
     ]
 
 
-def _return_in_ground_axes(force: str) -> str:
+def _print_film(pin: Pin, members_read: set[str]) -> list[str]:
+    """Return the lines of a joint's film: its law's forces and moments."""
+    before, after = _PrintedStatements(pin.before_film, members_read), _PrintedStatements(pin.after_film, members_read)
+    forces = ("F_r", "F_along_t_film", "T0")
+    body = [
+        *before.text,
+        *_print_law_call(pin.laws["film"], ("epsilon", "w_n", "w_t"), forces, members_read),
+        *after.text,
+    ]
+    locals_ = [*before.locals, *forces, *after.locals]
+    return [*body, _print_store(f"film_{pin.clearance.label}_", locals_), _print_return_force("F_r", "film")]
+
+
+def _print_joint_force(pin: Pin, members_read: set[str]) -> list[str]:
+    """Return the lines of a joint's force: the normal direction, then dry contact, film or their blend."""
+    joint = pin.clearance.label
+    gap, share = _PrintedStatements(pin.gap, members_read), _PrintedStatements(pin.share, members_read)
+    parts = (("dry", _list_dry_arguments(pin)), ("film", _FILM))
+    dry, film = (f"functions.{part}_{joint}_({', '.join(given)})" for part, given in parts)
+    body = [*gap.text, _print_store(f"clearance_{joint}_", gap.locals)]
+    if pin.clearance.film is None:
+        condition = "contact.closed" if pin.clearance.rigid else "delta > 0"
+        at_wall = "{...F, M_i: F.M_i + along * F.n}" if pin.clearance.wall else "F"
+        return [*body, f"const F = {condition} ? {dry} : {_NOTHING};", _print_return_in_ground_axes(at_wall)]
+    if pin.clearance.normal is None:
+        return [*body, _print_return_in_ground_axes(film)]
+    share_locals = ", ".join(share.locals)
+    blend_lines = (
+        f'own["F.{component}"] = F.{component} += (1 - share) * (film.{component} - F.{component});'
+        for component in BLENDED
+    )
+    return [
+        *body,
+        f"if (!(delta > 0)) {_print_return_in_ground_axes(film)}",
+        *share.text,
+        f"const F = {dry}, own = Object.assign(of.clearance_{joint}_, {{{share_locals}}});",
+        "if (share < 1) {",
+        f"    const film = {film};",
+        *(f"    {line}" for line in blend_lines),
+        "}",
+        _print_return_in_ground_axes("F"),
+    ]
+
+
+def _print_return_in_ground_axes(force: str) -> str:
     """Return the line that returns a force in ground axes."""
     return f"return turned({force}, n_x, n_y, of);"
 
 
-class _Part:
-    """Contain the lines of statements and the locals that they store."""
+class _PrintedStatements:
+    """Contain the JavaScript lines of statements and the locals that they store."""
 
     def __init__(self, statements: Sequence[Statement], read: set[str]) -> None:
         writer = Lines(lines(statements), read)
-        self.text, self.locals = writer.all(), writer.locals
+        self.text, self.locals = writer.print_lines(), writer.locals
 
 
-def _call(call: SharedFunctionCall, given: Iterable[str], stored: Sequence[str], read: set[str]) -> list[str]:
-    """Return the call of a law, with its first results as locals."""
-    function, numbers = call.kernel.name, map(JavaScriptPrinter(Readable(()), read).called, call.numbers)
-    message = ", ".join(f"{of}: {name}" for of, name in zip(results(call.kernel), stored, strict=False))
-    called = f"functions.{function}({', '.join([*given, *numbers])})"
-    return [f"const {{{message}}} = of.{function} = {called};"]
+def _print_law_call(
+    call: SharedFunctionCall, arguments: Iterable[str], locals_: Sequence[str], members_read: set[str]
+) -> list[str]:
+    """Return the lines that call a law; its first results become the locals `locals_`, all go to `of` by its name."""
+    function, parameters = call.kernel.name, map(JavaScriptPrinter(Readable(()), members_read).get_name, call.numbers)
+    destructured = ", ".join(f"{result}: {name}" for result, name in zip(results(call.kernel), locals_, strict=False))
+    call_text = f"functions.{function}({', '.join([*arguments, *parameters])})"
+    return [f"const {{{destructured}}} = of.{function} = {call_text};"]
 
 
-def _store(function: str, names: Iterable[str]) -> str:
-    """Return the line that stores locals by a function's name."""
+def _print_store(function: str, names: Iterable[str]) -> str:
+    """Return the line that stores locals in `of` by a function's name."""
     return f"of.{function} = {{{', '.join(dict.fromkeys(names))}}};"
 
 
-def _return_force(along: str, part: str) -> str:
-    """Return the line that returns a force in the axes of the contact."""
+def _print_return_force(along: str, part: str) -> str:
+    """Return the line that returns a force in the axes of the contact.
+
+    along: the expression of its normal component. part: "dry" or "film".
+    """
     return f"return {{n: {along}, t: F_along_t_{part}, M_i: M_i_{part}, M_j: M_j_{part}}};"

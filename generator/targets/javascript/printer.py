@@ -67,21 +67,24 @@ _SIDES = tuple(Place(argument.name) for argument in BRANCHES)
 
 
 class JavaScriptPrinter(CPrinter):
-    """Print C's expressions with JavaScript's names of places; `numbers` collects the members of p that are read."""
+    """Print C's expressions with JavaScript's paths of places.
+
+    `numbers` is a set that gets the members of p that are read.
+    """
 
     def __init__(self, of: Readable, numbers: set[str]) -> None:
         super().__init__(of)
         self.numbers = numbers
 
-    def place(self, place: Place) -> str:
-        """Return the path of a place."""
+    def print_place(self, place: Place) -> str:
+        """Return the path of a place in JavaScript, and add the member to `numbers` if the place is a parameter."""
         if place.is_parameter:
             self.numbers.add(place.member)
         return str(place)
 
     def _print_BranchOf(self, expr: sp.Expr) -> str:
         """Print the active branch of a switching function: its sign, since branches are not frozen."""
-        return self._call("sign_of", expr.args[1])
+        return self._print_call("sign_of", expr.args[1])
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
         """Raise ValueError: curves have no counterpart in JavaScript."""
@@ -95,107 +98,116 @@ class JavaScriptPrinter(CPrinter):
 
 
 def function(kernel: Kernel, numbers: set[str], only: Collection[str] | None = None) -> str:
-    """Return a kernel as a method that returns its locals and arrays by name; `numbers` gets the members of p.
+    """Return a kernel as a JavaScript method that returns an object with its locals and arrays by name.
 
-    If a pivot vanishes, the method ends and later values are undefined. `only`: the only locals that are computed.
-    Raises ValueError for a line without a counterpart.
+    numbers: a set to which the read members of p are added. `only`: the locals to compute; None for all. If a pivot
+    vanishes, the method ends and later values are undefined. Raises ValueError for a line without a counterpart.
     """
-    own = readable(kernel)
-    ends = only is None and any(isinstance(line, Guard) for part in kernel.sections for line in part.statements)
-    writer = Lines(own, numbers, "var" if ends else "const")
-    body = writer.all(only)
-    body = ["solved: {", *(f"    {line}" for line in body), "}"] if ends else body
-    outs = results(kernel) if only is None else []
-    outs = [out for out in outs if out not in writer.locals]
-    arrays = [f"    const {', '.join(f'{out} = []' for out in outs)};"] if outs else []
-    if rhs := _outputs_literal(kernel) if only is None else "":
-        arrays, outs = [*arrays, f"    const rhs = {rhs};"], [*outs, "rhs"]
-    given = ", ".join(arguments(kernel))
-    message = ", ".join(dict.fromkeys([*writer.locals, *outs]))
-    lines = [*arrays, *(f"    {line}" for line in body), f"    return {{{message}}};"]
-    return "\n".join([f"{kernel.name}({given}) {{", *lines, "}"])
+    readable_lines = readable(kernel)
+    may_end = only is None and any(isinstance(line, Guard) for part in kernel.sections for line in part.statements)
+    writer = Lines(readable_lines, numbers, "var" if may_end else "const")
+    body = writer.print_lines(only)
+    body = ["solved: {", *(f"    {line}" for line in body), "}"] if may_end else body
+    outputs = results(kernel) if only is None else []
+    outputs = [out for out in outputs if out not in writer.locals]
+    arrays = [f"    const {', '.join(f'{out} = []' for out in outputs)};"] if outputs else []
+    if rhs := _print_outputs_literal(kernel) if only is None else "":
+        arrays, outputs = [*arrays, f"    const rhs = {rhs};"], [*outputs, "rhs"]
+    argument_names = ", ".join(arguments(kernel))
+    returned = ", ".join(dict.fromkeys([*writer.locals, *outputs]))
+    lines = [*arrays, *(f"    {line}" for line in body), f"    return {{{returned}}};"]
+    return "\n".join([f"{kernel.name}({argument_names}) {{", *lines, "}"])
 
 
 def arguments(kernel: Kernel) -> list[str]:
-    """Return the names of a function's arguments without the arrays that it returns."""
-    given = (a for a in kernel.arguments if a not in (*BRANCHES, CORNER))
-    return [a.name for a in given if a.access is not Access.WRITTEN]
+    """Return the names of a function's arguments, without those for branches and without the arrays that it returns."""
+    read_arguments = (a for a in kernel.arguments if a not in (*BRANCHES, CORNER))
+    return [a.name for a in read_arguments if a.access is not Access.WRITTEN]
 
 
 def results(kernel: Kernel) -> list[str]:
-    """Return the names of numbers and arrays that a function returns through arguments, in their order."""
+    """Return the names of the numbers and arrays that a function stores through arguments, in their order."""
     written = (a for a in kernel.arguments if a.access is Access.WRITTEN and a not in BRANCHES)
     return [a.name for a in written if a.type is Number.REAL]
 
 
-def _outputs_literal(kernel: Kernel) -> str:
-    """Return an object literal for the further outputs (RhsOutputs) that a function fills; "" if there are none."""
+def _print_outputs_literal(kernel: Kernel) -> str:
+    """Return an object literal with empty entries for the further outputs (RhsOutputs) that a function fills.
+
+    "" is returned if it fills none.
+    """
     lines = [line for section in kernel.sections for line in section.statements]
     places = [line.target for line in lines if isinstance(line, Statement)]
     places += [place for line in lines if isinstance(line, Call) for place in line.results]
-    parts = dict[str, int]()
+    lengths = dict[str, int]()
     for place in places:
         match place:
             case Place(RHS.name, (str() as array, int() as k, *member)):
                 structs = 1 + k if member or array == "clearance" else 0
-                parts[array] = max(structs, parts.get(array, 0))
-    message = ", ".join(f"{name}: [{', '.join(['{}'] * count)}]" for name, count in parts.items())
-    return f"{{{message}}}" if parts else ""
+                lengths[array] = max(structs, lengths.get(array, 0))
+    members = ", ".join(f"{name}: [{', '.join(['{}'] * count)}]" for name, count in lengths.items())
+    return f"{{{members}}}" if lengths else ""
 
 
 class _JavaScript(Text):
     """Print values; thresholds become numbers."""
 
-    def _factor(self, value: sp.Basic | float) -> str:
-        """Return a factor of a bound as a number."""
+    def _print_factor(self, value: sp.Basic | float) -> str:
+        """Return a factor of a bound in JavaScript; a threshold is printed as a number."""
         return repr(float(value)) if isinstance(value, float) else self.expression(value)
 
 
 class Lines:
-    """Print the lines of one function; `locals` are the names that they declare with `word`."""
+    """Print the lines of one function as JavaScript; `locals` are the names that they declare with `word`."""
 
     def __init__(self, own: Readable, numbers: set[str], word: str = "const") -> None:
         self.own, self.text, self.word = own, _JavaScript(JavaScriptPrinter(own, numbers)), word
         self.locals: list[str] = []
 
-    def all(self, only: Collection[str] | None = None) -> list[str]:
-        """Return every line, or those that store to one of `only`."""
-        every = (line for section in self.own.sections for line in section.statements)
-        expected = (line for line in every if only is None or getattr(line, "target", "") in only)
-        return [text for line in expected for text in self.lines(line)]
+    def print_lines(self, only: Collection[str] | None = None) -> list[str]:
+        """Return all lines in JavaScript, or those that store to one of the names `only`."""
+        all_lines = (line for section in self.own.sections for line in section.statements)
+        selected = (line for line in all_lines if only is None or getattr(line, "target", "") in only)
+        return [text for line in selected for text in self.print_line(line)]
 
-    def lines(self, item: Line) -> list[str]:
-        """Return one statement or branch as lines of JavaScript."""
+    def print_line(self, item: Line) -> list[str]:
+        """Return one line of a kernel in JavaScript; [] for lines that only single runs of C need.
+
+        A new local is added to `locals`. Raises ValueError for a line without a counterpart.
+        """
         if isinstance(item, (Branches, Status, JointsAlone, Jump, Rescue, Return, LargestRow)):
             return []
         if isinstance(item, Sines):
-            return self._sines(item)
+            return self._print_sines(item)
         if isinstance(item, Guard) and isinstance(item.test, Test):
             only = f"{self.text.test(item.only)} && " if item.only else ""
             return [f"if ({only}!({self.text.test(item.test)})) break solved;"]
         if isinstance(item, Call) and item.function.startswith("clearance_"):
-            given = ", ".join(self._given(x) for x in item.given if x not in _SIDES)
-            return [f"Object.assign({item.results[0]}, functions.{item.function}({given}, {{}}).force);"]
+            call_arguments = ", ".join(self._print_argument(x) for x in item.given if x not in _SIDES)
+            return [f"Object.assign({item.results[0]}, functions.{item.function}({call_arguments}, {{}}).force);"]
         if not isinstance(item, (Statement, Branch)):
             raise ValueError(f"a line of a function that has no counterpart in JavaScript: {item}")
-        target = self.text.printer.called(item.target)
-        declared = f"{self.word} " * isinstance(item.target, (str, Result))
-        if declared:
+        target = self.text.printer.get_name(item.target)
+        declaration = f"{self.word} " * isinstance(item.target, (str, Result))
+        if declaration:
             self.locals.append(target)
         if isinstance(item, Statement):
-            return [f"{declared}{target} = {self.text.expression(item.value)};"]
-        below, other = self.text.expression(item.otherwise), self.text.expression(item.then)
-        return [f"{declared}{target} = {self.text.expression(item.side)} < 0 ? {below} : {other};"]
+            return [f"{declaration}{target} = {self.text.expression(item.value)};"]
+        below, otherwise = self.text.expression(item.otherwise), self.text.expression(item.then)
+        return [f"{declaration}{target} = {self.text.expression(item.side)} < 0 ? {below} : {otherwise};"]
 
-    def _given(self, value: sp.Basic | Place) -> str:
-        """Return an argument of a call."""
+    def _print_argument(self, value: sp.Basic | Place) -> str:
+        """Return an argument of a call in JavaScript."""
         return str(value) if isinstance(value, Place) else self.text.expression(value)
 
-    def _sines(self, item: Sines) -> list[str]:
-        """Return the sines and cosines of angles as arrays: one of all, or groups of four."""
-        angles, found = [self.text.expression(angle) for angle in item.angles], []
+    def _print_sines(self, item: Sines) -> list[str]:
+        """Return declarations of arrays with the sines and cosines of several angles.
+
+        `item.count` selects an array of groups of four; without it the array has all values.
+        """
+        angles, declarations = [self.text.expression(angle) for angle in item.angles], []
         for function, array in zip(("sin", "cos"), item.arrays, strict=True):
-            message = [f"{function}({angle})" for angle in angles]
-            groups = ", ".join(f"[{', '.join(message[k : k + 4])}]" for k in range(0, len(message), 4))
-            found.append(f"const {array} = {f'[{groups}]' if item.count else groups};")
-        return found
+            values = [f"{function}({angle})" for angle in angles]
+            groups = ", ".join(f"[{', '.join(values[k : k + 4])}]" for k in range(0, len(values), 4))
+            declarations.append(f"const {array} = {f'[{groups}]' if item.count else groups};")
+        return declarations

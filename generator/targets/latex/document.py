@@ -32,7 +32,7 @@ class Paragraph:
 
     @property
     def leads(self) -> bool:
-        """Return whether the next block belongs on the same page."""
+        """Return whether the next block belongs on the same page, since the paragraph ends with a colon."""
         return isinstance(self.text[-1], str) and self.text[-1].endswith(":")
 
 
@@ -63,7 +63,7 @@ class Table:
     kind: str = "table"
 
     def tokens(self, row: int) -> Sequence[str]:
-        """Return the tokens of a row, counted from 0."""
+        """Return the highlighting tokens of a row, counted from 0; () if the row has none."""
         return self.of[row] if row < len(self.of) else ()
 
 
@@ -76,19 +76,23 @@ class Sketch:
 
     @property
     def parts(self) -> list[tuple[str, ...]]:
-        """Return the parts of a sketch that may stand below each other; empty columns separate them."""
-        found = list[tuple[str, ...]]()
-        for blank, own in groupby(self.lines, lambda line: not line.strip()):
-            lines = [] if blank else list(own)
+        """Return the parts of a sketch that may stand below each other; APART empty columns separate them."""
+        parts = list[tuple[str, ...]]()
+        for is_blank, group in groupby(self.lines, lambda line: not line.strip()):
+            lines = [] if is_blank else list(group)
             while lines:
                 width = max(map(len, lines))
-                used = [any(line[k : k + 1].strip() for line in lines) for k in range(width)]
-                ends = (k for k in range(used.index(True) + 1, width - APART) if not any(used[k : k + APART]))
-                end = next(ends, width)
-                found.append(tuple("\n".join(line[:end].rstrip() for line in lines).strip("\n").split("\n")))
-                begin = next((k for k in range(end, width) if used[k]), width)
-                lines = [line[begin:] for line in lines] if begin < width else []
-        return found
+                is_column_used = [any(line[k : k + 1].strip() for line in lines) for k in range(width)]
+                gap_starts = (
+                    k
+                    for k in range(is_column_used.index(True) + 1, width - APART)
+                    if not any(is_column_used[k : k + APART])
+                )
+                end = next(gap_starts, width)
+                parts.append(tuple("\n".join(line[:end].rstrip() for line in lines).strip("\n").split("\n")))
+                next_start = next((k for k in range(end, width) if is_column_used[k]), width)
+                lines = [line[next_start:] for line in lines] if next_start < width else []
+        return parts
 
 
 @dataclass(frozen=True)
@@ -142,7 +146,7 @@ class Document:
 
 
 def paragraph(*text: str | Name, of: Sequence[str] = ()) -> Paragraph:
-    """Return words and formulas as a paragraph."""
+    """Return words and formulas as a paragraph with highlighting tokens `of`."""
     return Paragraph(text, of)
 
 
@@ -152,7 +156,7 @@ def sentence(text: str) -> str:
 
 
 def cells(*items: str | Name | Text) -> tuple[Text, ...]:
-    """Return a row of a table."""
+    """Return a row of a table: a string or a formula becomes a cell with one part."""
     return tuple(item if isinstance(item, tuple) else (item,) for item in items)
 
 
@@ -166,7 +170,10 @@ def table(
     of: Sequence[Sequence[str]] = (),
     upright: bool = False,
 ) -> list[Block]:
-    """Yield rows in as many tables as needed; nothing for no rows. `of`: tokens by row."""
+    """Return rows as tables of at most MOST_ROWS rows, since a table does not break over pages; [] for no rows.
+
+    wide: the columns with running text. of: highlighting tokens by row. upright: columns become rows on a phone.
+    """
     starts = range(0, len(rows), MOST_ROWS)
     return [Table(header, tuple(rows[k : k + MOST_ROWS]), wide, tuple(of[k : k + MOST_ROWS]), upright) for k in starts]
 
@@ -192,9 +199,9 @@ def owner_token(row: Row) -> str:
 
 
 def entries_of(model: Model, number: int, row: Row) -> Iterator[str]:
-    """Return the tokens of a row's entries of Φ_q."""
-    place = {q: k for k, q in enumerate(model.q, 1)}
-    return (entry_token(number, place[q]) for q in row.phi_q)
+    """Return the tokens of a row's nonzero entries of Φ_q; `number` is the row's, counted from 1."""
+    column_of = {q: k for k, q in enumerate(model.q, 1)}
+    return (entry_token(number, column_of[q]) for q in row.phi_q)
 
 
 def joint_tokens(clearance: Clearance) -> list[str]:

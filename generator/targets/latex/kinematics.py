@@ -42,36 +42,42 @@ def equation(
     left: Name | sp.Expr, right: sp.Expr, notation: Notation, of: Sequence[str] = (), pick: str = "", value: str = ""
 ) -> Equation:
     """Return an equation that may break between the terms of the right side; tokens and value as in document.py."""
-    named = left if isinstance(left, Name) else notation.math(left)
-    return Equation(named, notation.terms(right), of, pick, value)
+    left_name = left if isinstance(left, Name) else notation.math(left)
+    return Equation(left_name, notation.terms(right), of, pick, value)
 
 
 def shown(
     left: Name, right: sp.Expr, notation: Notation, of: Sequence[str] = (), pick: str = "", value: str = ""
 ) -> Block:
-    """Return an equation, or for one that would fill pages only its length."""
-    size = sp.count_ops(right)
-    if size <= LONGEST:
+    """Return an equation as a block.
+
+    One with more than LONGEST operations is replaced by a sentence about its length.
+    """
+    n_operations = sp.count_ops(right)
+    if n_operations <= LONGEST:
         return equation(left, right, notation, of, pick, value)
-    return paragraph(left, f" follows by differentiation; written out it has {size} operations.", of=of)
+    return paragraph(left, f" follows by differentiation; written out it has {n_operations} operations.", of=of)
 
 
 def kinematics_sections(model: Model, notation: Notation) -> list[Section]:
-    """Return the sections on coordinates, constants, and Φ row by row with Φ_q, ν, γ."""
-    sections = [Section("Coordinates", tuple(_coordinates(model, notation)))]
-    if constants := list(_constants(model, notation)):
+    """Return the sections on coordinates, abbreviations, constraint equations and the Jacobian.
+
+    Sections without content are left out.
+    """
+    sections = [Section("Coordinates", tuple(_describe_coordinates(model, notation)))]
+    if constants := list(_describe_abbreviations(model, notation)):
         sections.append(Section("Abbreviations", tuple(constants)))
     if not model.rows:
         return sections
     return [
         *sections,
-        Section("Constraints", tuple(_rows(model, notation))),
-        Section("Jacobian", tuple(_jacobian(model))),
+        Section("Constraints", tuple(_describe_rows(model, notation))),
+        Section("Jacobian", tuple(_describe_jacobian(model))),
     ]
 
 
-def _coordinates(model: Model, notation: Notation) -> list[Block]:
-    """Return the table of coordinates and velocities of the bodies."""
+def _describe_coordinates(model: Model, notation: Notation) -> list[Block]:
+    """Return the table of coordinates and velocities of the bodies, with the values that a page shows."""
     rows, tokens = [], []
     for body in model.bodies:
         first = body.index + 1
@@ -79,27 +85,30 @@ def _coordinates(model: Model, notation: Notation) -> list[Block]:
         v = [replace(notation.math(s), value=f"v.{first + k}") for k, s in enumerate(body.v)]
         rows.append(cells(body.name, f"{first} to {first + 2}", *q, *v))
         tokens.append([f"body-{body.name}"])
-    lead = paragraph(
+    introduction = paragraph(
         "Each body has the two coordinates of its centre of mass and an angle, counted from the x axis of the ground "
         "and not wrapped: ",
         Name(f"n = {len(model.q)}", f"n = {len(model.q)}"),
         " coordinates.",
     )
     header = ("body", "number in q", "x", "y", "angle", "rates", "", "")
-    return [lead, *table(cells(*header), rows, of=tokens)]
+    return [introduction, *table(cells(*header), rows, of=tokens)]
 
 
-def _constants(model: Model, notation: Notation) -> Iterator[Block]:
-    """Return derived parameters and long drives that the rows show by a letter, except those of forces."""
+def _describe_abbreviations(model: Model, notation: Notation) -> Iterator[Block]:
+    """Yield the equations of derived parameters and long drives that the rows show by a letter.
+
+    Constants of laws and temporaries of force elements are left out. Sentences explain where(…) and H if they occur.
+    """
     laws = {value for clearance in model.clearances for value in clearance.constants.values()}
-    apart = laws | set(temporaries(model))
-    shown = [
+    others = laws | set(temporaries(model))
+    equations = [
         equation(symbol, notation.expand(definition), notation)
         for symbol, definition in model.symbols.definitions.items()
-        if symbol in notation.kept and symbol not in apart
+        if symbol in notation.kept and symbol not in others
     ]
-    yield from shown
-    if any("where(" in term.text for one in shown for term in one.terms):
+    yield from equations
+    if any("where(" in term.text for equation_ in equations for term in equation_.terms):
         yield paragraph("where(…) is its second part while the comparison in front holds, else its third.")
     if any(notation.expand(value).has(sp.Heaviside) for row in model.rows for value in (row.nu, row.gamma)) or any(
         definition.has(sp.Heaviside) for definition in model.symbols.definitions.values()
@@ -107,8 +116,8 @@ def _constants(model: Model, notation: Notation) -> Iterator[Block]:
         yield paragraph("H is the unit step.")
 
 
-def _rows(model: Model, notation: Notation) -> list[Block]:
-    """Return the rows of Φ of each joint with their entries of Φ_q, ν and γ."""
+def _describe_rows(model: Model, notation: Notation) -> list[Block]:
+    """Return the rows of Φ of each joint and drive with their entries of Φ_q, ν and γ, and an introduction."""
     blocks: list[Block] = [
         paragraph(
             "The mechanism is closed while ",
@@ -129,40 +138,43 @@ def _rows(model: Model, notation: Notation) -> list[Block]:
             " is not zero:",
         )
     ]
-    for title, rows in _by_owner(model):
-        own = rows[0][1]
-        of = [owner_token(own), *(row_token(k) for k, _ in rows)]
-        blocks.append(paragraph(f"{title}, ", *_multipliers(rows), f"; {_named(rows)}:", of=of))
-        blocks += [_phi(k, row, model, notation) for k, row in rows]
-        blocks += _entries(rows, model, notation)
+    for title, rows in _group_by_owner(model):
+        first_row = rows[0][1]
+        tokens = [owner_token(first_row), *(row_token(k) for k, _ in rows)]
+        blocks.append(paragraph(f"{title}, ", *_list_multipliers(rows), f"; {_name_rows(rows)}:", of=tokens))
+        blocks += [_make_row_equation(k, row, model, notation) for k, row in rows]
+        blocks += _describe_entries(rows, model, notation)
         nu = [notation.expand(row.nu) for _, row in rows]
         gamma = [gamma_of(row, model, notation) for _, row in rows]
-        for letter, values in ((NU, nu), (GAMMA, gamma)):
-            blocks += _column(letter, [k for k, _ in rows], values, own, notation)
+        for vector, values in ((NU, nu), (GAMMA, gamma)):
+            blocks += _make_component_equations(vector, [k for k, _ in rows], values, first_row, notation)
     return blocks
 
 
-def _phi(k: int, row: Row, model: Model, notation: Notation) -> Equation:
-    """Return a row of Φ; each term is highlighted with its own entries and temporaries."""
-    place = {q: i for i, q in enumerate(model.q, 1)}
-    tokens: dict[sp.Expr, list[str]] = {}
+def _make_row_equation(number: int, row: Row, model: Model, notation: Notation) -> Equation:
+    """Return row `number` of Φ as an equation; each term is highlighted with its own entries and temporaries."""
+    column_of = {q: i for i, q in enumerate(model.q, 1)}
+    term_tokens: dict[sp.Expr, list[str]] = {}
     for part in sp.Add.make_args(row.phi):
-        named = [f"name-{name}" for name in sorted(free_names(part))]
+        name_tokens = [f"name-{name}" for name in sorted(free_names(part))]
         for term in sp.Add.make_args(notation.expand(part)):
-            tokens[term] = tokens[-term] = named
+            term_tokens[term] = term_tokens[-term] = name_tokens
 
-    def of(term: sp.Expr) -> list[str]:
-        """Return the tokens of a term."""
-        explicit = sorted(place[s] for s in model.symbols.explicit(term).free_symbols if s in row.phi_q)
-        return [*(entry_token(k, i) for i in explicit), *tokens.get(term, ())]
+    def list_tokens(term: sp.Expr) -> list[str]:
+        """Return the highlighting tokens of a term: its entries of Φ_q and its named parts."""
+        columns = sorted(column_of[s] for s in model.symbols.explicit(term).free_symbols if s in row.phi_q)
+        return [*(entry_token(number, i) for i in columns), *term_tokens.get(term, ())]
 
-    left = indexed(PHI, k)
-    terms = notation.terms(notation.expand(row.phi), of)
-    return Equation(left, terms, [row_token(k), owner_token(row)], row_token(k), f"phi.{k}")
+    left = indexed(PHI, number)
+    terms = notation.terms(notation.expand(row.phi), list_tokens)
+    return Equation(left, terms, [row_token(number), owner_token(row)], row_token(number), f"phi.{number}")
 
 
-def _by_owner(model: Model) -> Iterator[tuple[str, list[tuple[int, Row]]]]:
-    """Yield each joint and drive with its numbered rows, its type and its line of the file."""
+def _group_by_owner(model: Model) -> Iterator[tuple[str, list[tuple[int, Row]]]]:
+    """Yield (title, [(number of the row, row)]) of each joint and drive.
+
+    The title has its type and its line of the file.
+    """
     mechanism = model.scene.mechanism
     for (owner, kind), rows in groupby(enumerate(model.rows, 1), key=lambda pair: (pair[1].owner, pair[1].kind)):
         if kind == "joint":
@@ -172,68 +184,83 @@ def _by_owner(model: Model) -> Iterator[tuple[str, list[tuple[int, Row]]]]:
             yield f"Drive {owner}, line {mechanism.drives[owner].where.line} of the file", list(rows)
 
 
-def _named(rows: Sequence[tuple[int, Row]]) -> str:
+def _name_rows(rows: Sequence[tuple[int, Row]]) -> str:
     """Return the names and units of rows as text."""
     return ("row " if len(rows) == 1 else "rows ") + ", ".join(f"{row.name} ({row.unit})" for _, row in rows)
 
 
-def _multipliers(rows: Sequence[tuple[int, Row]]) -> list[str | Name]:
-    """Return the names of the multipliers, each with its value."""
+def _list_multipliers(rows: Sequence[tuple[int, Row]]) -> list[str | Name]:
+    """Return the parts of a text with the names of the rows' multipliers, each with its value."""
     names = [replace(indexed(LAMBDA, k), value=f"lambda.{k}") for k, _ in rows]
-    between = [part for name in names for part in (", ", name)][1:]
-    return [f"multiplier{'s' * (len(rows) > 1)} ", *between]
+    separated = [part for name in names for part in (", ", name)][1:]
+    return [f"multiplier{'s' * (len(rows) > 1)} ", *separated]
 
 
-def _jacobian(model: Model) -> list[Block]:
-    """Return the pattern of Φ_q and the number of its nonzero entries."""
+def _describe_jacobian(model: Model) -> list[Block]:
+    """Return the number of nonzero entries of Φ_q and the picture of their pattern."""
     count = sum(len(row.phi_q) for row in model.rows)
-    of = f"{len(model.rows)} × {len(model.q)}"
+    shape = f"{len(model.rows)} × {len(model.q)}"
     return [
         paragraph(
             "The derivative of ",
             PHI,
-            f" by the coordinates has {of} entries, of which {count} are not zero; "
+            f" by the coordinates has {shape} entries, of which {count} are not zero; "
             "they stand with their rows above. All in their places:",
         ),
         *pattern(model),
     ]
 
 
-def _entries(rows: Sequence[tuple[int, Row]], model: Model, notation: Notation) -> list[Block]:
-    """Return a joint's block of Φ_q: the columns with nonzero entries."""
-    place = {q: k for k, q in enumerate(model.q)}
-    columns = sorted({q for _, row in rows for q in row.phi_q}, key=place.__getitem__)
+def _describe_entries(rows: Sequence[tuple[int, Row]], model: Model, notation: Notation) -> list[Block]:
+    """Return the block of Φ_q of one joint or drive: a table of the columns with nonzero entries.
 
-    def entry(k: int, row: Row, q: sp.Symbol) -> Name:
-        """Return one entry of Φ_q as a formula."""
+    If the table would be wider than WIDEST characters, each entry gets its own equation.
+    """
+    column_of = {q: k for k, q in enumerate(model.q)}
+    columns = sorted({q for _, row in rows for q in row.phi_q}, key=column_of.__getitem__)
+
+    def make_entry(k: int, row: Row, q: sp.Symbol) -> Name:
+        """Return one entry of Φ_q as a formula, with its token and value if it is not zero."""
         name = notation.math(notation.expand(row.phi_q.get(q, sp.Integer(0))))
         if q not in row.phi_q:
             return name
         constant = row.phi_q[q].is_number
-        return replace(name, of=[entry_token(k, place[q] + 1)], value="" if constant else f"phi_q.{k}.{place[q] + 1}")
+        return replace(
+            name, of=[entry_token(k, column_of[q] + 1)], value="" if constant else f"phi_q.{k}.{column_of[q] + 1}"
+        )
 
-    entries = [[entry(k, row, q) for q in columns] for k, row in rows]
+    entries = [[make_entry(k, row, q) for q in columns] for k, row in rows]
     if sum(3 + max(len(one.text) for one in column) for column in zip(*entries, strict=True)) > WIDEST:
-        return [_partial(k, q, row, place[q], notation) for k, row in rows for q in columns if q in row.phi_q]
-    named = [cells(indexed(PHI, k), *own) for (k, _), own in zip(rows, entries, strict=True)]
+        return [
+            _make_entry_equation(k, q, row, column_of[q], notation)
+            for k, row in rows
+            for q in columns
+            if q in row.phi_q
+        ]
+    table_rows = [cells(indexed(PHI, k), *own) for (k, _), own in zip(rows, entries, strict=True)]
     tokens = [[row_token(k), owner_token(row)] for k, row in rows]
-    return table(cells("", *map(notation.math, columns)), named, of=tokens, upright=True)
+    return table(cells("", *map(notation.math, columns)), table_rows, of=tokens, upright=True)
 
 
-def _partial(k: int, q: sp.Symbol, row: Row, column: int, notation: Notation) -> Block:
-    """Return the equation of one entry of Φ_q."""
-    by = notation.math(q)
-    left = Name(rf"\partial \Phi_{{{k}}} / \partial {by.latex}", f"∂Φ_{k}/∂{by.text}")
-    of = [entry_token(k, column + 1)]
-    return shown(left, notation.expand(row.phi_q[q]), notation, of, value=f"phi_q.{k}.{column + 1}")
+def _make_entry_equation(number: int, q: sp.Symbol, row: Row, column: int, notation: Notation) -> Block:
+    """Return the equation of one entry of Φ_q as a block; row `number` counts from 1, `column` from 0."""
+    coordinate = notation.math(q)
+    left = Name(rf"\partial \Phi_{{{number}}} / \partial {coordinate.latex}", f"∂Φ_{number}/∂{coordinate.text}")
+    tokens = [entry_token(number, column + 1)]
+    return shown(left, notation.expand(row.phi_q[q]), notation, tokens, value=f"phi_q.{number}.{column + 1}")
 
 
-def _column(of: Name, numbers: Sequence[int], values: Sequence[sp.Expr], own: Row, notation: Notation) -> list[Block]:
-    """Return the nonzero components of a vector by their numbers."""
-    name = "nu" if of is NU else "gamma"
+def _make_component_equations(
+    vector: Name, row_numbers: Sequence[int], values: Sequence[sp.Expr], first_row: Row, notation: Notation
+) -> list[Block]:
+    """Return the equations of the nonzero components of ν or γ by the numbers of their rows.
+
+    vector: NU or GAMMA. first_row: a row of the same joint or drive, for the tokens.
+    """
+    name = "nu" if vector is NU else "gamma"
     return [
-        shown(indexed(of, k), value, notation, [row_token(k), owner_token(own)], row_token(k), f"{name}.{k}")
-        for k, value in zip(numbers, values, strict=True)
+        shown(indexed(vector, k), value, notation, [row_token(k), owner_token(first_row)], row_token(k), f"{name}.{k}")
+        for k, value in zip(row_numbers, values, strict=True)
         if value != 0
     ]
 
@@ -242,33 +269,45 @@ MOST = 1000  # operations of what is sorted
 
 
 def gamma_of(row: Row, model: Model, notation: Notation) -> sp.Expr:
-    """Return γ of a row as documents write it; that of a drive as derived."""
+    """Return γ of a row as documents write it: sorted by angular velocities for a joint, as derived for a drive."""
     value = notation.expand(row.gamma)
-    return by_rates(value, model) if row.kind == "joint" else value
+    return sort_by_rates(value, model) if row.kind == "joint" else value
 
 
-def by_rates(value: sp.Expr, model: Model) -> sp.Expr:
-    """Return the same value sorted by rates; unchanged if it is no polynomial in the rates or would become longer."""
-    turning = [body.v[2] for body in model.bodies]
-    if not value.has(*turning) or sp.count_ops(value) > MOST or not value.is_polynomial(*model.v):
+def sort_by_rates(value: sp.Expr, model: Model) -> sp.Expr:
+    """Return an equal expression sorted by products of angular velocities.
+
+    It is returned unchanged if it contains none, has too many operations, is not a polynomial in the velocities, or
+    would become longer.
+    """
+    angular_velocities = [body.v[2] for body in model.bodies]
+    if not value.has(*angular_velocities) or sp.count_ops(value) > MOST or not value.is_polynomial(*model.v):
         return value
-    parts: dict[sp.Expr, sp.Expr] = {}
+    coefficients: dict[sp.Expr, sp.Expr] = {}
     for term in sp.Add.make_args(sp.expand(value)):
-        rest, product = term.as_independent(*turning, as_Add=False)
-        parts[product] = parts.get(product, sp.Integer(0)) + rest
-    found = sp.Add(*(product * min(_forms(rest, model), key=sp.count_ops) for product, rest in parts.items()))
-    return min(found, value, key=sp.count_ops)
+        coefficient, product = term.as_independent(*angular_velocities, as_Add=False)
+        coefficients[product] = coefficients.get(product, sp.Integer(0)) + coefficient
+    sorted_sum = sp.Add(
+        *(
+            product * min(_find_equivalent_forms(coefficient, model), key=sp.count_ops)
+            for product, coefficient in coefficients.items()
+        )
+    )
+    return min(sorted_sum, value, key=sp.count_ops)
 
 
-def _forms(rest: sp.Expr, model: Model) -> Iterator[sp.Expr]:
-    """Return equivalent forms without common factors, by axes of a rotating direction or by sine and cosine."""
-    if not rest.is_Add:
-        yield rest
+def _find_equivalent_forms(coefficient: sp.Expr, model: Model) -> Iterator[sp.Expr]:
+    """Yield equivalent forms of a coefficient, collected by axes of a rotating direction or by sine and cosine.
+
+    A coefficient that is not a sum is its only form.
+    """
+    if not coefficient.is_Add:
+        yield coefficient
         return
-    yield sp.factor_terms(rest)
-    turned = sorted((s for s in rest.free_symbols if s in model.geometry.turned), key=lambda s: s.name)
-    axes = [s for s in turned if not model.geometry.turned[s].point]
-    pairs = [[sp.cos(body.theta), sp.sin(body.theta)] for body in model.bodies if rest.has(sp.cos(body.theta))]
-    for by in (axes, turned, *pairs):
-        if by:
-            yield sp.factor_terms(sp.collect(rest, by))
+    yield sp.factor_terms(coefficient)
+    rotating = sorted((s for s in coefficient.free_symbols if s in model.geometry.turned), key=lambda s: s.name)
+    axes = [s for s in rotating if not model.geometry.turned[s].point]
+    pairs = [[sp.cos(body.theta), sp.sin(body.theta)] for body in model.bodies if coefficient.has(sp.cos(body.theta))]
+    for symbols in (axes, rotating, *pairs):
+        if symbols:
+            yield sp.factor_terms(sp.collect(coefficient, symbols))

@@ -75,74 +75,94 @@ class Form:
 
     @property
     def equations(self) -> tuple[Equation, ...]:
-        """Return all equations: constants, then steps."""
+        """Return all equations of the form: constants of a run, then steps of an evaluation."""
         return self.constants + self.steps
 
 
 def forms(law: Law, name: str) -> list[Form]:
-    """Return a law under one of its names with default options, then the equations that each other choice changes.
+    """Return a law's form with default options, then a form with the equations that each other choice changes.
 
-    Optional numbers are left out unless they are chosen. Raises LawError for a user-defined law.
+    name: the law's name or one of its aliases, which fix options. Optional numbers are left out unless they are
+    chosen. Raises LawError for a user-defined law.
     """
-    made = law.also.get(name, {})
-    defaults = {own.name: own.choice for own in law.options} | {**made}
-    needed = [own.name for own in law.parameters if not _may_lack(own)]
-    nothing = {name for name, value in probe(law, defaults, needed).steps.items() if value == 0}
-    first = _form(law, {}, defaults, (), nothing)
-    known = {in_a_line(one) for one in first.equations}
-    found = [first]
+    alias_options = law.also.get(name, {})
+    defaults = {own.name: own.choice for own in law.options} | {**alias_options}
+    required_numbers = [own.name for own in law.parameters if not _is_optional(own)]
+    zero_steps = {name for name, value in probe(law, defaults, required_numbers).steps.items() if value == 0}
+    default_form = _derive_form(law, {}, defaults, (), zero_steps)
+    known_equations = {in_a_line(one) for one in default_form.equations}
+    all_forms = [default_form]
     selected: list[tuple[str, str | bool]] = [
-        (own.name, value) for own in law.options if own.name not in made for value in own.values if value != own.choice
+        (own.name, value)
+        for own in law.options
+        if own.name not in alias_options
+        for value in own.values
+        if value != own.choice
     ]
-    for key, value in (*selected, *((own.name, GIVEN) for own in law.parameters if _may_lack(own))):
-        number = key not in defaults
-        options, given = defaults if number else {**defaults, key: value}, (key,) if number else ()
-        form = _form(law, {key: value}, options, given, nothing)
-        found.append(replace(form, constants=_new(form.constants, known), steps=_new(form.steps, known)))
-    return found
+    for key, value in (*selected, *((own.name, GIVEN) for own in law.parameters if _is_optional(own))):
+        is_number = key not in defaults
+        options, chosen_numbers = defaults if is_number else {**defaults, key: value}, (key,) if is_number else ()
+        form = _derive_form(law, {key: value}, options, chosen_numbers, zero_steps)
+        all_forms.append(
+            replace(
+                form,
+                constants=_select_new_equations(form.constants, known_equations),
+                steps=_select_new_equations(form.steps, known_equations),
+            )
+        )
+    return all_forms
 
 
-def _new(some: Sequence[Equation], known: Set[str]) -> tuple[Equation, ...]:
-    """Return the equations that are not yet known."""
-    return tuple(one for one in some if in_a_line(one) not in known)
+def _select_new_equations(equations: Sequence[Equation], known_equations: Set[str]) -> tuple[Equation, ...]:
+    """Return the equations whose text is not yet known."""
+    return tuple(equation_ for equation_ in equations if in_a_line(equation_) not in known_equations)
 
 
 def law_text(law: Law, name: str) -> str:
     """Return the description of a law under one of its names as plain Unicode text, 100 columns wide.
 
-    Raises LawError.
+    `gudgeon laws NAME` prints it. Raises LawError.
     """
-    return render(_document(law, name), "txt")
+    return render(_make_document(law, name), "txt")
 
 
-def _document(law: Law, name: str) -> Document:
-    """Return the document about a law."""
+def _make_document(law: Law, name: str) -> Document:
+    """Return the document about a law under one of its names; sections without content are left out."""
     first, *others = forms(law, name)
-    made = ", ".join(f"{key}: {value}" for key, value in law.also.get(name, {}).items())
-    facts = [(f"A law of {_ROLES[law.role]}, {name}" + (f": {law.name} with {made}" if made else ""),)]
-    if law.also and not made:
+    alias_options = ", ".join(f"{key}: {value}" for key, value in law.also.get(name, {}).items())
+    facts = [
+        (f"A law of {_ROLES[law.role]}, {name}" + (f": {law.name} with {alias_options}" if alias_options else ""),)
+    ]
+    if law.also and not alias_options:
         facts.append((f"also as {', '.join(law.also)}",))
-    own = law.fields_as(name)
+    fields = law.fields_as(name)
     blocks: Mapping[str, Iterable[Block]] = {
-        "Equations": _equations(law, first, others),
-        "Other choices": _choices(others),
+        "Equations": _describe_equations(law, first, others),
+        "Other choices": _describe_choices(others),
         "Numbers": table(
             cells("key", "letter", "unit", "bounds", "default", "meaning"),
-            [_number(field) for field in own if field.kind == NUMBER],
+            [_list_number_cells(field) for field in fields if field.kind == NUMBER],
             (5,),
         ),
-        "Options": [_option(field) for field in own if field.kind != NUMBER],
+        "Options": [_describe_option(field) for field in fields if field.kind != NUMBER],
         "Validity": [paragraph(sentence(law.validity))],
-        "Reference": _references(law, name),
+        "Reference": _describe_references(law, name),
     }
-    found = {title: tuple(some) for title, some in blocks.items()}
-    return Document(law.title, tuple(facts), tuple(Section(title, some) for title, some in found.items() if some))
+    sections = {title: tuple(section_blocks) for title, section_blocks in blocks.items()}
+    return Document(
+        law.title,
+        tuple(facts),
+        tuple(Section(title, section_blocks) for title, section_blocks in sections.items() if section_blocks),
+    )
 
 
-def _equations(law: Law, form: Form, others: Sequence[Form]) -> Iterator[Block]:
-    """Yield the blocks with the letters and equations of a law."""
-    used = {name: called for some in (*reversed(others), form) for name, called in some.used}
-    rows = [cells(used[name], *_MEANINGS[name]) for name in _MEANINGS if name in used]
+def _describe_equations(law: Law, form: Form, others: Sequence[Form]) -> Iterator[Block]:
+    """Yield the blocks on a law's default form: its letters, inner states, constants and steps.
+
+    others: forms of other choices, whose letters are listed, too.
+    """
+    letters = {name: letter_ for each_form in (*reversed(others), form) for name, letter_ in each_form.used}
+    rows = [cells(letters[name], *_MEANINGS[name]) for name in _MEANINGS if name in letters]
     yield from table(cells("letter", "meaning", "unit"), rows)
     yield from describe_states(law)
     if form.constants:
@@ -152,90 +172,115 @@ def _equations(law: Law, form: Form, others: Sequence[Form]) -> Iterator[Block]:
     yield from form.steps
 
 
-def _choices(others: Sequence[Form]) -> Iterator[Block]:
-    """Yield the blocks with the equations of other choices."""
-    for form in others:
+def _describe_choices(other_forms: Sequence[Form]) -> Iterator[Block]:
+    """Yield a paragraph and the changed equations for each other choice; a choice that changes none is left out."""
+    for form in other_forms:
         if form.equations:
-            message = ", ".join(f"{key}: {as_word(value)}" for key, value in form.selected.items())
-            yield paragraph(f"With {message}:")
+            choice = ", ".join(f"{key}: {as_word(value)}" for key, value in form.selected.items())
+            yield paragraph(f"With {choice}:")
             yield from form.equations
 
 
-def _number(own: Field) -> tuple[tuple[str | Name, ...], ...]:
-    """Return the table row of a number of a law."""
-    unit = "any" if own.dimension is None else pretty(si_unit(own.dimension)) or "-"
-    default = "needed" if own.required else "-" if own.default is None else f"{own.default:g}"
-    meaning = f"{own.meaning}; without it {own.otherwise}" if own.otherwise else own.meaning
-    return cells(own.name, of_latex(sign_of(own)), unit, condition(own).replace("`", "") or "-", default, meaning)
+def _list_number_cells(parameter: Field) -> tuple[tuple[str | Name, ...], ...]:
+    """Return the table row of a number of a law: key, letter, unit, bounds, default, meaning."""
+    unit = "any" if parameter.dimension is None else pretty(si_unit(parameter.dimension)) or "-"
+    default = "needed" if parameter.required else "-" if parameter.default is None else f"{parameter.default:g}"
+    meaning = f"{parameter.meaning}; without it {parameter.otherwise}" if parameter.otherwise else parameter.meaning
+    return cells(
+        parameter.name,
+        of_latex(sign_of(parameter)),
+        unit,
+        condition(parameter).replace("`", "") or "-",
+        default,
+        meaning,
+    )
 
 
-def _option(own: Field) -> Block:
-    """Return the paragraph on an option of a law."""
-    words = ", ".join(map(as_word, own.values))
-    return paragraph(f"{own.name}: {words}; without it {as_word(own.choice)} ({own.meaning}).")
+def _describe_option(option: Field) -> Block:
+    """Return the paragraph on an option of a law: its values, the default and the meaning."""
+    words = ", ".join(map(as_word, option.values))
+    return paragraph(f"{option.name}: {words}; without it {as_word(option.choice)} ({option.meaning}).")
 
 
-def _references(law: Law, name: str) -> Iterator[Block]:
-    """Yield the references of the law and of words of its options that have a source."""
+def _describe_references(law: Law, name: str) -> Iterator[Block]:
+    """Yield the reference of the law, then those of its options' values that have a source.
+
+    Values that the alias `name` excludes are left out.
+    """
     yield paragraph(f"{law.reference or law.source}.")
-    made = law.also.get(name, {})
-    for own in law.options:
-        for value, source in (own.sources or {}).items():
-            if made.get(own.name, value) == value:
-                yield paragraph(f"{own.name}: {value}: {source}.")
+    alias_options = law.also.get(name, {})
+    for option in law.options:
+        for value, source in (option.sources or {}).items():
+            if alias_options.get(option.name, value) == value:
+                yield paragraph(f"{option.name}: {value}: {source}.")
 
 
-def _may_lack(own: Field) -> bool:
-    """Return whether a key is optional and has no default."""
-    return own.default is None and not own.required
+def _is_optional(parameter: Field) -> bool:
+    """Return whether a key of a law is optional and has no default."""
+    return parameter.default is None and not parameter.required
 
 
-def _form(
+def _derive_form(
     law: Law,
     selected: Mapping[str, str | bool],
     options: Mapping[str, str | bool],
-    given: Sequence[str],
-    nothing: Set[str],
+    chosen_numbers: Sequence[str],
+    zero_steps: Set[str],
 ) -> Form:
-    """Return a law's equations in letters of its own, without constants that only repeat a number."""
-    numbers = [own.name for own in law.parameters if not _may_lack(own) or own.name in given]
-    made = probe(law, options, numbers)
-    same = {_probed(name): value for name, value in made.derived.items() if value.is_Symbol}
+    """Return a law's equations for one choice, in letters of its own.
 
-    def plain(value: sp.Expr) -> sp.Expr:
+    Constants that only repeat a number are replaced by it. Steps that are zero by default are left out while they are
+    zero.
+    """
+    numbers = [own.name for own in law.parameters if not _is_optional(own) or own.name in chosen_numbers]
+    probed_law = probe(law, options, numbers)
+    repeated_constants = {
+        _make_probe_symbol(name): value for name, value in probed_law.derived.items() if value.is_Symbol
+    }
+
+    def replace_repeated(value: sp.Expr) -> sp.Expr:
         """Return a value with repeated constants replaced by their numbers."""
-        while value.free_symbols & {*same}:
-            value = value.xreplace(same)
+        while value.free_symbols & {*repeated_constants}:
+            value = value.xreplace(repeated_constants)
         return value
 
-    names = _plain(distinct(_names(law, numbers, made.derived, made.steps)))
+    names = _restore_names(distinct(_assign_names(law, numbers, probed_law.derived, probed_law.steps)))
     notation = Notation(Symbols(), names, frozenset(), {})
-    constants = {_probed(name): plain(value) for name, value in made.derived.items() if _probed(name) not in same}
-    steps = {
-        sp.Symbol(name, real=True): plain(value)
-        for name, value in made.steps.items()
-        if value != 0 or name not in nothing
+    constants = {
+        _make_probe_symbol(name): replace_repeated(value)
+        for name, value in probed_law.derived.items()
+        if _make_probe_symbol(name) not in repeated_constants
     }
-    found = [value.free_symbols for value in (*constants.values(), *steps.values())]
-    read = {step for step, value in steps.items() if value != 0}.union(*found)
-    places = {name: sp.Symbol(name, real=True) for name in (*law.variables, *law.results)}
-    places |= {name: _probed(name) for name in PAIR}
-    used = tuple(
-        (name, notation.math(symbol)) for name, symbol in places.items() if symbol in read and name in _MEANINGS
+    steps = {
+        sp.Symbol(name, real=True): replace_repeated(value)
+        for name, value in probed_law.steps.items()
+        if value != 0 or name not in zero_steps
+    }
+    free_symbols = [value.free_symbols for value in (*constants.values(), *steps.values())]
+    symbols_read = {step for step, value in steps.items() if value != 0}.union(*free_symbols)
+    described_symbols = {name: sp.Symbol(name, real=True) for name in (*law.variables, *law.results)}
+    described_symbols |= {name: _make_probe_symbol(name) for name in PAIR}
+    letters = tuple(
+        (name, notation.math(symbol))
+        for name, symbol in described_symbols.items()
+        if symbol in symbols_read and name in _MEANINGS
     )
 
-    def written(some: Mapping[sp.Symbol, sp.Expr]) -> tuple[Equation, ...]:
-        """Return definitions as equations."""
-        return tuple(equation(left, right, notation) for left, right in some.items())
+    def make_equations(definitions: Mapping[sp.Symbol, sp.Expr]) -> tuple[Equation, ...]:
+        """Return {symbol: value} as equations."""
+        return tuple(equation(left, right, notation) for left, right in definitions.items())
 
-    return Form(selected, written(constants), written(steps), used)
+    return Form(selected, make_equations(constants), make_equations(steps), letters)
 
 
-def _names(
+def _assign_names(
     law: Law, numbers: Sequence[str], constants: Mapping[str, sp.Expr], steps: Mapping[str, sp.Expr]
 ) -> Iterator[tuple[sp.Symbol, Name]]:
-    """Return the names of symbols; fixed letters come first, the law's own abbreviations give way."""
-    own = {parameter.name: parameter for parameter in law.parameters}
+    """Yield (symbol, name) in the order in which they get their letters: variables, results, numbers, constants, steps.
+
+    Fixed letters come first, so that the law's own abbreviations give way.
+    """
+    parameters = {parameter.name: parameter for parameter in law.parameters}
     for name in law.variables:
         symbol = sp.Symbol(name, real=True)
         yield symbol, RATIO if name == "ratio" else NAMES.get(symbol) or letter(name)
@@ -244,32 +289,32 @@ def _names(
         if name in ("F_n", "F_r", "F_t"):
             yield symbol, NAMES.get(symbol) or letter("F", "t")
     for name in numbers:
-        yield _probed(name), of_latex(sign_of(own[name]))
+        yield _make_probe_symbol(name), of_latex(sign_of(parameters[name]))
     for name in PAIR:
-        head, _, index = name.partition("_")
-        yield _probed(name), letter(head, index) if index else letter(head)
+        base, _, index = name.partition("_")
+        yield _make_probe_symbol(name), letter(base, index) if index else letter(base)
     for name in constants:
-        yield _probed(name), LAW_LETTERS.get(name) or word(name)
+        yield _make_probe_symbol(name), LAW_LETTERS.get(name) or word(name)
     for name in steps:
         yield sp.Symbol(name, real=True), step_name(law, name)
 
 
-def _plain(names: Mapping[sp.Symbol, Name]) -> dict[sp.Symbol, Name]:
-    """Return the name of a symbol that gave way: its own, not that of its symbol here."""
-    used = {name.text for name in names.values()}
-    found = dict(names)
+def _restore_names(names: Mapping[sp.Symbol, Name]) -> dict[sp.Symbol, Name]:
+    """Return the names, with the law's own word for a symbol that gave way, instead of the symbol's name here."""
+    used_texts = {name.text for name in names.values()}
+    restored = dict(names)
     for symbol, name in names.items():
-        own = letter(symbol.name.removeprefix(_probed("").name))
-        if name == letter(symbol.name) and own.text not in used:
-            found[symbol] = own
-    return found
+        plain_name_ = letter(symbol.name.removeprefix(_make_probe_symbol("").name))
+        if name == letter(symbol.name) and plain_name_.text not in used_texts:
+            restored[symbol] = plain_name_
+    return restored
 
 
-def _probed(name: str) -> sp.Symbol:
+def _make_probe_symbol(name: str) -> sp.Symbol:
     """Return the symbol of a number in the result of `probe`."""
     return sp.Symbol(f"probe_{name}", real=True)
 
 
-def in_a_line(one: Equation) -> str:
-    """Return an equation as plain text."""
-    return f"{one.left.text} = {''.join(term.text for term in one.terms)}"
+def in_a_line(equation_: Equation) -> str:
+    """Return an equation as one line of plain text."""
+    return f"{equation_.left.text} = {''.join(term.text for term in equation_.terms)}"

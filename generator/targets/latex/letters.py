@@ -61,20 +61,23 @@ class Name:
     value: str = field(default="", compare=False)
 
     @property
-    def room(self) -> int:
-        """Return the approximate width in letters: a subscript is small, marks and signs take none."""
+    def width(self) -> int:
+        """Return the approximate width in letters: a subscript is small, accents and signs take none."""
         return 2 + sum(c.isascii() and (c.isalnum() or c == "_") for c in self.text) // 2
 
 
 def letter(base: str, *subscripts: str, dots: int = 0, hat: bool = False, raised: str = "") -> Name:
-    """Return a letter or word (Greek by its English name) with dots or a hat, subscripts and a raised 0."""
-    latex = greek(base) if base in GREEK else base if len(base) == 1 else rf"\text{{{_escaped(base)}}}"
+    """Return the name of a letter or word (Greek by its English name) with dots or a hat, subscripts and a raised 0.
+
+    raised: "" or "0".
+    """
+    latex = greek(base) if base in GREEK else base if len(base) == 1 else rf"\text{{{_escape_underscores(base)}}}"
     text = GREEK.get(base, base)
-    accent, mark = (r"\hat", "\u0302") if hat else _DOTS[dots]
-    if accent:
-        latex, text = f"{accent}{{{latex}}}", text + mark
+    latex_accent, text_accent = (r"\hat", "\u0302") if hat else _DOTS[dots]
+    if latex_accent:
+        latex, text = f"{latex_accent}{{{latex}}}", text + text_accent
     if subscripts:
-        latex += f"_{{{_subscripted(subscripts)}}}"
+        latex += f"_{{{_print_subscripts(subscripts)}}}"
         text += "_" + ".".join(GREEK.get(s, s) for s in subscripts)
     return Name(latex + (f"^{{{raised}}}" if raised else ""), text + {"": "", "0": "⁰"}[raised])
 
@@ -85,34 +88,38 @@ def greek(word: str) -> str:
 
 
 def word(name: str) -> Name:
-    """Return a user-defined name: omega4 is ω with the subscript 4, v_max is v with max, speed stays a word."""
-    head, _, rest = name.partition("_")
-    numbered = re.fullmatch(r"([A-Za-z]+?)(\d+)", head)
+    """Return the name of a user-defined word: omega4 is ω with subscript 4, v_max is v with max, speed is a word."""
+    base, _, subscript = name.partition("_")
+    numbered = re.fullmatch(r"([A-Za-z]+?)(\d+)", base)
     if numbered and (len(numbered[1]) == 1 or numbered[1] in GREEK):
-        head, rest = numbered[1], f"{numbered[2]}_{rest}" if rest else numbered[2]
-    if rest and (len(head) == 1 or head in GREEK):
-        return letter(head, rest)
+        base, subscript = numbered[1], f"{numbered[2]}_{subscript}" if subscript else numbered[2]
+    if subscript and (len(base) == 1 or base in GREEK):
+        return letter(base, subscript)
     return letter(name)
 
 
 def of_latex(latex: str) -> Name:
-    """Return a name that is given in LaTeX ("c_e", "\\mu", "\\sigma_{0}") with its plain text."""
-    known = {**{f"\\{name}": sign for name, sign in GREEK.items()}, **{v: GREEK[k] for k, v in _VARIANT.items()}}
+    r"""Return a name that is given in LaTeX ("c_e", "\mu", "\sigma_{0}") with its plain text."""
+    unicode_by_command = {
+        **{f"\\{name}": sign for name, sign in GREEK.items()},
+        **{v: GREEK[k] for k, v in _VARIANT.items()},
+    }
     text, *commands = latex.split("\\")
-    for part in commands:
-        word = "".join(takewhile(str.isalpha, part))
-        text += known.get(f"\\{word}", "" if word in _FONTS else word) + part.removeprefix(word)
+    for rest in commands:
+        word = "".join(takewhile(str.isalpha, rest))
+        text += unicode_by_command.get(f"\\{word}", "" if word in _FONTS else word) + rest.removeprefix(word)
     return Name(latex, "".join(c for c in text if c not in "{}" and not c.isspace()))
 
 
-def distinct(expected: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Symbol, Name]:
-    """Return a unique name for each symbol.
+def distinct(proposed: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Symbol, Name]:
+    """Return a unique name for each symbol of (expression, proposed name).
 
-    The first symbol gets the letter, others the name of their symbol in C if that is a word ("T0"), else primes.
+    Expressions that are not symbols are left out.
+    The first symbol gets the letter. Others get the name of their symbol in C if that is a word ("T0"), else primes.
     """
     names: dict[sp.Symbol, Name] = {}
     used: set[str] = set()
-    for symbol, name in expected:
+    for symbol, name in proposed:
         if not isinstance(symbol, sp.Symbol) or symbol in names:
             continue
         is_taken = name.text in used and "_" not in plain_name(symbol)
@@ -132,18 +139,18 @@ def primed(name: Name, used: Collection[str]) -> Name:
 _FONTS = {"mathrm", "text", "mathit", "operatorname", "bar", "hat", "tilde"}
 
 
-def _subscripted(parts: Sequence[str]) -> str:
-    """Return subscripts after commas: Greek letters, axes and numbers as they are, names upright."""
-    message = list[str]()
-    for upright, group in groupby(parts, key=lambda text: text not in GREEK and text not in _AXES):
-        own = list(group)
-        if upright and not all(text.isdigit() for text in own):
-            message.append(rf"\text{{{','.join(map(_escaped, own))}}}")
+def _print_subscripts(subscripts: Sequence[str]) -> str:
+    """Return subscripts in LaTeX, separated by commas: Greek letters, axes and numbers in italics, names upright."""
+    texts = list[str]()
+    for is_upright, group in groupby(subscripts, key=lambda text: text not in GREEK and text not in _AXES):
+        members = list(group)
+        if is_upright and not all(text.isdigit() for text in members):
+            texts.append(rf"\text{{{','.join(map(_escape_underscores, members))}}}")
         else:
-            message += own if upright else [greek(text) if text in GREEK else text for text in own]
-    return ",".join(message)
+            texts += members if is_upright else [greek(text) if text in GREEK else text for text in members]
+    return ",".join(texts)
 
 
-def _escaped(name: str) -> str:
+def _escape_underscores(name: str) -> str:
     """Return a name with LaTeX's underscores escaped."""
     return name.replace("_", r"\_")

@@ -21,18 +21,24 @@ LARGEST_FILE = 1_000_000  # bytes of a mechanism's file
 _CARRIED = "gudgeon-c"  # id of what is not shown
 
 
-def listing_sections(model: Model, found: Trace) -> list[Section]:
-    """Return the sections with the mechanism's file, if it is unchanged, and the C."""
+def listing_sections(model: Model, trace_: Trace) -> list[Section]:
+    """Return the section with the listing of the mechanism's file and that of its C.
+
+    The file is left out if it is missing or has changed.
+    """
     blocks: list[Block] = []
-    message = paragraph("Select any equation, entry, line or part: everything that has to do with it is lit.")
-    if (text := _own_text(model)) is not None:
+    hint = paragraph("Select any equation, entry, line or part: everything that has to do with it is lit.")
+    if (text := _read_mechanism_file(model)) is not None:
         name = Path(model.scene.mechanism.file).name
-        blocks.append(Listing(name, tuple(text.splitlines()), yaml_tokens(model, found)))
-    return [Section("From the file to the C", (message, *blocks, EmbeddedHtml(_c(found))))]
+        blocks.append(Listing(name, tuple(text.splitlines()), yaml_tokens(model, trace_)))
+    return [Section("From the file to the C", (hint, *blocks, EmbeddedHtml(_print_c_listing(trace_))))]
 
 
-def _own_text(model: Model) -> str | None:
-    """Return the text of the mechanism's file; None if it is missing or has changed."""
+def _read_mechanism_file(model: Model) -> str | None:
+    """Return the text of the mechanism's file.
+
+    None if it is missing, too large, unreadable or changed since it was read.
+    """
     mechanism = model.scene.mechanism
     file = Path(mechanism.file)
     try:
@@ -44,70 +50,79 @@ def _own_text(model: Model) -> str | None:
     return data.decode("utf-8", "replace") if hashlib.sha256(data).hexdigest() == mechanism.sha256 else None
 
 
-def _c(found: Trace) -> str:
-    """Return the listing of the C, packed; light.js unfolds it."""
-    texts, left = dict[str, str](), MOST_C
+def _print_c_listing(trace_: Trace) -> str:
+    """Return the HTML of the C listing, compressed in a script element that light.js unfolds.
+
+    The files in SHOWN are included while they fit into MOST_C characters; all others are only named.
+    """
+    texts, remaining_size = dict[str, str](), MOST_C
     for name in SHOWN:
-        text = found.source.files.get(name)
-        if text is None or len(text) > left:
+        text = trace_.source.files.get(name)
+        if text is None or len(text) > remaining_size:
             continue
-        left -= len(text)
+        remaining_size -= len(text)
         texts[name] = text
-    message = json.dumps(
+    data = json.dumps(
         {
             "of": {
-                name: _by_line(text, {k: " ".join(sorted(own)) for k, own in found.lines.get(name, {}).items()})
+                name: _list_by_line(
+                    text, {k: " ".join(sorted(marks)) for k, marks in trace_.lines.get(name, {}).items()}
+                )
                 for name, text in texts.items()
             },
             "values": {
-                name: _by_line(text, _shorter(text, found.values.get(name, {}))) for name, text in texts.items()
+                name: _list_by_line(text, _shorten_values(text, trace_.values.get(name, {})))
+                for name, text in texts.items()
             },
             "texts": texts,
-            "equations": _equations(found),
+            "equations": _print_equations_script(trace_),
         },
         ensure_ascii=False,
         separators=(",", ":"),
     )
-    packed = base64.b64encode(gzip.compress(message.encode(), 9, mtime=0)).decode("ascii")
-    others = sorted(name for name in found.source.files if name.endswith((".c", ".h")) and name not in texts)
-    rest = f" Not listed here: {', '.join(others)}." if others else ""
+    packed = base64.b64encode(gzip.compress(data.encode(), 9, mtime=0)).decode("ascii")
+    unlisted_files = sorted(name for name in trace_.source.files if name.endswith((".c", ".h")) and name not in texts)
+    note = f" Not listed here: {', '.join(unlisted_files)}." if unlisted_files else ""
     return (
-        f"<p>The emitted C; what of it computes what was selected is shown at the foot of the page.{rest}</p>\n"
+        f"<p>The emitted C; what of it computes what was selected is shown at the foot of the page.{note}</p>\n"
         "<noscript><p>It is listed by the page's own script; <code>gudgeon emit</code> writes the same files.</p>"
         f'</noscript>\n<div id="{_CARRIED}-files"></div>\n'
         f'<script type="text/plain" id="{_CARRIED}">{packed}</script>'
     )
 
 
-def _by_line(text: str, message: Mapping[int, str]) -> list[str]:
-    """Return texts by line number as one text a line, which is smaller than line numbers."""
-    return [message.get(k, "") for k in range(1, text.count("\n") + 2)]
+def _list_by_line(text: str, text_by_line: Mapping[int, str]) -> list[str]:
+    """Return a list with the text of each line of `text`, "" for lines without one.
+
+    This is smaller than line numbers.
+    """
+    return [text_by_line.get(k, "") for k in range(1, text.count("\n") + 2)]
 
 
-def _shorter(text: str, values: Mapping[int, str]) -> dict[int, str]:
+def _shorten_values(text: str, values: Mapping[int, str]) -> dict[int, str]:
     """Return values without their last part where the line itself shows what it stores, as light.js reads it."""
-    lines, found = text.split("\n"), dict[int, str]()
-    for k, value in values.items():
-        stored = lines[k - 1].partition(" = ")[0].removesuffix(" +").split()
-        name = stored[-1].replace("->", ".").removeprefix("*") if stored else ""
-        found[k] = value.removesuffix(name) if value.endswith(f".{name}") else value
-    return found
+    lines, shortened = text.split("\n"), dict[int, str]()
+    for line_number, value in values.items():
+        left_side = lines[line_number - 1].partition(" = ")[0].removesuffix(" +").split()
+        name = left_side[-1].replace("->", ".").removeprefix("*") if left_side else ""
+        shortened[line_number] = value.removesuffix(name) if value.endswith(f".{name}") else value
+    return shortened
 
 
 @cache
-def _script(name: str) -> str:
-    """Return a script of this folder for embedding."""
+def _load_script(name: str) -> str:
+    """Return a script of this folder, compressed for embedding; it is read once."""
     return embedded_script(Path(__file__).with_name(name).read_text(encoding="utf-8"))
 
 
-def _equations(found: Trace) -> str:
-    """Return the script that computes values; "" for scenes with curves, which show only their state."""
+def _print_equations_script(trace_: Trace) -> str:
+    """Return the script that computes values; "" for scenes with curves, whose pages show only their state."""
     try:
-        return equations_script(found.program)
+        return equations_script(trace_.program)
     except ValueError:
         return ""
 
 
 def scripts() -> str:
     """Return the scripts of a page: cross-highlighting and values."""
-    return f'<script>\n"use strict";\n{_script("light.js")}{_script("live.js")}</script>\n'
+    return f'<script>\n"use strict";\n{_load_script("light.js")}{_load_script("live.js")}</script>\n'

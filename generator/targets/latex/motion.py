@@ -34,47 +34,51 @@ PHI_DOT = Name(r"\dot{\Phi} = \Phi_{q} \dot{q} - \nu", "Φ̇ = Φ_q·q̇ - ν")
 
 
 def motion_sections(model: Model, notation: Notation) -> list[Section]:
-    """Return the sections on M, force elements, g, the equation of motion and events."""
-    sections = [Section("Masses", tuple(_masses(model, notation)))]
+    """Return the sections on masses, force elements, generalized forces, the equation of motion and events.
+
+    Force elements and events have sections only if the scene has any.
+    """
+    sections = [Section("Masses", tuple(_describe_masses(model, notation)))]
     if model.elements:
-        sections.append(Section("Force elements", tuple(_elements(model, notation))))
+        sections.append(Section("Force elements", tuple(_describe_elements(model, notation))))
     sections += [
-        Section("Generalized forces", tuple(_forces(model, notation))),
-        Section("Equation of motion", tuple(_equation_of_motion(model, notation))),
+        Section("Generalized forces", tuple(_describe_generalized_forces(model, notation))),
+        Section("Equation of motion", tuple(_describe_equation_of_motion(model, notation))),
     ]
-    return [*sections, Section("Events", tuple(_events(model, notation)))] if model.events else sections
+    return [*sections, Section("Events", tuple(_describe_events(model, notation)))] if model.events else sections
 
 
-def _masses(model: Model, notation: Notation) -> list[Block]:
-    """Return the table of the mass matrix."""
+def _describe_masses(model: Model, notation: Notation) -> list[Block]:
+    """Return the table of the diagonal of the mass matrix, and a note on bodies without mass or inertia."""
     rows = [cells(body.name, *map(notation.math, model.masses[body.index : body.index + 3])) for body in model.bodies]
-    of = [[f"body-{body.name}"] for body in model.bodies]
-    lead = "M is diagonal, because the coordinates are those of the centres of mass; its entries, body by body:"
-    lacking = [body.name for body in model.scene.mechanism.bodies.values() if body.lacks]
-    message = (
-        f"The file gives no mass or no inertia of {', '.join(lacking)}: M only measures how far Newton's steps go."
-    )
-    shown = table(cells("body", "x", "y", "angle"), rows, of=of)
-    return [paragraph(lead), *shown, *([paragraph(message)] if lacking else [])]
+    tokens = [[f"body-{body.name}"] for body in model.bodies]
+    introduction = "M is diagonal, because the coordinates are those of the centres of mass; its entries, body by body:"
+    massless = [body.name for body in model.scene.mechanism.bodies.values() if body.lacks]
+    note = f"The file gives no mass or no inertia of {', '.join(massless)}: M only measures how far Newton's steps go."
+    mass_table = table(cells("body", "x", "y", "angle"), rows, of=tokens)
+    return [paragraph(introduction), *mass_table, *([paragraph(note)] if massless else [])]
 
 
-def _elements(model: Model, notation: Notation) -> list[Block]:
-    """Return the quantities of each force element; their contribution to g is in the next section."""
-    values, locals_of = Values(model, notation), temporaries(model)
+def _describe_elements(model: Model, notation: Notation) -> list[Block]:
+    """Return fields, intermediate quantities and potential energy of each force element, then sketches of the types.
+
+    Their contribution to g is in the next section.
+    """
+    values, temporary_symbols = Values(model, notation), temporaries(model)
     frictions = {friction.name: friction for friction in model.frictions}
     fields = [row for applied in model.elements.values() for row in field_rows(applied.element, values)]
     blocks: list[Block] = [*table(cells("element", "field", "value"), fields), *values.below()]
     for name, applied in model.elements.items():
-        own_type = element_types()[applied.element.kind]
-        targets = " and ".join(place(target, own_type.targets) for target in applied.element.targets)
-        blocks.append(paragraph(f"{name}: {own_type.title} ({targets})."))
+        element_type = element_types()[applied.element.kind]
+        targets = " and ".join(place(target, element_type.targets) for target in applied.element.targets)
+        blocks.append(paragraph(f"{name}: {element_type.title} ({targets})."))
         blocks += [
             equation(symbol, notation.expand(model.symbols.definitions[symbol]), notation)
-            for symbol in locals_of
+            for symbol in temporary_symbols
             if model.symbols.info[symbol].meaning.endswith(f" of {name}")
         ]
         if name in frictions:
-            blocks += _friction(model, frictions[name], notation)
+            blocks += _describe_friction(model, frictions[name], notation)
         if applied.loads.potential != 0:
             blocks.append(equation(letter("V", name), notation.expand(applied.loads.potential), notation))
     for kind in dict.fromkeys(applied.element.kind for applied in model.elements.values()):
@@ -83,76 +87,83 @@ def _elements(model: Model, notation: Notation) -> list[Block]:
     return blocks
 
 
-def _friction(model: Model, friction: Friction, notation: Notation) -> list[Block]:
+def _describe_friction(model: Model, friction: Friction, notation: Notation) -> list[Block]:
     """Return slip velocity, constraint equation at stick and force at slip of a friction element."""
     name, slip, v = friction.name, friction.slip, sp.Symbol("v", real=True)
-    own = notation.called({v: letter("v", name)})
-    place = {q: k for k, q in enumerate(model.q, 1)}
-    row = [
-        equation(letter("J", name, str(place[q])), notation.expand(entry), notation)
+    slip_notation = notation.called({v: letter("v", name)})
+    coordinate_number = {q: k for k, q in enumerate(model.q, 1)}
+    jacobian_row = [
+        equation(letter("J", name, str(coordinate_number[q])), notation.expand(entry), notation)
         for q, entry in friction.jacobian.items()
     ]
     force = [
         equation(
-            Name(rf"\Delta g_{{{place[q]}}}", f"Δg_{place[q]}"),
+            Name(rf"\Delta g_{{{coordinate_number[q]}}}", f"Δg_{coordinate_number[q]}"),
             notation.expand(-entry * slip.kinetic_at(v) * sp.sign(v)),
-            own,
+            slip_notation,
         )
         for q, entry in friction.jacobian.items()
     ]
     limit = notation.math(notation.expand(slip.static))
     return [
-        equation(own.names[v], notation.expand(slip.v), notation),
-        paragraph("In stick ", own.names[v], " = 0 holds as a row of the equation of motion, with the entries"),
-        *row,
+        equation(slip_notation.names[v], notation.expand(slip.v), notation),
+        paragraph(
+            "In stick ", slip_notation.names[v], " = 0 holds as a row of the equation of motion, with the entries"
+        ),
+        *jacobian_row,
         equation(letter("gamma", name), notation.expand(friction.gamma), notation),
         paragraph("as long as the size of its multiplier is at most ", limit, "; in slip the force adds to g"),
         *force,
     ]
 
 
-def _forces(model: Model, notation: Notation) -> list[Block]:
-    """Return the nonzero components of g, in letters of the force elements."""
+def _describe_generalized_forces(model: Model, notation: Notation) -> list[Block]:
+    """Return the nonzero components of g from gravity and force elements, in letters of the force elements."""
     gx, gy = model.gravity
     forces = [f for body in model.bodies for f in (body.mass * gx, body.mass * gy, sp.Integer(0))]
     for element in model.elements.values():
         element.add_to(forces)
-    of = Name("g", "g")
+    g = Name("g", "g")
     blocks: list[Block] = [
-        equation(indexed(of, k), notation.expand(force), notation) for k, force in enumerate(forces, 1) if force != 0
+        equation(indexed(g, k), notation.expand(force), notation) for k, force in enumerate(forces, 1) if force != 0
     ]
-    lead: list[Block] = []
+    introduction: list[Block] = []
     if model.scene.mechanism.gravity is not None:
         gravity = Values(model, notation).vector(model.scene.mechanism.gravity)
-        lead += table(cells("gravity"), [cells(gravity)])
+        introduction += table(cells("gravity"), [cells(gravity)])
     if blocks:
-        lead.append(paragraph("Gravity and force elements, by the numbers of the coordinates:"))
-    rest = "All other components are zero." if blocks else "No gravity and no force element acts: g is zero."
-    blocks = [*lead, *blocks, paragraph(rest)]
+        introduction.append(paragraph("Gravity and force elements, by the numbers of the coordinates:"))
+    note = "All other components are zero." if blocks else "No gravity and no force element acts: g is zero."
+    blocks = [*introduction, *blocks, paragraph(note)]
     if model.clearances:
         blocks.append(paragraph("The joints with play add their forces to g; see there."))
     return blocks
 
 
-def _events(model: Model, notation: Notation) -> list[Block]:
-    """Return the table of events."""
-    ways = {"rising": "rises through zero", "falling": "falls through zero", "both": "crosses zero"}
-    does = {"record": "the time is recorded", "stop": "the run ends"}
+def _describe_events(model: Model, notation: Notation) -> list[Block]:
+    """Return the expression of each event, its direction and what happens at its zero."""
+    directions = {"rising": "rises through zero", "falling": "falls through zero", "both": "crosses zero"}
+    actions = {"record": "the time is recorded", "stop": "the run ends"}
     blocks: list[Block] = []
     for event in model.events:
-        blocks.append(paragraph(f"{event.name}: where it {ways[event.direction]} {does[event.action]}:"))
+        blocks.append(paragraph(f"{event.name}: where it {directions[event.direction]} {actions[event.action]}:"))
         blocks.append(equation(letter("z", event.name), notation.expand(event.expression), notation))
     return blocks
 
 
-def _equation_of_motion(model: Model, notation: Notation) -> list[Block]:
-    """Return the equation of motion with Baumgarte's gains."""
+def _describe_equation_of_motion(model: Model, notation: Notation) -> list[Block]:
+    """Return the equation of motion with multipliers, Baumgarte's gains and the degrees of freedom.
+
+    Without constraint equations it is M q̈ = g. A kinematically driven scene has a further note.
+    """
     n, m = len(model.q), len(model.rows)
     if not model.rows:
-        return [FREE, *_freedoms(model)]
+        return [FREE, *_describe_degrees_of_freedom(model)]
     alpha, beta = model.baumgarte
     gains = [
-        part for symbol in (alpha, beta) for part in (notation.math(symbol), f" = {_default(model, symbol)} 1/s, ")
+        part
+        for symbol in (alpha, beta)
+        for part in (notation.math(symbol), f" = {_format_default(model, symbol)} 1/s, ")
     ]
     blocks: list[Block] = [
         KKT,
@@ -171,7 +182,7 @@ def _equation_of_motion(model: Model, notation: Notation) -> list[Block]:
             f" {m} × {n}; these are {n + m} equations for {n} accelerations and {m} multipliers.",
         ),
         *assembled(model),
-        *_freedoms(model),
+        *_describe_degrees_of_freedom(model),
     ]
     if n == m and not model.clearances:
         blocks.append(
@@ -186,21 +197,25 @@ def _equation_of_motion(model: Model, notation: Notation) -> list[Block]:
     return blocks
 
 
-def _freedoms(model: Model) -> list[Block]:
-    """Return the degrees of freedom by Grübler's formula and by the rank of the rows."""
+def _describe_degrees_of_freedom(model: Model) -> list[Block]:
+    """Return the degrees of freedom by Grübler's formula, and by the rank of the rows if some are redundant."""
     n, m, dropped = len(model.q), len(model.rows), model.redundancy.dropped
     counted = m + len(dropped)
     by_count, by_rank = (Name(f"{n} - {k} = {n - k}", f"{n} - {k} = {n - k}") for k in (counted, m))
-    lead = "Degrees of freedom, counted as Grübler does: "
-    message_of = f", three coordinates for each body less {counted} row{'s' * (counted != 1)}"
+    introduction = "Degrees of freedom, counted as Grübler does: "
+    formula_note = f", three coordinates for each body less {counted} row{'s' * (counted != 1)}"
     if dropped:
-        message = f": {', '.join(dropped)} say{'s' * (len(dropped) == 1)} nothing new, and the rank is {m}."
-        return [paragraph(lead, by_count, message_of, ". By the rank of ", PHI_Q, " they are ", by_rank, message)]
-    same = f" The rank of the rows is {m} as well: each says something new." if m else ""
-    return [paragraph(lead, by_count, f"{message_of}.{same}")]
+        redundancy_note = f": {', '.join(dropped)} say{'s' * (len(dropped) == 1)} nothing new, and the rank is {m}."
+        return [
+            paragraph(
+                introduction, by_count, formula_note, ". By the rank of ", PHI_Q, " they are ", by_rank, redundancy_note
+            )
+        ]
+    rank_note = f" The rank of the rows is {m} as well: each says something new." if m else ""
+    return [paragraph(introduction, by_count, f"{formula_note}.{rank_note}")]
 
 
-def _default(model: Model, symbol: sp.Symbol) -> str:
-    """Return the default of a parameter as text."""
+def _format_default(model: Model, symbol: sp.Symbol) -> str:
+    """Return the default of a parameter as text; `symbol` must be a run-time parameter."""
     (entry,) = (e for e in model.slots.entries.values() if e.symbol == symbol)
     return f"{entry.default:g}"

@@ -64,23 +64,25 @@ class PrimedSymbol:
 
 @dataclass(frozen=True)
 class Notation:
-    """Contain the names of symbols; `kept` are derived symbols that equations show by their own letter."""
+    """Contain the names of a model's symbols; `kept` are derived symbols that equations show by their own letter."""
 
     symbols: Symbols
     names: Mapping[sp.Symbol, Name]
     kept: frozenset[sp.Symbol]
     order: Mapping[sp.Symbol, int]  # coordinates and velocities by body: the order of a sum's terms
-    gave_way: tuple[PrimedSymbol, ...] = ()  # in the order of the file
+    primed_symbols: tuple[PrimedSymbol, ...] = ()  # in the order of the file
 
     def called(self, names: Mapping[sp.Symbol, Name]) -> Notation:
-        """Return the notation with other names for some symbols, for example inside the section of a joint."""
+        """Return a copy of the notation with other names for some symbols, as in the section of a joint."""
         return replace(self, names={**self.names, **names})
 
     def expand(self, expression: sp.Expr) -> sp.Expr:
-        """Return `expression` with derived symbols written out, except those that are kept."""
+        """Return an expression with derived symbols written out, except those in `kept`."""
         definitions = self.symbols.definitions
-        while found := {s: definitions[s] for s in expression.free_symbols if s in definitions and s not in self.kept}:
-            expression = expression.xreplace(found)
+        while replacements := {
+            s: definitions[s] for s in expression.free_symbols if s in definitions and s not in self.kept
+        }:
+            expression = expression.xreplace(replacements)
         return expression
 
     def math(self, expression: sp.Expr) -> Name:
@@ -89,9 +91,12 @@ class Notation:
         return Name(self._latex.doprint(expression), self._text.doprint(expression))
 
     def terms(self, expression: sp.Expr, of: Callable[[sp.Expr], Sequence[str]] = lambda _: ()) -> tuple[Name, ...]:
-        """Return the terms of a sum with signs; a line may break between them. `of`: the tokens of a term."""
+        """Return the terms of a sum with their signs as formulas; a line may break between them.
+
+        of: function that returns the highlighting tokens of a term.
+        """
         expression = for_readers(sp.sympify(expression))
-        signs = self._text.signed_terms(expression)
+        signs = self._text.split_signed_terms(expression)
         return tuple(
             Name(sign + self._latex.long(term), sign.replace("{}", "") + self._text.doprint(term), of(term))
             for sign, term in signs
@@ -109,39 +114,48 @@ class Notation:
 
 
 def make_notation(model: Model) -> Notation:
-    """Return the notation of physics.md for a model, in which every symbol has a unique name."""
+    """Return the notation of physics.md for a model, in which every symbol has a unique name.
+
+    The order of the terms of sums follows the order of the bodies.
+    """
     order = {s: body.index for body in model.bodies for s in (*body.q, *body.v)}
     for symbol in turned(model):  # behind the coordinates of their body
         order[symbol] = 1 + min(order[q] for q in model.symbols.rules[symbol])
-    names, gave_way = _apart(model)
-    return Notation(model.symbols, names, frozenset(_kept(model)), order, gave_way)
+    names, primed_symbols = _assign_unique_names(model)
+    return Notation(model.symbols, names, frozenset(_list_symbols_with_letter(model)), order, primed_symbols)
 
 
-def _apart(model: Model) -> tuple[dict[sp.Symbol, Name], tuple[PrimedSymbol, ...]]:
-    """Return a unique name for each symbol: those after another, or after the theory, have primes."""
+def _assign_unique_names(model: Model) -> tuple[dict[sp.Symbol, Name], tuple[PrimedSymbol, ...]]:
+    """Return ({symbol: unique name}, symbols with primes) of a model.
+
+    A name that is used before, or by the theory, gets primes.
+    """
     names: dict[sp.Symbol, Name] = {}
-    used, gave_way = theory(model), list[PrimedSymbol]()
-    for symbol, expected in _names(model):
+    used, primed_symbols = theory(model), list[PrimedSymbol]()
+    for symbol, expected in _propose_names(model):
         if isinstance(symbol, sp.Symbol) and symbol not in names:
-            names[symbol], what = primed(expected, used), _what(model, symbol)
+            names[symbol], meaning = primed(expected, used), _describe_symbol(model, symbol)
             if names[symbol] != expected:
-                gave_way.append(PrimedSymbol(names[symbol], what, expected, used[expected.text]))
-            used[names[symbol].text] = what
-    return names, tuple(gave_way)
+                primed_symbols.append(PrimedSymbol(names[symbol], meaning, expected, used[expected.text]))
+            used[names[symbol].text] = meaning
+    return names, tuple(primed_symbols)
 
 
-def _what(model: Model, symbol: sp.Symbol) -> str:
-    """Return what a symbol is: its address in the file, or its meaning."""
+def _describe_symbol(model: Model, symbol: sp.Symbol) -> str:
+    """Return what a symbol is: its meaning, such as its address in the file, or its plain name."""
     info = model.symbols.info.get(symbol)
     return (info.meaning if info else "") or plain_name(symbol)
 
 
-def _names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
-    """Yield symbols and names, fixed letters first, so that user-defined names give way."""
+def _propose_names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
+    """Yield (symbol, name) with fixed letters first, so that user-defined names give way.
+
+    Names may repeat. The order is: time, coordinates, drives, parameters of the file, derived ones, temporaries.
+    """
     yield model.t, letter("t")
     for body in model.bodies:
-        for what, symbol in zip(("x", "y", "theta", "vx", "vy", "omega"), (*body.q, *body.v), strict=True):
-            base, dots = _RATES.get(what, (what, 0))
+        for quantity, symbol in zip(("x", "y", "theta", "vx", "vy", "omega"), (*body.q, *body.v), strict=True):
+            base, dots = _RATES.get(quantity, (quantity, 0))
             yield symbol, letter(base, body.name, dots=dots)
     for drive, symbols in model.constraints.drive_angles.items():
         for dots, symbol in enumerate(symbols):
@@ -150,23 +164,34 @@ def _names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
     for entry in sorted(entries, key=lambda e: e.address.startswith("parameters.")):
         yield entry.symbol, of_address(entry.address)
     for symbol in model.slots.derived:
-        yield symbol, _constant(model, symbol)
+        yield symbol, _name_derived_parameter(model, symbol)
     for symbol in temporaries(model):
-        yield symbol, _temporary(model.symbols.info[symbol].meaning)
-    for symbol in spans(model):
-        yield symbol, _span(plain_name(symbol))
+        yield symbol, _name_temporary(model.symbols.info[symbol].meaning)
+    for symbol in list_drive_distances(model):
+        yield symbol, _name_drive_distance(plain_name(symbol))
     for symbol in turned(model):
-        of = model.geometry.turned.get(symbol)
-        if of is None:
+        turned_vector = model.geometry.turned.get(symbol)
+        if turned_vector is None:
             yield symbol, letter(plain_name(symbol))
-        elif of.point:
-            yield symbol, letter("s", of.axis, of.body, of.point)
+        elif turned_vector.point:
+            yield symbol, letter("s", turned_vector.axis, turned_vector.body, turned_vector.point)
         else:  # numbered from a body's second one on
-            yield symbol, letter("u", of.axis, of.body, *([str(of.number)] if of.number > 1 else []))
+            yield (
+                symbol,
+                letter(
+                    "u",
+                    turned_vector.axis,
+                    turned_vector.body,
+                    *([str(turned_vector.number)] if turned_vector.number > 1 else []),
+                ),
+            )
 
 
 def of_address(address: str) -> Name:
-    """Return the letter of a parameter by its address: "bodies.L1.length" is l with the subscript L1."""
+    """Return the letter of a parameter by its address: "bodies.L1.length" is l with the subscript L1.
+
+    An address of an unknown form becomes a word.
+    """
     match address.split("."):
         case ["parameters", name]:
             return word(name)
@@ -210,66 +235,75 @@ def of_address(address: str) -> Name:
 
 
 def letter_of_field(field: str) -> str:
-    """Return the letter of a field."""
+    """Return the letter of a field by its name, "m" for "mass"; a field without one keeps its name."""
     return _ONE_LETTER.get(field, field)
 
 
-def _constant(model: Model, symbol: sp.Symbol) -> Name:
-    """Return the name of a derived parameter, by the joint or element to which it belongs."""
-    of = model.slots.of_owner.get(symbol)
-    if of is None:
+def _name_derived_parameter(model: Model, symbol: sp.Symbol) -> Name:
+    """Return the name of a derived parameter, by the joint or element to which it belongs, else by its own name."""
+    owner_info = model.slots.of_owner.get(symbol)
+    if owner_info is None:
         return letter(plain_name(symbol))
-    return letter(letter_of_field(of.what), *([of.axis] if of.axis else []), of.owner, hat=bool(of.axis))
+    return letter(
+        letter_of_field(owner_info.what),
+        *([owner_info.axis] if owner_info.axis else []),
+        owner_info.owner,
+        hat=bool(owner_info.axis),
+    )
 
 
-def _temporary(meaning: str) -> Name:
-    """Return the name of a temporary of a force element, "span_x of coil"."""
-    what, _, owner = meaning.partition(" of ")
-    base, _, axis = what.rpartition("_")
+def _name_temporary(meaning: str) -> Name:
+    """Return the name of a temporary of a force element from its meaning, "span_x of coil": Δ_x,coil."""
+    quantity, _, owner = meaning.partition(" of ")
+    base, _, axis = quantity.rpartition("_")
     if axis not in ("x", "y"):
-        base, axis = what, ""
-    sign, dots = _TEMPORARY.get(base, (base, 0))
-    return letter(sign, *([axis] if axis else []), owner, dots=dots)
+        base, axis = quantity, ""
+    base_letter, dots = _TEMPORARY.get(base, (base, 0))
+    return letter(base_letter, *([axis] if axis else []), owner, dots=dots)
 
 
-def _span(name: str) -> Name:
+def _name_drive_distance(name: str) -> Name:
     """Return the name of a distance that a drive prescribes: "pull_span_x", "pull_length", "pull_along_x"."""
-    for what, base, hat in (("_span_", "Delta", False), ("_along_", "e", True)):
-        owner, found, axis = name.rpartition(what)
-        if found:
+    for marker, base, hat in (("_span_", "Delta", False), ("_along_", "e", True)):
+        owner, is_found, axis = name.rpartition(marker)
+        if is_found:
             return letter(base, axis, owner, hat=hat)
     return letter("l", name.removesuffix("_length"))
 
 
-def spans(model: Model) -> list[sp.Symbol]:
-    """Yield the symbols of distances that drives prescribe, with their directions."""
+def list_drive_distances(model: Model) -> list[sp.Symbol]:
+    """Return the symbols of distances that drives prescribe, with their directions."""
     meanings = ("span", "its length", "its direction")
     return [s for s in model.symbols.definitions if model.symbols.info[s].meaning in meanings]
 
 
 def temporaries(model: Model) -> list[sp.Symbol]:
-    """Yield the symbols of parts of force elements: locals that are neither angle, arm nor drive."""
-    others = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
-    others.update(spans(model), model.symbols.rules)
-    return [s for s in model.symbols.definitions if not model.symbols.info[s].home and s not in others]
+    """Return the symbols of intermediate quantities of force elements: neither angles, arms nor drives."""
+    excluded = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
+    excluded.update(list_drive_distances(model), model.symbols.rules)
+    return [s for s in model.symbols.definitions if not model.symbols.info[s].home and s not in excluded]
 
 
 def turned(model: Model) -> list[sp.Symbol]:
-    """Yield the components of arms and directions that rotate with a body."""
-    others = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
-    others.update(spans(model))
+    """Return the symbols of components of arms and directions that rotate with a body."""
+    excluded = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
+    excluded.update(list_drive_distances(model))
     return [
         symbol
         for symbol, value in model.symbols.definitions.items()
-        if symbol in model.symbols.rules and symbol not in others and not isinstance(value, (sp.cos, sp.sin))
+        if symbol in model.symbols.rules and symbol not in excluded and not isinstance(value, (sp.cos, sp.sin))
     ]
 
 
-def _kept(model: Model) -> Iterator[sp.Symbol]:
-    """Yield the derived symbols that equations show by their own letter."""
+def _list_symbols_with_letter(model: Model) -> Iterator[sp.Symbol]:
+    """Yield the derived symbols that equations show by their own letter instead of their definition.
+
+    They are sums of rotated components, distances, long drives, constants of laws, long derived parameters and
+    temporaries.
+    """
     definitions = model.symbols.definitions
     yield from (symbol for symbol in turned(model) if definitions[symbol].is_Add)
-    yield from spans(model)
+    yield from list_drive_distances(model)
     for symbols in model.constraints.drive_angles.values():
         if sp.count_ops(definitions[symbols[0]]) > LONG_DRIVE:
             yield from symbols

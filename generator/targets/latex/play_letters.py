@@ -129,35 +129,42 @@ RATIO, CLIPPED = Name(r"\frac{\dot{\delta}}{\dot{\delta}^{-}}", "(δ̇/δ̇⁻)"
 
 
 def names(clearance: Clearance) -> dict[sp.Symbol, Name]:
-    """Return the names of the steps' symbols; a law's F_t belongs to its part."""
-    found = {**NAMES, ratio: CLIPPED if clearance.clip_ratio else RATIO}
+    """Return {symbol: name} of the contact steps of a joint with play.
+
+    Forces and moments have the index d or f if the joint has both dry contact and film. Corners at walls have their
+    own moments.
+    """
+    step_names = {**NAMES, ratio: CLIPPED if clearance.clip_ratio else RATIO}
     parts = [part for part in _PARTS if getattr(clearance, "film" if part == "film" else "normal") is not None]
     for symbol, base, index in ((F_along_t, "F", "t"), (M_i, "M", "i"), (M_j, "M", "j")):
         for part in parts:
-            found[of_part(symbol, part)] = letter(base, index + _PARTS[part] if len(parts) > 1 else index)
+            step_names[of_part(symbol, part)] = letter(base, index + _PARTS[part] if len(parts) > 1 else index)
         if len(parts) > 1:
-            found[symbol] = letter(base, index)
+            step_names[symbol] = letter(base, index)
     if len(parts) < 2:
-        del found[share]
+        del step_names[share]
     if clearance.wall:
-        found |= {M_i: letter("M", "i"), of_part(M_i, "dry"): letter("M", "i", "t")}
-    return found
+        step_names |= {M_i: letter("M", "i"), of_part(M_i, "dry"): letter("M", "i", "t")}
+    return step_names
 
 
 def joint_letters(model: Model, clearance: Clearance) -> dict[sp.Symbol, Name]:
-    """Return the letters of one joint's sections: c, R_i, K, c_e stand for this joint only."""
-    return distinct(_named_symbols(model, clearance))
+    """Return {symbol: unique letter} of one joint's sections: c, R_i, K, c_e stand for this joint only."""
+    return distinct(_propose_letters(model, clearance))
 
 
-def _named_symbols(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Expr, Name]]:
-    """Yield symbols and names in the order in which they get their letters."""
+def _propose_letters(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Expr, Name]]:
+    """Yield (symbol, letter) in the order in which symbols get their letters.
+
+    Contact steps come first, then dimensions, elastic constants, numbers and constants of laws, and steps of laws.
+    """
     pair, laws, wall = clearance.pair, laws_of(model, clearance), clearance.wall
     yield from names(clearance).items()
-    signs = _LETTERS_AT_WALL if wall else (("c", "c"), ("R_i", "R_i"), ("R_j", "R_j"), ("L", "L"))
-    pairs = [(getattr(pair, what), sign) for what, sign in signs]
-    for symbol, sign in pairs:
+    lengths = _LETTERS_AT_WALL if wall else (("c", "c"), ("R_i", "R_i"), ("R_j", "R_j"), ("L", "L"))
+    pairs = [(getattr(pair, attribute), latex) for attribute, latex in lengths]
+    for symbol, latex in pairs:
         if symbol.is_Symbol:
-            yield symbol, of_latex(sign)
+            yield symbol, of_latex(latex)
     for constant in ("E", "nu"):
         i, j = getattr(pair, f"{constant}_i"), getattr(pair, f"{constant}_j")
         yield from [(i, letter(constant))] if i == j else [(i, letter(constant, "i")), (j, letter(constant, "j"))]
@@ -165,7 +172,7 @@ def _named_symbols(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Expr
         yield clearance.transition, letter("e", "0")
     for equations, use in laws:
         for parameter, quantity in given(equations, use):
-            if entry := _slot(model, quantity):
+            if entry := _find_parameter(model, quantity):
                 yield entry.symbol, of_latex(sign_of(parameter))
     for name, value in clearance.constants.items():
         if not (wall and value == pair.R_j):
@@ -175,35 +182,39 @@ def _named_symbols(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Expr
             yield result(equations, name), step_name(equations.law, name)
 
 
-def _slot(model: Model, quantity: Quantity | None) -> ParameterEntry | None:
-    """Return the run-time parameter of a quantity; None if it has none."""
+def _find_parameter(model: Model, quantity: Quantity | None) -> ParameterEntry | None:
+    """Return the run-time parameter of a quantity; None if it has none, or if the quantity is None."""
     return None if quantity is None else model.slots.entries.get(quantity.address)
 
 
 def laws_of(model: Model, clearance: Clearance) -> list[tuple[LawEquations, LawUse]]:
-    """Return the laws of a joint with their addresses in the file."""
+    """Return (equations, use in the file) of each law of a joint."""
     return list(zip(clearance.laws, model.scene.play[clearance.joint.name].contact.laws, strict=True))
 
 
 def given(equations: LawEquations, use: LawUse) -> list[tuple[Field, Quantity]]:
-    """Return the parameters of a law, without optional ones that the file leaves out."""
-    return [(own, use.quantities[own.name]) for own in equations.law.parameters if own.name in use.quantities]
+    """Return (field, quantity) of the parameters of a law, without optional ones that the file leaves out."""
+    return [
+        (parameter, use.quantities[parameter.name])
+        for parameter in equations.law.parameters
+        if parameter.name in use.quantities
+    ]
 
 
 def result(equations: LawEquations, name: str) -> sp.Symbol:
-    """Return the symbol of a law's step; its tangential force belongs to its part of the joint."""
+    """Return the symbol of a law's step; a tangential force is that of its part of the joint, film or dry contact."""
     if name == "F_t" and name in RESULTS[equations.law.role]:
         return of_part(F_along_t, "film" if equations.law.role == "film" else "dry")
     return sp.Symbol(name, real=True)
 
 
 def step_name(law: Law, name: str) -> Name:
-    """Return the name of an abbreviation or result of a law; the rate of a state has a dot."""
+    """Return the name of an abbreviation or result of a law; the rate of an inner state has a dot."""
     name = name.removesuffix("__")  # of a user-defined law
-    rates = {f"{state.name}_rate": letter(state.name, dots=1) for state in law.states}
-    return (LAW_LETTERS | rates).get(name) or word(name)
+    rate_names = {f"{state.name}_rate": letter(state.name, dots=1) for state in law.states}
+    return (LAW_LETTERS | rate_names).get(name) or word(name)
 
 
 def sign_of(parameter: Field) -> str:
-    """Return a law's parameter in LaTeX: its symbol, or its name."""
+    """Return the letter of a law's parameter in LaTeX: its symbol, or else its name."""
     return parameter.symbol or word(parameter.name).latex

@@ -23,7 +23,7 @@ _NO_BODY = 1 << 30
 _PRIME = "'"  # a derivative
 
 
-class _InOrder:
+class _BodyOrder:
     """Order the terms of sums by body, coordinates before rotating arms; other sums begin with a plus."""
 
     _order: Mapping[sp.Symbol, int]
@@ -31,17 +31,20 @@ class _InOrder:
     def _as_ordered_terms(self, expr: sp.Expr, order: str | None = None) -> list[sp.Expr]:
         """Return the terms of a sum in this order."""
         terms = super()._as_ordered_terms(expr, order=order)  # type: ignore[misc]
-        return sorted(terms, key=self._place)
+        return sorted(terms, key=self._sort_key)
 
-    def _place(self, term: sp.Expr) -> tuple[int, bool]:
-        """Return the sort key of a term."""
-        found = [self._order[s] for s in term.free_symbols if s in self._order]
-        if found:
-            return min(found), not term.as_coeff_Mul()[1].is_Symbol
+    def _sort_key(self, term: sp.Expr) -> tuple[int, bool]:
+        """Return the sort key of a term: the lowest body among its symbols, and products after single symbols.
+
+        Terms without coordinates come last, those with a minus sign after the others.
+        """
+        body_indices = [self._order[s] for s in term.free_symbols if s in self._order]
+        if body_indices:
+            return min(body_indices), not term.as_coeff_Mul()[1].is_Symbol
         return _NO_BODY, term.could_extract_minus_sign()
 
 
-class TextPrinter(_InOrder, StrPrinter):
+class TextPrinter(_BodyOrder, StrPrinter):
     """Print one line of plain text: a·b, a^b, √(a), |a|, names in Unicode."""
 
     def __init__(self, names: Mapping[sp.Symbol, str], order: Mapping[sp.Symbol, int]) -> None:
@@ -52,11 +55,14 @@ class TextPrinter(_InOrder, StrPrinter):
         """Return an expression as text."""
         return str(super().doprint(expr)).replace("*", "·")
 
-    def signed_terms(self, expr: sp.Expr) -> list[tuple[str, sp.Expr]]:
-        """Return the terms of a sum with the signs between them; "{} " is LaTeX's empty left operand."""
-        first, *rest = self._as_ordered_terms(expr) if expr.is_Add else [expr]
-        return [("", first)] + [
-            ("{} - ", -term) if term.could_extract_minus_sign() else ("{} + ", term) for term in rest
+    def split_signed_terms(self, expr: sp.Expr) -> list[tuple[str, sp.Expr]]:
+        """Return (sign, term) of each term of a sum; "{} " in a sign is LaTeX's empty left operand.
+
+        The first term has the sign "". An expression that is not a sum is its only term.
+        """
+        first_term, *further_terms = self._as_ordered_terms(expr) if expr.is_Add else [expr]
+        return [("", first_term)] + [
+            ("{} - ", -term) if term.could_extract_minus_sign() else ("{} + ", term) for term in further_terms
         ]
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
@@ -69,7 +75,10 @@ class TextPrinter(_InOrder, StrPrinter):
         return angle.text if angle else number_text(float(expr))
 
     def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
-        """Print an expression, in brackets if it binds less than `level`; a fraction of π is one number."""
+        """Print an expression, in brackets if it binds less than `level`.
+
+        A fraction of π in a product gets brackets, too.
+        """
         text = str(super().parenthesize(item, level, strict))
         return f"({text})" if item.is_Float and "/" in text and level >= PRECEDENCE["Mul"] else text
 
@@ -78,13 +87,13 @@ class TextPrinter(_InOrder, StrPrinter):
         return "π"
 
     def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
-        """Print a power, a root or a quotient."""
+        """Print a power as √(…), 1/… or base^exponent."""
         base, exponent = expr.base, expr.exp
         if exponent == sp.Rational(1, 2):
             return f"√({self._print(base)})"
         if exponent.is_Rational and exponent < 0:
-            below = base if exponent == -1 else sp.Pow(base, -exponent, evaluate=False)
-            return f"1/{self.parenthesize(below, PRECEDENCE['Mul'], strict=True)}"
+            denominator = base if exponent == -1 else sp.Pow(base, -exponent, evaluate=False)
+            return f"1/{self.parenthesize(denominator, PRECEDENCE['Mul'], strict=True)}"
         return f"{self.parenthesize(base, PRECEDENCE['Pow'])}^{self.parenthesize(exponent, PRECEDENCE['Pow'])}"
 
     def _print_Abs(self, expr: sp.Expr) -> str:
@@ -114,12 +123,12 @@ class TextPrinter(_InOrder, StrPrinter):
         return f"H({self._print(expr.args[0])})"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
-        """As the file has it."""
-        left, right, below, otherwise = map(self._print, compared(expr))
+        """Print a choice as the file writes it: where(left < right, first, second)."""
+        left, right, below, otherwise = map(self._print, split_comparison(expr))
         return f"where({left} < {right}, {below}, {otherwise})"
 
 
-class TexPrinter(_InOrder, LatexPrinter):
+class TexPrinter(_BodyOrder, LatexPrinter):
     """Print LaTeX for amsmath. `long` prints a term that does not fit on a line so that it can break at its signs."""
 
     def __init__(
@@ -134,32 +143,40 @@ class TexPrinter(_InOrder, LatexPrinter):
         }
         super().__init__(settings)
         self._order, self._breakable, self._names = order, breakable, names
-        self._text = TextPrinter({symbol: "x" * name.room for symbol, name in names.items()}, order)
+        self._text = TextPrinter({symbol: "x" * name.width for symbol, name in names.items()}, order)
 
     def long(self, expr: sp.Expr) -> str:
-        """Return a long expression with brackets and fractions in which a line may break; shorter ones as usual."""
+        """Return an expression in LaTeX; one longer than LONG is printed so that a line may break in it.
+
+        A long one has brackets of fixed size and fractions with slashes.
+        """
         if len(self._text.doprint(expr)) <= LONG:
             return str(self.doprint(expr))
-        loose = str(TexPrinter(self._names, self._order, True).doprint(expr))  # behind commas and factors too
-        return loose.replace(r"\left(", r"\bigl(").replace(r"\right)", r"\bigr)").replace(", ", r", \allowbreak ")
+        breakable_text = str(TexPrinter(self._names, self._order, True).doprint(expr))  # behind commas and factors too
+        return (
+            breakable_text.replace(r"\left(", r"\bigl(").replace(r"\right)", r"\bigr)").replace(", ", r", \allowbreak ")
+        )
 
     def _print_Mul(self, expr: sp.Expr) -> str:
-        """Print a product; a quotient of numbers precedes it as a small fraction."""
-        number, rest = expr.as_coeff_Mul()
-        above, below = sp.fraction(expr)
-        if number.is_Rational and number.q != 1 and sp.fraction(rest)[1] == 1:
-            sign = "- " if number.p < 0 else ""
-            inside = self.parenthesize(rest, PRECEDENCE["Mul"], strict=True)
-            return rf"{sign}{self._print(abs(number))} \, {inside}"
-        if not self._breakable or below.is_Number:
+        """Print a product; a quotient of numbers precedes it as a small fraction.
+
+        Where lines must be able to break, a fraction is written with a slash.
+        """
+        coefficient, others = expr.as_coeff_Mul()
+        numerator, denominator = sp.fraction(expr)
+        if coefficient.is_Rational and coefficient.q != 1 and sp.fraction(others)[1] == 1:
+            sign = "- " if coefficient.p < 0 else ""
+            printed_others = self.parenthesize(others, PRECEDENCE["Mul"], strict=True)
+            return rf"{sign}{self._print(abs(coefficient))} \, {printed_others}"
+        if not self._breakable or denominator.is_Number:
             return str(super()._print_Mul(expr))
-        if above.could_extract_minus_sign():
+        if numerator.could_extract_minus_sign():
             return f"- {self._print(-expr)}"
-        under = self.parenthesize(below, PRECEDENCE["Mul"], strict=False)
-        return f"{self.parenthesize(above, PRECEDENCE['Mul'])} / {under}"
+        printed_denominator = self.parenthesize(denominator, PRECEDENCE["Mul"], strict=False)
+        return f"{self.parenthesize(numerator, PRECEDENCE['Mul'])} / {printed_denominator}"
 
     def _print_Pow(self, expr: sp.Pow) -> str:
-        """Print a power; no line breaks under a root."""
+        """Print a power; where lines must be able to break, a root is written with a sign before brackets."""
         if self._breakable and expr.exp == sp.S.Half:
             return rf"\surd \left({self._print(expr.base)}\right)"
         return str(super()._print_Pow(expr))
@@ -171,7 +188,7 @@ class TexPrinter(_InOrder, LatexPrinter):
         return rf"{'- ' if expr.p < 0 else ''}\tfrac{{{abs(expr.p)}}}{{{expr.q}}}"
 
     def _print_Float(self, expr: sp.Float) -> str:
-        """Print a number, an angle as a fraction of π or in degrees."""
+        """Print a number: an angle as a fraction of π or in degrees, an exponent as a power of ten."""
         if angle := as_angle(float(expr)):
             return angle.latex
         mantissa, _, exponent = number_text(float(expr)).partition("e")
@@ -193,15 +210,15 @@ class TexPrinter(_InOrder, LatexPrinter):
 
     def _print_ModOf(self, expr: sp.Expr, exp: str | None = None) -> str:
         """Print a remainder."""
-        return self._function(r"\operatorname{mod}", expr, exp)
+        return self._print_function_call(r"\operatorname{mod}", expr, exp)
 
     def _print_Heaviside(self, expr: sp.Expr, exp: str | None = None) -> str:
         """Print a step function."""
-        return self._function("H", expr, exp)
+        return self._print_function_call("H", expr, exp)
 
     def _print_Pick(self, expr: sp.Expr, exp: str | None = None) -> str:
-        """Print a choice as the file writes it."""
-        left, right, below, otherwise = map(self._print, compared(expr))
+        """Print a choice as a brace with two cases; as where(…) if lines must be able to break."""
+        left, right, below, otherwise = map(self._print, split_comparison(expr))
         if self._breakable:  # no line breaks between the cases of a brace
             text = rf"\operatorname{{where}}\left({left} < {right}, {below}, {otherwise}\right)"
             return rf"{text}^{{{exp}}}" if exp else text
@@ -211,35 +228,38 @@ class TexPrinter(_InOrder, LatexPrinter):
 
     def _print_Whole(self, expr: sp.Expr, exp: str | None = None) -> str:
         """Print an unevaluated operand in brackets."""
-        return self._function("", expr, None) + (f"^{{{exp}}}" if exp else "")
+        return self._print_function_call("", expr, None) + (f"^{{{exp}}}" if exp else "")
 
     _print_Share = _print_Whole
 
-    def _function(self, name: str, expr: sp.Expr, exp: str | None) -> str:
-        """Print a call of a function."""
-        inside = ", ".join(self._print(argument) for argument in sorted_arguments(expr))
-        return rf"{name}{f'^{{{exp}}}' if exp else ''}\left({inside}\right)"
+    def _print_function_call(self, name: str, expr: sp.Expr, exp: str | None) -> str:
+        """Print a call of a function with its arguments in brackets, and the exponent `exp` after the name."""
+        printed_arguments = ", ".join(self._print(argument) for argument in sort_arguments(expr))
+        return rf"{name}{f'^{{{exp}}}' if exp else ''}\left({printed_arguments}\right)"
 
 
-def _add_functions(in_sympy: str, function: Function) -> None:
-    """Add methods to the printers for each function of the table of functions."""
+def _add_print_methods(class_name: str, function: Function) -> None:
+    """Add print methods for a function of the table of functions to both printers.
+
+    A function without a text or LaTeX form keeps SymPy's own method there.
+    """
 
     def print_text(printer: TextPrinter, expr: sp.Expr) -> str:
         """Print a function as text."""
-        return f"{function.text}({printer.stringify(sorted_arguments(expr), ', ')})"
+        return f"{function.text}({printer.stringify(sort_arguments(expr), ', ')})"
 
     def print_latex(printer: TexPrinter, expr: sp.Expr, exp: str | None = None) -> str:
         """Print a function as LaTeX."""
-        return printer._function(function.latex, expr, exp)
+        return printer._print_function_call(function.latex, expr, exp)
 
     if function.text:
-        setattr(TextPrinter, f"_print_{in_sympy}", print_text)
+        setattr(TextPrinter, f"_print_{class_name}", print_text)
     if function.latex:
-        setattr(TexPrinter, f"_print_{in_sympy}", print_latex)
+        setattr(TexPrinter, f"_print_{class_name}", print_latex)
 
 
 for _name, _function in IN_SYMPY.items():
-    _add_functions(_name, _function)
+    _add_print_methods(_name, _function)
 
 _SIMPLE = (1, 2, 3, 4, 6)  # of π: what people write as a share of it
 _LONG_NUMBER = 9  # digits from which a number says nothing to people
@@ -247,15 +267,18 @@ _LONG_NUMBER = 9  # digits from which a number says nothing to people
 
 @lru_cache(4096)
 def as_angle(value: float) -> Name | None:
-    """Return a number of rad as a fraction of π or in degrees if that is shorter: π/2, 39.52°; else None."""
+    """Return an angle in rad as a fraction of π or in degrees, where that is shorter: π/2, 39.52°; else None.
+
+    Numbers with fewer than _LONG_NUMBER digits are short enough as they are. Results are cached.
+    """
     if sum(map(str.isdigit, repr(value))) < _LONG_NUMBER:
         return None
-    if share := share_of_pi(value):
-        count, of = share
-        sign, above = "-" * (count < 0), f"{abs(count) if abs(count) > 1 else ''}"
-        if of == 1:
-            return Name(rf"{sign}{above}\pi", f"{sign}{above}π")
-        return Name(rf"{sign}\tfrac{{{above}\pi}}{{{of}}}", f"{sign}{above}π/{of}")
+    if fraction := share_of_pi(value):
+        numerator, denominator = fraction
+        sign, pi_factor = "-" * (numerator < 0), f"{abs(numerator) if abs(numerator) > 1 else ''}"
+        if denominator == 1:
+            return Name(rf"{sign}{pi_factor}\pi", f"{sign}{pi_factor}π")
+        return Name(rf"{sign}\tfrac{{{pi_factor}\pi}}{{{denominator}}}", f"{sign}{pi_factor}π/{denominator}")
     degrees = f"{math.degrees(value):.6g}"
     if abs(math.radians(float(degrees)) - value) <= 2 * math.ulp(value):
         return Name(rf"{degrees}^{{\circ}}", f"{degrees}°")
@@ -263,36 +286,42 @@ def as_angle(value: float) -> Name | None:
 
 
 def share_of_pi(value: float) -> tuple[int, int] | None:
-    """Return (k, n) if a number is k π/n to its last digit; None otherwise."""
-    for of in _SIMPLE:
-        count = round(value * of / math.pi)
-        if 0 < abs(count) <= 12 and abs(count * math.pi / of - value) <= math.ulp(value):
-            return count, of
+    """Return (k, n) if a number is k π/n to its last digit, n in _SIMPLE and |k| at most 12; None otherwise."""
+    for denominator in _SIMPLE:
+        numerator = round(value * denominator / math.pi)
+        if 0 < abs(numerator) <= 12 and abs(numerator * math.pi / denominator - value) <= math.ulp(value):
+            return numerator, denominator
     return None
 
 
 def number_text(value: float) -> str:
-    """Return the shortest decimal number that is read back as `value`, rounding errors aside: "0.0003", "7e10"."""
-    written = float(f"{value:.12g}")
-    text = repr(written if abs(written - value) <= 2 * math.ulp(value) else value).removesuffix(".0")
+    """Return the shortest decimal number that is read back as `value` up to rounding errors: "0.0003", "7e10"."""
+    rounded = float(f"{value:.12g}")
+    text = repr(rounded if abs(rounded - value) <= 2 * math.ulp(value) else value).removesuffix(".0")
     if "e" not in text and abs(value) >= 1e6:
         text = f"{Decimal(text).normalize():e}".replace("e+", "e")
     return text
 
 
-def compared(pick: sp.Expr) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
-    """Return (left, right, value if left < right, other value) of a choice, as it was written."""
-    side, otherwise, below = pick.args
-    gap = side.args[0] if isinstance(side, sp.sign) else side
-    terms = sp.Add.make_args(gap)
+def split_comparison(pick: sp.Expr) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
+    """Return (left, right, value if left < right, other value) of a choice, as the file wrote it.
+
+    Terms of the condition with a minus sign are put on the right side.
+    """
+    condition, otherwise, if_less = pick.args
+    difference = condition.args[0] if isinstance(condition, sp.sign) else condition
+    terms = sp.Add.make_args(difference)
     right = [-term for term in terms if term.could_extract_minus_sign()]
     if len(right) == len(terms):
-        return sp.Integer(0), sp.Add(*right), below, otherwise
-    return sp.Add(*(term for term in terms if -term not in right)), sp.Add(*right), below, otherwise
+        return sp.Integer(0), sp.Add(*right), if_less, otherwise
+    return sp.Add(*(term for term in terms if -term not in right)), sp.Add(*right), if_less, otherwise
 
 
-def sorted_arguments(expr: sp.Expr) -> Sequence[sp.Expr]:
-    """Return the arguments that are printed: of a minimum or maximum numbers last, of a step function the first."""
+def sort_arguments(expr: sp.Expr) -> Sequence[sp.Expr]:
+    """Return the arguments of a function in printing order: of a minimum or maximum numbers last.
+
+    Of a step function only the first one is printed.
+    """
     if isinstance(expr, (sp.Max, sp.Min)):
         return sorted(expr.args, key=lambda argument: (bool(argument.is_Number), str(argument)))
     return expr.args[:1] if isinstance(expr, sp.Heaviside) else expr.args

@@ -13,68 +13,78 @@ from gudgeon.generator.targets.latex.pictures import tree
 from gudgeon.generator.targets.latex.trace import Functions
 
 
-def reduction_sections(found: Functions) -> list[Section]:
-    """Return the sections on how the equations are reduced, what that saves, and where the C is."""
-    source = found.source
+def reduction_sections(functions: Functions) -> list[Section]:
+    """Return the sections on the reduction to few coordinates, the sizes of both formulations, and the C files."""
+    source = functions.source
     return [
-        Section("From all coordinates to few", tuple(_reduction_log(source, found.model.scene.mechanism.joints))),
-        Section("Full and reduced, side by side", tuple(_comparison_table(found))),
-        Section("The C, file by file", tuple(_files(found))),
+        Section(
+            "From all coordinates to few", tuple(_describe_reduction(source, functions.model.scene.mechanism.joints))
+        ),
+        Section("Full and reduced, side by side", tuple(_compare_formulations(functions))),
+        Section("The C, file by file", tuple(_describe_files(functions))),
     ]
 
 
-def _reduction_log(source: KernelSource, joints: Collection[str]) -> list[Block]:
-    """Return the log of the reduction as `gudgeon check -v` prints it."""
-    ledger = [cells(f"{n:,}", f"{m:,}", f"{text}.") for n, m, text in reduction_lines(source)]
-    story = [cells(name, f"{text}.") for name, text in outcome(source)]
+def _describe_reduction(source: KernelSource, joints: Collection[str]) -> list[Block]:
+    """Return the log of the reduction as `gudgeon check -v` prints it, and the picture of the tree.
+
+    joints: the names of the file's joints.
+    """
+    step_rows = [cells(f"{n:,}", f"{m:,}", f"{text}.") for n, m, text in reduction_lines(source)]
+    outcome_rows = [cells(name, f"{text}.") for name, text in outcome(source)]
     return [
         paragraph("Coordinates and rows that are left, step by step, and what took the others:"),
-        *table(cells("coordinates", "rows", "step"), ledger, (2,)),
-        *table(cells("", "what it comes to"), story, (1,)),
+        *table(cells("coordinates", "rows", "step"), step_rows, (2,)),
+        *table(cells("", "what it comes to"), outcome_rows, (1,)),
         *tree(source.story, joints),
     ]
 
 
-def _comparison_table(found: Functions) -> list[Block]:
-    """Return the table of sizes and operations of both formulations."""
-    source, story = found.source, found.source.story
+def _compare_formulations(functions: Functions) -> list[Block]:
+    """Return a table of sizes and operations of both formulations, and one of operations of each C function."""
+    source, log = functions.source, functions.source.story
     counts = source.operations
-    reduced = "arrive" if "arrive" in counts else "reduced_dynamics"
+    reduced_function = "arrive" if "arrive" in counts else "reduced_dynamics"
     rows = [
         ("coordinates", len(source.coordinates), len(source.tree)),
         ("rows of constraints", len(source.rows), len(source.closures)),
-        *_of_matrix(story.before, story.after),
-        ("operations of a right-hand side", counts["dynamics"], counts.get(reduced)),
+        *_compare_matrices(log.before, log.after),
+        ("operations of a right-hand side", counts["dynamics"], counts.get(reduced_function)),
     ]
-    shown = [cells(name, *("none" if x is None else f"{x:,}" for x in both)) for name, *both in rows]
+    size_rows = [cells(name, *("none" if x is None else f"{x:,}" for x in values)) for name, *values in rows]
     operations = [cells(name, f"{count:,}") for name, count in counts.items() if count]
     return [
-        *table(cells("", "full", "reduced"), shown),
+        *table(cells("", "full", "reduced"), size_rows),
         paragraph("Additions, multiplications, divisions and calls of functions that each function of the C performs:"),
         *table(cells("function", "operations"), operations),
     ]
 
 
-def _of_matrix(before: Solve | None, after: Solve | None) -> list[tuple[str, int | None, int | None]]:
-    """Return rows of the table on the factored matrix: (what, full, reduced)."""
+def _compare_matrices(
+    full_solve: Solve | None, reduced_solve: Solve | None
+) -> list[tuple[str, int | None, int | None]]:
+    """Return (meaning, full, reduced) of the factored matrix: its size, its entries and those of its factor.
 
-    def both(of: str) -> tuple[int | None, int | None]:
+    None stands for a formulation that factors no matrix.
+    """
+
+    def get_both(property_name: str) -> tuple[int | None, int | None]:
         """Return a property of the factored matrix in the full and in the reduced formulation."""
-        full, reduced = (getattr(solve, of) if solve else None for solve in (before, after))
+        full, reduced = (getattr(solve, property_name) if solve else None for solve in (full_solve, reduced_solve))
         return full, reduced
 
     return [
-        ("rows of the matrix that is factored", *both("size")),
-        ("its entries that are not zero", *both("entries")),
-        ("entries of its factor", *both("factor")),
+        ("rows of the matrix that is factored", *get_both("size")),
+        ("its entries that are not zero", *get_both("entries")),
+        ("entries of its factor", *get_both("factor")),
     ]
 
 
-def _files(found: Functions) -> list[Block]:
-    """Return the list of files in the order in which they are to be read."""
-    message = purposes(found.program)
-    names = [name for name in message if name in found.files]
-    rows = [cells(name, sentence(message[name].replace("`", ""))) for name in names]
+def _describe_files(functions: Functions) -> list[Block]:
+    """Return the table of the scene's C files with their purposes, in the order in which they are to be read."""
+    purpose_by_file = purposes(functions.program)
+    names = [name for name in purpose_by_file if name in functions.files]
+    rows = [cells(name, sentence(purpose_by_file[name].replace("`", ""))) for name in names]
     return [
         paragraph("What gudgeon emit writes. First comes model.h, for the names, then dynamics.c, the textbook's."),
         *table(cells("file", "what it holds"), rows, (1,)),

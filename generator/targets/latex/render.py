@@ -95,17 +95,17 @@ _ACCENTS = {"\u0302": "hat", "\u0307": "dot", "\u0308": "ddot"}  # of a mathemat
 
 
 def tex(text: str) -> str:
-    """Return `text` for running LaTeX; a character that plain pdflatex lacks becomes its number."""
-    return "".join(map(_character, _clusters(text)))
+    """Return a text for running LaTeX; a character that plain pdflatex lacks becomes its number."""
+    return "".join(map(_escape_character, _split_clusters(text)))
 
 
 def sketch_line(line: str) -> str:
-    """Return a line of a sketch, in which every character has the same width."""
-    return "".join(map(_sketch_character, _clusters(line)))
+    """Return a line of a sketch in LaTeX, in which every character has the same width."""
+    return "".join(map(_escape_sketch_character, _split_clusters(line)))
 
 
-def _sketch_character(cluster: str) -> str:
-    """Return a character of a sketch in LaTeX."""
+def _escape_sketch_character(cluster: str) -> str:
+    """Return a character of a sketch in LaTeX: a space as ~, ASCII as it is or by its code, others in a cell."""
     if cluster == " ":
         return "~"
     if cluster.isascii():  # a typewriter font has all of ASCII in its places
@@ -113,30 +113,33 @@ def _sketch_character(cluster: str) -> str:
     return rf"\cell{{{tex(cluster)}}}"
 
 
-def _clusters(text: str) -> list[str]:
-    """Return letters with the marks above them."""
-    found: list[str] = []
+def _split_clusters(text: str) -> list[str]:
+    """Return the characters of a text, each together with the combining marks after it."""
+    clusters: list[str] = []
     for character in unicodedata.normalize("NFC", text):
-        if unicodedata.combining(character) and found:
-            found[-1] += character
+        if unicodedata.combining(character) and clusters:
+            clusters[-1] += character
         else:
-            found.append(character)
-    return found
+            clusters.append(character)
+    return clusters
 
 
-def _character(cluster: str) -> str:
-    """Return a character in LaTeX."""
+def _escape_character(cluster: str) -> str:
+    """Return a character, with its marks, in LaTeX: escaped, as a formula, with accents, or as [U+number].
+
+    Control characters become "".
+    """
     if cluster in _SPECIAL:
         return _SPECIAL[cluster]
     if cluster in _MATH:
         return f"${_MATH[cluster]}$"
     if cluster.isascii():
         return cluster if cluster.isprintable() else ""
-    base, *marks = list(unicodedata.normalize("NFD", cluster))
-    if len(marks) == 1 and marks[0] in _MARKS and (base in _MATH or base.isascii()):
-        if base in _MATH:
-            return rf"$\{_ACCENTS.get(marks[0], 'bar')}{{{_MATH[base]}}}$"
-        return rf"\{_MARKS[marks[0]]}{{{_character(base)}}}"
+    letter_, *marks = list(unicodedata.normalize("NFD", cluster))
+    if len(marks) == 1 and marks[0] in _MARKS and (letter_ in _MATH or letter_.isascii()):
+        if letter_ in _MATH:
+            return rf"$\{_ACCENTS.get(marks[0], 'bar')}{{{_MATH[letter_]}}}$"
+        return rf"\{_MARKS[marks[0]]}{{{_escape_character(letter_)}}}"
     return "".join(f"[U+{ord(c):04X}]" for c in cluster)
 
 
@@ -147,21 +150,27 @@ GAP = 0.025  # between two columns
 
 
 def render(document: Document, suffix: str, **slots: str) -> str:
-    """Return the document in the format of a file's suffix: "tex", "txt" or "html"; slots of its frame contain HTML."""
-    text = _environment().get_template(f"equations.{suffix}.jinja").render(document=document, **slots)
+    """Return the document in the format of a file's suffix: "tex", "txt" or "html", without trailing spaces.
+
+    slots: further HTML for places in the frame of a page.
+    """
+    text = _get_template_environment().get_template(f"equations.{suffix}.jinja").render(document=document, **slots)
     return "\n".join(line.rstrip() for line in text.splitlines()).strip("\n") + "\n"
 
 
 @cache
-def _environment() -> jinja2.Environment:
-    """Return the environment of the templates, with delimiters that LaTeX does not use."""
+def _get_template_environment() -> jinja2.Environment:
+    """Return the cached Jinja environment of the document templates.
 
-    def load(name: str) -> str:
-        """Return the text of a template."""
+    Its delimiters do not occur in LaTeX; its filters write parts of a document in each format.
+    """
+
+    def load_template(name: str) -> str:
+        """Return the text of a template from the package folder templates/latex."""
         return resources.files("gudgeon.templates").joinpath("latex", name).read_text(encoding="utf-8")
 
     environment = jinja2.Environment(
-        loader=jinja2.FunctionLoader(load),
+        loader=jinja2.FunctionLoader(load_template),
         undefined=jinja2.StrictUndefined,
         autoescape=False,
         trim_blocks=True,
@@ -176,107 +185,111 @@ def _environment() -> jinja2.Environment:
     )
     environment.filters.update(
         tex=tex,
-        tex_line=_tex_line,
-        tex_terms=_tex_terms,
+        tex_line=_print_tex_line,
+        tex_terms=_print_tex_terms,
         tex_sketch=sketch_line,
-        tex_columns=_tex_columns,
-        tex_row=_tex_row,
-        tex_size=_tex_size,
+        tex_columns=_print_tex_columns,
+        tex_row=_print_tex_row,
+        tex_size=_select_tex_size,
         html=html.escape,
         html_line=to_html.line,
         formula=to_html.formula,
         attributes=to_html.attributes,
         output=to_html.output,
         listing=to_html.listing,
-        plain_line=_plain_line,
-        plain_paragraph=_plain_paragraph,
-        plain_equation=_plain_equation,
-        plain_table=_plain_table,
-        underline=_underline,
+        plain_line=_print_plain_line,
+        plain_paragraph=_print_plain_paragraph,
+        plain_equation=_print_plain_equation,
+        plain_table=_print_plain_table,
+        underline=_underline_heading,
     )
     return environment
 
 
-def _tex_line(text: Text) -> str:
+def _print_tex_line(text: Text) -> str:
     """Return words and formulas in LaTeX."""
     return "".join(f"${part.latex}$" if isinstance(part, Name) else tex(part) for part in text)
 
 
-def _tex_row(row: tuple[Text, ...], wide: tuple[int, ...]) -> str:
-    """Return a row of a table in LaTeX."""
-    cells = [rf"\raggedright {_tex_line(cell)}" if k in wide else _tex_line(cell) for k, cell in enumerate(row)]
+def _print_tex_row(row: tuple[Text, ...], wide: tuple[int, ...]) -> str:
+    """Return a row of a table in LaTeX; columns with running text, `wide`, are ragged."""
+    cells = [
+        rf"\raggedright {_print_tex_line(cell)}" if k in wide else _print_tex_line(cell) for k, cell in enumerate(row)
+    ]
     return " & ".join(cells) + r" \tabularnewline"
 
 
-def _tex_terms(equation: Equation) -> str:
-    """Return the terms of an equation in LaTeX."""
+def _print_tex_terms(equation: Equation) -> str:
+    """Return the terms of an equation in LaTeX, one per line."""
     return "\n  ".join(term.latex for term in equation.terms)
 
 
-def _tex_columns(table: Table) -> str:
-    """Return the columns of a table; running text gets the remaining width."""
-    others = [_width(table, k) for k in range(len(table.header)) if k not in table.wide]
-    used = LETTER[_tex_size(table)] * sum(others) + GAP * len(table.header)
-    share = max(0.12, min(0.34, 1.0 - used)) / max(1, len(table.wide))
-    return "".join(rf"p{{{share:.2f}\linewidth}}" if k in table.wide else "l" for k in range(len(table.header)))
+def _print_tex_columns(table: Table) -> str:
+    """Return the column specification of a table in LaTeX; columns with running text share the remaining width."""
+    widths = [_measure_column(table, k) for k in range(len(table.header)) if k not in table.wide]
+    used_width = LETTER[_select_tex_size(table)] * sum(widths) + GAP * len(table.header)
+    column_width = max(0.12, min(0.34, 1.0 - used_width)) / max(1, len(table.wide))
+    return "".join(rf"p{{{column_width:.2f}\linewidth}}" if k in table.wide else "l" for k in range(len(table.header)))
 
 
-def _tex_size(block: Sketch | Picture | Table) -> str:
-    """Return the font size of a sketch, small for long lines."""
+def _select_tex_size(block: Sketch | Picture | Table) -> str:
+    """Return the LaTeX font size of a sketch, picture or table, smaller for longer lines."""
     if not isinstance(block, Table):
         return r"\footnotesize" if max(map(len, block.lines), default=0) <= 98 else r"\scriptsize"
-    widths = [_width(block, k) for k in range(len(block.header))]
+    widths = [_measure_column(block, k) for k in range(len(block.header))]
     width = sum(2 + min(WIDE, w) if k in block.wide else 2 + w for k, w in enumerate(widths))
     return r"\small" if width <= 105 else r"\footnotesize" if width <= 125 else r"\scriptsize"
 
 
-def _width(table: Table, k: int) -> int:
-    """Return the number of characters of a column."""
-    return max(_columns(_plain_line(row[k])) for row in (table.header, *table.rows))
+def _measure_column(table: Table, k: int) -> int:
+    """Return the number of characters of a table's column `k`, the header included."""
+    return max(_measure_width(_print_plain_line(row[k])) for row in (table.header, *table.rows))
 
 
-def _plain_line(text: Text) -> str:
+def _print_plain_line(text: Text) -> str:
     """Return words and formulas as plain text."""
     return "".join(part.text if isinstance(part, Name) else part for part in text)
 
 
-def _plain_paragraph(paragraph: Paragraph) -> str:
-    """Return a paragraph as plain text."""
-    return textwrap.fill(_plain_line(paragraph.text), WIDTH, break_long_words=False, break_on_hyphens=False)
+def _print_plain_paragraph(paragraph: Paragraph) -> str:
+    """Return a paragraph as plain text, wrapped at WIDTH characters."""
+    return textwrap.fill(_print_plain_line(paragraph.text), WIDTH, break_long_words=False, break_on_hyphens=False)
 
 
-def _plain_equation(equation: Equation) -> str:
-    """Return an equation in one line or more, indented after the first."""
+def _print_plain_equation(equation: Equation) -> str:
+    """Return an equation as plain text, wrapped at WIDTH characters; continuation lines are indented further."""
     line = f"  {equation.left.text} = {''.join(term.text for term in equation.terms)}"
     return textwrap.fill(line, WIDTH, subsequent_indent=" " * 8, break_long_words=False, break_on_hyphens=False)
 
 
-def _plain_table(table: Table) -> str:
-    """Return a table with aligned columns; running text is wrapped."""
-    rows = [[[_plain_line(cell)] for cell in table.header]]
+def _print_plain_table(table: Table) -> str:
+    """Return a table as plain text with aligned columns and a rule below the header; running text is wrapped."""
+    rows = [[[_print_plain_line(cell)] for cell in table.header]]
     rows += [
         [
-            textwrap.wrap(_plain_line(cell), WIDE) or [""] if k in table.wide else [_plain_line(cell)]
+            textwrap.wrap(_print_plain_line(cell), WIDE) or [""] if k in table.wide else [_print_plain_line(cell)]
             for k, cell in enumerate(row)
         ]
         for row in table.rows
     ]
-    widths = [max(_columns(line) for row in rows for line in row[k]) for k in range(len(table.header))]
+    widths = [max(_measure_width(line) for row in rows for line in row[k]) for k in range(len(table.header))]
     lines = []
     for row in rows:
-        for level in range(max(map(len, row))):
-            parts = [cell[level] if level < len(cell) else "" for cell in row]
-            padded = (part + " " * (width - _columns(part)) for part, width in zip(parts, widths, strict=True))
+        for line_index in range(max(map(len, row))):
+            cell_lines = [cell[line_index] if line_index < len(cell) else "" for cell in row]
+            padded = (
+                part + " " * (width - _measure_width(part)) for part, width in zip(cell_lines, widths, strict=True)
+            )
             lines.append("  " + "   ".join(padded).rstrip())
     lines.insert(1, "  " + "   ".join("-" * width for width in widths))
     return "\n".join(lines)
 
 
-def _columns(text: str) -> int:
-    """Return the width of a text on a terminal: combining marks take none."""
+def _measure_width(text: str) -> int:
+    """Return the width of a text on a terminal in characters; combining marks take none."""
     return sum(not unicodedata.combining(character) for character in text)
 
 
-def _underline(text: str, sign: str) -> str:
-    """Return a heading with a line of signs below it."""
-    return f"{text}\n{sign * _columns(text)}"
+def _underline_heading(text: str, character: str) -> str:
+    """Return a heading with a line of the given character below it."""
+    return f"{text}\n{character * _measure_width(text)}"

@@ -24,99 +24,109 @@ from gudgeon.generator.targets.latex.play_letters import given, joint_letters, l
 _RAISED = str.maketrans(dict.fromkeys("²³⁰¹⁻", " "))
 
 
-def sketch_of(of: JointType | ElementType) -> list[str]:
-    """Return the description of a joint type or force element: a line, then its sketch."""
-    summary, _, rest = inspect.cleandoc(of.doc or "").partition("\n")
-    return [summary, *rest.strip("\n").splitlines()]
+def sketch_of(type_: JointType | ElementType) -> list[str]:
+    """Return the description of a joint type or force element as lines: a summary, then its sketch."""
+    summary, _, sketch = inspect.cleandoc(type_.doc or "").partition("\n")
+    return [summary, *sketch.strip("\n").splitlines()]
 
 
 def letters_of(lines: list[str]) -> Iterator[str]:
-    """Return the letters that stand alone in a sketch, with subscripts; those with dots also without them.
+    """Yield the letters that stand alone in the lines of a sketch, with subscripts; those with dots also without them.
 
-    No part of a drawing ("o---"), no initial ("L. C. Bo"), no article.
+    Parts of a drawing ("o---"), initials ("L. C. Bo") and articles are not letters.
     """
-    alone = re.compile(r"(?<![\w.'-])(?!(?:a|A|I) [a-z]{2})([^\W\d_]\u0307?\u0307?(?:_\w+)?)(?![\w.'-])")
+    lone_letter = re.compile(r"(?<![\w.'-])(?!(?:a|A|I) [a-z]{2})([^\W\d_]\u0307?\u0307?(?:_\w+)?)(?![\w.'-])")
     for line in lines:
-        for found in alone.findall(unicodedata.normalize("NFD", line).translate(_RAISED)):
-            yield from dict.fromkeys((found, found.replace("\u0307", "")))
+        for letter_ in lone_letter.findall(unicodedata.normalize("NFD", line).translate(_RAISED)):
+            yield from dict.fromkeys((letter_, letter_.replace("\u0307", "")))
 
 
 PHI, NU, GAMMA = Name(r"\Phi", "Φ"), Name(r"\nu", "ν"), Name(r"\gamma", "γ")
 LAMBDA, PHI_Q = Name(r"\lambda", "λ"), Name(r"\Phi_{q}", "Φ_q")
 
 
-def indexed(of: Name, index: int) -> Name:
-    """Return a component of a vector; they count from 1."""
-    return Name(f"{of.latex}_{{{index}}}", f"{of.text}_{index}")
+def indexed(vector: Name, index: int) -> Name:
+    """Return the name of a component of a vector; components count from 1."""
+    return Name(f"{vector.latex}_{{{index}}}", f"{vector.text}_{index}")
 
 
 def theory(model: Model) -> dict[str, str]:
-    """Return the meaning of each letter of the theory, by its plain text."""
-    found: dict[str, str] = {}
-    for text, meaning in _letters(model):
-        found.setdefault(text, meaning)
-    found.pop("t", None)  # time everywhere
-    return found
+    """Return {plain text of a letter: meaning} of the theory in a scene's document.
+
+    User-defined names avoid these letters.
+    The first meaning of a letter counts; t, time, is left out.
+    """
+    meanings: dict[str, str] = {}
+    for text, meaning in _list_letters(model):
+        meanings.setdefault(text, meaning)
+    meanings.pop("t", None)  # time everywhere
+    return meanings
 
 
-def _letters(model: Model) -> Iterator[tuple[str, str]]:
-    """Yield the letters of the theory with their meaning."""
+def _list_letters(model: Model) -> Iterator[tuple[str, str]]:
+    """Yield (letter, meaning) of everything that a scene's document uses without a name from the file.
+
+    It contains constraint equations, the unit step, curves, joints with play, force elements, events and sketches, as
+    far as the scene has them.
+    """
     yield from (("n", "number of coordinates"), ("q", "coordinates"), ("x", "an axis"), ("y", "an axis"))
     yield from (("M", "mass matrix"), ("g", "generalized forces"), ("a", "accelerations, in the C"))
     yield from ((f"g_{k}", "a generalized force") for k in range(1, 1 + len(model.q)))
     if model.rows:
-        yield from _of_rows(model)
+        yield from _list_row_letters(model)
     values = [*(e for row in model.rows for e in (row.phi, row.nu, row.gamma)), *model.symbols.definitions.values()]
     if any(sp.sympify(value).has(sp.Heaviside) for value in values):
         yield "H", "unit step"
     yield from ((name, "a curve of the file") for name in model.scene.mechanism.curves)
     for clearance in model.clearances:
-        message = f"a letter of {clearance.kind} {clearance.name} with play"
-        yield from ((text, message) for text in _of_play(model, clearance))
-    yield from _of_forces(model)
+        meaning = f"a letter of {clearance.kind} {clearance.name} with play"
+        yield from ((text, meaning) for text in _list_play_letters(model, clearance))
+    yield from _list_force_letters(model)
     yield from ((letter("z", event.name).text, f"event {event.name}") for event in model.events)
     for kind in dict.fromkeys(joint.kind for joint in model.scene.mechanism.joints.values()):
-        yield from _of_sketch(joint_types()[kind])
+        yield from _list_sketch_letters(joint_types()[kind])
 
 
-def _of_rows(model: Model) -> Iterator[tuple[str, str]]:
-    """Yield the letters of constraint equations."""
-    for name, what in (
+def _list_row_letters(model: Model) -> Iterator[tuple[str, str]]:
+    """Yield (letter, meaning) of Φ, λ, ν and γ, of their components, and of the derivatives of Φ."""
+    for name, meaning in (
         (PHI, "constraints"),
         (LAMBDA, "multipliers"),
         (NU, "right sides of velocities"),
         (GAMMA, "right sides of accelerations"),
     ):
-        yield name.text, what
-        yield from ((indexed(name, k).text, f"one of the {what}") for k in range(1, 1 + len(model.rows)))
-    yield from ((f"Φ_{by}", "a derivative of the constraints") for by in ("q", "t", "qt", "tt"))
+        yield name.text, meaning
+        yield from ((indexed(name, k).text, f"one of the {meaning}") for k in range(1, 1 + len(model.rows)))
+    yield from ((f"Φ_{variables}", "a derivative of the constraints") for variables in ("q", "t", "qt", "tt"))
 
 
-def _of_forces(model: Model) -> Iterator[tuple[str, str]]:
-    """Yield the letters of force elements and friction."""
+def _list_force_letters(model: Model) -> Iterator[tuple[str, str]]:
+    """Yield (letter, meaning) of potential energies, of friction elements, and of the sketches of force elements."""
     for name, applied in model.elements.items():
         if applied.loads.potential != 0:
             yield letter("V", name).text, f"potential energy of {name}"
     for friction in model.frictions:
         for base in ("v", "gamma"):
             yield letter(base, friction.name).text, f"slip of {friction.name}"
-        columns = (letter("J", friction.name, str(k)) for k in range(1, 1 + len(model.q)))
-        yield from ((name.text, f"slip of {friction.name}") for name in columns)
+        jacobian_entries = (letter("J", friction.name, str(k)) for k in range(1, 1 + len(model.q)))
+        yield from ((name.text, f"slip of {friction.name}") for name in jacobian_entries)
     for kind in dict.fromkeys(applied.element.kind for applied in model.elements.values()):
-        yield from _of_sketch(element_types()[kind])
+        yield from _list_sketch_letters(element_types()[kind])
 
 
-def _of_sketch(of: JointType | ElementType) -> Iterator[tuple[str, str]]:
-    """Yield the letters of a sketch."""
-    return ((text, f"in the sketch: {of.title}") for text in letters_of(sketch_of(of)))
+def _list_sketch_letters(type_: JointType | ElementType) -> Iterator[tuple[str, str]]:
+    """Yield (letter, meaning) of the letters in the sketch of a joint type or force element."""
+    return ((text, f"in the sketch: {type_.title}") for text in letters_of(sketch_of(type_)))
 
 
-def _of_play(model: Model, clearance: Clearance) -> Iterator[str]:
-    """Yield the letters of a joint with play: its parameters, laws and steps."""
-    shown = {contact.stored, *_symbols(_steps(clearance))}
-    may_be = names(clearance)
+def _list_play_letters(model: Model, clearance: Clearance) -> Iterator[str]:
+    """Yield the letters of a joint with play: those of its steps, parameters, laws and parts."""
+    used_symbols = {contact.stored, *_list_symbols(_list_steps(clearance))}
+    step_names = names(clearance)
     yield from (
-        name.text for symbol, name in joint_letters(model, clearance).items() if symbol in shown or symbol not in may_be
+        name.text
+        for symbol, name in joint_letters(model, clearance).items()
+        if symbol in used_symbols or symbol not in step_names
     )
     for equations, use in laws_of(model, clearance):
         yield from (of_latex(sign_of(parameter)).text for parameter, _ in given(equations, use))
@@ -127,8 +137,8 @@ def _of_play(model: Model, clearance: Clearance) -> Iterator[str]:
         yield from ("W", "F", "w")
 
 
-def _steps(clearance: Clearance) -> Iterator[Step]:
-    """Yield the steps that a joint with play has."""
+def _list_steps(clearance: Clearance) -> Iterator[Step]:
+    """Yield the equations of a joint with play from eccentricity to force, those of its laws included."""
     yield from (
         Step(symbol, sp.Integer(0))
         for symbol in (contact.e_x, contact.e_y, contact.de_x, contact.de_y, contact.omega_i, contact.omega_j)
@@ -145,8 +155,8 @@ def _steps(clearance: Clearance) -> Iterator[Step]:
         yield from (Step(result(equations, name), sp.sympify(step)) for name, step in equations.steps.items())
 
 
-def _symbols(steps: Iterable[Step]) -> Iterator[sp.Symbol]:
-    """Yield the symbols of steps."""
+def _list_symbols(steps: Iterable[Step]) -> Iterator[sp.Symbol]:
+    """Yield the symbols of steps: each result, then the symbols in its value."""
     for step in steps:
         yield step.symbol
         yield from sp.sympify(step.value).free_symbols

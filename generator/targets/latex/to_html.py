@@ -22,15 +22,19 @@ _FUNCTIONS = ("sin", "cos", "tan")
 
 
 def attributes(of: Collection[str], pick: str = "", focus: bool = False) -> str:
-    """Return the attribute `data-of` and others of an element, with a leading space; "" without tokens."""
+    """Return the attribute `data-of` and others of an HTML element, with a leading space; "" without tokens.
+
+    of: the highlighting tokens. pick: the token that selecting the element highlights, if not all. focus: whether the
+    keyboard can reach the element.
+    """
     if not of:
         return ""
-    picks = f' data-pick="{html.escape(pick)}"' if pick else ""
-    return f' data-of="{html.escape(" ".join(of))}"{picks}' + ' tabindex="0"' * focus
+    pick_attribute = f' data-pick="{html.escape(pick)}"' if pick else ""
+    return f' data-of="{html.escape(" ".join(of))}"{pick_attribute}' + ' tabindex="0"' * focus
 
 
 def output(value: str) -> str:
-    """Return the element in which a running page shows a value."""
+    """Return the HTML element in which a running page shows a value; "" for an empty name of the value."""
     return f'<output data-value="{html.escape(value)}"></output>' if value else ""
 
 
@@ -40,65 +44,73 @@ def line(text: Text) -> str:
 
 
 def formula(name: Name) -> str:
-    """Return a formula as MathML with its tokens and value; a line may break as in LaTeX."""
-    message = "".join(map(mathml, _pieces(name.latex))) + output(name.value)
-    return f"<span{attributes(name.of)}>{message}</span>" if name.of else message
+    """Return a formula as MathML with its value, within an element with its tokens if it has any."""
+    mathml_text = "".join(map(mathml, _split_formula(name.latex))) + output(name.value)
+    return f"<span{attributes(name.of)}>{mathml_text}</span>" if name.of else mathml_text
 
 
-def _pieces(latex: str) -> Iterator[str]:
+def _split_formula(latex: str) -> Iterator[str]:
     """Return a formula split at each \\allowbreak outside of braces."""
-    held = ""
+    piece = ""
     for part in latex.split(r"\allowbreak "):
-        held += part
-        if held.count("{") == held.count("}") and held.count(r"\left") == held.count(r"\right"):
-            yield held
-            held = ""
-    if held:
-        yield held
+        piece += part
+        if piece.count("{") == piece.count("}") and piece.count(r"\left") == piece.count(r"\right"):
+            yield piece
+            piece = ""
+    if piece:
+        yield piece
 
 
 def mathml(latex: str) -> str:
-    """Return a formula as MathML. Raises GudgeonError if the extra `docs` is not installed."""
+    """Return a formula in LaTeX as MathML without superfluous elements and attributes.
+
+    Raises GudgeonError if the extra `docs` is not installed.
+    """
     try:
         from latex2mathml.converter import convert_to_element
     except ImportError as error:
         raise GudgeonError("HTML needs latex2mathml: pip install 'gudgeon[docs]'") from error
-    text = latex.replace(r"^{\circ}", "°").replace(r"\surd ", r"\text{√}")  # which no font has to raise, nor to stretch
-    whole = convert_to_element(text)
-    whole.attrib.clear()  # what a page takes for granted
-    for row in list(whole.iter()):
-        _space_functions(row)
-        _read_signs(row)
-        _without_rows(row)
-    shown = tostring(whole, encoding="unicode").replace(" />", "/>").replace(r"\_", "_")
-    shown = shown.replace(' fence="true"', "")  # which changes nothing that is seen
-    return shown.replace('"0.167em"', '".17em"')  # of a thin space there are hundreds on a page
+    latex_text = latex.replace(r"^{\circ}", "°").replace(
+        r"\surd ", r"\text{√}"
+    )  # which no font has to raise, nor to stretch
+    root = convert_to_element(latex_text)
+    root.attrib.clear()  # what a page takes for granted
+    for row in list(root.iter()):
+        _insert_function_spaces(row)
+        _unescape_text(row)
+        _unwrap_rows(row)
+    xml_text = tostring(root, encoding="unicode").replace(" />", "/>").replace(r"\_", "_")
+    xml_text = xml_text.replace(' fence="true"', "")  # which changes nothing that is seen
+    return xml_text.replace('"0.167em"', '".17em"')  # of a thin space there are hundreds on a page
 
 
-def _read_signs(part: Element) -> None:
-    """Return MathML with numeric character references replaced by characters."""
-    part.text = html.unescape(part.text) if part.text else part.text
+def _unescape_text(element: Element) -> None:
+    """Replace numeric character references in the text of an element by characters, in place."""
+    element.text = html.unescape(element.text) if element.text else element.text
 
 
-def _without_rows(part: Element) -> None:
-    """Return MathML without superfluous rows and styles; an empty row before a sign makes it binary."""
-    for k, inner in enumerate(part):
-        while inner.tag in ("mrow", "mstyle") and len(inner) == 1 and not (inner.text or "").strip():
-            inner[0].attrib = inner.attrib | inner[0].attrib
-            inner = inner[0]
-            part[k] = inner
+def _unwrap_rows(element: Element) -> None:
+    """Remove rows and styles around a single child of an element, in place; the child gets their attributes.
+
+    An empty row before a sign stays, since it makes the sign binary.
+    """
+    for k, child in enumerate(element):
+        while child.tag in ("mrow", "mstyle") and len(child) == 1 and not (child.text or "").strip():
+            child[0].attrib = child.attrib | child[0].attrib
+            child = child[0]
+            element[k] = child
 
 
-def _space_functions(row: Element) -> None:
-    """Return MathML with a space between a function's name and its argument, which browsers omit."""
-    for k, (word, of) in reversed(list(enumerate(pairwise(row)))):
-        base_of_power = row.tag == "msup" and k == 0
-        if word.tag == "mi" and word.text in _FUNCTIONS and of.tag.startswith(("mr", "ms")) and not base_of_power:
-            row.insert(k + 1, Element("mspace", {"width": "0.167em"}))
+def _insert_function_spaces(element: Element) -> None:
+    """Insert a thin space between the name of a function and its argument, in place, since browsers omit it."""
+    for k, (name, argument) in reversed(list(enumerate(pairwise(element)))):
+        base_of_power = element.tag == "msup" and k == 0
+        if name.tag == "mi" and name.text in _FUNCTIONS and argument.tag.startswith(("mr", "ms")) and not base_of_power:
+            element.insert(k + 1, Element("mspace", {"width": "0.167em"}))
 
 
 def listing(block: Listing) -> str:
-    """Return a file with line numbers, folded."""
+    """Return a file as HTML with an element per line, its tokens and a folding frame."""
     lines = (
         f'<span class="line"{attributes(sorted(block.of.get(k, ())), focus=True)}>{html.escape(text) or " "}</span>'
         for k, text in enumerate(block.lines, 1)
@@ -108,31 +120,31 @@ def listing(block: Listing) -> str:
 
 
 class Letters:
-    """Write expressions of one model as formulas."""
+    """Write the constraint equations and matrices of one model as formulas, for a notebook or a terminal."""
 
     def __init__(self, model: Model) -> None:
         self.model, self.notation = model, make_notation(model)
 
     def latex(self, matrix: sp.Matrix) -> str:
         """Return a matrix as LaTeX."""
-        rows = r" \\ ".join(map(" & ".join, self._rows(matrix, lambda name: name.latex)))
+        rows = r" \\ ".join(map(" & ".join, self._format_entries(matrix, lambda name: name.latex)))
         return rf"\left[\begin{{array}}{{{'c' * matrix.cols}}}{rows}\end{{array}}\right]"
 
     def text(self, matrix: sp.Matrix) -> str:
         """Return a matrix as plain text, a line for each row."""
-        return "\n".join(f"[{', '.join(row)}]" for row in self._rows(matrix, lambda name: name.text))
+        return "\n".join(f"[{', '.join(row)}]" for row in self._format_entries(matrix, lambda name: name.text))
 
     def equation(self) -> Name:
         """Return Φ(q, t) = 0, row by row."""
         return Name(rf"\Phi(q, t) = {self.latex(self.model.Phi)} = 0", f"Φ(q, t) =\n{self.text(self.model.Phi)}")
 
     def html(self) -> str:
-        """Return a matrix as MathML; LaTeX between dollar signs without the extra `docs`."""
+        """Return Φ(q, t) = 0 as MathML; as LaTeX between dollar signs without the extra `docs`."""
         try:
             return mathml(self.equation().latex)
         except GudgeonError:
             return f"$${self.equation().latex}$$"
 
-    def _rows(self, matrix: sp.Matrix, write: Callable[[Name], str]) -> list[list[str]]:
-        """Return the entries of a matrix, each written by `write`."""
-        return [[write(self.notation.math(matrix[r, c])) for c in range(matrix.cols)] for r in range(matrix.rows)]
+    def _format_entries(self, matrix: sp.Matrix, format_name: Callable[[Name], str]) -> list[list[str]]:
+        """Return the rows of a matrix as lists of texts; `format_name` returns the text of a formula."""
+        return [[format_name(self.notation.math(matrix[r, c])) for c in range(matrix.cols)] for r in range(matrix.rows)]

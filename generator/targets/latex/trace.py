@@ -59,27 +59,34 @@ class Trace(Functions):
 
 
 def functions_of(model: Model) -> Functions:
-    """Return the scene's functions without their C."""
+    """Return the functions of a scene and the names of its C files, without printing the C."""
     program = make_program(model)
     return Functions(program.model, program, describe_program(program, {}), file_names(program))
 
 
 def trace(model: Model, source: KernelSource | None = None) -> Trace:
-    """Return the scene's functions, their C, and the tokens of its lines in the document of `model`.
+    """Return the scene's functions, its C, and the highlighting tokens of each line of C in the document of `model`.
 
-    source: the emitted C of the scene, if it is known; it is then not printed again.
+    source: the emitted C of the scene, if it is known. It is printed anew if it is missing or has another
+    formulation.
     """
     program = make_program(model)
     if source is None or source.formulation != program.formulation:
         source = emit(program)
-    found = _Finder(program, source)
-    found.all()
-    lines = {file: {k: frozenset(v) for k, v in sorted(own.items())} for file, own in found.lines.items()}
-    return Trace(program.model, program, source, source.files, lines, found.values, found.by_address())
+    collector = _TokenCollector(program, source)
+    collector.collect_all()
+    lines = {file: {k: frozenset(v) for k, v in sorted(own.items())} for file, own in collector.lines.items()}
+    return Trace(
+        program.model, program, source, source.files, lines, collector.values, collector.get_marks_by_address()
+    )
 
 
-class _Finder:
-    """Collect the tokens and values of the lines of a scene's functions."""
+class _TokenCollector:
+    """Collect the highlighting tokens and values of the lines of a scene's C functions.
+
+    lines: tokens by file and line. values: the name of the stored value by file and line. numbers: tokens by
+    parameter.
+    """
 
     def __init__(self, program: Program, source: KernelSource) -> None:
         self.program, self.model, self.files = program, program.model, source.files
@@ -99,74 +106,99 @@ class _Finder:
         self.in_chains = {made_name(f"phi_{row.name}"): row.name for row in in_chains}
         self.shown = {name for row in self.model.rows for name in free_names(row.phi)}
 
-    def all(self) -> None:
-        """Visit every function that concerns rows, bodies or laws; `prepare` comes last."""
+    def collect_all(self) -> None:
+        """Collect tokens and values of every function that concerns constraint equations, bodies or laws.
+
+        `prepare` comes last, since its lines get the tokens of the parameters that they compute.
+        """
         program = self.program
-        in_tree = program.tree.every if program.tree else ()
-        for kernel in (*program.closed, program.dynamics, *in_tree):
-            self._function(kernel)
+        tree_kernels = program.tree.every if program.tree else ()
+        for kernel in (*program.closed, program.dynamics, *tree_kernels):
+            self._collect_function(kernel)
         for pin in program.pins:
             contact = self.model.scene.play[pin.clearance.joint.name].contact.name
-            lit = frozenset(joint_tokens(pin.clearance))
+            joint_marks = frozenset(joint_tokens(pin.clearance))
             for call in pin.laws.values():
-                own = frozenset({f"law-{contact}", *lit})
-                self._whole(functions.kernel(call.kernel), own)
-                self._note(call.kernel, {})
+                law_marks = frozenset({f"law-{contact}", *joint_marks})
+                self._mark_text(functions.kernel(call.kernel), law_marks)
+                self._add_stores(call.kernel, {})
                 for number in call.numbers:
-                    self.numbers[number] |= own
+                    self.numbers[number] |= law_marks
             for part in pin_functions(pin, render, self.model.law_states):
-                self._whole(part.text, lit)
-                file, stored = find_stores_in_text(part.text, part.stores, self.files)
-                for one in stored:
-                    self._keep(file, one, f"law.{part.name}.{{}}".format)
-        self._prepare()
+                self._mark_text(part.text, joint_marks)
+                file, stored_lines = find_stores_in_text(part.text, part.stores, self.files)
+                for stored_line in stored_lines:
+                    self._add_value(file, stored_line, f"law.{part.name}.{{}}".format)
+        self._collect_prepare()
 
-    def _function(self, kernel: Kernel) -> None:
-        """Collect the tokens of one function's lines."""
-        marked = slices(readable(kernel), lambda line: self._marks(kernel.name, line))
-        for number, marks in marked.numbers.items():
+    def _collect_function(self, kernel: Kernel) -> None:
+        """Collect the tokens of one function's lines, and those of the parameters that these lines depend on."""
+        dependence = slices(readable(kernel), lambda line: self._find_marks(kernel.name, line))
+        for number, marks in dependence.numbers.items():
             self.numbers[number] |= marks
-        self._note(kernel, marked.stored)
+        self._add_stores(kernel, dependence.stored)
 
-    def _note(self, kernel: Kernel, stored: Mapping[Key, Marks]) -> None:
-        """Note tokens and values of the stores of a kernel."""
-        for found in find_function(kernel, self.files):
-            for one in found.lines:
-                own = stored.get(one.target, NO_MARKS) | self._result(kernel.name, one.target)
-                for number in one.lines:
-                    self.lines[found.file][number] |= own
-                self._keep(found.file, one, partial(self._called, kernel.name, found.own.names))
+    def _add_stores(self, kernel: Kernel, marks_by_target: Mapping[Key, Marks]) -> None:
+        """Add tokens and values of all stores of a kernel to `lines` and `values`.
 
-    def _keep(self, file: str, one: Stored, value: Callable[[Key], str]) -> None:
-        """Note the value that a line stores; for a branch, on the line that stores it."""
-        where, side = one.where[:1], value(one.where[1:]) if one.where[1:] else ""
-        if (called := value(one.target)) and (side or where != "<"):
-            self.values[file][one.lines[-1]] = f"{called}{where}{side.rpartition('.')[2]}" if side else called
+        marks_by_target: the tokens of each stored value.
+        """
+        for function_lines in find_function(kernel, self.files):
+            for stored_line in function_lines.lines:
+                marks = marks_by_target.get(stored_line.target, NO_MARKS) | self._get_line_mark(
+                    kernel.name, stored_line.target
+                )
+                for number in stored_line.lines:
+                    self.lines[function_lines.file][number] |= marks
+                self._add_value(
+                    function_lines.file, stored_line, partial(self._name_local, kernel.name, function_lines.own.names)
+                )
 
-    def _called(self, function: str, names: Mapping[Key, Key], key: Key) -> str:
-        """Return the value's name of a local in a part of a function."""
-        return self._value(function, names.get(key, key))
+    def _add_value(self, file: str, stored_line: Stored, name_value: Callable[[Key], str]) -> None:
+        """Add the name of the value that a line stores to `values`, on its last line; nothing if the value has no name.
 
-    def _value(self, function: str, key: Key) -> str:
-        """Return the page's name of the value that a line stores; "" if it has none."""
-        called = str(key)
+        A branch is added with its sign and the name of its condition. name_value: function from a local to the
+        value's name.
+        """
+        sign, condition_name = (
+            stored_line.condition[:1],
+            name_value(stored_line.condition[1:]) if stored_line.condition[1:] else "",
+        )
+        if (target_name := name_value(stored_line.target)) and (condition_name or sign != "<"):
+            self.values[file][stored_line.lines[-1]] = (
+                f"{target_name}{sign}{condition_name.rpartition('.')[2]}" if condition_name else target_name
+            )
+
+    def _name_local(self, function: str, names: Mapping[Key, Key], key: Key) -> str:
+        """Return the name of the value of a local in a part of a function.
+
+        names: the names of the part, which may differ from those of the kernel.
+        """
+        return self._name_value(function, names.get(key, key))
+
+    def _name_value(self, function: str, key: Key) -> str:
+        """Return the name by which a page knows the value that a line of `function` stores; "" if it has none."""
+        target_name = str(key)
         if function in GIVES:
-            return f"{GIVES[function]}.{called}"
+            return f"{GIVES[function]}.{target_name}"
         if function == "dynamics":
-            return self._of_rows(key)
+            return self._name_dynamics_value(key)
         if function in self.in_tree:
-            return f"tree.{function}.{called}"
+            return f"tree.{function}.{target_name}"
         if function in self.laws:
-            return f"law.{function}.{called}"
-        if function == "prepare" and called in self.place_in_p:
-            return f"p.{self.place_in_p[called]}"
+            return f"law.{function}.{target_name}"
+        if function == "prepare" and target_name in self.place_in_p:
+            return f"p.{self.place_in_p[target_name]}"
         return ""
 
-    def _of_rows(self, key: Key) -> str:
-        """Return the values in `dynamics`: what right-hand sides depend on, Φ and Φ̇ of a row, multipliers."""
+    def _name_dynamics_value(self, key: Key) -> str:
+        """Return the name of a value in `dynamics`: part of a right-hand side, multiplier, or right-hand side of a row.
+
+        "" is returned for other values.
+        """
         if key in self.computed:
             return f"rhs.{key}"
-        array, index = _element(key)
+        array, index = _split_element(key)
         row = self.model.rows[index].name if 0 <= index < len(self.model.rows) else ""
         name = made_name(f"{array}_{row}")
         if row and array == "lambda":
@@ -175,78 +207,87 @@ class _Finder:
             return f"lambda.{self.multipliers[key]}"
         return f"rhs.{name}" if row and name in self.computed else ""
 
-    def _marks(self, function: str, line: Statement | Branch) -> Marks:
-        """Return the tokens of what a line stores: rows for Φ, Φ_q, ν, γ, and named terms."""
-        target, (array, index) = line.target, _element(line.target)
+    def _find_marks(self, function: str, line: Statement | Branch) -> Marks:
+        """Return the tokens of what a line stores: rows for Φ, Φ_q, ν, γ, bodies for masses, and named terms.
+
+        A value that belongs to no row of the scene has none.
+        """
+        target, (array, index) = line.target, _split_element(line.target)
         if function == "mass_matrix" and index >= 0:
             return frozenset({f"body-{self.model.bodies[index // 3].name}"})
         if function in GIVES:
-            own = self._terms(target) if function == "constraints" else NO_MARKS
+            name_marks = self._get_term_mark(target) if function == "constraints" else NO_MARKS
             if index < 0:
-                return own
+                return name_marks
             if function == "jacobian":
                 row, column = divmod(index, len(self.model.q))
                 number = self.number_of.get(self.every[row].name)
-                return own | ({entry_token(number, column + 1)} if number else NO_MARKS)
-            return own | self._row(self.every[index].name)
+                return name_marks | ({entry_token(number, column + 1)} if number else NO_MARKS)
+            return name_marks | self._get_row_mark(self.every[index].name)
         if function in ("dynamics", "closures", "closure_rates"):
-            return self._of_dynamics(function, line.defines, array, index)
+            return self._find_dynamics_marks(function, line.defines, array, index)
         if function == STEP:
-            return self._row(self.in_chains.get(line.defines, ""))
+            return self._get_row_mark(self.in_chains.get(line.defines, ""))
         return NO_MARKS
 
-    def _of_dynamics(self, function: str, local: str, array: str, index: int) -> Marks:
-        """Return the tokens of a store in the equations of motion."""
+    def _find_dynamics_marks(self, function: str, local: str, array: str, index: int) -> Marks:
+        """Return the token of the row that a store in the equations of motion belongs to, as a set; empty if none."""
         rows = self.model.rows if function == "dynamics" else self.program.integrated.system.rows
         if index >= 0 and array in ("phi", "phi_dot", "out"):
-            return self._row(rows[index].name)
+            return self._get_row_mark(rows[index].name)
         name = next((row.name for row in rows if local == made_name(f"rhs_{row.name}")), "")
-        return self._row(name)
+        return self._get_row_mark(name)
 
-    def _row(self, name: str) -> Marks:
-        """Return the token of a row."""
+    def _get_row_mark(self, name: str) -> Marks:
+        """Return the token of a constraint equation by its name as a set; empty if the scene does not have it."""
         return frozenset({row_token(self.number_of[name])}) if name in self.number_of else NO_MARKS
 
-    def _terms(self, target: Key) -> Marks:
-        """Return the token of a term that the document shows by name."""
+    def _get_term_mark(self, target: Key) -> Marks:
+        """Return the token of a term that the document shows by name as a set; empty for other terms."""
         return frozenset({f"name-{target}"}) if target in self.shown else NO_MARKS
 
-    def _result(self, function: str, target: Key) -> Marks:
-        """Return the tokens of a line alone: of the sum of a row of Φ, or of a multiplier."""
-        array, index = _element(target)
+    def _get_line_mark(self, function: str, target: Key) -> Marks:
+        """Return the token that only the line itself gets: of the sum of a row of Φ, or of a multiplier.
+
+        The set is empty for other lines.
+        """
+        array, index = _split_element(target)
         if function == "constraints" and index >= 0:
             number = self.number_of.get(self.every[index].name)
             return frozenset({sum_token(number)} if number else ())
         if function == "dynamics" and array == "lambda" and 0 <= index < len(self.model.rows):
-            return self._row(self.model.rows[index].name)
+            return self._get_row_mark(self.model.rows[index].name)
         return NO_MARKS
 
-    def _whole(self, text: str, own: Marks) -> None:
-        """Give tokens to all lines of a text that was printed whole."""
+    def _mark_text(self, text: str, marks: Marks) -> None:
+        """Add tokens to all lines of a text that is printed in one piece."""
         file, lines = locate_text(text, self.files)
         for number in lines:
-            self.lines[file][number] |= own
+            self.lines[file][number] |= marks
 
-    def _prepare(self) -> None:
+    def _collect_prepare(self) -> None:
         """Collect the tokens of the lines of `prepare` from those of the parameters that they compute."""
         kernel = self.program.prepare
-        own = {s.name: self.model.slots.place(s) for s in self.model.slots.members()}
-        slots = {entry.symbol.name for entry in self.model.slots.entries.values()}
-        fields = {
-            name: self.numbers[home] | ({f"number-{name}"} if name in slots else set()) for name, home in own.items()
+        places = {s.name: self.model.slots.place(s) for s in self.model.slots.members()}
+        entry_names = {entry.symbol.name for entry in self.model.slots.entries.values()}
+        marks_by_name = {
+            name: self.numbers[home] | ({f"number-{name}"} if name in entry_names else set())
+            for name, home in places.items()
         }
-        marked = slices(readable(kernel), lambda line: frozenset(fields.get(_field(line, own), ())))
-        for target, marks in marked.stored.items():
+        dependence = slices(
+            readable(kernel), lambda line: frozenset(marks_by_name.get(_find_stored_parameter(line, places), ()))
+        )
+        for target, marks in dependence.stored.items():
             self.numbers[target] |= marks
-        self._note(kernel, marked.stored)
+        self._add_stores(kernel, dependence.stored)
 
-    def by_address(self) -> dict[str, Marks]:
-        """Return the tokens of each number of the file."""
+    def get_marks_by_address(self) -> dict[str, Marks]:
+        """Return {address: tokens} of all run-time parameters."""
         slots = self.model.slots
-        return {own.address: frozenset(self.numbers[slots.place(own.symbol)]) for own in slots.entries.values()}
+        return {entry.address: frozenset(self.numbers[slots.place(entry.symbol)]) for entry in slots.entries.values()}
 
 
-def _element(target: Key) -> tuple[str, int]:
+def _split_element(target: Key) -> tuple[str, int]:
     """Return (array, index) of a store to an array of a function or of its `rhs`; index −1 for other stores."""
     match target:
         case Place(array, (int() as index,)) | Place(RHS.name, (str() as array, int() as index)):
@@ -254,28 +295,31 @@ def _element(target: Key) -> tuple[str, int]:
     return str(target), -1
 
 
-def _field(line: Statement | Branch, homes: Mapping[str, Place]) -> str:
-    """Return the symbol of the parameter that a line of `prepare` stores."""
-    return next((name for name, home in homes.items() if line.target in (name, home)), "")
+def _find_stored_parameter(line: Statement | Branch, places: Mapping[str, Place]) -> str:
+    """Return the name of the parameter that a line of `prepare` stores; "" if it stores none."""
+    return next((name for name, place in places.items() if line.target in (name, place)), "")
 
 
-def yaml_tokens(model: Model, found: Trace) -> dict[int, Marks]:
-    """Return the tokens of each line of the mechanism's file: of its entries, and of what depends on its numbers."""
+def yaml_tokens(model: Model, trace_: Trace) -> dict[int, Marks]:
+    """Return the tokens of each line of the mechanism's file: of its entries, and of what depends on its numbers.
+
+    Rows belong to the line of their joint or drive. Lines without any token are left out.
+    """
     tokens: defaultdict[int, set[str]] = defaultdict(set)
     mechanism = model.scene.mechanism
     joints = {name: joint.where.line for name, joint in mechanism.joints.items()}
     drives = {name: drive.where.line for name, drive in mechanism.drives.items()}
     bodies = {name: body.where.line for name, body in mechanism.bodies.items()}
-    where = {"joint": joints, "drive": drives, "body": bodies}
-    for kind, lines in where.items():
+    line_of = {"joint": joints, "drive": drives, "body": bodies}
+    for kind, lines in line_of.items():
         for name, line in lines.items():
             tokens[line].add(f"{kind}-{name}")
     for number, row in enumerate(model.rows, 1):
-        tokens[where[row.kind][row.owner]] |= {row_token(number), *entries_of(model, number, row)}
+        tokens[line_of[row.kind][row.owner]] |= {row_token(number), *entries_of(model, number, row)}
     for play in model.scene.play.values():
         for quantity in quantities(play.contact):
             tokens[quantity.where.line].add(f"law-{play.contact.name}")
     for quantity in (*quantities(mechanism), *model.scene.parameters.values()):
-        if quantity.address in found.numbers:
-            tokens[quantity.where.line] |= found.numbers[quantity.address]
-    return {line: frozenset({f"yaml-{line}", *own}) for line, own in tokens.items()}
+        if quantity.address in trace_.numbers:
+            tokens[quantity.where.line] |= trace_.numbers[quantity.address]
+    return {line: frozenset({f"yaml-{line}", *line_tokens}) for line, line_tokens in tokens.items()}

@@ -29,7 +29,10 @@ _STRENGTH = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4}
 
 
 class Values:
-    """Write the numbers of a scene as table cells: letter, value, and expression."""
+    """Write the numbers of a scene as table cells: letter, value and expression.
+
+    Expressions that are too long for a cell are collected for `below`.
+    """
 
     def __init__(self, model: Model, notation: Notation) -> None:
         self._model, self._slots, self._notation = model, model.slots, notation
@@ -40,16 +43,19 @@ class Values:
         if quantity is None:
             return ("",)
         if quantity.address not in self._slots.entries:
-            return ("0",) if quantity.is_zero else self._varying(quantity)
+            return ("0",) if quantity.is_zero else self._format_varying(quantity)
         return self.slot(self._slots.entries[quantity.address])
 
-    def _varying(self, quantity: Quantity) -> Text:
-        """Return an expression of time and motion, in the file's names; a long one has a letter and stands below."""
+    def _format_varying(self, quantity: Quantity) -> Text:
+        """Return an expression of time and motion; a long one is replaced by its letter and collected for `below`.
+
+        An expression of a cam's angle, or with named expressions, stays as the file writes it.
+        """
         notation, model = self._notation, self._model
-        written = as_written(quantity.value, 0, model.scene.mechanism.expressions)
-        of_cam = any(name.path == OF_CAM_ANGLE for name in names(quantity.value))
-        if of_cam or written != as_written(quantity.value):
-            return (written,)
+        file_text = as_written(quantity.value, 0, model.scene.mechanism.expressions)
+        is_cam_angle = any(name.path == OF_CAM_ANGLE for name in names(quantity.value))
+        if is_cam_angle or file_text != as_written(quantity.value):
+            return (file_text,)
         value = notation.expand(quantity_to_sympy(quantity, VariableNames(model.geometry, model.t)))
         if len((formula := notation.math(value)).text) <= 2 * LONGEST:
             return (formula,)
@@ -58,112 +64,139 @@ class Values:
         return (left,)
 
     def slot(self, entry: ParameterEntry) -> Text:
-        """Return letter = value."""
+        """Return the cell "letter = value" of a parameter."""
         return self._notation.math(entry.symbol), " = ", *self.value(entry)
 
     def value(self, entry: ParameterEntry) -> Text:
-        """Return the default in the unit of the file; for a dependent number its expression and the value in SI."""
-        if (measured := _measured(entry.written)) is not None:
-            return self._with_unit(*measured)
-        return self.followed(entry) + self._with_unit(entry.default, si_unit_of(entry), exact=not entry.follows)
+        """Return the default of a parameter in the unit of the file.
 
-    def in_si(self, entry: ParameterEntry) -> Text:
-        """Return the default in SI without its unit, after the text of the file if that differs."""
-        written, angle = entry.written, entry.dimension in (DIMENSIONLESS, RATE)
-        share = as_angle(entry.default) if angle and share_of_pi(entry.default) else None
-        number = share or self._number(entry.default, exact=isinstance(written, Number))
+        A dependent number has its expression and the value in SI.
+        """
+        if (measured := _split_unit(entry.written)) is not None:
+            return self._format_with_unit(*measured)
+        return self.followed(entry) + self._format_with_unit(entry.default, si_unit_of(entry), exact=not entry.follows)
+
+    def format_in_si(self, entry: ParameterEntry) -> Text:
+        """Return the default of a parameter in SI without its unit, after the text of the file if that differs."""
+        written, may_be_angle = entry.written, entry.dimension in (DIMENSIONLESS, RATE)
+        angle_text = as_angle(entry.default) if may_be_angle and share_of_pi(entry.default) else None
+        number = angle_text or self._format_number(entry.default, exact=isinstance(written, Number))
         if written is None or entry.follows:
             return (*self.followed(entry), number)
         if isinstance(written, Number):
-            message = unit_of(written) not in ("", si_unit(entry.dimension), si_unit_of(entry))
+            differs = unit_of(written) not in ("", si_unit(entry.dimension), si_unit_of(entry))
         else:
-            message = share is None
-        return (f"{as_written(written)} = ", share or self._number(entry.default)) if message else (number,)
+            differs = angle_text is None
+        return (f"{as_written(written)} = ", angle_text or self._format_number(entry.default)) if differs else (number,)
 
     def followed(self, entry: ParameterEntry) -> Text:
-        """Return the expression that a number follows and a sign after it; nothing if it is long and stands below."""
+        """Return the expression of a dependent number and " = "; () for an independent one.
+
+        A long expression is collected for `below`, and () is returned.
+        """
         if not entry.follows:
             return ()
         formula = self._notation.math(entry.value)
         if len(formula.text) <= LONGEST:
             return formula, " = "
-        self._long += self._apart(entry)
+        self._long += self._split_long_formula(entry)
         return ()
 
-    def _apart(self, entry: ParameterEntry) -> list[Block]:
-        """Return a long formula; the argument of a long root gets a letter, since lines cannot break in it."""
+    def _split_long_formula(self, entry: ParameterEntry) -> list[Block]:
+        """Return a long formula as blocks.
+
+        The argument of a long root gets a letter, since lines cannot break in it.
+        """
         notation, value, blocks = self._notation, entry.value, list[Block]()
-        left = notation.math(entry.symbol)
+        left_side = notation.math(entry.symbol)
         for root in sorted(value.atoms(sp.Pow), key=sp.default_sort_key):
             if root.exp == sp.Rational(1, 2) and len(notation.math(root).text) > LONG:
-                latex, text = (name.partition("_")[1:] for name in (left.latex, left.text))
-                marks = "'" * len(blocks)
-                named = Name("".join(("D", *latex, marks)), "".join(("D", *text, marks)))
-                below = sp.Symbol(named.text)
-                blocks.append(Equation(named, notation.terms(root.base)))
-                notation, value = notation.called({below: named}), value.xreplace({root: sp.sqrt(below)})
-        return [*blocks, Equation(left, notation.terms(value))]
+                latex, text = (name.partition("_")[1:] for name in (left_side.latex, left_side.text))
+                primes = "'" * len(blocks)
+                inner_name = Name("".join(("D", *latex, primes)), "".join(("D", *text, primes)))
+                inner_symbol = sp.Symbol(inner_name.text)
+                blocks.append(Equation(inner_name, notation.terms(root.base)))
+                notation, value = (
+                    notation.called({inner_symbol: inner_name}),
+                    value.xreplace({root: sp.sqrt(inner_symbol)}),
+                )
+        return [*blocks, Equation(left_side, notation.terms(value))]
 
-    def _with_unit(self, x: float, unit: str, exact: bool = True) -> Text:
-        """Return a number with its unit."""
-        number = self._number(x, unit == "rad", exact)
+    def _format_with_unit(self, x: float, unit: str, exact: bool = True) -> Text:
+        """Return a number with its unit; an angle as a fraction of π or in degrees has none.
+
+        exact: False for results of arithmetic, which are rounded.
+        """
+        number = self._format_number(x, unit == "rad", exact)
         if unit == "deg":
             return (Name(rf"{number.latex}^{{\circ}}", f"{number.text}°"),)
         return (number, f" {pretty(unit)}") if unit and not any(sign in number.text for sign in "π°") else (number,)
 
-    def _number(self, x: float, angle: bool = False, exact: bool = False) -> Name:
-        """Return a number as people write it; results of arithmetic are rounded."""
+    def _format_number(self, x: float, angle: bool = False, exact: bool = False) -> Name:
+        """Return a number as people write it: rounded to six digits unless `exact`, small ones with a power of ten.
+
+        angle: whether it may be written as a fraction of π or in degrees.
+        """
         if angle and (known := as_angle(x)) is not None:
             return known
-        short = x if exact else float(f"{x:.6g}")
-        if not 0.0 < abs(short) < SMALL:
-            return Name(*(self._notation.math(sp.Float(short, 17)).latex, number_text(short)))
-        digits, _, power = f"{Decimal(repr(short)).normalize():e}".partition("e")
-        in_front = "" if digits == "1" else rf"{digits} \cdot "
-        return Name(rf"{in_front}10^{{{int(power)}}}", f"{digits}e{power}")
+        rounded = x if exact else float(f"{x:.6g}")
+        if not 0.0 < abs(rounded) < SMALL:
+            return Name(*(self._notation.math(sp.Float(rounded, 17)).latex, number_text(rounded)))
+        digits, _, power = f"{Decimal(repr(rounded)).normalize():e}".partition("e")
+        factor = "" if digits == "1" else rf"{digits} \cdot "
+        return Name(rf"{factor}10^{{{int(power)}}}", f"{digits}e{power}")
 
-    def of_bodies(self, part: str) -> list[tuple[Text, ...]]:
-        """Return the numbers of bodies with `sides` or `shape`."""
-        found = [(e, e.address.split(".")) for e in self._slots.entries.values() if e.address.startswith("bodies.")]
+    def list_body_numbers(self, part: str) -> list[tuple[Text, ...]]:
+        """Return the table rows of the numbers of bodies in the section `part`, "sides" or "shape"."""
+        entries_with_path = [
+            (e, e.address.split(".")) for e in self._slots.entries.values() if e.address.startswith("bodies.")
+        ]
         return [
-            cells(f"{at[1]}.{'.'.join(at[3:])}", self.slot(e))
-            for e, at in found
-            if at[2] == part and not (e.words or part == "sides" and len(at) > 4)
+            cells(f"{path[1]}.{'.'.join(path[3:])}", self.slot(e))
+            for e, path in entries_with_path
+            if path[2] == part and not (e.words or part == "sides" and len(path) > 4)
         ]
 
-    def densities(self) -> list[tuple[Text, ...]]:
-        """Return the densities of the materials of shapes."""
-        found = [(e, e.address.split(".")) for e in self._slots.entries.values() if not e.words]
-        return [cells(at[1], self.slot(e)) for e, at in found if at[0] == "materials" and at[2:] == ["density"]]
+    def list_densities(self) -> list[tuple[Text, ...]]:
+        """Return the table rows of the densities of materials."""
+        entries_with_path = [(e, e.address.split(".")) for e in self._slots.entries.values() if not e.words]
+        return [
+            cells(path[1], self.slot(e))
+            for e, path in entries_with_path
+            if path[0] == "materials" and path[2:] == ["density"]
+        ]
 
     def below(self) -> list[Block]:
-        """Return the long expressions since the last call, to be placed below a table."""
-        found, self._long = list(dict.fromkeys(self._long)), []
-        return [paragraph("In full:"), *found] if found else []
+        """Return the long expressions since the last call, to be placed below a table, and forget them; [] for none."""
+        long_blocks, self._long = list(dict.fromkeys(self._long)), []
+        return [paragraph("In full:"), *long_blocks] if long_blocks else []
 
     def vector(self, vector: Vector) -> Text:
-        """Return both components; a zero next to a letter has its letter, too."""
-        known = [one.address in self._slots.entries for one in vector]
+        """Return the cell of a vector; a zero next to a parameter is written as "letter = 0"."""
+        is_parameter = [component.address in self._slots.entries for component in vector]
         x, y = (
-            (of_address(one.address), " = 0")
-            if one.is_zero and any(known) and one.address.endswith(axis) and not one.address.startswith("gravity")
-            else self.cell(one)
-            for one, axis in zip(vector, (".x", ".y"), strict=True)
+            (of_address(component.address), " = 0")
+            if component.is_zero
+            and any(is_parameter)
+            and component.address.endswith(axis)
+            and not component.address.startswith("gravity")
+            else self.cell(component)
+            for component, axis in zip(vector, (".x", ".y"), strict=True)
         )
         return (*x, ",  ", *y)
 
 
-def _measured(written: Expr | None) -> tuple[float, str] | None:
-    """Return a number of the file and its unit; None for other expressions."""
-    if isinstance(written, Unary) and (inner := _measured(written.operand)) is not None:
-        return -inner[0], inner[1]
-    if not isinstance(written, Number) or not unit_of(written) or written.text.startswith("pi"):
+def _split_unit(tree: Expr | None) -> tuple[float, str] | None:
+    """Return (value, unit) of a number in the file with a unit, negative ones included; None for other expressions."""
+    if isinstance(tree, Unary) and (operand := _split_unit(tree.operand)) is not None:
+        return -operand[0], operand[1]
+    if not isinstance(tree, Number) or not unit_of(tree) or tree.text.startswith("pi"):
         return None
-    return float(written.text.removesuffix(unit_of(written))), unit_of(written)
+    return float(tree.text.removesuffix(unit_of(tree))), unit_of(tree)
 
 
 def unit_of(number: Number) -> str:
-    """Return the unit of a number of the file, "rpm"; "" if it has none."""
+    """Return the unit of a number of the file, such as "rpm"; "" if it has none."""
     text = number.text.strip().removeprefix("pi") if number.has_unit else ""
     return text[max((k for k in range(len(text) + 1) if _is_number(text[:k])), default=0) :].strip()
 
@@ -178,33 +211,42 @@ def _is_number(text: str) -> bool:
 
 
 def si_unit_of(entry: ParameterEntry) -> str:
-    """Return the SI unit of a number; rad and rad/s for angles and their rates, if the file declares them."""
+    """Return the SI unit of a parameter; rad and rad/s for angles and their rates if the file writes them as such."""
     if entry.written is not None and angle_power(entry.written) == 1:
         return {DIMENSIONLESS: "rad", RATE: "rad/s"}.get(entry.dimension, si_unit(entry.dimension))
     return si_unit(entry.dimension)
 
 
-def as_written(tree: Expr, around: int = 0, called: Mapping[str, Quantity] = MappingProxyType({})) -> str:
-    """Return an expression as in the file, with its numbers, units and names."""
-    if (name := next((name for name, of in called.items() if of.value is tree), "")) and not isinstance(tree, Number):
+def as_written(tree: Expr, outer_strength: int = 0, expressions: Mapping[str, Quantity] = MappingProxyType({})) -> str:
+    """Return an expression as in the file, with its numbers, units and names, and brackets where they are needed.
+
+    outer_strength: how strongly the operator around it binds. expressions: named expressions, which appear by their
+    names.
+    """
+    if (name := next((name for name, of in expressions.items() if of.value is tree), "")) and not isinstance(
+        tree, Number
+    ):
         return name
     match tree:
         case Number(value=value, text=text):
             return text or repr(value)
         case Unary(operand=operand):
-            text, own = f"-{as_written(operand, 3, called)}", 3
+            text, strength = f"-{as_written(operand, 3, expressions)}", 3
         case Binary(operator=operator, left=left, right=right):
-            own = _STRENGTH[operator]
-            sides = (own + 1, own) if operator == "**" else (own, own + 1)
-            written = [as_written(side, around, called) for side, around in zip((left, right), sides, strict=True)]
+            strength = _STRENGTH[operator]
+            operand_strengths = (strength + 1, strength) if operator == "**" else (strength, strength + 1)
+            written = [
+                as_written(side, outer_strength, expressions)
+                for side, outer_strength in zip((left, right), operand_strengths, strict=True)
+            ]
             for k, side in enumerate((left, right)):  # t / (1 s): a number and its unit are one
                 if (operator, k) in (("/", 1), ("**", 0)) and isinstance(side, Number) and unit_of(side):
                     written[k] = f"({written[k]})"
             text = f" {operator} ".join(written)
         case Call(function=function, arguments=arguments):
-            written = [as_written(a, 0, called) for a in arguments]
-            compared = [" < ".join(written[:2]), *written[2:]] if function == "where" else written
-            return f"{function}({', '.join(compared)})"
+            written = [as_written(a, 0, expressions) for a in arguments]
+            call_arguments = [" < ".join(written[:2]), *written[2:]] if function == "where" else written
+            return f"{function}({', '.join(call_arguments)})"
         case _:
             return tree.path
-    return f"({text})" if own < around else text
+    return f"({text})" if strength < outer_strength else text

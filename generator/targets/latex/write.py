@@ -44,62 +44,71 @@ PAPER = (
 )
 
 
-def make_document(model: Model, found: Functions) -> Document:
-    """Return the document of everything that is derived for one scene, in the order of a lecture."""
+def make_document(model: Model, functions: Functions) -> Document:
+    """Return the document of everything that is derived for one scene, in the order of a lecture.
+
+    functions: the functions of the scene (trace.py).
+    """
     mechanism, notation = model.scene.mechanism, make_notation(model)
-    left_out = notes(model)
+    notes_ = notes(model)
     sections = [
         *part_sections(model, notation),
         *kinematics_sections(model, notation),
         *motion_sections(model, notation),
-        *play_sections(model, notation, found),
-        *reduction_sections(found),
-        *([Section("Left out of this scene", tuple(paragraph(sentence(n)) for n in left_out))] if left_out else []),
+        *play_sections(model, notation, functions),
+        *reduction_sections(functions),
+        *([Section("Left out of this scene", tuple(paragraph(sentence(n)) for n in notes_))] if notes_ else []),
     ]
     facts = (("mechanism ", mechanism.name, ", scene ", model.scene.name),)
     return Document(one_line(mechanism.title or mechanism.name), facts, with_paper(with_letters(sections, notation)))
 
 
 def with_letters(sections: Sequence[Section], notation: Notation) -> tuple[Section, ...]:
-    """Return the sections, preceded by a table of the primed letters and what the letter without a prime means."""
-    found = primes(notation, (name for section in sections for block in section.blocks for name in _names_in(block)))
-    return (Section("Letters", tuple(found)), *sections) if found else (*sections,)
+    """Return the sections, preceded by a table of the primed letters and their meaning if there are any."""
+    table_blocks = primes(
+        notation, (name for section in sections for block in section.blocks for name in _list_formulas(block))
+    )
+    return (Section("Letters", tuple(table_blocks)), *sections) if table_blocks else (*sections,)
 
 
-def primes(notation: Notation, shown: Iterable[Name]) -> list[Block]:
-    """Return the primed symbols in formulas that are shown."""
-    text = " ".join(name.text for name in shown)
-    rows = [cells(own.name, own.what, own.letter, own.other) for own in notation.gave_way if own.name.text in text]
-    lead = paragraph("A prime tells apart what would have the letter of something else; it is no derivative:")
+def primes(notation: Notation, formulas: Iterable[Name]) -> list[Block]:
+    """Return the table of primed symbols that occur in the given formulas; [] if there are none."""
+    text = " ".join(name.text for name in formulas)
+    rows = [
+        cells(primed_symbol.name, primed_symbol.what, primed_symbol.letter, primed_symbol.other)
+        for primed_symbol in notation.primed_symbols
+        if primed_symbol.name.text in text
+    ]
+    introduction = paragraph("A prime tells apart what would have the letter of something else; it is no derivative:")
     header = cells("letter", "what it is", "without the prime", "that is")
-    return [lead, *table(header, rows, (3,))] if rows else []
+    return [introduction, *table(header, rows, (3,))] if rows else []
 
 
-def _names_in(block: Block) -> Iterator[Name]:
-    """Yield the formulas of a block."""
+def _list_formulas(block: Block) -> Iterator[Name]:
+    """Yield the formulas of a block: of an equation, a paragraph or a table; other blocks have none."""
     if isinstance(block, Equation):
         yield from (block.left, *block.terms)
-    yield from (part for text in _texts(block) for part in text if isinstance(part, Name))
+    yield from (part for text in _list_texts(block) for part in text if isinstance(part, Name))
 
 
-def _texts(block: Block) -> list[Text]:
-    """Yield the running texts of a block: paragraphs and cells of tables."""
+def _list_texts(block: Block) -> list[Text]:
+    """Return the running texts of a block: of a paragraph or of the cells of a table; [] for other blocks."""
     if isinstance(block, Table):
         return [cell for row in (block.header, *block.rows) for cell in row]
     return [block.text] if isinstance(block, Paragraph) else []
 
 
 def with_paper(sections: Sequence[Section]) -> tuple[Section, ...]:
-    """Return the sections, followed by one that names the paper if it is mentioned."""
-    named = any(_names_the_paper(block) for section in sections for block in section.blocks)
-    return (*sections, Section("The paper", (paragraph(PAPER),))) if named else (*sections,)
+    """Return the sections, followed by one that names the paper if any block mentions it."""
+    is_named = any(_mentions_paper(block) for section in sections for block in section.blocks)
+    return (*sections, Section("The paper", (paragraph(PAPER),))) if is_named else (*sections,)
 
 
-def _names_the_paper(block: Block) -> bool:
+def _mentions_paper(block: Block) -> bool:
     """Return whether a sketch, a sentence or a cell mentions the paper."""
     if isinstance(block, (Sketch, Picture)):
         return any("the paper" in line for line in block.lines)
-    return any(isinstance(part, str) and "the paper" in part for text in _texts(block) for part in text)
+    return any(isinstance(part, str) and "the paper" in part for text in _list_texts(block) for part in text)
 
 
 def equations_tex(model: Model) -> str:
@@ -117,11 +126,10 @@ def equations_html(
 ) -> str:
     """Return the equations of a scene as one HTML file with MathML, its file and its C, linked with each other.
 
-    Raises GudgeonError without the extra `docs`.
-    head, app, scripts: HTML that a page which runs has more, in its head, below its title, at its end.
-    source: what was emitted of the scene, where that is known.
+    head, app, scripts: further HTML in the page's head, below its title and at its end. source: the emitted C, if it
+    is known. Raises GudgeonError without the extra `docs`.
     """
-    found = trace(model, source)
-    document = make_document(model, found)
-    document = replace(document, sections=(*document.sections, *listing_sections(model, found)))
+    page_trace = trace(model, source)
+    document = make_document(model, page_trace)
+    document = replace(document, sections=(*document.sections, *listing_sections(model, page_trace)))
     return render(document, "html", head=head, app=app, scripts=own_scripts() + scripts)

@@ -14,7 +14,7 @@ from gudgeon.generator.targets.numpy.module import Array, ClosedLinkage
 
 
 class NumPyLinkage:
-    """Evaluate functions of (t, q, p) of the closed linkage; p is in the order of `source`.
+    """Evaluate functions of (t, q, p) of the closed linkage; p is an array in the order of `source`.
 
     `p` contains the defaults, or the `given` values as ClosedLinkage.prepare accepts them.
     """
@@ -29,40 +29,40 @@ class NumPyLinkage:
         self.source, self.n, self.closed = source, len(model.q), closed or ClosedLinkage(model)
         self.defaults = self.closed.prepare(given)
         self.names = [model.slots.field(symbol) for symbol in model.slots.members()]
-        self.p = np.array([_number(self.defaults, name) for name in self.names])
+        self.p = np.array([_get_parameter(self.defaults, name) for name in self.names])
 
-    def numbers(self, p: Array) -> SimpleNamespace:
-        """Return p by names, tables as lists."""
+    def get_parameters(self, p: Array) -> SimpleNamespace:
+        """Return the array p as a namespace of parameters by name; tables are lists."""
         if p is self.p:
             return self.defaults
         values = dict(zip(self.names, np.asarray(p).tolist(), strict=True))
         tables = self.closed.model.slots.tables
-        lists = {name: [values[f"{name}[{k}]"] for k in range(len(own))] for name, own in tables.items()}
+        lists = {name: [values[f"{name}[{k}]"] for k in range(len(symbols))] for name, symbols in tables.items()}
         return SimpleNamespace(**values | lists)
 
     def closed_phi(self, t: float, q: Array, p: Array) -> Array:
         """Return Φ(q, t), (m,)."""
-        return self.closed.phi(t, q, self.numbers(p))
+        return self.closed.phi(t, q, self.get_parameters(p))
 
     def closed_nu(self, t: float, q: Array, p: Array) -> Array:
         """Return ν = −Φ_t, (m,)."""
-        return self.closed.nu(t, q, self.numbers(p))
+        return self.closed.nu(t, q, self.get_parameters(p))
 
     def closed_phi_q(self, t: float, q: Array, p: Array) -> Array:
         """Return the Jacobian ∂Φ/∂q, (m, n)."""
-        return self.closed.phi_q(t, q, self.numbers(p))
+        return self.closed.phi_q(t, q, self.get_parameters(p))
 
     def mass(self, p: Array) -> Array:
         """Return the diagonal of M, (n,)."""
-        return self.closed.mass(self.numbers(p))
+        return self.closed.mass(self.get_parameters(p))
 
     def start_values(self, p: Array) -> tuple[Array, Array, Array]:
-        """Return guesses, exact values and rates of the start; the last two end with those of journals."""
-        return self.closed.start_values(self.numbers(p))
+        """Return (guesses, exact values, rates) of the start as arrays; the last two end with those of journals."""
+        return self.closed.start_values(self.get_parameters(p))
 
 
-def _number(of: SimpleNamespace, name: str) -> float:
-    """Return a parameter by name, or an entry of a table such as "contour_A[3]"; NaN if there is none."""
-    table, _, place = name.partition("[")
-    found: Any = getattr(of, table, np.nan)
-    return float(found[int(place[:-1])]) if place else float(found)
+def _get_parameter(parameters: SimpleNamespace, name: str) -> float:
+    """Return a parameter by its name, or an entry of a table such as "contour_A[3]"; NaN if it does not exist."""
+    table, _, index = name.partition("[")
+    value: Any = getattr(parameters, table, np.nan)
+    return float(value[int(index[:-1])]) if index else float(value)

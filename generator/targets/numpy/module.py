@@ -49,7 +49,7 @@ class _Doubles(SimpleNamespace):
     """Contain parameters whose division by 0 gives infinity as in C, since `where` may discard the result."""
 
     def __setattr__(self, name: str, value: object) -> None:
-        """Store a float as a NumPy double."""
+        """Store a float as a NumPy double, and any other value as it is."""
         super().__setattr__(name, np.float64(value) if type(value) is float else value)
 
 
@@ -69,96 +69,114 @@ class ClosedLinkage:
         ]
         self.model, self.n, self.m = model, len(model.q), len(model.all_rows)
         text = "\n\n\n".join(map(function, kernels)) + "\n"
-        self.source = f"{_head(model)}\n\n\n{with_curves(model.scene.mechanism.curves, text)}{text}"
-        self.functions = _defined(self.source)
+        self.source = f"{_print_module_docstring(model)}\n\n\n{with_curves(model.scene.mechanism.curves, text)}{text}"
+        self.functions = _compile_functions(self.source)
 
     def prepare(self, given: Mapping[str, float | str] | None = None) -> SimpleNamespace:
-        """Return all parameters of a run by name: given values, defaults of the others, and values derived from them.
+        """Return all parameters of a run by name: given values, defaults, and parameters derived from them.
 
-        given: {address or parameter name: a float in SI, or "0.5 mm", of a choice a name}, as `simulate` takes them.
-        Raises UnknownNameError with the nearest; BadValueError for what is no number, or given by two spellings.
+        given: {address or parameter name: a float in SI, "0.5 mm", or the name of a choice}, as `simulate` accepts
+        them. Raises UnknownNameError with the nearest name. Raises BadValueError for an invalid value, or one that
+        two keys specify.
         """
-        found = self._given(mapping(given, "given", "{address or parameter name: a float in SI, or '0.5 mm'}"))
-        p = self._prepared(found)
-        follow = self._chosen(found, p)
-        return self._prepared(follow | found) if follow else p
+        values = self._convert_given_values(
+            mapping(given, "given", "{address or parameter name: a float in SI, or '0.5 mm'}")
+        )
+        p = self._compute_parameters(values)
+        chosen = self._find_chosen_properties(values, p)
+        return self._compute_parameters(chosen | values) if chosen else p
 
-    def _prepared(self, found: Mapping[str, float]) -> SimpleNamespace:
-        """Return all parameters for values by full address in SI."""
+    def _compute_parameters(self, values: Mapping[str, float]) -> SimpleNamespace:
+        """Return all parameters by name, for values by full address in SI.
+
+        Parameters without a value have their defaults.
+        """
         addresses = self.model.slots.entries
         p = _Doubles(**{name: [0.0] * len(table) for name, table in self.model.slots.tables.items()})
-        values = [found.get(address, 0.0) for address in addresses]
+        ordered_values = [values.get(address, 0.0) for address in addresses]
         with np.errstate(all="ignore"):
-            self.functions["prepare"](values, [address in found for address in addresses], p)
+            self.functions["prepare"](ordered_values, [address in values for address in addresses], p)
         return SimpleNamespace(**{name: float(x) if isinstance(x, np.float64) else x for name, x in vars(p).items()})
 
-    def _chosen(self, found: Mapping[str, float], p: SimpleNamespace) -> dict[str, float]:
-        """Return the properties of materials that are chosen by name, by address."""
-        slots, follow = self.model.slots, dict[str, float]()
-        for choice in (address for address in found if slots.entries[address].words):
-            name = slots.entries[choice].words[int(found[choice])]
+    def _find_chosen_properties(self, values: Mapping[str, float], p: SimpleNamespace) -> dict[str, float]:
+        """Return {address: value} of the properties of materials that are chosen by name.
+
+        values: those that the run specifies, by address; a choice is the index of its name. p: the parameters before
+        the choice.
+        """
+        slots, properties = self.model.slots, dict[str, float]()
+        for choice in (address for address in values if slots.entries[address].words):
+            name = slots.entries[choice].words[int(values[choice])]
             for address in slots.entries:
                 if address.startswith(f"{choice}."):
-                    own = slots.entries[f"materials.{name}.{address.removeprefix(f'{choice}.')}"]
-                    follow[address] = getattr(p, slots.field(own.symbol))
-        return follow
+                    entry = slots.entries[f"materials.{name}.{address.removeprefix(f'{choice}.')}"]
+                    properties[address] = getattr(p, slots.field(entry.symbol))
+        return properties
 
-    def _given(self, given: Mapping[str, float | str]) -> dict[str, float]:
-        """Return given values by full address in SI."""
-        entries, found = self.model.slots.entries, dict[str, float]()
+    def _convert_given_values(self, given: Mapping[str, float | str]) -> dict[str, float]:
+        """Return the given values by full address in SI; a choice becomes the index of its name.
+
+        A key may be a full address or the name of a parameter. Raises UnknownNameError and BadValueError (`prepare`).
+        """
+        entries, values = self.model.slots.entries, dict[str, float]()
         for key, value in given.items():
             address = key if key in entries else f"parameters.{key}"
             if address not in entries:
-                known = (*(a.removeprefix("parameters.") for a in entries), *entries)
-                raise unknown(f"no number of this scene has the address {key!r}", key, tuple(dict.fromkeys(known)))
-            if address in found:
+                known_names = (*(a.removeprefix("parameters.") for a in entries), *entries)
+                raise unknown(
+                    f"no number of this scene has the address {key!r}", key, tuple(dict.fromkeys(known_names))
+                )
+            if address in values:
                 raise BadValueError(f"{address} is given twice, once as {key!r}", hint="give it once")
-            if words := entries[address].words:
-                if not isinstance(value, str) or value.strip() not in words:
-                    raise unknown_name(f"choice of {address}", str(value).strip(), words, None)
-                found[address] = float(words.index(value.strip()))
+            if choices := entries[address].words:
+                if not isinstance(value, str) or value.strip() not in choices:
+                    raise unknown_name(f"choice of {address}", str(value).strip(), choices, None)
+                values[address] = float(choices.index(value.strip()))
                 continue
-            of = entries[address].dimension
-            exponents = float(of.length), float(of.mass), float(of.time)
+            dimension = entries[address].dimension
+            exponents = float(dimension.length), float(dimension.mass), float(dimension.time)
             number = number_of_text(value, address, exponents) if isinstance(value, str) else value
-            found[address] = number_of(number, address)
-        return found
+            values[address] = number_of(number, address)
+        return values
 
-    def _filled(self, what: str, size: int, *arguments: Any) -> Array:
-        """Call a function and return the array that it fills."""
-        out = np.zeros(size)
+    def _evaluate(self, function_name: str, size: int, *arguments: Any) -> Array:
+        """Call a function of `source` with `arguments` and return the array of `size` values that it fills.
+
+        Warnings of NumPy are suppressed, since the caller gets infinities as C has them.
+        """
+        values = np.zeros(size)
         with np.errstate(all="ignore"):
-            self.functions[what](*arguments, out)
-        return out
+            self.functions[function_name](*arguments, values)
+        return values
 
     def mass(self, p: SimpleNamespace) -> Array:
         """Return the diagonal of M, (n,)."""
-        return self._filled("mass_matrix", self.n, p)
+        return self._evaluate("mass_matrix", self.n, p)
 
     def phi(self, t: float, q: ArrayLike, p: SimpleNamespace) -> Array:
         """Return Φ(q, t), (m,), in m and rad."""
-        return self._filled("constraints", self.m, t, _list(q), p)
+        return self._evaluate("constraints", self.m, t, _list(q), p)
 
     def phi_q(self, t: float, q: ArrayLike, p: SimpleNamespace) -> Array:
         """Return the Jacobian ∂Φ/∂q, (m, n)."""
-        return self._filled("jacobian", self.m * self.n, t, _list(q), p).reshape(self.m, self.n)
+        return self._evaluate("jacobian", self.m * self.n, t, _list(q), p).reshape(self.m, self.n)
 
     def nu(self, t: float, q: ArrayLike, p: SimpleNamespace) -> Array:
         """Return ν = −Φ_t, (m,), of Φ_q v = ν."""
-        return self._filled("velocity_rhs", self.m, t, _list(q), p)
+        return self._evaluate("velocity_rhs", self.m, t, _list(q), p)
 
     def gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: SimpleNamespace) -> Array:
         """Return γ, (m,), of Φ_q a = γ."""
-        return self._filled("acceleration_rhs", self.m, t, _list(q), _list(v), p)
+        return self._evaluate("acceleration_rhs", self.m, t, _list(q), _list(v), p)
 
     def start_values(self, p: SimpleNamespace) -> tuple[Array, Array, Array]:
-        """Return guesses, exact values and rates of the start; the last two end with those of journals."""
-        start, apart = self.model.scene.mechanism.start, len(eccentricity_rows(self.model))
-        sizes = (len(start.guess), len(start.set) + apart, len(start.rates) + apart)
-        guess, fixed, rates = (np.zeros(size) for size in sizes)
+        """Return (guesses, exact values, rates) of the start as arrays; the last two end with those of journals."""
+        start, n_eccentricities = self.model.scene.mechanism.start, len(eccentricity_rows(self.model))
+        sizes = (len(start.guess), len(start.set) + n_eccentricities, len(start.rates) + n_eccentricities)
+        guess, exact_values, rates = (np.zeros(size) for size in sizes)
         with np.errstate(all="ignore"):
-            self.functions["start_values"](p, guess, fixed, rates)
-        return guess, fixed, rates
+            self.functions["start_values"](p, guess, exact_values, rates)
+        return guess, exact_values, rates
 
 
 class NumPyModel(ClosedLinkage):
@@ -171,12 +189,12 @@ class NumPyModel(ClosedLinkage):
         super().__init__(program.model)
         contours = [CONTOUR] * any(own.clearance.contour is not None for own in program.pins)
         laws = [*contours, *map(function, program.laws), *map(pin, program.pins)]
-        parts = [*_thresholds(program.dynamics), *laws, function(program.dynamics)]
+        parts = [*_print_thresholds(program.dynamics), *laws, function(program.dynamics)]
         self.program = program
         text = "\n\n\n".join(parts) + "\n"
         curves = with_curves(program.model.scene.mechanism.curves, text, self.source)
         self.source += f"\n\n{curves}{text}"
-        self.functions = _defined(self.source)
+        self.functions = _compile_functions(self.source)
 
     def dynamics(
         self,
@@ -198,12 +216,16 @@ class NumPyModel(ClosedLinkage):
         ArrayError for another number of latches or modes.
         """
         model = self.model
-        rates = _one_each("latches", latches, [c.name for c in model.clearances], [np.nan] * len(model.clearances))
-        bent = np.broadcast_to(np.asarray(states, dtype=float), (len(model.clearances), model.law_states)).tolist()
+        approach_speeds = _one_each(
+            "latches", latches, [c.name for c in model.clearances], [np.nan] * len(model.clearances)
+        )
+        inner_states = np.broadcast_to(
+            np.asarray(states, dtype=float), (len(model.clearances), model.law_states)
+        ).tolist()
         memory = SimpleNamespace(
             contact=[
                 SimpleNamespace(closed=bool(x == x), deltadot_minus=float(x), force=np.nan, state=z)
-                for x, z in zip(rates, bent, strict=True)
+                for x, z in zip(approach_speeds, inner_states, strict=True)
             ],
             mode=_one_each("modes", modes, [friction.name for friction in model.frictions]),
         )
@@ -224,21 +246,24 @@ class NumPyModel(ClosedLinkage):
         return rhs
 
 
-def _head(model: Model) -> str:
-    """Return the module's docstring: the scene, and the order of its vectors."""
+def _print_module_docstring(model: Model) -> str:
+    """Return the head of the module: a docstring with the scene and the order of q and v, and the import of NumPy."""
     mechanism = model.scene.mechanism
     title = f"{mechanism.title or mechanism.name}: scene {model.scene.name} of the mechanism {mechanism.name}."
-    about = [*textwrap.wrap(title, WIDTH - 7), "", *textwrap.wrap(_ABOUT, WIDTH - 7), ""]
+    docstring_lines = [*textwrap.wrap(title, WIDTH - 7), "", *textwrap.wrap(_ABOUT, WIDTH - 7), ""]
     info = model.symbols.info
-    about += [
+    docstring_lines += [
         f"    q[{3 * k}:{3 * k + 3}], v[{3 * k}:{3 * k + 3}]: {', '.join(info[q].meaning for q in body.q)}"
         for k, body in enumerate(model.bodies)
     ]
-    return "\n".join([*docstring(about), "", "import numpy as np"])
+    return "\n".join([*docstring(docstring_lines), "", "import numpy as np"])
 
 
-def _thresholds(kernel: Kernel) -> list[str]:
-    """Return the definitions of the thresholds that a kernel's tests name; [] if there are none."""
+def _print_thresholds(kernel: Kernel) -> list[str]:
+    """Return the definitions of the thresholds that a kernel's tests name, as lines with blank lines.
+
+    [] if there are none.
+    """
     tests = (line.test for section in kernel.sections for line in section.statements if isinstance(line, Guard))
     bounds = (x for test in tests if isinstance(test, Test) and not test.of_itself for x in test.bound)
     limits = {x.name: float(x) for x in bounds if isinstance(x, Threshold)}
@@ -262,8 +287,8 @@ def _list(values: ArrayLike) -> list[float]:
     return np.asarray(values, dtype=float).tolist()
 
 
-def _defined(source: str) -> dict[str, Any]:
-    """Return the functions of a text that this target has written."""
+def _compile_functions(source: str) -> dict[str, Any]:
+    """Compile a Python text that this target has written, and return the names that it defines."""
     names: dict[str, Any] = {}
     exec(compile(source, "<equations>", "exec"), names)
     return names
@@ -291,15 +316,21 @@ def knots(of, x):
     return np.where(k % 2, -1.0, 1.0) * np.where(x == of[k], 0.0, 1.0)'''
 
 
-def with_curves(curves: Mapping[str, Curve], text: str, before: str = "") -> str:
-    """Return the curves that a text calls, without those that `before` contains; "" if it calls none."""
-    called = [curve for curve in curves.values() if f"({c_name(curve.name)}," in text]
-    parts = [_CURVE, *map(_table, called)] if called else []
-    return "".join(f"{part}\n\n\n" for part in parts if part not in before)
+def with_curves(curves: Mapping[str, Curve], text: str, existing: str = "") -> str:
+    """Return the Python tables of the curves that a text calls, and the functions that evaluate them.
+
+    Parts that the text `existing` contains are left out; "" is returned if the text calls no curve.
+    """
+    called_curves = [curve for curve in curves.values() if f"({c_name(curve.name)}," in text]
+    parts = [_CURVE, *map(_print_curve_table, called_curves)] if called_curves else []
+    return "".join(f"{part}\n\n\n" for part in parts if part not in existing)
 
 
-def _table(curve: Curve) -> str:
-    """Return the table of a curve as Python."""
+def _print_curve_table(curve: Curve) -> str:
+    """Return the Python table of a curve: knots, coefficients of its pieces, and whether it repeats.
+
+    A long curve is written as hexadecimal bytes.
+    """
     if curve.is_long:
         x, c = (np.asarray(table, "<f8").tobytes().hex() for table in (curve.x, curve.coefficients))
         return "\n".join(
@@ -347,65 +378,83 @@ def contour(depth, order, angle):
 _FILM = ("F_r", "F_along_t_film", "M_i_film", "M_j_film")
 
 
-def pin(own: Pin) -> str:
-    """Return the function `clearance_<joint>`; a contact is closed where bodies overlap."""
-    joint, clearance = own.clearance.label, own.clearance
-    message = f"Force of joint {clearance.name} on the journal, from the eccentricity e and its rate."
+def pin(joint_with_play: Pin) -> str:
+    """Return the Python function `clearance_<joint>`, which fills `out` with the force in one joint with play.
+
+    A contact acts where the bodies overlap, δ > 0; rigid contacts act if they are closed.
+    """
+    joint, clearance = joint_with_play.clearance.label, joint_with_play.clearance
+    description = f"Force of joint {clearance.name} on the journal, from the eccentricity e and its rate."
     if clearance.wall:
-        message = f"Force on corner {clearance.name}, from where it is, seen from the guide's point, and its rate."
-    body = [*docstring([message])]
-    body += lines(own.gap)
+        description = f"Force on corner {clearance.name}, from where it is, seen from the guide's point, and its rate."
+    body = [*docstring([description])]
+    body += lines(joint_with_play.gap)
     if clearance.normal is None:
-        body += [*_film(own), "F = F_r, F_along_t_film, M_i_film, M_j_film", "v_t = 0.0"]
+        body += [*_print_film(joint_with_play), "F = F_r, F_along_t_film, M_i_film, M_j_film", "v_t = 0.0"]
     elif clearance.film is None:
-        acts = "contact.closed" if clearance.rigid else "delta > 0"
-        body += ["F, v_t = (0.0, 0.0, 0.0, 0.0), 0.0", f"if {acts}:", *indented(_dry(own))]
+        condition = "contact.closed" if clearance.rigid else "delta > 0"
+        body += [
+            "F, v_t = (0.0, 0.0, 0.0, 0.0), 0.0",
+            f"if {condition}:",
+            *indented(_print_dry_contact(joint_with_play)),
+        ]
     else:
-        body += [*_film(own), "F, v_t = (F_r, F_along_t_film, M_i_film, M_j_film), 0.0", "if delta > 0:"]
+        body += [
+            *_print_film(joint_with_play),
+            "F, v_t = (F_r, F_along_t_film, M_i_film, M_j_film), 0.0",
+            "if delta > 0:",
+        ]
         body += indented(
             [
-                *_dry(own),
-                *lines(own.share),
+                *_print_dry_contact(joint_with_play),
+                *lines(joint_with_play.share),
                 "if share < 1:",
                 f"    film = {', '.join(_FILM)}",
                 "    F = tuple(b + share*(a - b) for a, b in zip(F, film))",
             ]
         )
-    place, first = ("e*n_x, e*n_y", "F[2] + along*F[0]") if clearance.wall else ("e_x, e_y", "F[2]")
+    position, moment_first = ("e*n_x, e*n_y", "F[2] + along*F[0]") if clearance.wall else ("e_x, e_y", "F[2]")
     body += [
         "out.Fx, out.Fy = F[0]*n_x - F[1]*n_y, F[0]*n_y + F[1]*n_x",
         "out.F_n, out.F_t, out.v_t = F[0], F[1], v_t",
-        f"out.ex, out.ey, out.e, out.deltadot, out.delta = {place}, e, deltadot, delta",
-        f"out.moment_first, out.moment_second, out.power = {first}, F[3], 0.0",
+        f"out.ex, out.ey, out.e, out.deltadot, out.delta = {position}, e, deltadot, delta",
+        f"out.moment_first, out.moment_second, out.power = {moment_first}, F[3], 0.0",
     ]
-    turned = ", n_x, n_y" if clearance.wall else ", theta_i" if clearance.contour else ""
-    head = f"def clearance_{joint}_(e_x, e_y, de_x, de_y, omega_i, omega_j{turned}, contact, p, out):"
-    return "\n".join([*code(head), *indented(body)])
+    further_arguments = ", n_x, n_y" if clearance.wall else ", theta_i" if clearance.contour else ""
+    signature = f"def clearance_{joint}_(e_x, e_y, de_x, de_y, omega_i, omega_j{further_arguments}, contact, p, out):"
+    return "\n".join([*code(signature), *indented(body)])
 
 
-def _dry(own: Pin) -> list[str]:
-    """Return the lines of dry contact for δ > 0; at an onset the approach speed is the present one, ratio 1."""
-    ratio, states = "unclipped" if own.clearance.clip_ratio else "ratio", range(len(own.clearance.states))
-    given, message = [f"contact.state[{k}]" for k in states], [f"out.state_rate[{k}]" for k in states]
-    pressed = "F_N" if own.pressing else "F_n"
-    rubs = _call(own.laws["friction"], pressed, "v_t", *given) if "friction" in own.laws else "0.0"
+def _print_dry_contact(pin_: Pin) -> list[str]:
+    """Return the lines of dry contact for δ > 0; at an onset the approach speed is the present one, ratio 1.
+
+    Without friction its force is 0.
+    """
+    ratio, states = "unclipped" if pin_.clearance.clip_ratio else "ratio", range(len(pin_.clearance.states))
+    states_read, rates = [f"contact.state[{k}]" for k in states], [f"out.state_rate[{k}]" for k in states]
+    normal_force = "F_N" if pin_.pressing else "F_n"
+    friction_call = (
+        _print_law_call(pin_.laws["friction"], normal_force, "v_t", *states_read) if "friction" in pin_.laws else "0.0"
+    )
     return [
         f"{ratio} = deltadot / contact.deltadot_minus if contact.closed else 1.0",
-        *lines(own.before_dry),
-        *assigned("F_n", _call(own.laws["normal"], "delta", "ratio", *map(name, own.given)), is_call=True),
-        *lines(own.pressing),
-        *assigned(", ".join(["F_along_t_dry", *message]), rubs, is_call=True),
-        *lines(own.after_dry),
-        f"F = -{pressed}, {', '.join(_DRY[1:])}",
+        *lines(pin_.before_dry),
+        *assigned("F_n", _print_law_call(pin_.laws["normal"], "delta", "ratio", *map(name, pin_.given)), is_call=True),
+        *lines(pin_.pressing),
+        *assigned(", ".join(["F_along_t_dry", *rates]), friction_call, is_call=True),
+        *lines(pin_.after_dry),
+        f"F = -{normal_force}, {', '.join(_DRY[1:])}",
     ]
 
 
-def _film(own: Pin) -> list[str]:
-    """Return the lines of a film."""
-    film = assigned("F_r, F_along_t_film, T0", _call(own.laws["film"], "epsilon", "w_n", "w_t"), is_call=True)
-    return [*lines(own.before_film), *film, *lines(own.after_film)]
+def _print_film(pin_: Pin) -> list[str]:
+    """Return the lines that compute a film's forces and moments."""
+    film_call = assigned(
+        "F_r, F_along_t_film, T0", _print_law_call(pin_.laws["film"], "epsilon", "w_n", "w_t"), is_call=True
+    )
+    return [*lines(pin_.before_film), *film_call, *lines(pin_.after_film)]
 
 
-def _call(call: SharedFunctionCall, *given: str) -> str:
-    """Return the call of a law."""
-    return f"{call.kernel.name}({', '.join([*given, *map(name, call.numbers)])})"
+def _print_law_call(call: SharedFunctionCall, *arguments: str) -> str:
+    """Return the call of a law in Python: its arguments, then the parameters of this joint."""
+    return f"{call.kernel.name}({', '.join([*arguments, *map(name, call.numbers)])})"

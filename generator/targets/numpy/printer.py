@@ -45,27 +45,27 @@ _SIDES = ("branch", "g", "corner")
 
 
 def name(key: Key) -> str:
-    """Return the expression of a local or place; the field `lambda` becomes `rhs.lambda_[3]`."""
+    """Return the Python expression of a local or place; the field `lambda` becomes `rhs.lambda_[3]`."""
     if isinstance(key, Place):
-        steps = (f"[{step}]" if isinstance(step, int) else f".{name(step)}" for step in key.path)
-        return name(key.base) + "".join(steps)
+        members = (f"[{step}]" if isinstance(step, int) else f".{name(step)}" for step in key.path)
+        return name(key.base) + "".join(members)
     return f"{key}_" if keyword.iskeyword(key) else key
 
 
 class NumPyPrinter(CachedPrinter, PythonCodePrinter):
-    """Print expressions for numbers and arrays alike; conditions of C become np.where."""
+    """Print expressions as Python for numbers and arrays alike; conditions of C become np.where."""
 
     def __init__(self, of: Readable) -> None:
         super().__init__({"fully_qualified_modules": False})
         self.of = of
 
-    def called(self, key: Key) -> str:
+    def get_name(self, key: Key) -> str:
         """Return the name of a local or place in this function."""
         return name(self.of.names.get(key, key))
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         """Print a symbol by its name in the function."""
-        return self.called(key_of(expr))
+        return self.get_name(key_of(expr))
 
     def _print_Float(self, expr: sp.Float) -> str:
         """Print a float, a fraction of π as such."""
@@ -98,7 +98,10 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
         return "np.pi"
 
     def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
-        """Print a power; roots by np.sqrt."""
+        """Print a power: roots by np.sqrt, other powers that are not whole by np.power.
+
+        A negative base gives NaN there.
+        """
         base, exponent = expr.as_base_exp()
         if exponent in (sp.Rational(1, 2), sp.Rational(-1, 2)):
             return f"{'' if exponent > 0 else '1/'}np.sqrt({self._print(base)})"
@@ -134,7 +137,7 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
     def _print_Pick(self, expr: sp.Expr) -> str:
         """Print a choice by the sign of its first argument."""
         if expr in self.of.branches:
-            return self.called(self.of.branches[expr])
+            return self.get_name(self.of.branches[expr])
         side, a, b = map(self._print, expr.args)
         return f"np.where({side} < 0, {b}, {a})"
 
@@ -187,24 +190,27 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
         return f"({x} - 1e-9*(1 + np.abs({x})))"
 
 
-class Lines:
-    """Print the lines of one function without indent. Raises ValueError for a kind of line without a counterpart."""
+class LinePrinter:
+    """Print the lines of one function as Python without indent.
+
+    Raises ValueError for a kind of line without a counterpart.
+    """
 
     def __init__(self, of: Readable) -> None:
         self.printer = NumPyPrinter(of)
 
-    def text(self, items: Iterable[Line]) -> list[str]:
-        """Return the lines that have a counterpart in Python, broken to fit."""
-        return [text for item in items if not isinstance(item, _NOWHERE) for text in self._lines(item)]
+    def print_lines(self, items: Iterable[Line]) -> list[str]:
+        """Return lines of a kernel as Python, broken to fit; lines for single runs of C are left out."""
+        return [text for item in items if not isinstance(item, _NOWHERE) for text in self._print_line(item)]
 
     def expression(self, value: Value) -> str:
-        """Return a value as Python."""
+        """Return a value as Python by its class; any other value is printed as a SymPy expression."""
         match value:
             case Place():
-                return self.printer.called(value)
+                return self.printer.get_name(value)
             case Conditional():
                 then, otherwise = self.expression(value.then), self.expression(value.otherwise)
-                return f"np.where({self._test(value.test)}, {then}, {otherwise})"
+                return f"np.where({self._print_test(value.test)}, {then}, {otherwise})"
             case Sum():
                 return " + ".join(map(name, value.places))
             case Defaulted():
@@ -212,39 +218,42 @@ class Lines:
             case _:
                 return str(self.printer.doprint(value))
 
-    def _test(self, item: Test) -> str:
-        """Return a comparison as Python."""
+    def _print_test(self, item: Test) -> str:
+        """Return a comparison as Python; a test of a value itself checks that it is positive and finite."""
         value = self.expression(item.value)
-        left = f"np.abs({value})" if item.size else value
+        left_side = f"np.abs({value})" if item.size else value
         if item.of_itself:
-            return f"0 < {left} < np.inf"
-        bound = " * ".join(map(self._factor, item.bound))
-        return f"{left} {item.relation} {bound}" if item.relation else left
+            return f"0 < {left_side} < np.inf"
+        bound = " * ".join(map(self._print_factor, item.bound))
+        return f"{left_side} {item.relation} {bound}" if item.relation else left_side
 
-    def _factor(self, value: sp.Basic | float) -> str:
-        """Return a factor of a bound; thresholds are named."""
+    def _print_factor(self, value: sp.Basic | float) -> str:
+        """Return a factor of a bound as Python; a threshold is printed by its name."""
         if isinstance(value, Threshold):
             return value.name
         return repr(value) if isinstance(value, float) else self.expression(value)
 
-    def _lines(self, item: Line) -> list[str]:
-        """Return one line of a kernel as lines of Python."""
+    def _print_line(self, item: Line) -> list[str]:
+        """Return one line of a kernel as lines of Python.
+
+        Raises ValueError for a kind of line without a counterpart.
+        """
         match item:
             case Statement():
-                target, value = self.printer.called(item.target), self.expression(item.value)
+                target, value = self.printer.get_name(item.target), self.expression(item.value)
                 return assigned(target, value, item.comment, isinstance(item.value, Conditional))
             case Branch():
                 side, then, otherwise = map(self.expression, (item.side, item.then, item.otherwise))
                 value = f"np.where({side} < 0, {otherwise}, {then})"
-                return assigned(self.printer.called(item.target), value, item.comment, is_call=True)
+                return assigned(self.printer.get_name(item.target), value, item.comment, is_call=True)
             case When():
-                return [*code(f"if {self._test(item.test)}:"), *indented(self._lines(item.statement))]
+                return [*code(f"if {self._print_test(item.test)}:"), *indented(self._print_line(item.statement))]
             case Call():
-                given = [self.expression(x) for x in (*item.given, *item.results) if x not in _HELD]
-                return code(f"{item.function}({', '.join(given)})")
+                arguments = [self.expression(x) for x in (*item.given, *item.results) if x not in _HELD]
+                return code(f"{item.function}({', '.join(arguments)})")
             case Guard(test=Test() as test):
-                only = f"{self._test(item.only)} and " if item.only else ""
-                return [*code(f"if {only}not ({self._test(test)}):"), f"    return {item.number}"]
+                condition = f"{self._print_test(item.only)} and " if item.only else ""
+                return [*code(f"if {condition}not ({self._print_test(test)}):"), f"    return {item.number}"]
             case Largest():
                 inner = ", ".join(f"np.abs({self.expression(x)})" for x in item.values)
                 value = f"max({inner}, 0.0)" if item.values else "0.0"
@@ -255,22 +264,27 @@ class Lines:
 
 
 def lines(items: Sequence[Statement]) -> list[str]:
-    """Return statements as lines of a function that is not a kernel."""
-    own = readable_lines(items)
-    return Lines(own).text(line for section in own.sections for line in section.statements)
+    """Return statements as lines of Python for a function that is not a kernel."""
+    readable_statements = readable_lines(items)
+    return LinePrinter(readable_statements).print_lines(
+        line for section in readable_statements.sections for line in section.statements
+    )
 
 
 def function(kernel: Kernel) -> str:
-    """Return a kernel as a Python function; numbers that C returns through pointers are returned."""
-    stored = [line.target for section in kernel.sections for line in section.statements if isinstance(line, Statement)]
-    returned = [a.name for a in kernel.arguments if Result(a.name) in stored]
-    given = [name(a.name) for a in kernel.arguments if a.name not in (*_SIDES, *returned)]
-    text = [*code(f"def {kernel.name}({', '.join(given)}):"), *indented(docstring(kernel.doc))]
-    own = readable(kernel)
-    for section in own.sections:
-        body = Lines(own).text(section.statements)
-        rescues = any(isinstance(line, Rescue) for line in section.statements)  # of which the title tells
-        text += indented([*remark("" if rescues else section.title), *body]) if body else []
+    """Return a kernel as a Python function with its docstring.
+
+    Numbers that C returns through pointers are returned. The arguments for branches are left out.
+    """
+    targets = [line.target for section in kernel.sections for line in section.statements if isinstance(line, Statement)]
+    returned = [a.name for a in kernel.arguments if Result(a.name) in targets]
+    argument_names = [name(a.name) for a in kernel.arguments if a.name not in (*_SIDES, *returned)]
+    text = [*code(f"def {kernel.name}({', '.join(argument_names)}):"), *indented(docstring(kernel.doc))]
+    readable_kernel = readable(kernel)
+    for section in readable_kernel.sections:
+        body = LinePrinter(readable_kernel).print_lines(section.statements)
+        has_rescue = any(isinstance(line, Rescue) for line in section.statements)  # of which the title tells
+        text += indented([*remark("" if has_rescue else section.title), *body]) if body else []
     return "\n".join([*text, *([f"    return {', '.join(returned)}"] if returned else [])])
 
 
@@ -279,42 +293,51 @@ _WIDTH = WIDTH - 12  # of what stands in a function and in two conditions at mos
 
 
 def code(text: str) -> list[str]:
-    """Return a line of code with brackets, broken if it is long."""
-    return line_breaks.broken(text, _WIDTH, within=1)
+    """Return a line of Python as lines, broken inside brackets if it is long."""
+    return line_breaks.broken(text, _WIDTH, min_depth=1)
 
 
 def assigned(target: str, value: str, comment: str = "", is_call: bool = False) -> list[str]:
-    """Return `target = value` as lines; a long value that is not one call is put in brackets."""
+    """Return `target = value` as lines of Python; a long value that is not one call is put in brackets.
+
+    The comment follows if it fits, else precedes.
+    """
     line = f"{target} = {value}"
     lines = code(line if is_call or len(line) <= _WIDTH else f"{target} = ({value})")
-    message = f"# {one_line(comment)}" if comment else ""
-    if len(lines) == 1 and len(line) + 2 + len(message) <= _WIDTH:
-        return [f"{line}  {message}".rstrip()]
+    comment_text = f"# {remove_line_breaks(comment)}" if comment else ""
+    if len(lines) == 1 and len(line) + 2 + len(comment_text) <= _WIDTH:
+        return [f"{line}  {comment_text}".rstrip()]
     return [*remark(comment), *lines]
 
 
 def remark(text: str) -> list[str]:
     """Return a text as comment lines; [] for an empty text."""
-    return [f"# {line}" for line in textwrap.wrap(one_line(text), _WIDTH - 2)]
+    return [f"# {line}" for line in textwrap.wrap(remove_line_breaks(text), _WIDTH - 2)]
 
 
 def docstring(doc: Sequence[str]) -> list[str]:
-    """Return the lines of a docstring; continuation lines are indented."""
-    plain = (one_line(line, keep=True).replace("\\", "/").replace('"', "'") for line in doc)
-    first, *others = [part for line in plain for part in _wrapped(line)]
+    """Return the lines of a docstring from paragraphs; long ones are wrapped and continued with an indent."""
+    printable = (remove_line_breaks(line, keep_spaces=True).replace("\\", "/").replace('"', "'") for line in doc)
+    first, *others = [part for line in printable for part in _wrap_docstring_line(line)]
     return [f'"""{first}"""'] if not others else [f'"""{first}', *others, '"""']
 
 
-def _wrapped(line: str) -> list[str]:
-    """Wrap one line of a docstring."""
+def _wrap_docstring_line(line: str) -> list[str]:
+    """Return a line of a docstring wrapped to the width; continuation lines have two more spaces.
+
+    [""] for an empty line.
+    """
     indent = line[: len(line) - len(line.lstrip())]
     return textwrap.wrap(line, WIDTH - 7, subsequent_indent=f"{indent}  ", break_on_hyphens=False) or [""]
 
 
-def one_line(text: str, keep: bool = False) -> str:
-    """Return a user's text without characters that could end a line; `keep` preserves its spaces."""
-    plain = "".join(c if c.isprintable() else " " for c in text)
-    return plain.rstrip() if keep else " ".join(plain.split())
+def remove_line_breaks(text: str, keep_spaces: bool = False) -> str:
+    """Return a user's text without characters that could end a line.
+
+    Spaces are reduced to single ones; `keep_spaces` preserves them.
+    """
+    printable = "".join(c if c.isprintable() else " " for c in text)
+    return printable.rstrip() if keep_spaces else " ".join(printable.split())
 
 
 def indented(text: Iterable[str]) -> list[str]:

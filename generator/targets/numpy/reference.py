@@ -17,8 +17,8 @@ from gudgeon.contract.kernel_source import KernelSource, given_parameters
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kernels.outputs import constraining_joints, element_series
 from gudgeon.generator.kernels.program import Program
-from gudgeon.generator.targets.numpy.linkage import NumPyLinkage, _number
-from gudgeon.generator.targets.numpy.module import NumPyModel, _defined, with_curves
+from gudgeon.generator.targets.numpy.linkage import NumPyLinkage, _get_parameter
+from gudgeon.generator.targets.numpy.module import NumPyModel, _compile_functions, with_curves
 from gudgeon.generator.targets.numpy.printer import function
 
 Array = NDArray[np.float64]
@@ -47,164 +47,203 @@ def reference_values(program: Program, source: KernelSource) -> dict[str, Any]:
 
 
 def _compute_reference(program: Program, source: KernelSource) -> dict[str, Any]:
-    """Return the reference values of a scene. Raises ArithmeticError where C has an infinity."""
+    """Return the reference values of a scene at states near a closed linkage.
+
+    Raises ArithmeticError where C has an infinity.
+    Candidate states whose values change with the last digits of q are left out.
+    """
     model = program.model
-    numpy = NumPyModel(program)
-    linkage, rng = NumPyLinkage(model, source, closed=numpy), np.random.default_rng(1)
-    plays = [abs(float(linkage.p[joint.clearance])) for joint in source.clearances]
+    numpy_model = NumPyModel(program)
+    linkage, rng = NumPyLinkage(model, source, closed=numpy_model), np.random.default_rng(1)
+    clearances = [abs(float(linkage.p[joint.clearance])) for joint in source.clearances]
     text = function(program.closed[-1]) + "\n"
-    head = f"import numpy as np\n\n\n{with_curves(model.scene.mechanism.curves, text)}"
-    outputs = _defined(f"{head}{text}")["outputs"]
-    states, tried = [], []
+    imports = f"import numpy as np\n\n\n{with_curves(model.scene.mechanism.curves, text)}"
+    outputs = _compile_functions(f"{imports}{text}")["outputs"]
+    states, candidates = [], []
     for k in range(N_STATES):
         t = float(f"{0.05 + 0.3 * rng.uniform():.9f}")
-        q = _near_closed(numpy, t, linkage.defaults, min([1e-3, *plays]), rng)
+        q = _find_near_closed(numpy_model, t, linkage.defaults, min([1e-3, *clearances]), rng)
         v = np.array([float(f"{x:.4g}") for x in rng.normal(0.0, 0.3, len(q))])
         latches = [0.1 if k and not model.rigid else np.nan] * len(model.clearances)
-        tried.append((t, q, v, (latches, [1.0 - 2.0 * k] * len(model.frictions), 0.0)))
-    for t, q, v, memory in [*tried, *_contact_states(numpy, linkage.defaults, tried[-1], min([1e-3, *plays]), rng)]:
-        found, near = (
-            _values(model, numpy, outputs, linkage.defaults, (t, x, v), memory) for x in (q, q * (1.0 + NEARBY))
+        candidates.append((t, q, v, (latches, [1.0 - 2.0 * k] * len(model.frictions), 0.0)))
+    for t, q, v, memory in [
+        *candidates,
+        *_find_contact_states(numpy_model, linkage.defaults, candidates[-1], min([1e-3, *clearances]), rng),
+    ]:
+        values, neighbour = (
+            _evaluate_functions(model, numpy_model, outputs, linkage.defaults, (t, x, v), memory)
+            for x in (q, q * (1.0 + NEARBY))
         )
-        if found and near and all(_is_steady(found[name], near[name]) for name in found if name != "phi"):
-            flat = [*memory[0], *memory[1], *[memory[2]] * len(source.states)]
+        if values and neighbour and all(_is_steady(values[name], neighbour[name]) for name in values if name != "phi"):
+            flat_states = [*memory[0], *memory[1], *[memory[2]] * len(source.states)]
             states.append(
                 {
                     "t": t,
                     "q": q.tolist(),
                     "v": v.tolist(),
-                    "memory": [None if x != x else x for x in flat],
-                    "values": {name: _as_seven_digits(value) for name, value in found.items()},
+                    "memory": [None if x != x else x for x in flat_states],
+                    "values": {name: _round_to_seven_digits(value) for name, value in values.items()},
                 }
             )
-    return {"p": _as_seven_digits(linkage.p), "given": _parameters_of_given(numpy, linkage), "states": states}
+    return {
+        "p": _round_to_seven_digits(linkage.p),
+        "given": _compute_given_parameters(numpy_model, linkage),
+        "states": states,
+    }
 
 
-def _parameters_of_given(numpy: NumPyModel, linkage: NumPyLinkage) -> list[list[float | None]]:
-    """Return parameters of two runs in which every second parameter is given, from the first and from the second on."""
-    slots, found = linkage.source.slots, []
+def _compute_given_parameters(numpy_model: NumPyModel, linkage: NumPyLinkage) -> list[list[float | None]]:
+    """Return the parameters of two runs in which every second parameter is given, first or second of each pair."""
+    slots, parameters = linkage.source.slots, []
     for first in range(2):
         with np.errstate(all="ignore"):
-            p = numpy._prepared({slots[k].address: value for k, value in given_parameters(slots, first).items()})
-        found.append(_as_seven_digits(np.array([_number(p, name) for name in linkage.names])))
-    return found
+            p = numpy_model._compute_parameters(
+                {slots[k].address: value for k, value in given_parameters(slots, first).items()}
+            )
+        parameters.append(_round_to_seven_digits(np.array([_get_parameter(p, name) for name in linkage.names])))
+    return parameters
 
 
-def _contact_states(
-    numpy: NumPyModel, p: Any, at: tuple[float, Array, Array, Any], play: float, rng: np.random.Generator
+def _find_contact_states(
+    numpy_model: NumPyModel, p: Any, start_state: tuple[float, Array, Array, Any], play: float, rng: np.random.Generator
 ) -> list[tuple[float, Array, Array, Any]]:
-    """Return states in which contacts and films are fast and slow, slip either way, approach and separate.
+    """Return states (t, q, v, discrete states) in which contacts and films are fast or slow, slip and separate.
 
-    Of N_TRIED candidates those are kept whose forces differ most (`_features`).
+    Of N_TRIED random candidates those are selected whose forces differ most (`_list_features`); [] without play. A
+    candidate with a vanished pivot or an infinity is dropped.
     """
-    model, (t, q, _, (latches, modes, _)) = numpy.model, at
+    model, (t, q, _, (latches, modes, _)) = numpy_model.model, start_state
     if not model.clearances:
         return []
     tried: tuple[list[Any], list[Any]] = [], []  # in contact; free, or in a film
-    q = _near_closed(numpy, t, p, 0.0, rng)
+    q = _find_near_closed(numpy_model, t, p, 0.0, rng)
     for n in range(N_TRIED):
         if n % 2 == 0:
-            free = n % 4 == 0 or bool(model.rigid)
-            far = play * 10.0 ** rng.uniform(-1.5 if free else -1.0, -0.3 if free else 0.3)
-            x = _round_to_digits(q + far * rng.normal(0.0, 1.0, len(q)), 7)
-            fast = 10.0 ** rng.uniform(SLOWEST, FASTEST) * rng.normal(0.0, 0.3, len(q))
-            onset = np.nan if free else float(f"{10.0 ** rng.uniform(-3.0, 0.0):.4g}")
-        bent = float(f"{10.0 ** rng.uniform(-7.0, -4.0):.4g}")
-        state = t, x, _round_to_digits(fast if n % 2 else -fast, 4), ([onset] * len(latches), modes, bent)
+            is_free = n % 4 == 0 or bool(model.rigid)
+            distance = play * 10.0 ** rng.uniform(-1.5 if is_free else -1.0, -0.3 if is_free else 0.3)
+            x = _round_to_digits(q + distance * rng.normal(0.0, 1.0, len(q)), 7)
+            velocities = 10.0 ** rng.uniform(SLOWEST, FASTEST) * rng.normal(0.0, 0.3, len(q))
+            onset = np.nan if is_free else float(f"{10.0 ** rng.uniform(-3.0, 0.0):.4g}")
+        inner_state = float(f"{10.0 ** rng.uniform(-7.0, -4.0):.4g}")
+        state = (
+            t,
+            x,
+            _round_to_digits(velocities if n % 2 else -velocities, 4),
+            ([onset] * len(latches), modes, inner_state),
+        )
         try:
-            found = numpy.dynamics(*state[:3], p, *state[3])
+            result = numpy_model.dynamics(*state[:3], p, *state[3])
         except (ArithmeticError, ValueError):
             continue
-        if not found.status and np.isfinite(found.a).all():
-            tried[int(free)].append((_features(found), state))
-    return [state for states in tried for state in _most_different(states)]
+        if not result.status and np.isfinite(result.a).all():
+            tried[int(is_free)].append((_list_features(result), state))
+    return [state for states in tried for state in _select_most_different(states)]
 
 
-def _most_different(candidates: list[tuple[set[tuple[Any, ...]], Any]]) -> list[Any]:
-    """Return at most N_MORE states of candidates (features, state) that together have the most features."""
-    seen, kept = set[tuple[Any, ...]](), list[Any]()
-    while candidates and len(kept) < N_MORE:
-        best = max(range(len(candidates)), key=lambda k: len(candidates[k][0] - seen))
+def _select_most_different(candidates: list[tuple[set[tuple[Any, ...]], Any]]) -> list[Any]:
+    """Return at most N_MORE states of candidates (features, state) that together have the most features.
+
+    The list `candidates` is emptied on the way. The selection ends when no candidate adds a feature.
+    """
+    known_features, selected = set[tuple[Any, ...]](), list[Any]()
+    while candidates and len(selected) < N_MORE:
+        best = max(range(len(candidates)), key=lambda k: len(candidates[k][0] - known_features))
         features, state = candidates.pop(best)
-        if not features - seen:
+        if not features - known_features:
             break
-        seen |= features
-        kept.append(state)
-    return kept
+        known_features |= features
+        selected.append(state)
+    return selected
 
 
-def _features(found: Any) -> set[tuple[Any, ...]]:
-    """Return features of the force in each joint with play: contact or film, signs, direction, approach."""
+def _list_features(result: Any) -> set[tuple[Any, ...]]:
+    """Return a set of features of the forces in joints with play: contact or film, signs, direction, approach.
+
+    Joints without a force have none.
+    """
     features = set[tuple[Any, ...]]()
-    for k, joint in enumerate(found.clearance):
-        size = math.hypot(joint.Fx, joint.Fy) * math.hypot(joint.ex, joint.ey)
-        if size > 0.0:
+    for k, joint in enumerate(result.clearance):
+        magnitude = math.hypot(joint.Fx, joint.Fy) * math.hypot(joint.ex, joint.ey)
+        if magnitude > 0.0:
             along, across = joint.Fx * joint.ex + joint.Fy * joint.ey, joint.Fy * joint.ex - joint.Fx * joint.ey
-            share = round(2.0 * math.log10(abs(across) / size + 1e-6))
-            kind = k, joint.delta > 0.0
-            features |= {(*kind, across > 0.0, share), (*kind, along > 0.0, joint.deltadot > 0.0, None)}
+            tangential_class = round(2.0 * math.log10(abs(across) / magnitude + 1e-6))
+            joint_and_contact = k, joint.delta > 0.0
+            features |= {
+                (*joint_and_contact, across > 0.0, tangential_class),
+                (*joint_and_contact, along > 0.0, joint.deltadot > 0.0, None),
+            }
     return features
 
 
 def _round_to_digits(values: Array, n: int) -> Array:
-    """Return values rounded to n significant digits."""
+    """Return an array with its values rounded to n significant digits."""
     return np.array([float(f"{x:.{n}g}") for x in values])
 
 
-def _is_steady(value: Array, near: Array) -> bool:
-    """Return whether values are finite and nearly independent of the last digits of the state."""
+def _is_steady(value: Array, neighbour: Array) -> bool:
+    """Return whether values are finite and change by at most SENSITIVE of the largest if the state changes slightly."""
     scale = max(float(np.abs(value).max(initial=0.0)), 1e-300)
-    return bool(np.isfinite(value).all() and (np.abs(near - value) <= SENSITIVE * scale).all())
+    return bool(np.isfinite(value).all() and (np.abs(neighbour - value) <= SENSITIVE * scale).all())
 
 
-def _near_closed(numpy: NumPyModel, t: float, p: Any, play: float, rng: np.random.Generator) -> Array:
-    """Return positions (n,) near a closed linkage, with seven digits; journals are near contact."""
-    q = rng.uniform(0.1, 0.6, numpy.n)
-    for _ in range(CLOSINGS if numpy.m else 0):
-        phi, phi_q = numpy.phi(t, q, p), numpy.phi_q(t, q, p)
+def _find_near_closed(numpy_model: NumPyModel, t: float, p: Any, play: float, rng: np.random.Generator) -> Array:
+    """Return positions q (n,) near a closed linkage, with seven digits, displaced at random by about `play`.
+
+    A few Gauss–Newton steps from a random position close the linkage; they end early at a value that is not finite.
+    """
+    q = rng.uniform(0.1, 0.6, numpy_model.n)
+    for _ in range(CLOSINGS if numpy_model.m else 0):
+        phi, phi_q = numpy_model.phi(t, q, p), numpy_model.phi_q(t, q, p)
         if not (np.isfinite(phi).all() and np.isfinite(phi_q).all()):
             break
         q = q - np.linalg.lstsq(phi_q, phi, rcond=1e-6)[0]
-    q = np.clip(q, -1e3, 1e3) + play * rng.normal(0.0, 1.0, numpy.n)
+    q = np.clip(q, -1e3, 1e3) + play * rng.normal(0.0, 1.0, numpy_model.n)
     return np.array([float(f"{x:.7g}") for x in q])
 
 
-def _values(
+def _evaluate_functions(
     model: Model,
-    numpy: NumPyModel,
+    numpy_model: NumPyModel,
     outputs: Any,
     p: Any,
-    at: tuple[float, Array, Array],
-    memory: tuple[list[float], list[float], float],
+    state: tuple[float, Array, Array],
+    discrete_states: tuple[list[float], list[float], float],
 ) -> dict[str, Array] | None:
-    """Return all functions at a state by their names in Evaluation; None where a pivot vanishes."""
-    t, q, v = at
+    """Return {name in Evaluation: array} of all functions at a state (t, q, v).
+
+    discrete_states: approach speeds, friction modes, inner states. None is returned where a pivot vanishes or C has
+    an infinity.
+    """
+    t, q, v = state
     try:
-        found = numpy.dynamics(t, q, v, p, *memory)
+        result = numpy_model.dynamics(t, q, v, p, *discrete_states)
     except (ArithmeticError, ValueError):  # where C has an infinity, or no number
         return None
-    if found.status:
+    if result.status:
         return None
     values = {
-        "a": found.a,
-        "multipliers": found.lambda_,
-        "power": found.power,
-        "phi": numpy.phi(t, q, p),
-        "nu": numpy.nu(t, q, p),
-        "gamma": numpy.gamma(t, q, v, p),
-        "mass": numpy.mass(p),
-        "clearance": np.array([[one.Fx, one.Fy] for one in found.clearance]).ravel(),
+        "a": result.a,
+        "multipliers": result.lambda_,
+        "power": result.power,
+        "phi": numpy_model.phi(t, q, p),
+        "nu": numpy_model.nu(t, q, p),
+        "gamma": numpy_model.gamma(t, q, v, p),
+        "mass": numpy_model.mass(p),
+        "clearance": np.array([[clearance.Fx, clearance.Fy] for clearance in result.clearance]).ravel(),
     }
     reactions, drives = N_REACTION_COLUMNS * len(constraining_joints(model)), len(model.scene.mechanism.drives)
     out = [np.zeros(size) for size in (reactions, drives, len(element_series(model)), N_ENERGY)]
     try:
         with np.errstate(all="ignore"):
-            outputs(t, q.tolist(), v.tolist(), p, found.lambda_, *out)
+            outputs(t, q.tolist(), v.tolist(), p, result.lambda_, *out)
     except (ArithmeticError, ValueError):
         return None
     return values | dict(zip(("reactions", "torques", "series", "energy"), out, strict=True))
 
 
-def _as_seven_digits(values: Array) -> list[float | None]:
-    """Return values with seven digits, as the last ones depend on the machine; None for those not finite."""
+def _round_to_seven_digits(values: Array) -> list[float | None]:
+    """Return a flat list of values with seven digits, as the last ones depend on the machine.
+
+    None for those not finite.
+    """
     return [float(f"{x:.7g}") if np.isfinite(x) else None for x in np.asarray(values, dtype=float).ravel()]
