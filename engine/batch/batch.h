@@ -14,14 +14,14 @@ enum {
 #define POLL_INTERVAL_S 0.02 /* s between two polls whether the batch is ending */
 
 /* Return the first of the sample times of run i, s. */
-static inline const double *times_of(const Batch *batch, long i) { return batch->t + i * batch->apart; }
+static inline const double *get_sample_times(const Batch *batch, long i) { return batch->t + i * batch->apart; }
 /* Return the last of the sample times of run i, s. */
-static inline double t_end_of(const Batch *batch, long i)
+static inline double get_end_time(const Batch *batch, long i)
 {
-    return times_of(batch, i)[batch->wanted[i] - 1];
+    return get_sample_times(batch, i)[batch->wanted[i] - 1];
 }
 /* Return the row of the batch's arrays of samples at which those of run i begin. */
-static inline long rows_of(const Batch *batch, long i) { return batch->place[i] * batch->samples; }
+static inline long get_first_row(const Batch *batch, long i) { return batch->place[i] * batch->samples; }
 
 /* Functions of a single run, for the time loop of several runs in lanes. */
 typedef struct {
@@ -29,7 +29,7 @@ typedef struct {
     int (*begin)(const Batch *batch, long i, const long *candidates, int n, void *run);
     /* advance run i to its next step; returns GOES_ON, LISTS or RUN_OVER */
     int (*advance_single)(const Batch *batch, long i, int trial_result, void *run);
-    long (*unseen)(const void *run); /* steps before its next check of progress; 0: each is reported */
-} Single;
+    long (*max_local_steps)(const void *run); /* steps before its next check of progress; 0: each is reported */
+} SingleRunFunctions;
 
 #endif

@@ -14,48 +14,48 @@ enum { ABREAST = 4 * LANES };
 /* Several runs under way in lanes: their integrators, numbers and next steps, and the data of the lanes. */
 typedef struct {
     const Batch *batch;
-    const Single *one;
+    const SingleRunFunctions *one;
     Integrator *run[ABREAST];
     long number[ABREAST]; /* -1: free */
     int kind[ABREAST];    /* method of the next step of each run; -1: none */
     int loaded[LANES];    /* run whose parameters a lane holds; -1: none */
     LaneParameters p;
     Lanes h; /* lengths of the next steps, s */
-#if QUIET
-    Quiet quiet;
+#if LOCAL_STEPS
+    LocalSteps local_steps;
 #endif
     LaneIntegrator x;
     LaneStep step;
-} Flow;
+} LaneGroup;
 /* Number of bytes of a Flow that are zero at the beginning. */
 #if TAYLOR
-#define FLOW_BEGINS (offsetof(Flow, x) + offsetof(LaneIntegrator, series.terms))
+#define FLOW_BEGINS (offsetof(LaneGroup, x) + offsetof(LaneIntegrator, series.terms))
 #else
-#define FLOW_BEGINS sizeof(Flow)
+#define FLOW_BEGINS sizeof(LaneGroup)
 #endif
 
 /* Return whether place i of the runs under way is in use. */
-static int has_run(const Flow *flow, int i) { return flow->number[i] >= 0; }
+static int has_run(const LaneGroup *group, int i) { return group->number[i] >= 0; }
 
 /*
  * Load the parameters of the run in place i into lane k, unless they are there. If place i is free, the lane repeats
  * another run under way, so that its numbers are finite; its results are not used.
  */
-static void load_parameters(Flow *flow, int k, int i)
+static void load_lane_parameters(LaneGroup *group, int k, int i)
 {
-    for (int j = 0; j < ABREAST && !has_run(flow, i); j++)
-        i = has_run(flow, j) ? j : i;
-    if (flow->loaded[k] == i)
+    for (int j = 0; j < ABREAST && !has_run(group, i); j++)
+        i = has_run(group, j) ? j : i;
+    if (group->loaded[k] == i)
         return;
-    const double *p = flow->batch->p_motion + flow->number[i] * flow->batch->numbers;
-    for (long j = 0; j < flow->batch->numbers; j++)
-        ((Lanes *)&flow->p)[j][k] = p[j];
-    flow->loaded[k] = i;
+    const double *p = group->batch->p_motion + group->number[i] * group->batch->numbers;
+    for (long j = 0; j < group->batch->numbers; j++)
+        ((Lanes *)&group->p)[j][k] = p[j];
+    group->loaded[k] = i;
 }
 
 #if IMPLICIT_STAGES && !TAYLOR
 /* Load the iteration history of a run into lane k: first guesses of the stages follow from it. */
-static void gather_past(LaneIntegrator *x, int k, Integrator *run)
+static void gather_history(LaneIntegrator *x, int k, Integrator *run)
 {
     update_iteration_history(run);
     x->newton.last_h[k] = run->newton.last_h;
@@ -73,17 +73,17 @@ static void gather_past(LaneIntegrator *x, int k, Integrator *run)
  * Load the state of lane k's run at the beginning of a step, and the length of the step, into the lane. Does nothing if
  * the lane holds the newest state, because it accepted the last step itself (lane_quiet.c).
  */
-static void gather(Flow *flow, int k)
+static void gather_state(LaneGroup *group, int k)
 {
-    Integrator *run = flow->run[flow->loaded[k]];
-    LaneIntegrator *x = &flow->x;
-#if QUIET
-    if (has_run(flow, k) && flow->quiet.here[k])
+    Integrator *run = group->run[group->loaded[k]];
+    LaneIntegrator *x = &group->x;
+#if LOCAL_STEPS
+    if (has_run(group, k) && group->local_steps.here[k])
         return;
-    if (has_run(flow, k))
-        load_quiet_lane(&flow->quiet, x, k, flow->batch, flow->number[k], flow->one, run);
+    if (has_run(group, k))
+        load_local_steps(&group->local_steps, x, k, group->batch, group->number[k], group->one, run);
 #endif
-    flow->h[k] = run->control.attempt.h;
+    group->h[k] = run->control.attempt.h;
     x->t[k] = run->t;
     x->control.accept[k] = run->control.accept;
     for (int j = 0; j < N_Y; j++) {
@@ -100,7 +100,7 @@ static void gather(Flow *flow, int k)
         x->rhs.lambda[i][k] = run->rhs.lambda[i];
 #if IMPLICIT_STAGES
     if (run->control.attempt.lane >= BY_RADAU5)
-        gather_past(x, k, run);
+        gather_history(x, k, run);
 #endif
 #endif
     for (int i = 0; i < N_CLEARANCES; i++) {
@@ -148,9 +148,9 @@ static void scatter_rhs(const LaneRhsOutputs *x, int k, RhsOutputs *rhs)
  * Copy an accepted step of lane k to a single run's step, as that run itself would have computed it. Stages, values at
  * stages and the dense output stay in the lane: the step points to them with the stride LANES.
  */
-static void scatter_step(const Flow *flow, int k, Step *step)
+static void scatter_step(const LaneGroup *group, int k, Step *step)
 {
-    const LaneStep *x = &flow->step;
+    const LaneStep *x = &group->step;
     for (int j = 0; j < N_Y; j++) {
         step->y[j] = x->y[j][k];
         step->dy[j] = x->dy[j][k];
@@ -183,32 +183,32 @@ static void scatter_step(const Flow *flow, int k, Step *step)
  * Copy the counts and the series of a trial step in lane k to its run; the terms stay in the lane. `method` is not
  * used.
  */
-static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
+static void scatter_trial(const LaneGroup *group, int k, int method, Integrator *run)
 {
     (void)method;
     run->counts.evaluations += !run->series.ready;
     run->series.ready = IN_LANE;
-    run->series.lane = (const double *)flow->x.series.terms + k;
+    run->series.lane = (const double *)group->x.series.terms + k;
     run->series.lanes = LANES;
-    run->series.reach = flow->x.series.reach[k];
-    run->control.attempt.h = flow->step.h[k];
+    run->series.reach = group->x.series.reach[k];
+    run->control.attempt.h = group->step.h[k];
 }
 #else
 /*
  * Copy the counts and iteration data of a trial step by `method` in lane k to its run, as the run itself would have
  * counted them.
  */
-static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
+static void scatter_trial(const LaneGroup *group, int k, int method, Integrator *run)
 {
     static const int of[LANE_KINDS] = {[BY_DOP853] = DOP853_STAGES, [BY_RK4] = RK4_STAGES, [BY_DOPRI5] = DOPRI5_STAGES,
         [BY_RODAS5P] = RODAS5P_STAGES, [BY_RADAU5] = 3, [BY_RADAU9] = 5};
     const int stages = of[method];
-    (void)flow, (void)k;
+    (void)group, (void)k;
     run->counts.evaluations += stages - 1;
 #if IMPLICIT_STAGES
     if (method >= BY_RADAU5) {
-        run->counts.evaluations += (long)flow->x.newton.evaluations[k] - stages + 1;
-        run->newton.falls = flow->x.newton.falls[k];
+        run->counts.evaluations += (long)group->x.newton.evaluations[k] - stages + 1;
+        run->newton.falls = group->x.newton.falls[k];
     }
 #endif
     if (method >= BY_RODAS5P && !run->newton.ready) {
@@ -222,23 +222,23 @@ static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
  * Copy the result of a trial step by `method` in lane k to its run: time, length, error norm and counts. The stability
  * and the step itself are copied only if the lane accepted it.
  */
-static void scatter(const Flow *flow, int k, int method)
+static void scatter_result(const LaneGroup *group, int k, int method)
 {
-    Integrator *run = flow->run[flow->loaded[k]];
+    Integrator *run = group->run[group->loaded[k]];
     Step *step = &run->step;
-    step->t = flow->step.t[k];
-    step->h = flow->step.h[k];
-    step->error = flow->step.error[k];
+    step->t = group->step.t[k];
+    step->h = group->step.h[k];
+    step->error = group->step.error[k];
     step->dense_ready = 0;
-    scatter_trial(flow, k, method, run);
+    scatter_trial(group, k, method, run);
 #if TAYLOR
     const int counts = 1;
 #else
-    const int counts = flow->step.taken[k] || method == BY_DOPRI5; /* its error needs the rates at the end */
+    const int counts = group->step.taken[k] || method == BY_DOPRI5; /* its error needs the rates at the end */
 #endif
     run->counts.evaluations += counts; /* a series may be rejected by its end only */
-    if (!flow->step.taken[k])
+    if (!group->step.taken[k])
         return;
-    run->choice.stability = flow->x.choice.stability[k];
-    scatter_step(flow, k, step);
+    run->choice.stability = group->x.choice.stability[k];
+    scatter_step(group, k, step);
 }

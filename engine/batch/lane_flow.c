@@ -12,22 +12,22 @@ enum { MIN_REPORTED = ABREAST / LANES }; /* runs reported at once: a call from P
  * Store the method that the run in place i needs next, after a call for that run returned `result`. If the run is over,
  * the place becomes free. Return whether Python must be called: unless `result` is GOES_ON.
  */
-static int record_run_result(Flow *flow, int i, int result)
+static int record_run_result(LaneGroup *group, int i, int result)
 {
     if (result == RUN_OVER)
-        flow->number[i] = -1;
-    flow->kind[i] = result == RUN_OVER ? -1 : flow->run[i]->control.attempt.lane;
+        group->number[i] = -1;
+    group->kind[i] = result == RUN_OVER ? -1 : group->run[i]->control.attempt.lane;
     return result != GOES_ON;
 }
 
 /* Copy the steps that lane i accepted itself to the run in place i, before the run is used; else do nothing. */
-static void flush_lane(Flow *flow, int i)
+static void flush_lane(LaneGroup *group, int i)
 {
-#if QUIET
-    if (has_run(flow, i) && flow->quiet.here[i])
-        unload_quiet_lane(&flow->quiet, &flow->x, i, flow->h[i], flow->run[i]);
+#if LOCAL_STEPS
+    if (has_run(group, i) && group->local_steps.here[i])
+        flush_local_steps(&group->local_steps, &group->x, i, group->h[i], group->run[i]);
 #else
-    (void)flow, (void)i;
+    (void)group, (void)i;
 #endif
 }
 
@@ -36,22 +36,22 @@ static void flush_lane(Flow *flow, int i)
  * the lanes did of that step (NOT_TRIED, TRIED, MISSED). *lists_full is set if the run's lists are full. Return whether
  * Python must be called.
  */
-static int advance_run_to_next_step(Flow *flow, int i, int trial_result, int *lists_full)
+static int advance_run_to_next_step(LaneGroup *group, int i, int trial_result, int *lists_full)
 {
-    const int result = flow->one->advance_single(flow->batch, flow->number[i], trial_result, flow->run[i]);
+    const int result = group->one->advance_single(group->batch, group->number[i], trial_result, group->run[i]);
     *lists_full |= result == LISTS;
-    return record_run_result(flow, i, result);
+    return record_run_result(group, i, result);
 }
 
 /* Return whether the next step of the run in place i is by this method (BY_...). */
-static int needs_method(const Flow *flow, int i, int method) { return flow->kind[i] == method; }
+static int needs_method(const LaneGroup *group, int i, int method) { return group->kind[i] == method; }
 
 /* Return the number of lanes that have a run whose next step is by this method. Place i belongs to lane i % LANES. */
-static int count_lanes_of_method(const Flow *flow, int method)
+static int count_lanes_of_method(const LaneGroup *group, int method)
 {
     int has_lane[LANES] = {0}, count = 0;
     for (int i = 0; i < ABREAST; i++)
-        has_lane[i % LANES] |= needs_method(flow, i, method);
+        has_lane[i % LANES] |= needs_method(group, i, method);
     for (int k = 0; k < LANES; k++)
         count += has_lane[k];
     return count;
@@ -61,32 +61,32 @@ static int count_lanes_of_method(const Flow *flow, int method)
  * Load a run whose next step is by this method into lane k, preferring the run that is there. If there is none, another
  * run is repeated in the lane. Return whether the lane has a run that needs the step.
  */
-static int load_run_into_lane(Flow *flow, int k, int method)
+static int load_run_into_lane(LaneGroup *group, int k, int method)
 {
-    const int last = flow->loaded[k], is_own = last >= 0 && last % LANES == k && has_run(flow, last);
+    const int last = group->loaded[k], is_own = last >= 0 && last % LANES == k && has_run(group, last);
     int best = is_own ? last : k;
-    for (int i = k; i < ABREAST && !needs_method(flow, best, method); i += LANES)
-        best = needs_method(flow, i, method) || !has_run(flow, best) ? i : best;
-    load_parameters(flow, k, best);
-    return flow->loaded[k] % LANES == k && needs_method(flow, flow->loaded[k], method);
+    for (int i = k; i < ABREAST && !needs_method(group, best, method); i += LANES)
+        best = needs_method(group, i, method) || !has_run(group, best) ? i : best;
+    load_lane_parameters(group, k, best);
+    return group->loaded[k] % LANES == k && needs_method(group, group->loaded[k], method);
 }
 
 /*
  * Return whether a fixed step of lane k contains an event: an event function is negative at its end or at a stage. Its
  * run then repeats the step with free branches. Always 0 for steps of variable length and series.
  */
-static int leads_over(const Flow *flow, int k)
+static int passes_event(const LaneGroup *group, int k)
 {
     int has_event = 0;
 #if !TAYLOR
     Lanes event_functions[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
-    if (!(flow->run[flow->loaded[k]]->control.fixed > 0.0))
+    if (!(group->run[group->loaded[k]]->control.fixed > 0.0))
         return 0;
-    record_event_functions(&flow->x, &flow->step.rhs, event_functions);
+    evaluate_lane_event_functions(&group->x, &group->step.rhs, event_functions);
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++)
-        has_event |= event_functions[j][k] < 0.0 || flow->step.lowest[j][k] < 0.0;
+        has_event |= event_functions[j][k] < 0.0 || group->step.lowest[j][k] < 0.0;
 #else
-    (void)flow, (void)k;
+    (void)group, (void)k;
 #endif
     return has_event;
 }
@@ -96,27 +96,27 @@ static int leads_over(const Flow *flow, int k)
  * run are computed, but ignored. Steps that fail in a lane or lead over an event are left to their runs. Return the
  * number of runs that Python must be called for. *lists_full is set if the lists of one are full.
  */
-static int try_lane_steps(Flow *flow, int method, int *lists_full)
+static int try_lane_steps(LaneGroup *group, int method, int *lists_full)
 {
     int n_reported = 0, requested[LANES];
-    LaneBits quiet = {0};
+    LaneBits local_steps = {0};
     for (int k = 0; k < LANES; k++) {
-        requested[k] = load_run_into_lane(flow, k, method);
-        gather(flow, k);
+        requested[k] = load_run_into_lane(group, k, method);
+        gather_state(group, k);
     }
-    try_lanes(&flow->x, method, flow->h, &flow->p, &flow->step);
-#if QUIET
-    quiet = accept_quiet_steps(&flow->quiet, &flow->x, &flow->step, &flow->h);
+    try_lanes(&group->x, method, group->h, &group->p, &group->step);
+#if LOCAL_STEPS
+    local_steps = accept_local_steps(&group->local_steps, &group->x, &group->step, &group->h);
 #endif
     for (int k = 0; k < LANES; k++) {
-        if (!requested[k] || quiet[k])
+        if (!requested[k] || local_steps[k])
             continue;
-        const int lost = flow->step.lost[k] || leads_over(flow, k);
-        flush_lane(flow, k);
+        const int lost = group->step.lost[k] || passes_event(group, k);
+        flush_lane(group, k);
         if (!lost)
-            scatter(flow, k, method);
-        const int trial = lost ? NOT_TRIED : flow->step.missed[k] ? MISSED : TRIED;
-        n_reported += advance_run_to_next_step(flow, flow->loaded[k], trial, lists_full);
+            scatter_result(group, k, method);
+        const int trial = lost ? NOT_TRIED : group->step.missed[k] ? MISSED : TRIED;
+        n_reported += advance_run_to_next_step(group, group->loaded[k], trial, lists_full);
     }
     return n_reported;
 }
@@ -126,20 +126,20 @@ static int try_lane_steps(Flow *flow, int method, int *lists_full)
  * lanes share a method, each run makes its own step outside the lanes. Return the number of runs that Python must be
  * called for. *lists_full is set if the lists of one are full.
  */
-static int advance_lanes(Flow *flow, int *lists_full)
+static int advance_lanes(LaneGroup *group, int *lists_full)
 {
     int n_reported = 0, most = 0, count[LANE_KINDS];
     for (int method = 0; method < LANE_KINDS; method++) {
-        count[method] = count_lanes_of_method(flow, method);
+        count[method] = count_lanes_of_method(group, method);
         most = count[method] > count[most] ? method : most;
     }
     if (count[most] > 1)
-        return try_lane_steps(flow, most, lists_full);
+        return try_lane_steps(group, most, lists_full);
     for (int i = 0; i < ABREAST; i++) {
-        if (!has_run(flow, i))
+        if (!has_run(group, i))
             continue;
-        flush_lane(flow, i);
-        n_reported += advance_run_to_next_step(flow, i, NOT_TRIED, lists_full);
+        flush_lane(group, i);
+        n_reported += advance_run_to_next_step(group, i, NOT_TRIED, lists_full);
     }
     return n_reported;
 }
@@ -148,25 +148,25 @@ static int advance_lanes(Flow *flow, int *lists_full)
  * Begin the run in place i if it is new, or resume it, up to its first attempt at a step. A failed start is stored in
  * the batch's status. Return whether Python must be called.
  */
-static int begin_or_resume_run(Flow *flow, int i)
+static int begin_or_resume_run(LaneGroup *group, int i)
 {
-    const Batch *batch = flow->batch;
-    const long run = flow->number[i];
+    const Batch *batch = group->batch;
+    const long run = group->number[i];
     if (batch->phase[run] == NEW) {
-        batch->status[run] = flow->one->begin(batch, run, flow->number, ABREAST, flow->run[i]);
+        batch->status[run] = group->one->begin(batch, run, group->number, ABREAST, group->run[i]);
         batch->phase[run] = batch->status[run] ? OVER : BEGUN;
     }
     if (batch->phase[run] == OVER)
-        return record_run_result(flow, i, RUN_OVER);
-    return record_run_result(flow, i, flow->one->advance_single(batch, run, NOT_YET, flow->run[i]));
+        return record_run_result(group, i, RUN_OVER);
+    return record_run_result(group, i, group->one->advance_single(batch, run, NOT_YET, group->run[i]));
 }
 
 /* Return the number of places with a run under way. */
-static int count_runs(const Flow *flow)
+static int count_runs(const LaneGroup *group)
 {
     int count = 0;
     for (int i = 0; i < ABREAST; i++)
-        count += has_run(flow, i);
+        count += has_run(group, i);
     return count;
 }
 
@@ -182,36 +182,36 @@ int gudgeon_lane_count(void) { return ABREAST; }
  */
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
 {
-    Flow flow;
-    memset(&flow, 0, FLOW_BEGINS);
-    flow.batch = batch, flow.one = single;
-    const double before = lane_seconds();
+    LaneGroup group;
+    memset(&group, 0, FLOW_BEGINS);
+    group.batch = batch, group.one = single;
+    const double before = read_wall_time();
     int n_reported = 0, lists_full = 0, entered = 0;
     for (int i = 0; i < ABREAST; i++) {
-        flow.run[i] = run[i];
-        flow.number[i] = number[i];
-        flow.kind[i] = -1;
+        group.run[i] = run[i];
+        group.number[i] = number[i];
+        group.kind[i] = -1;
         entered += number[i] >= 0;
     }
     for (int k = 0; k < LANES; k++)
-        flow.loaded[k] = -1;
+        group.loaded[k] = -1;
     for (int i = 0; i < ABREAST; i++)
-        if (has_run(&flow, i))
-            n_reported += begin_or_resume_run(&flow, i);
-    for (long left = flow.batch->limit; n_reported < MIN_REPORTED && !lists_full && left > 0
-        && !*flow.batch->ending; left--) {
-        if (count_runs(&flow) < 2)
+        if (has_run(&group, i))
+            n_reported += begin_or_resume_run(&group, i);
+    for (long left = group.batch->limit; n_reported < MIN_REPORTED && !lists_full && left > 0
+        && !*group.batch->ending; left--) {
+        if (count_runs(&group) < 2)
             break;
-        n_reported += advance_lanes(&flow, &lists_full);
+        n_reported += advance_lanes(&group, &lists_full);
     }
-    const double fraction = (lane_seconds() - before) / (entered > 0 ? entered : 1);
+    const double fraction = (read_wall_time() - before) / (entered > 0 ? entered : 1);
     for (int i = 0; i < ABREAST; i++) {
-        flush_lane(&flow, i);
+        flush_lane(&group, i);
         if (number[i] >= 0)
-            flow.batch->seconds[number[i]] += fraction;
-        if (has_run(&flow, i))
-            flow.batch->t_last[flow.number[i]] = flow.run[i]->t;
-        number[i] = flow.number[i];
+            group.batch->seconds[number[i]] += fraction;
+        if (has_run(&group, i))
+            group.batch->t_last[group.number[i]] = group.run[i]->t;
+        number[i] = group.number[i];
     }
-    return lists_full ? LISTS : (n_reported || count_runs(&flow) > 1) && !*flow.batch->ending ? GOES_ON : ALL_OVER;
+    return lists_full ? LISTS : (n_reported || count_runs(&group) > 1) && !*group.batch->ending ? GOES_ON : ALL_OVER;
 }

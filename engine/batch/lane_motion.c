@@ -22,7 +22,7 @@ static inline int compute_lane_accelerations(Lanes t, const Lanes *q, const Lane
     return 0;
 }
 
-#define IN_BOTH static inline
+#define FUNCTION_LINKAGE static inline
 #define MOTION motion
 #define REDUCED_DYNAMICS compute_lane_accelerations
 #define CLOSURES(t, q, discrete, p, phi) closures(t, q, p, phi, &(discrete)->rare)
@@ -30,7 +30,7 @@ static inline int compute_lane_accelerations(Lanes t, const Lanes *q, const Lane
 #include "../both/motion.h"
 
 /* Return the mask of the lanes in which the sum of n components of a (plus those of b, unless NULL) is not finite. */
-static LaneBits not_finite(const Lanes *a, const Lanes *b, int n)
+static LaneBits find_nonfinite_lanes(const Lanes *a, const Lanes *b, int n)
 {
     Lanes sum = all_of(0.0);
     for (int k = 0; k < n; k++)
@@ -44,7 +44,7 @@ static LaneBits not_finite(const Lanes *a, const Lanes *b, int n)
  * Compute the rates dy of the integrated state y and the outputs rhs of all lanes. Return 0. Lanes in which that fails
  * are marked as rare.
  */
-static int rates(LaneIntegrator *run, Lanes t, const Lanes *y, const LaneParameters *p, Lanes *dy, LaneRhsOutputs *rhs)
+static int evaluate_rhs(LaneIntegrator *run, Lanes t, const Lanes *y, const LaneParameters *p, Lanes *dy, LaneRhsOutputs *rhs)
 {
     copy_inner_states(&run->discrete, y);
     motion(t, y, &run->discrete, p, dy, rhs);
@@ -56,12 +56,12 @@ static int rates(LaneIntegrator *run, Lanes t, const Lanes *y, const LaneParamet
  * Compute the corrections dq, dv that close the constraints of all lanes, and their largest residuals. Return
  * `is_active`. Active lanes without a finite correction are marked as rare.
  */
-static LaneBits has_closing_step(LaneIntegrator *run, LaneBits is_active, Lanes t, const Lanes *y,
+static LaneBits find_closure_correction(LaneIntegrator *run, LaneBits is_active, Lanes t, const Lanes *y,
     const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *residual)
 {
     set_pivot_limits(&run->discrete);
     closing_step(t, y, y + N_X, &run->discrete, p, dq, dv, residual, &run->discrete.rare);
-    run->discrete.rare |= is_active & (not_finite(dq, NULL, N_X) | not_finite(dv, NULL, N_X));
+    run->discrete.rare |= is_active & (find_nonfinite_lanes(dq, NULL, N_X) | find_nonfinite_lanes(dv, NULL, N_X));
     return is_active;
 }
 

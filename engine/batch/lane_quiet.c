@@ -3,36 +3,36 @@
  * are accepted in the lanes as accept_step() of methods/adaptive.c does. Their run is updated later, before its next
  * call.
  */
-#define QUIET (TAYLOR && !N_LOOPS && !N_USER_EVENTS && !N_WATCHED && !N_PULSES && !DRIVE_IMPULSES)
+#define LOCAL_STEPS (TAYLOR && !N_LOOPS && !N_USER_EVENTS && !N_WATCHED && !N_PULSES && !DRIVE_IMPULSES)
 
-#if QUIET
+#if LOCAL_STEPS
 #include "../both/error_weights.h"
 
 /* Of each lane: the time of its run's next sample and its end, s; the longest step of the last series, s. */
 typedef struct {
     Lanes sample, t_end, reach;
     LaneBits open;                    /* whether steps may be accepted here */
-    long steps[LANES], unseen[LANES]; /* steps accepted here; allowed number */
+    long steps[LANES], max_local_steps[LANES]; /* steps accepted here; allowed number */
     int here[LANES];                  /* whether the lane has the run's state */
-} Quiet;
+} LocalSteps;
 
 /*
  * Load the part of run i's state into lane k that only steps accepted in the lane need: scales, limits, sample times.
- * The lane may accept as many steps as single->unseen() returns; none with fixed steps or after a
+ * The lane may accept as many steps as single->max_local_steps() returns; none with fixed steps or after a
  * rejected attempt.
  */
-static void load_quiet_lane(
-    Quiet *quiet, LaneIntegrator *x, int k, const Batch *batch, long i, const Single *single,
+static void load_local_steps(
+    LocalSteps *local_steps, LaneIntegrator *x, int k, const Batch *batch, long i, const SingleRunFunctions *single,
     const Integrator *run)
 {
-    const double *t = times_of(batch, i);
-    quiet->sample[k] = t[batch->done[i]];
-    quiet->t_end[k] = t_end_of(batch, i);
-    quiet->steps[k] = 0;
-    quiet->unseen[k] = run->control.fixed > 0.0 || run->control.attempt.again ? 0
-        : single->unseen(run);
-    quiet->open[k] = -(quiet->unseen[k] > 0);
-    quiet->here[k] = 1;
+    const double *t = get_sample_times(batch, i);
+    local_steps->sample[k] = t[batch->done[i]];
+    local_steps->t_end[k] = get_end_time(batch, i);
+    local_steps->steps[k] = 0;
+    local_steps->max_local_steps[k] = run->control.fixed > 0.0 || run->control.attempt.again ? 0
+        : single->max_local_steps(run);
+    local_steps->open[k] = -(local_steps->max_local_steps[k] > 0);
+    local_steps->here[k] = 1;
     x->norm.energy_scale[k] = run->norm.energy_scale;
     x->norm.work_scale[k] = run->norm.work_scale;
     for (int kind = 0; kind < 2; kind++) {
@@ -45,9 +45,9 @@ static void load_quiet_lane(
 }
 
 /* Return the magnitude of the times in each lane, s, for rounding, as open_attempt() does for a single run. */
-static Lanes compute_time_scale(const Quiet *quiet, const LaneIntegrator *x)
+static Lanes compute_time_scale(const LocalSteps *local_steps, const LaneIntegrator *x)
 {
-    return lanes_max_of(lanes_min_of(lanes_fabs(quiet->t_end), all_of(MAX_RUN_SCALE_S)), lanes_fabs(x->t));
+    return lanes_max_of(lanes_min_of(lanes_fabs(local_steps->t_end), all_of(MAX_RUN_SCALE_S)), lanes_fabs(x->t));
 }
 
 /*
@@ -55,13 +55,13 @@ static Lanes compute_time_scale(const Quiet *quiet, const LaneIntegrator *x)
  * mask. These steps end before the next sample and the end of the run, are not too short and are finite. State, speeds,
  * energy scale and error weights of the lanes are updated as after a single step.
  */
-static LaneBits accept_quiet_steps(Quiet *quiet, LaneIntegrator *x, const LaneStep *step, Lanes *h)
+static LaneBits accept_local_steps(LocalSteps *local_steps, LaneIntegrator *x, const LaneStep *step, Lanes *h)
 {
     const Lanes t = x->t + step->h;
-    const LaneBits accepted = quiet->open & step->taken & (step->error <= x->control.accept)
-        & (t < quiet->sample) & (step->h < quiet->t_end - x->t)
-        & (step->h >= SHORT_STEP_FRACTION * compute_time_scale(quiet, x))
-        & ~not_finite(step->y, step->dy, N_Y);
+    const LaneBits accepted = local_steps->open & step->taken & (step->error <= x->control.accept)
+        & (t < local_steps->sample) & (step->h < local_steps->t_end - x->t)
+        & (step->h >= SHORT_STEP_FRACTION * compute_time_scale(local_steps, x))
+        & ~find_nonfinite_lanes(step->y, step->dy, N_Y);
     add_works(x, accepted, step->y);
     for (int j = 0; j < N_Y; j++) {
         x->y[j] = pick(accepted, step->y[j], x->y[j]);
@@ -72,12 +72,12 @@ static LaneBits accept_quiet_steps(Quiet *quiet, LaneIntegrator *x, const LaneSt
     x->t = pick(accepted, t, x->t);
     update_speeds(x);
     update_error_weights(x);
-    quiet->reach = pick(accepted, x->series.reach, quiet->reach);
-    const Lanes left = quiet->t_end - x->t, next = TAYLOR_AHEAD * x->series.reach;
+    local_steps->reach = pick(accepted, x->series.reach, local_steps->reach);
+    const Lanes left = local_steps->t_end - x->t, next = TAYLOR_AHEAD * x->series.reach;
     *h = pick(accepted, pick(next > left * EQUAL_LENGTH_RATIO, left, next), *h);
     for (int k = 0; k < LANES; k++) {
-        quiet->steps[k] -= accepted[k];
-        quiet->open[k] = -(quiet->steps[k] < quiet->unseen[k]);
+        local_steps->steps[k] -= accepted[k];
+        local_steps->open[k] = -(local_steps->steps[k] < local_steps->max_local_steps[k]);
     }
     return accepted;
 }
@@ -86,10 +86,10 @@ static LaneBits accept_quiet_steps(Quiet *quiet, LaneIntegrator *x, const LaneSt
  * Copy the steps accepted in lane k to its run, with their counts, and open the run's next attempt with length h (s).
  * Copies nothing if the lane has accepted no step since it was loaded.
  */
-static void unload_quiet_lane(Quiet *quiet, const LaneIntegrator *x, int k, double h, Integrator *run)
+static void flush_local_steps(LocalSteps *local_steps, const LaneIntegrator *x, int k, double h, Integrator *run)
 {
-    const long steps = quiet->steps[k];
-    quiet->here[k] = 0;
+    const long steps = local_steps->steps[k];
+    local_steps->here[k] = 0;
     if (!steps)
         return;
     for (int j = 0; j < N_Y; j++) {
@@ -112,9 +112,9 @@ static void unload_quiet_lane(Quiet *quiet, const LaneIntegrator *x, int k, doub
         run->series.ready = 0;
     run->discrete.held = 1;
     run->choice.stability = 0.0;
-    run->series.reach = quiet->reach[k];
+    run->series.reach = local_steps->reach[k];
     run->control.h = TAYLOR_AHEAD * run->series.reach;
-    run->control.attempt = (Attempt){.h = h, .longest = h, .left = quiet->t_end[k] - run->t,
-        .far = compute_time_scale(quiet, x)[k], .open = 1};
+    run->control.attempt = (Attempt){.h = h, .longest = h, .left = local_steps->t_end[k] - run->t,
+        .far = compute_time_scale(local_steps, x)[k], .open = 1};
 }
 #endif

@@ -5,13 +5,13 @@
 #include "../both/series.h"
 
 /* Remove the lanes whose error, known only at the end of the step, is too large from the mask of accepting lanes. */
-static void reject_late(const LaneIntegrator *run, LaneStep *step)
+static void reject_step_by_defect(const LaneIntegrator *run, LaneStep *step)
 {
     step->taken &= ~(step->error > run->control.accept);
 }
 
 /* Do nothing: lanes do not count the repeated evaluation at the end of a step. */
-static void discard_end(const LaneIntegrator *run) { (void)run; }
+static void uncount_end_evaluation(const LaneIntegrator *run) { (void)run; }
 
 #include "../both/taylor.h"
 
@@ -19,17 +19,17 @@ static void discard_end(const LaneIntegrator *run) { (void)run; }
  * Try a step of length h (s) by Taylor series in all lanes. Return 0 or a status. Lanes at singular positions or with
  * series that are not finite are marked as rare. `method` is not used.
  */
-static int method_try(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
+static int try_method(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
-    SeriesRow(*const factors)[TAYLOR_ORDERS][SERIES_ROWS] = series_factors();
+    SeriesRow(*const factors)[TAYLOR_ORDERS][SERIES_ROWS] = get_series_factors();
     TaylorValues at;
     Lanes(*const c)[TAYLOR_Y] = run->series.terms;
     (void)method;
     for (int i = 0; i < N_Y; i++)
         c[0][i] = run->y[i];
     taylor_values(run->t, run->y, run->y + N_X, p, &at, c[1] + N_X, c[1] + 2 * N_X, &run->discrete.rare);
-    series_orders(p, &at, run->series.order, c, factors[0], factors[1]);
-    run->discrete.rare |= not_finite(c[run->series.order], NULL, N_Y);
-    run->series.reach = taylor_reach(run);
-    return taylor_step(run, h, p, step);
+    compute_series_orders(p, &at, run->series.order, c, factors[0], factors[1]);
+    run->discrete.rare |= find_nonfinite_lanes(c[run->series.order], NULL, N_Y);
+    run->series.reach = taylor_limit_length(run);
+    return taylor_try_series_step(run, h, p, step);
 }

@@ -25,7 +25,7 @@ static void discard_stages(LaneStep *step)
  * Set the masks of the lanes that accept the step, that fail, and whose stages were not found. Return whether no lane
  * accepts it. Failing lanes (rare) leave the step to their run; the mark is then reset.
  */
-static int is_step_refused(LaneIntegrator *run, LaneStep *step)
+static int is_step_rejected(LaneIntegrator *run, LaneStep *step)
 {
 #if IMPLICIT_STAGES && !TAYLOR
     step->missed = run->newton.missed;
@@ -45,12 +45,12 @@ static int is_step_refused(LaneIntegrator *run, LaneStep *step)
 static int finish_step(LaneIntegrator *run, LaneStep *step, const LaneParameters *p)
 {
     Lanes before[N_Y];
-    run->discrete.rare |= not_finite(step->y, NULL, N_Y);
+    run->discrete.rare |= find_nonfinite_lanes(step->y, NULL, N_Y);
     memcpy(before, step->y, sizeof before);
-    project_rows(run, step->t + step->h, step->y, p);
-    run->discrete.rare |= distance_from_constraints(run, before, step->y) > MAX_CONSTRAINT_DRIFT;
-    rates(run, step->t + step->h, step->y, p, step->dy, &step->rhs);
-    run->discrete.rare |= not_finite(step->dy, NULL, N_Y);
+    project_onto_constraints(run, step->t + step->h, step->y, p);
+    run->discrete.rare |= compute_constraint_distance(run, before, step->y) > MAX_CONSTRAINT_DRIFT;
+    evaluate_rhs(run, step->t + step->h, step->y, p, step->dy, &step->rhs);
+    run->discrete.rare |= find_nonfinite_lanes(step->dy, NULL, N_Y);
     return 0;
 }
 
@@ -61,7 +61,7 @@ static int finish_step(LaneIntegrator *run, LaneStep *step, const LaneParameters
  * Compute the event functions of all lanes into out, in the order of evaluate_event_functions(): non-negative until an
  * event.
  */
-static void record_event_functions(const LaneIntegrator *run, const LaneRhsOutputs *rhs, Lanes *out)
+static void evaluate_lane_event_functions(const LaneIntegrator *run, const LaneRhsOutputs *rhs, Lanes *out)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Lanes delta = rhs->clearance[i].delta;
@@ -86,7 +86,7 @@ static Lanes compute_squared_force(const LaneRhsOutputs *rhs, int i)
 static void record_stage(const LaneIntegrator *run, LaneStep *step, const LaneRhsOutputs *rhs, double node)
 {
     Lanes *const seen = step->seen[step->n_seen];
-    record_event_functions(run, rhs, seen);
+    evaluate_lane_event_functions(run, rhs, seen);
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
         step->lowest[k] = lanes_min_of(step->lowest[k], seen[k]);
     step->node[step->n_seen++] = node;
@@ -103,7 +103,7 @@ static void record_stage(const LaneIntegrator *run, LaneStep *step, const LaneRh
  * Extend the range of coordinates and velocities in the step by those of a stage y, in all lanes; only if functions are
  * watched.
  */
-static void record_stage_state(LaneStep *step, const Lanes *y)
+static void extend_stage_range(LaneStep *step, const Lanes *y)
 {
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
         step->least[k] = lanes_min_of(step->least[k], y[k]);
@@ -112,7 +112,7 @@ static void record_stage_state(LaneStep *step, const Lanes *y)
 }
 
 /* Mark the lanes whose error norm is not finite as rare. Return 0, as the other lanes continue. */
-static int is_not_a_number(LaneIntegrator *run, Lanes error)
+static int is_error_not_finite(LaneIntegrator *run, Lanes error)
 {
     run->discrete.rare |= ~(lanes_fabs(error) <= DBL_MAX);
     return 0;
@@ -148,19 +148,19 @@ static int factor_complex_matrix(LaneIntegrator *run, Lanes eta, Lanes eta_i, La
     return 0;
 }
 
-/* Do nothing: gather_past() has loaded the iteration history of each lane. */
-static void load_iteration_history(LaneIntegrator *run) { (void)run; } /* gather_past has */
+/* Do nothing: gather_history() has loaded the iteration history of each lane. */
+static void load_iteration_history(LaneIntegrator *run) { (void)run; } /* gather_history has */
 
 /* Add n evaluations of the right-hand side to the counts of the active lanes. */
-static void count_stage_rates(LaneIntegrator *run, LaneBits is_active, int n)
+static void count_stage_evaluations(LaneIntegrator *run, LaneBits is_active, int n)
 {
     run->newton.evaluations += pick(is_active, all_of(n), all_of(0.0));
 }
 
 /* Begin an iteration of n stages: count n evaluations and discard the data of the stages in the active lanes. */
-static void begin_iteration(LaneIntegrator *run, LaneStep *step, LaneBits is_active, int n)
+static void begin_stage_iteration(LaneIntegrator *run, LaneStep *step, LaneBits is_active, int n)
 {
-    count_stage_rates(run, is_active, n);
+    count_stage_evaluations(run, is_active, n);
     step->n_seen = 0;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
         step->lowest[k] = pick(is_active, all_of(INFINITY), step->lowest[k]);
@@ -178,11 +178,11 @@ static void begin_iteration(LaneIntegrator *run, LaneStep *step, LaneBits is_act
  * Store the data of a stage at fraction `node` in the active lanes; lanes that have found their stages keep theirs. y:
  * state; rhs: outputs of the right-hand side at the stage.
  */
-static void record_pass(LaneIntegrator *run, LaneStep *step, LaneBits is_active, const Lanes *y,
+static void record_iterated_stage(LaneIntegrator *run, LaneStep *step, LaneBits is_active, const Lanes *y,
     const LaneRhsOutputs *rhs, double node)
 {
     Lanes event_functions[AT_LEAST_ONE(N_EVENT_FUNCTIONS)], *const seen = step->seen[step->n_seen];
-    record_event_functions(run, rhs, event_functions);
+    evaluate_lane_event_functions(run, rhs, event_functions);
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++) {
         seen[j] = pick(is_active, event_functions[j], seen[j]);
         step->lowest[j] = pick(is_active, lanes_min_of(step->lowest[j], event_functions[j]), step->lowest[j]);
@@ -203,7 +203,7 @@ static void record_pass(LaneIntegrator *run, LaneStep *step, LaneBits is_active,
 }
 
 /* Store the mask of the lanes whose stages were not found (`has_failed`), except those marked as rare. Return 0. */
-static int mark_missed_stages(LaneIntegrator *run, LaneBits has_failed)
+static int mark_failed_stages(LaneIntegrator *run, LaneBits has_failed)
 {
     run->newton.missed = has_failed & ~run->discrete.rare;
     return 0;
@@ -213,7 +213,7 @@ static int mark_missed_stages(LaneIntegrator *run, LaneBits has_failed)
 #endif
 
 /* Try a step of length h (s) by `method` (BY_...) in all lanes. Return 0 or a status. */
-static int method_try(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
+static int try_method(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
 #if IMPLICIT_STAGES
     run->newton.evaluations = all_of(0.0);
@@ -224,8 +224,8 @@ static int method_try(LaneIntegrator *run, int method, Lanes h, const LaneParame
         return radau9_try_step(run, h, p, step);
 #endif
     if (method == BY_RK4 || method == BY_DOPRI5)
-        return runge_kutta_try(run, method == BY_RK4 ? &classical : &dormand_prince, h, p, step);
-    return method == BY_RODAS5P ? rodas5p_try(run, h, p, step) : dop853_try(run, h, p, step);
+        return runge_kutta_try_step(run, method == BY_RK4 ? &classical : &dormand_prince, h, p, step);
+    return method == BY_RODAS5P ? rodas5p_try_step(run, h, p, step) : dop853_try_step(run, h, p, step);
 }
 #endif
 
@@ -239,7 +239,7 @@ static int count_lanes_with_events(const LaneIntegrator *run, const LaneStep *st
     Lanes event_functions[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
     LaneBits may_end = {0};
     int count = 0;
-    record_event_functions(run, &step->rhs, event_functions);
+    evaluate_lane_event_functions(run, &step->rhs, event_functions);
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++)
         may_end |= (event_functions[j] < 0.0) | (step->lowest[j] < 0.0);
     may_end &= step->taken;
@@ -258,10 +258,10 @@ static void compute_dense_output(LaneIntegrator *run, const LaneParameters *p, L
     if (!any_of(step->taken) || count_lanes_with_events(run, step) < 2)
         return;
     run->discrete.rare = (LaneBits){0};
-    dop853_dense(run, p, step);
+    dop853_compute_dense_output(run, p, step);
     step->no_dense = run->discrete.rare;
     for (int k = 0; k < N_DENSE; k++)
-        step->no_dense |= not_finite(step->dense[k], NULL, N_Y);
+        step->no_dense |= find_nonfinite_lanes(step->dense[k], NULL, N_Y);
     step->dense_ready = 1;
     run->discrete.rare = rare;
 }
@@ -274,7 +274,7 @@ static void compute_dense_output(LaneIntegrator *run, const LaneParameters *p, L
 static void try_lanes(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
     run->discrete.rare = (LaneBits){0};
-    method_try(run, method, h, p, step);
+    try_method(run, method, h, p, step);
     step->lost |= run->discrete.rare & step->taken;
     step->taken &= ~step->lost;
 #if !TAYLOR

@@ -165,7 +165,7 @@ static inline LaneBits is_touching(const LaneContactState *contact, Lanes delta)
 }
 
 /* Return the wall time in s. */
-static double lane_seconds(void)
+static double read_wall_time(void)
 {
     struct timespec now;
     timespec_get(&now, TIME_UTC);

@@ -30,7 +30,7 @@ static int begins_alike(const Batch *batch, long i, long j)
     const int is_closed = j >= 0 && j != i && batch->phase[j] != NEW && batch->status[j] != NOT_CLOSED
         && batch->status[j] != STOPPED;
     return is_closed && !batch->started[j] && batch->size[j] == batch->size[i]
-        && times_of(batch, j)[0] == times_of(batch, i)[0]
+        && get_sample_times(batch, j)[0] == get_sample_times(batch, i)[0]
         && same_start((const Parameters *)(batch->p + i * batch->numbers),
             (const Parameters *)(batch->p + j * batch->numbers));
 }
@@ -48,7 +48,7 @@ static int compute_run_start(const Batch *batch, long i, const long *candidates,
             return 0;
         }
     const double *p = batch->p + i * batch->numbers;
-    return close_start(times_of(batch, i)[0], p, batch->size[i], start, start + N_Q, &residual, cancellation)
+    return compute_start(get_sample_times(batch, i)[0], p, batch->size[i], start, start + N_Q, &residual, cancellation)
         || !all_finite(start + N_Q, N_Q);
 }
 
@@ -62,7 +62,7 @@ static int start_run(const Batch *batch, long i, const long *candidates, int n, 
     double *start = batch->start + i * 2 * N_Q, y[N_S] = {0.0};
     Cancellation cancellation;
     start_batch_polling(batch, &cancellation);
-    const double t0 = times_of(batch, i)[0];
+    const double t0 = get_sample_times(batch, i)[0];
     if (!batch->started[i] && compute_run_start(batch, i, candidates, n, &cancellation))
         return cancellation.stop ? STOPPED : NOT_CLOSED;
     for (int k = 0; k < 2 * N_Q; k++)
@@ -86,7 +86,7 @@ static int start_run(const Batch *batch, long i, const long *candidates, int n, 
 /* Store the present state of `run` as sample k of run i of the batch. */
 static void store_present_sample(const Batch *batch, long i, long k, Integrator *run)
 {
-    const long row = rows_of(batch, i) + k;
+    const long row = get_first_row(batch, i) + k;
     store_sample(run, run->t, run->y, (const Parameters *)(batch->p_motion + i * batch->numbers), 0,
         batch->y + row * N_S, batch->latched + row * AT_LEAST_ONE(N_DISCRETE),
         batch->state + row * AT_LEAST_ONE(N_CLEARANCES));
@@ -99,7 +99,7 @@ static void store_present_sample(const Batch *batch, long i, long k, Integrator 
 static long find_nonfinite_sample(const Batch *batch, long i)
 {
     for (long k = batch->checked[i]; k < batch->done[i]; k++) {
-        if (k > 0 && !all_finite(batch->y + (rows_of(batch, i) + k) * N_S, 2 * N_Q))
+        if (k > 0 && !all_finite(batch->y + (get_first_row(batch, i) + k) * N_S, 2 * N_Q))
             return k;
         batch->checked[i] = k + 1;
     }
@@ -107,10 +107,10 @@ static long find_nonfinite_sample(const Batch *batch, long i)
 }
 
 /* Make at most `limit` steps of run i and store its samples and its time. Return a status of gudgeon_adaptive_run(). */
-static int advance_run(const Batch *batch, long i, long limit, Integrator *run)
+static int make_steps(const Batch *batch, long i, long limit, Integrator *run)
 {
-    const double *p = batch->p_motion + i * batch->numbers, *t = times_of(batch, i);
-    const long row = rows_of(batch, i), n = batch->wanted[i];
+    const double *p = batch->p_motion + i * batch->numbers, *t = get_sample_times(batch, i);
+    const long row = get_first_row(batch, i), n = batch->wanted[i];
     double *y = batch->y + row * N_S, *latched = batch->latched + row * AT_LEAST_ONE(N_DISCRETE);
     signed char *state = batch->state + row * AT_LEAST_ONE(N_CLEARANCES);
     const int status = gudgeon_adaptive_run(run, p, n, t, limit, y, latched, state, batch->done + i);
@@ -122,8 +122,8 @@ static int advance_run(const Batch *batch, long i, long limit, Integrator *run)
 static void truncate_samples(const Batch *batch, long i, long k)
 {
     batch->done[i] = k;
-    batch->t_last[i] = times_of(batch, i)[k];
-    memcpy(batch->last + i * N_S, batch->y + (rows_of(batch, i) + k - 1) * N_S, N_S * sizeof(double));
+    batch->t_last[i] = get_sample_times(batch, i)[k];
+    memcpy(batch->last + i * N_S, batch->y + (get_first_row(batch, i) + k - 1) * N_S, N_S * sizeof(double));
 }
 
 /*
@@ -132,7 +132,7 @@ static void truncate_samples(const Batch *batch, long i, long k)
  */
 static void store_last_sample(const Batch *batch, long i, int status, Integrator *run)
 {
-    const double *times = times_of(batch, i), t_end = t_end_of(batch, i);
+    const double *times = get_sample_times(batch, i), t_end = get_end_time(batch, i);
     const double tolerance = status != ENDED ? 0.0
         : max_of(32.0 * DBL_EPSILON * max_of(fabs(times[0]), fabs(t_end)),
             min_of(1e-11, 1e-10 * (t_end - times[0]))); /* resolution() of runtime/integrators/trajectory.py */
@@ -156,7 +156,7 @@ static void end_run(const Batch *batch, long i, int status, Integrator *run)
         batch->audited_where + N_CHECKS * i);
     gudgeon_run_report(run, batch->t_last + i, batch->counts + N_COUNTS * i, batch->residuals + N_RESIDUALS * i,
         batch->peaks + N_PEAK * AT_LEAST_ONE(N_CLEARANCES) * i);
-    report_monitor(run, batch->gained + i, batch->paced + 2 * i, batch->ended + N_STEP_ENDS * i);
+    report_progress(run, batch->gained + i, batch->paced + 2 * i, batch->ended + N_STEP_ENDS * i);
     if (batch->trace)
         batch->traced[i] = count_envelope_rows(run);
     if (nonfinite)
@@ -195,10 +195,10 @@ int gudgeon_ensemble(const void *batch_data, void *integrator, long *current, lo
         }
         if (batch->phase[i] != BEGUN)
             continue;
-        const double before = seconds_now();
+        const double before = read_clock();
         const int status = *batch->ending && batch->done[i] < batch->wanted[i] ? STOPPED
-            : advance_run(batch, i, batch->limit, run);
-        batch->seconds[i] += seconds_now() - before;
+            : make_steps(batch, i, batch->limit, run);
+        batch->seconds[i] += read_clock() - before;
         const int is_over = status != EVENTS_FULL && (status || batch->done[i] == batch->wanted[i]);
         if (!is_over && !find_nonfinite_sample(batch, i))
             return status ? LISTS : GOES_ON;
@@ -219,9 +219,9 @@ static int begin_single_run(const Batch *batch, long i, const long *candidates, 
 /* Return the destination of run i's samples in the arrays of the batch. */
 static Samples get_samples(const Batch *batch, long i)
 {
-    const long row = rows_of(batch, i);
+    const long row = get_first_row(batch, i);
     return (Samples){
-        .n = batch->wanted[i], .done = batch->done + i, .t = times_of(batch, i), .y = batch->y + row * N_S,
+        .n = batch->wanted[i], .done = batch->done + i, .t = get_sample_times(batch, i), .y = batch->y + row * N_S,
         .latched = batch->latched + row * AT_LEAST_ONE(N_DISCRETE),
         .state = batch->state + row * AT_LEAST_ONE(N_CLEARANCES)
     };
@@ -250,7 +250,7 @@ static int advance_single_run(const Batch *batch, long i, int trial_result, void
         if (!status)
             status = accept_step(run, p, &out);
     }
-    if (!status && needs_step(run, 0, p, &out, &status))
+    if (!status && prepare_step(run, 0, p, &out, &status))
         return GOES_ON;
     batch->t_last[i] = run->t;
     if (status == EVENTS_FULL)
@@ -266,7 +266,7 @@ static int advance_single_run(const Batch *batch, long i, int trial_result, void
 static long count_local_steps(const void *integrator)
 {
     const Integrator *run = integrator;
-    const long steps = run->step_record.rows || run->envelope.rows ? 0 : steps_before_check(&run->progress.monitor);
+    const long steps = run->step_record.rows || run->envelope.rows ? 0 : count_steps_before_check(&run->progress.monitor);
     const long checked = run->audit.level == AUDIT_FULL ? 0 : run->audit.due - run->counts.steps;
     return run->audit.level && checked < steps ? (checked > 0 ? checked : 0) : steps;
 }
@@ -274,7 +274,7 @@ static long count_local_steps(const void *integrator)
 /* Return the functions of a single run (Single) that a library of lanes calls. */
 const void *gudgeon_single(void)
 {
-    static const Single single = {begin_single_run, advance_single_run, count_local_steps};
+    static const SingleRunFunctions single = {begin_single_run, advance_single_run, count_local_steps};
     return &single;
 }
 #endif

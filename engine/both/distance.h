@@ -9,7 +9,7 @@
  * Return the distance of a step's end from the constraint equations, in tolerances, from the states before and after
  * its projection. Changes below ROUNDING_DIGITS of a component count as rounding. Return 0 without closures.
  */
-static Real distance_from_constraints(const IntegratorOf *run, const Real *y_before, const Real *y_after)
+static Real compute_constraint_distance(const IntegratorOf *run, const Real *y_before, const Real *y_after)
 {
     Real distance = real_of(0.0);
     for (int k = 0; k < 2 * N_X && N_LOOPS > 0; k++)
@@ -22,7 +22,7 @@ static Real distance_from_constraints(const IntegratorOf *run, const Real *y_bef
  * Return the index in the state of component k (0 ... N_MOTION - 1) on which the motion depends. These are coordinates,
  * velocities and inner states of contact laws. The works are skipped, as nothing depends on them.
  */
-static inline int felt(int k) { return k < 2 * N_X ? k : k + N_WORK; }
+static inline int get_motion_index(int k) { return k < 2 * N_X ? k : k + N_WORK; }
 
 /* Store h rho of a tried step: its length times the largest rate that its stages show. choose_method() uses it. */
 static inline void record_stability(IntegratorOf *run, Real stability) { run->choice.stability = stability; }
@@ -37,7 +37,7 @@ static inline void record_end_stability(IntegratorOf *run, const StepOf *step, R
 {
     Real change = real_of(0.0), distance = real_of(0.0);
     for (int k = 0; k < N_MOTION; k++) {
-        const int i = felt(k);
+        const int i = get_motion_index(k);
         const Real weight = run->norm.weight[i];
         change = real_max(real_abs(step->dy[i] - stage_rates[i]) * weight, change);
         distance = real_max(real_abs(step->y[i] - stage_y[i]) * weight, distance);

@@ -123,7 +123,7 @@ static Real dop853_estimate_error(const IntegratorOf *run, const StepOf *step)
  * Try a step of length h (s): stages, error norm and, if the error is accepted, its end. Return 0 or a status. A
  * rejected step has an error but no end. Called with the rates run->dy at the beginning.
  */
-static int dop853_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
+static int dop853_try_step(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
     Real y[N_Y];
     RhsOutputsOf rhs;
@@ -136,17 +136,17 @@ static int dop853_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *
         if (s + 1 == DOP853_STAGES)
             for (int i = 0; i < N_Y; i++)
                 y[i] = step->y[i];
-        const int status = rates(run, run->t + dop853_node[s] * h, y, p, step->k[s], &rhs);
+        const int status = evaluate_rhs(run, run->t + dop853_node[s] * h, y, p, step->k[s], &rhs);
         if (status)
             return status;
         record_stage(run, step, &rhs, dop853_node[s]);
-        record_stage_state(step, y);
+        extend_stage_range(step, y);
     }
     dop853_compute_stage(DOP853_STAGES, h, run->y, step->k, step->y);
     step->error = dop853_estimate_error(run, step);
-    if (is_not_a_number(run, step->error))
+    if (is_error_not_finite(run, step->error))
         return NOT_FINITE;
-    if (is_step_refused(run, step))
+    if (is_step_rejected(run, step))
         return 0;
     const int status_last = finish_step(run, step, p);
     if (status_last)
@@ -157,7 +157,7 @@ static int dop853_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *
 }
 
 /* Compute the three additional stages and the coefficients step->dense of the dense output. Return 0 or a status. */
-static int dop853_dense(IntegratorOf *run, const ParametersOf *p, StepOf *step)
+static int dop853_compute_dense_output(IntegratorOf *run, const ParametersOf *p, StepOf *step)
 {
     Real (*k)[N_Y] = step->k;
     const Real h = step->h;
@@ -167,7 +167,7 @@ static int dop853_dense(IntegratorOf *run, const ParametersOf *p, StepOf *step)
         Real y[N_Y];
         RhsOutputsOf rhs;
         dop853_compute_stage(s, h, run->y, k, y);
-        const int status = rates(run, step->t + dop853_node[s] * h, y, p, k[s], &rhs);
+        const int status = evaluate_rhs(run, step->t + dop853_node[s] * h, y, p, k[s], &rhs);
         if (status)
             return status;
     }

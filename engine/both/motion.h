@@ -2,9 +2,9 @@
 
 /*
  * Compute the rates dy of the integrated state y: tree coordinates, their rates, works. Return 0 or a status. rhs:
- * outputs of the right-hand side in addition. Defined as motion_here() for one run and as motion() for lanes.
+ * outputs of the right-hand side in addition. Defined as evaluate_rhs() for one run and as motion() for lanes.
  */
-IN_BOTH int MOTION(Real t, const Real *y, DiscreteStateOf *discrete, const ParametersOf *p, Real *dy,
+FUNCTION_LINKAGE int MOTION(Real t, const Real *y, DiscreteStateOf *discrete, const ParametersOf *p, Real *dy,
     RhsOutputsOf *rhs)
 {
     const int status = REDUCED_DYNAMICS(t, y, y + N_X, discrete, p, dy + N_X, rhs);
@@ -20,7 +20,7 @@ IN_BOTH int MOTION(Real t, const Real *y, DiscreteStateOf *discrete, const Param
 }
 
 /* Update the maxima of |Phi| and |Phi_dot| of the closures with an accepted state. Return 0. */
-IN_BOTH int accept_state(Real t, const Real *y, DiscreteStateOf *discrete, const ParametersOf *p,
+FUNCTION_LINKAGE int accept_state(Real t, const Real *y, DiscreteStateOf *discrete, const ParametersOf *p,
     const RhsOutputsOf *rhs, Real *phi_max, Real *phi_dot_max)
 {
     Real phi[N_LOOPS + 1], phi_dot[N_LOOPS + 1];

@@ -5,12 +5,12 @@
  * three passes are made, until the residual is below 1e-15; velocities use the corrected positions. If the corrections
  * cannot be computed, as with links in line, the state is left as it is.
  */
-static void project_rows(IntegratorOf *run, Real t, Real *y, const ParametersOf *p)
+static void project_onto_constraints(IntegratorOf *run, Real t, Real *y, const ParametersOf *p)
 {
     Mask is_active = is_not((Mask){0});
     for (int pass = 0; pass < 3 && N_LOOPS > 0; pass++) {
         Real dq[N_X], dv[N_X], residual;
-        is_active = has_closing_step(run, is_active, t, y, p, dq, dv, &residual);
+        is_active = find_closure_correction(run, is_active, t, y, p, dq, dv, &residual);
         if (!any_of(is_active))
             return;
         for (int k = 0; k < N_X; k++) {

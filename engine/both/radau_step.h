@@ -96,7 +96,7 @@ static int RADAU(evaluate_stages)(IntegratorOf *run, Real h, Mask is_active, Rea
 {
     Real y[N_Y], most[AT_LEAST_ONE(N_CLEARANCES)], change[AT_LEAST_ONE(N_CLEARANCES)];
     RhsOutputsOf rhs;
-    begin_iteration(run, step, is_active, RADAU_STAGES);
+    begin_stage_iteration(run, step, is_active, RADAU_STAGES);
     for (int i = 0; i < N_CLEARANCES; i++) {
         most[i] = real_abs(run->rhs.clearance[i].Fx) + real_abs(run->rhs.clearance[i].Fy);
         change[i] = real_of(0.0);
@@ -104,10 +104,10 @@ static int RADAU(evaluate_stages)(IntegratorOf *run, Real h, Mask is_active, Rea
     for (int s = 0; s < RADAU_STAGES; s++) {
         for (int i = 0; i < N_Y; i++)
             y[i] = run->y[i] + z[s][i];
-        const int status = rates(run, run->t + RADAU_TABLE.node[s] * h, y, p, f[s], &rhs);
+        const int status = evaluate_rhs(run, run->t + RADAU_TABLE.node[s] * h, y, p, f[s], &rhs);
         if (status)
             return status;
-        record_pass(run, step, is_active, y, &rhs, RADAU_TABLE.node[s]);
+        record_iterated_stage(run, step, is_active, y, &rhs, RADAU_TABLE.node[s]);
         for (int i = 0; i < N_CLEARANCES; i++) {
             const Real Fx = rhs.clearance[i].Fx, Fy = rhs.clearance[i].Fy;
             if (!has_film(i))
@@ -163,7 +163,7 @@ static int RADAU(solve_stages)(IntegratorOf *run, Real h, const ComplexLinearOf 
                 distance = real_max(real_abs(change[s][i]) * run->norm.weight[i], distance);
             }
         distance = pick(is_active, distance, real_of(0.0));
-        if (is_not_a_number(run, distance))
+        if (is_error_not_finite(run, distance))
             return NOT_FINITE;
         Mask found = is_active & (distance <= rounded);
         if (pass > 0)
@@ -221,7 +221,7 @@ static int RADAU(try_step)(IntegratorOf *run, Real h, const ParametersOf *p, Ste
     RADAU(guess_stages)(run, h, step->k);
     status = RADAU(solve_stages)(run, h, complex_matrices, p, step, &has_failed);
     if (!status)
-        status = mark_missed_stages(run, has_failed);
+        status = mark_failed_stages(run, has_failed);
     if (status)
         return status;
     for (int i = 0; i < N_Y; i++) {
@@ -233,7 +233,7 @@ static int RADAU(try_step)(IntegratorOf *run, Real h, const ParametersOf *p, Ste
     }
     step->error = RADAU(estimate_error)(run, h, run->dy, stage_sum, r, u);
     for (int k = 0; k < N_MOTION; k++) { /* J u = u/eta - r */
-        const int i = felt(k);
+        const int i = get_motion_index(k);
         change = real_max(real_abs(inverse_h * u[i] - r[i]) * run->norm.weight[i], change);
         distance = real_max(real_abs(u[i]) * run->norm.weight[i], distance);
     }
@@ -244,13 +244,13 @@ static int RADAU(try_step)(IntegratorOf *run, Real h, const ParametersOf *p, Ste
         RhsOutputsOf rhs;
         for (int i = 0; i < N_Y; i++)
             y[i] = run->y[i] + u[i];
-        status = rates(run, run->t, y, p, dy, &rhs);
+        status = evaluate_rhs(run, run->t, y, p, dy, &rhs);
         if (status)
             return status;
-        count_stage_rates(run, large, 1);
+        count_stage_evaluations(run, large, 1);
         step->error = pick(large, RADAU(estimate_error)(run, h, dy, stage_sum, r, u), step->error);
     }
-    if (is_not_a_number(run, step->error))
+    if (is_error_not_finite(run, step->error))
         return NOT_FINITE;
-    return is_step_refused(run, step) ? 0 : finish_step(run, step, p);
+    return is_step_rejected(run, step) ? 0 : finish_step(run, step, p);
 }

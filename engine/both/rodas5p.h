@@ -101,7 +101,7 @@ static void rodas5p_compute_right_side(int s, Real h, const Real *f, Real (*k)[N
  * stage solves one linear system with the same Newton matrix. The error is the last increment. h rho follows from the
  * last two stages, which are at one time.
  */
-static int rodas5p_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
+static int rodas5p_try_step(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
     const Real hg = h * RODAS5P_GAMMA;
     Real y[N_Y], f[N_Y], r[N_Y], before[N_Y], change = real_of(0.0), distance = real_of(0.0);
@@ -118,7 +118,7 @@ static int rodas5p_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf 
             for (int i = 0; i < N_Y; i++)
                 before[i] = f[i];
             rodas5p_compute_stage(s, run->y, step->k, y);
-            status = rates(run, run->t + rodas5p_node[s] * h, y, p, f, &rhs);
+            status = evaluate_rhs(run, run->t + rodas5p_node[s] * h, y, p, f, &rhs);
             if (status)
                 return status;
             record_stage(run, step, &rhs, rodas5p_node[s]);
@@ -127,7 +127,7 @@ static int rodas5p_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf 
         newton_solve(&run->newton.linear, hg, h * rodas5p_time[s], r, step->k[s]);
         if (s == 7) /* the last two stages are at one time: f changes between them by J times their difference */
             for (int k = 0; k < N_MOTION; k++) {
-                const int i = felt(k);
+                const int i = get_motion_index(k);
                 change = real_max(real_abs(f[i] - before[i]) * run->norm.weight[i], change);
                 distance = real_max(real_abs(step->k[6][i]) * run->norm.weight[i], distance);
             }
@@ -137,8 +137,8 @@ static int rodas5p_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf 
         step->y[i] = y[i] + step->k[7][i];
     for (int i = 0; i < N_Y; i++)
         step->error = real_max(real_abs(step->k[7][i]) * run->norm.weight[i], step->error);
-    if (is_not_a_number(run, step->error))
+    if (is_error_not_finite(run, step->error))
         return NOT_FINITE;
     record_stability(run, pick(distance > MIN_RESOLVED, h * change / distance, real_of(0.0)));
-    return is_step_refused(run, step) ? 0 : finish_step(run, step, p);
+    return is_step_rejected(run, step) ? 0 : finish_step(run, step, p);
 }

@@ -35,7 +35,7 @@ static const Tableau dormand_prince = {.stages = DOPRI5_STAGES, .estimates = 1,
  * Try a step of length h (s) by a tableau: stages, end and, if the tableau has an estimate, its error norm. Return 0 or
  * a status. The first stage has the rates at the end of the previous step. A rejected step has no stability estimate.
  */
-static int runge_kutta_try(IntegratorOf *run, const Tableau *tableau, Real h, const ParametersOf *p, StepOf *step)
+static int runge_kutta_try_step(IntegratorOf *run, const Tableau *tableau, Real h, const ParametersOf *p, StepOf *step)
 {
     Real y[N_Y], error = real_of(0.0);
     RhsOutputsOf rhs;
@@ -54,11 +54,11 @@ static int runge_kutta_try(IntegratorOf *run, const Tableau *tableau, Real h, co
         }
         if (s == tableau->stages)
             break;
-        const int status = rates(run, run->t + tableau->node[s] * h, y, p, step->k[s], &rhs);
+        const int status = evaluate_rhs(run, run->t + tableau->node[s] * h, y, p, step->k[s], &rhs);
         if (status)
             return status;
         record_stage(run, step, &rhs, tableau->node[s]);
-        record_stage_state(step, y);
+        extend_stage_range(step, y);
     }
     const int status = finish_step(run, step, p);
     if (status)
@@ -70,16 +70,16 @@ static int runge_kutta_try(IntegratorOf *run, const Tableau *tableau, Real h, co
         error = real_max(real_abs(h * slope) * run->norm.weight[i], error);
     }
     step->error = real_max(step->error, error);
-    if (is_not_a_number(run, step->error))
+    if (is_error_not_finite(run, step->error))
         return NOT_FINITE;
-    if (is_step_refused(run, step))
+    if (is_step_rejected(run, step))
         return 0;
     record_end_stability(run, step, h, y, step->k[tableau->stages - 1]);
     return 0;
 }
 
 /* Compute the four coefficients step->dense of the dense output from the stages and both ends of a step. */
-static inline void runge_kutta_dense(const IntegratorOf *run, const Tableau *tableau, StepOf *step)
+static inline void runge_kutta_compute_dense_output(const IntegratorOf *run, const Tableau *tableau, StepOf *step)
 {
     for (int i = 0; i < N_Y; i++) {
         const Real change = step->y[i] - run->y[i];

@@ -59,7 +59,7 @@ SERIES_APART static void add_outer_products(int k, SeriesRow (*left)[SERIES_ROWS
  * accelerations and powers in c[1], must be set; `values`: values of order 0 of all functions. left, right: memory for
  * the factors of all products.
  */
-SERIES_APART static void series_orders(const ParametersOf *p, const TaylorValues *values, int order,
+SERIES_APART static void compute_series_orders(const ParametersOf *p, const TaylorValues *values, int order,
     Real (*c)[TAYLOR_Y], SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS])
 {
     SeriesSums sum[2] = {0};
@@ -80,7 +80,7 @@ SERIES_APART static void series_orders(const ParametersOf *p, const TaylorValues
 }
 
 /* Return the thread-local memory for the left and right factors of all products at all orders. */
-static SeriesRow (*series_factors(void))[TAYLOR_ORDERS][SERIES_ROWS]
+static SeriesRow (*get_series_factors(void))[TAYLOR_ORDERS][SERIES_ROWS]
 {
     static _Thread_local SeriesRow factors[2][TAYLOR_ORDERS][SERIES_ROWS];
     return factors;

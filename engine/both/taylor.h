@@ -12,7 +12,7 @@ enum { TAYLOR_DEFECT = 5 /* log2 of the largest defect at the end of a step, in 
  * Return the longest step in s for which the last two terms of the series do not exceed the tolerance. Symmetry may
  * make these terms small or zero; the defect at the end of the step shows that.
  */
-static Real taylor_reach(const IntegratorOf *run)
+static Real taylor_limit_length(const IntegratorOf *run)
 {
     const int n = run->series.order;
     const Real *last = run->series.terms[n], *before = run->series.terms[n - 1];
@@ -69,7 +69,7 @@ static inline void taylor_evaluate_state_and_rate(const IntegratorOf *run, Real 
 }
 
 /* Evaluate the series at time h (s) after the run's state: the state y (N_Y). */
-static inline void taylor_at(const IntegratorOf *run, Real h, Real *y)
+static inline void taylor_evaluate_state(const IntegratorOf *run, Real h, Real *y)
 {
     Real rate[N_Y];
     taylor_evaluate_state_and_rate(run, h, y, rate);
@@ -79,7 +79,7 @@ static inline void taylor_at(const IntegratorOf *run, Real h, Real *y)
  * Return the defect h |y' - f| at the end of a step in the error norm of velocities, relative to the allowed one. rate:
  * y' of the series; f: step->dy. The allowed defect is 2^5 tolerances, less at low orders.
  */
-static Real taylor_defect(const IntegratorOf *run, const StepOf *step, const Real *rate)
+static Real taylor_compute_defect(const IntegratorOf *run, const StepOf *step, const Real *rate)
 {
     const int max_log2 = run->series.order - 4;
     Real most = real_of(0.0);
@@ -93,7 +93,7 @@ static Real taylor_defect(const IntegratorOf *run, const StepOf *step, const Rea
  * a status. step->error is h over the valid length, or the defect. If the defect at the end is too large, the step is
  * repeated once with a length from all terms.
  */
-static int taylor_step(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
+static int taylor_try_series_step(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
     const int is_adaptive = !(run->control.fixed > 0.0);
     Real rate[N_Y], defect;
@@ -107,21 +107,21 @@ static int taylor_step(IntegratorOf *run, Real h, const ParametersOf *p, StepOf 
         step->h = h;
         taylor_evaluate_state_and_rate(run, h, step->y, rate);
         step->error = is_adaptive ? h / run->series.reach : real_of(0.0); /* root of the error: accepted up to 1 */
-        if (!is_repeated && is_step_refused(run, step))
+        if (!is_repeated && is_step_rejected(run, step))
             return 0;
         status = finish_step(run, step, p);
         if (!is_adaptive)
             return status;
-        defect = status ? real_of(INFINITY) : taylor_defect(run, step, rate);
+        defect = status ? real_of(INFINITY) : taylor_compute_defect(run, step, rate);
         const Mask is_large = defect > 1.0;
         if (is_repeated || !any_of(is_large))
             break;
         run->series.reach = pick(is_large, real_min(run->series.reach, taylor_limit_length_by_all_terms(run)),
             run->series.reach);
         h = real_min(h, run->series.reach);
-        discard_end(run);
+        uncount_end_evaluation(run);
     }
     step->error = real_max(step->error, defect);
-    reject_late(run, step);
+    reject_step_by_defect(run, step);
     return status;
 }

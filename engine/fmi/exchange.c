@@ -27,7 +27,7 @@ static int update_branches(Model *model, const RhsOutputs *rhs, int is_for_all)
  * contact laws meet and follow the state, in up to six passes. A slip near a switching point would otherwise cause
  * repeated events.
  */
-static int exchange_rates(Model *model, double *dx, RhsOutputs *rhs)
+static int evaluate_exchange_rates(Model *model, double *dx, RhsOutputs *rhs)
 {
     int status = 0, changed = 1;
     for (int pass = 0; pass < 6 && changed && !status; pass++) {
@@ -47,7 +47,7 @@ static int raise_nominals(Model *model)
     double mass[N_Q], all[N_S], energy = 0.0;
     int more = 0;
     mass_matrix((const Parameters *)model->p, mass);
-    to_absolute(model->t, model->x, &model->discrete, (const Parameters *)model->p, all);
+    convert_to_absolute(model->t, model->x, &model->discrete, (const Parameters *)model->p, all);
     for (int k = 0; k < N_Q; k++)
         energy += 0.5 * mass[k] * all[N_Q + k] * all[N_Q + k];
     for (int k = N_X; k < N_Y; k++) {
@@ -67,11 +67,11 @@ static int raise_nominals(Model *model)
  * smallest relevant length (m) and angle, the nominals of coordinates. Those of velocities are 1 % of the speed that
  * covers it in the time scale of the start. Those of works are the energy at these speeds.
  */
-static int nominals_at_start(Model *model, const double *min_scale)
+static int set_initial_nominals(Model *model, const double *min_scale)
 {
     double dx[N_Y], mass[N_Q], rate = 0.0, energy = 0.0;
     RhsOutputs rhs;
-    const int status = exchange_rates(model, dx, &rhs);
+    const int status = evaluate_exchange_rates(model, dx, &rhs);
     for (int k = 0; k < N_X && !status; k++) {
         const double scale = min_scale[fmu_is_angle[k]];
         rate = fmax(rate, fmax(fabs(dx[k]) / scale, sqrt(fabs(dx[N_X + k]) / scale)));
@@ -98,10 +98,10 @@ static void read_sampled_discrete_state(Model *model) { read_discrete_state(mode
 static void convert_state(Model *model)
 {
     if (model->exchange) {
-        to_absolute(model->t, model->x, &model->discrete, (const Parameters *)model->p, model->y);
+        convert_to_absolute(model->t, model->x, &model->discrete, (const Parameters *)model->p, model->y);
     } else {
         read_sampled_discrete_state(model);
-        from_absolute(model->t, model->y, &model->discrete, (const Parameters *)model->p, model->x);
+        convert_from_absolute(model->t, model->y, &model->discrete, (const Parameters *)model->p, model->x);
     }
 }
 
@@ -115,7 +115,7 @@ static double compute_closure_drift(Model *model, int is_projected)
     for (int pass = 0; pass < (is_projected ? 3 : 1) && N_LOOPS > 0; pass++) {
         double dq[N_X], dv[N_X], residual;
         DiscreteState now = model->discrete;
-        if (closing_of_state(model->t, model->x, &now, (const Parameters *)model->p, dq, dv, &residual))
+        if (compute_correction(model->t, model->x, &now, (const Parameters *)model->p, dq, dv, &residual))
             return -1.0;
         for (int k = 0; k < N_X; k++) {
             drift = fmax(drift, fabs(dq[k]) / (fmu_is_angle[k] ? 1.0 : model->extent));
@@ -132,7 +132,7 @@ static double compute_closure_drift(Model *model, int is_projected)
  * Return event indicator k: a penetration (m), or the value of a switching function; its branch if it is not in use.
  * rhs: outputs of the right-hand side at the present state.
  */
-static double indicator_of(const Model *model, const RhsOutputs *rhs, int k)
+static double get_event_indicator(const Model *model, const RhsOutputs *rhs, int k)
 {
     if (k < N_CLEARANCES)
         return rhs->clearance[k].delta;
@@ -158,7 +158,7 @@ static int resolve_zero_branches(Model *model, const double *dx, RhsOutputs *rhs
     for (int k = 0; k < 2 * N_X; k++)
         model->x[k] += moment * dx[k];
     model->t = t + moment;
-    status = exchange_rates(model, scrap, &later);
+    status = evaluate_exchange_rates(model, scrap, &later);
     memcpy(model->x, x, sizeof x);
     model->t = t;
     for (int k = 0; k < N_SWITCHES && !status; k++)
@@ -172,11 +172,11 @@ static int resolve_zero_branches(Model *model, const double *dx, RhsOutputs *rhs
  * a status. A contact begins where the penetration is positive; its approach speed is stored. Up to six passes are
  * made.
  */
-static int update_modes(Model *model)
+static int iterate_friction_modes(Model *model)
 {
     double dx[N_Y];
     RhsOutputs rhs;
-    int status = exchange_rates(model, dx, &rhs), changed = 1;
+    int status = evaluate_exchange_rates(model, dx, &rhs), changed = 1;
     for (int i = 0; i < N_CLEARANCES && !status; i++) {
         const Clearance *joint = &rhs.clearance[i];
         const int touches = !isnan(model->latched[i]);
@@ -195,7 +195,7 @@ static int update_modes(Model *model)
     read_sampled_discrete_state(model);
     model->discrete.held = 1;
     for (int pass = 0; pass < 6 && changed && !status; pass++) {
-        status = exchange_rates(model, dx, &rhs);
+        status = evaluate_exchange_rates(model, dx, &rhs);
         changed = !status && update_branches(model, &rhs, 1);
     }
     return status;
@@ -217,7 +217,7 @@ FMI3_EXPORT fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boole
 {
     Model *model = instance;
     /* before the projection, which may move a located indicator back across zero */
-    const int status = update_modes(model);
+    const int status = iterate_friction_modes(model);
     const double drift = compute_closure_drift(model, 1);
     *needs_update = *terminate = *has_next_event_time = false;
     *nominals_changed = !status && raise_nominals(model);
@@ -238,7 +238,7 @@ FMI3_EXPORT fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Bo
     double dx[N_Y];
     RhsOutputs rhs;
     (void)cannot_return;
-    if (N_CLEARANCES && !exchange_rates(model, dx, &rhs))
+    if (N_CLEARANCES && !evaluate_exchange_rates(model, dx, &rhs))
         for (int i = 0; i < N_CLEARANCES; i++)
             if (model->state[i] == CODE_IMPACT && rhs.clearance[i].deltadot <= 0.0)
                 model->state[i] = CODE_CONTACT;
@@ -298,7 +298,7 @@ FMI3_EXPORT fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, 
     RhsOutputs rhs;
     if (check_count(model, n, N_Y))
         return fmi3Error;
-    if (exchange_rates(model, dx, &rhs))
+    if (evaluate_exchange_rates(model, dx, &rhs))
         return fmi3Discard;
     for (int k = 0; k < N_Y; k++)
         if (!isfinite(dx[k]))
@@ -317,10 +317,10 @@ FMI3_EXPORT fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64
     RhsOutputs rhs;
     if (check_count(model, n, N_INDICATORS))
         return fmi3Error;
-    if (N_INDICATORS && exchange_rates(model, dx, &rhs))
+    if (N_INDICATORS && evaluate_exchange_rates(model, dx, &rhs))
         return fmi3Discard;
     for (int k = 0; k < N_INDICATORS; k++)
-        z[k] = indicator_of(model, &rhs, k);
+        z[k] = get_event_indicator(model, &rhs, k);
     return fmi3OK;
 }
 

@@ -73,7 +73,7 @@ static fmi3Status log_failure(const Model *model, const char *message, int statu
 static int advance_to(Model *model, double t);
 #endif
 #if FMU_EXCHANGE
-static int nominals_at_start(Model *model, const double *least);
+static int set_initial_nominals(Model *model, const double *least);
 #endif
 
 /*
@@ -148,8 +148,8 @@ static fmi3Status begin_run(Model *model)
     model->extent = size;
     memset(&model->discrete, 0, sizeof model->discrete);
     read_discrete_state(model->latched, &model->discrete);
-    from_absolute(model->t, model->y, &model->discrete, (const Parameters *)model->p, model->x);
-    const int invalid = nominals_at_start(model, least);
+    convert_from_absolute(model->t, model->y, &model->discrete, (const Parameters *)model->p, model->x);
+    const int invalid = set_initial_nominals(model, least);
     if (invalid)
         return log_failure(model, "the motion cannot begin", invalid);
 #endif
@@ -250,7 +250,7 @@ static int evaluate_outputs(Model *model)
  * Return an output of an instance: number `column` of a part of the results (state, forces, energies, ...). part < 0:
  * the contact code of joint `column`.
  */
-static double value_of(const Model *model, int part, int column)
+static double get_output(const Model *model, int part, int column)
 {
     const Outputs *o = &model->out;
     const double *const parts[] = {model->y, model->y + N_Q, model->y + 2 * N_Q, model->latched, o->a, o->multipliers,

@@ -52,7 +52,7 @@ FMI3_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const
             model->moved = 1;
             if (status)
                 return log_failure(model, "a constraint row depends on others", status);
-            end_values[branch] = value_of(model, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
+            end_values[branch] = get_output(model, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
         }
         sensitivity[k] = (end_values[1] - end_values[0]) * most / 2e-5;
     }

@@ -26,7 +26,7 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
             const int status = evaluate_outputs(model);
             if (status)
                 return log_failure(model, "a constraint row depends on others", status);
-            value[k] = value_of(model, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
+            value[k] = get_output(model, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
 #if FMU_EXCHANGE
         } else if (r >= VR_STATES && r < VR_STATES + N_Y) {
             if (!model->begun && begin_run(model))
@@ -42,11 +42,11 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
                 return fmi3Error;
             if (!model->exchange)
                 convert_state(model);
-            const int status = exchange_rates(model, dx, &rhs);
+            const int status = evaluate_exchange_rates(model, dx, &rhs);
             if (status)
                 return log_failure(model, "a constraint row depends on others", status);
             value[k] = r < VR_INDICATORS ? dx[r - VR_RATES]
-                : indicator_of(model, &rhs, (int)(r - VR_INDICATORS));
+                : get_event_indicator(model, &rhs, (int)(r - VR_INDICATORS));
 #endif
         } else {
             return log_failure(model, "a variable that there is not", (int)r);

@@ -18,7 +18,7 @@ static int is_ill_conditioned(const Position *position)
 {
     double size = 1.0;
     for (int k = 2; k < N_Q; k += 3)
-        size = larger_or_nan(size, fabs(position->q[k]));
+        size = get_larger_or_nan(size, fabs(position->q[k]));
     return !(position->last_correction <= PASS_ROUGH * DBL_EPSILON * size);
 }
 
@@ -39,7 +39,7 @@ static int follow_branch(KinematicRun *run, double t, const Position *start, Pos
         if (status == STOPPED)
             return status;
         if (!status && correction <= run->reach
-            && trapezoidal_error(position, &next, run->extent) <= 0.002 * run->reach) {
+            && compute_trapezoidal_error(position, &next, run->extent) <= 0.002 * run->reach) {
             *position = next;
             continue;
         }
@@ -73,7 +73,7 @@ static double interpolate_middle(const Position *node, int n, const double *firs
     const size_t offset = (size_t)((const char *)first - (const char *)node);
     double sum = 0.0;
     for (int j = 0; j < 2 * n; j++)
-        sum += weight_at(n, j / 2 + 1) * *(const double *)((const char *)&node[j] + offset);
+        sum += compute_lagrange_weight(n, j / 2 + 1) * *(const double *)((const char *)&node[j] + offset);
     return sum;
 }
 
@@ -103,7 +103,7 @@ static void interpolate_position(const Position *node, double t, const Parameter
     constraints(after_jump(t), position->q, p, phi);
     position->phi = 0.0;
     for (int r = 0; r < N_ALL_ROWS; r++)
-        position->phi = larger_or_nan(position->phi, fabs(phi[r]));
+        position->phi = get_larger_or_nan(position->phi, fabs(phi[r]));
 }
 
 /*
@@ -113,7 +113,7 @@ static void interpolate_position(const Position *node, double t, const Parameter
  */
 static int pass_change_point(KinematicRun *run, double t, const Position *start, Position *position)
 {
-    const double fastest = angle_norm(start->v, run->extent);
+    const double fastest = compute_angle_norm(start->v, run->extent);
     double d = PASS_TURN / fastest;
     int status = NEWTON_FAILED;
     if (!(fastest > 0.0) || !(fabs(t - start->t) <= PASS_NODES * d))
@@ -127,7 +127,7 @@ static int pass_change_point(KinematicRun *run, double t, const Position *start,
         interpolate_position(node, t, run->p, position);
         for (int k = 0; k < N_Q; k++)
             difference[k] = position->q[k] - interpolate_middle(node, PASS_NODES - 1, &node->q[k]);
-        if (angle_norm(difference, run->extent) <= PASS_SMOOTH)
+        if (compute_angle_norm(difference, run->extent) <= PASS_SMOOTH)
             return 0;
         status = NEWTON_FAILED;
     }
@@ -152,7 +152,7 @@ static int solve_position_near(KinematicRun *run, double t, const Position *star
  * Set `position` at time t to given q and v (N_Q), also at a change point. Return 0 or a status. At a change point the
  * smooth branch replaces it if the given velocities agree with that branch.
  */
-static int set_position_near(KinematicRun *run, double t, const double *q, const double *v, Position *position)
+static int begin_position_near(KinematicRun *run, double t, const double *q, const double *v, Position *position)
 {
     Position passed;
     double difference[N_Q];
@@ -161,7 +161,7 @@ static int set_position_near(KinematicRun *run, double t, const double *q, const
         return status;
     for (int k = 0; k < N_Q; k++)
         difference[k] = passed.v[k] - v[k];
-    if (!(angle_norm(difference, run->extent) <= PASS_RATES * angle_norm(position->v, run->extent)))
+    if (!(compute_angle_norm(difference, run->extent) <= PASS_RATES * compute_angle_norm(position->v, run->extent)))
         return status;
     *position = passed;
     return 0;

@@ -20,7 +20,7 @@ static void evaluate_events(KinematicRun *run, SampledPosition *sample)
 {
     RhsOutputs rhs = {0};
     double a[N_Q];
-    (void)solve_motion(run, &sample->at, a, &rhs); /* a failure was reported before */
+    (void)solve_accelerations(run, &sample->at, a, &rhs); /* a failure was reported before */
     memcpy(sample->event, rhs.event, sizeof sample->event);
     sample->has_error = 0;
 }
@@ -116,7 +116,7 @@ static double estimate_event_uncertainty(const KinematicRun *run, SampledPositio
     compute_largest_speeds(at, run->extent, speed);
     for (int k = 0; k < N_Q; k++)
         of_v[k] += ACCUMULATED_ULPS * DBL_EPSILON * speed[k % 3 == 2];
-    error_by_bounds(at->t, at->q, at->v, of_q, of_v, N_Q, &(DiscreteState){0}, run->p, sample->error);
+    estimate_error_by_bounds(at->t, at->q, at->v, of_q, of_v, N_Q, &(DiscreteState){0}, run->p, sample->error);
     sample->has_error = 1;
     return sample->error[N_WATCHED - N_USER_EVENTS + i];
 }
@@ -204,7 +204,7 @@ static int locate_event(Search *search, int i, const SampledPosition *b, double 
     Bracket of_zero = {{{from, orient_event_value(end, search->here.event[i]), NAN},
         {to, orient_event_value(end, end), NAN}}, 2};
     search->low = search->here, search->high = *b, search->i = i;
-    const int status = locate_zero(evaluate_event, search, &near, MAX_POINTS, guess_zero(&of_zero, 2), &of_zero);
+    const int status = locate_zero(evaluate_event, search, &near, MAX_POINTS, estimate_zero(&of_zero, 2), &of_zero);
     if (status)
         return status;
     *t = of_zero.at[1].s;
@@ -250,7 +250,7 @@ static int collect_events(Search *search, SampledPosition *b)
             status = isnan(a->event[i]) ? 0 : locate_event(search, i, b, &t, &is_pole);
             if (!status)
                 status = insert_event(search, first, t, i + N_USER_EVENTS);
-        } else if (event_crosses(i, &search->branch[i], get_resolved_value(search->run, b, i, search->branch[i]))) {
+        } else if (detect_event_crossing(i, &search->branch[i], get_resolved_value(search->run, b, i, search->branch[i]))) {
             status = locate_event(search, i, b, &t, &is_pole);
             if (!status && !is_pole && t - search->start > 1e-12 * (b->at.t - a->at.t) + 16.0 * DBL_EPSILON * fabs(t))
                 status = insert_event(search, first, t, i);
@@ -315,7 +315,7 @@ static int may_have_hidden_zero(Search *search, SampledPosition *b)
         const double branch = f.hi <= 0.0 || a->event[i] < 0.0 ? -1.0 : 1.0;
         if (h == search->h)
             search->most[i] = max_of(-f.lo, f.hi);
-        if (zero_verdict(branch < 0.0 ? range_negative(f) : f, branch * a->event[i], branch * b->event[i], 1.0, 0) < 0
+        if (classify_zero(branch < 0.0 ? range_negative(f) : f, branch * a->event[i], branch * b->event[i], 1.0, 0) < 0
             && !is_zero_by_constraint(search, b, i, f))
             return 1;
     }
@@ -323,7 +323,7 @@ static int may_have_hidden_zero(Search *search, SampledPosition *b)
 }
 
 /*
- * Classify the part from search->here to the last of search->end for halve_parts(): 1 if a status ends the search, -1
+ * Classify the part from search->here to the last of search->end for bisect_parts(): 1 if a status ends the search, -1
  * to halve it. If the part has no hidden zero, is smallest (`is_smallest`), or its middle cannot be solved, its events
  * are collected and 0 is returned. a, b: times of its ends, s.
  */
@@ -357,7 +357,7 @@ static int find_events_in_interval(Search *search, double t1)
         evaluate_events(search->run, search->end);
         search->n = 1;
         search->h = search->end->at.t - search->here.at.t;
-        (void)halve_parts(search->here.at.t, search->end->at.t, SMALLEST_PART * search->h, classify_part, search);
+        (void)bisect_parts(search->here.at.t, search->end->at.t, SMALLEST_PART * search->h, classify_part, search);
         status = search->status;
     }
     return status;
@@ -380,12 +380,12 @@ int gudgeon_kinematic_events(void *integrator, long n, const double *t, const do
     run->p = (const Parameters *)parameters;
     for (*done = 0; *done < n; ++*done) {
         signed char signs[N_USER_EVENTS];
-        int status = set_position_near(run, t[*done], q + *done * N_Q, v + *done * N_Q, &search.here.at);
+        int status = begin_position_near(run, t[*done], q + *done * N_Q, v + *done * N_Q, &search.here.at);
         if (status)
             return status;
         evaluate_events(run, &search.here);
         for (int i = 0; i < N_USER_EVENTS; i++) {
-            (void)event_crosses(i, &branch[i], branch[i] ? 0.0 : get_resolved_value(run, &search.here, i, 0));
+            (void)detect_event_crossing(i, &branch[i], branch[i] ? 0.0 : get_resolved_value(run, &search.here, i, 0));
             signs[i] = branch[i]; /* the first sign, if there was none */
         }
         *found = search.found;

@@ -7,7 +7,7 @@
  * Compute accelerations a and powers at a position by the equations of motion. Return 0 or a status. A positive status
  * is a constraint equation, numbered after the N_ROWS equations of project().
  */
-static int solve_motion(KinematicRun *run, const Position *position, double *a, RhsOutputs *rhs)
+static int solve_accelerations(KinematicRun *run, const Position *position, double *a, RhsOutputs *rhs)
 {
     const DiscreteState discrete = {.token = &run->cancellation, USUAL_SHARES};
     const int status = dynamics(after_jump(position->t), position->q, position->v, &discrete, run->p, a, rhs);
@@ -19,7 +19,7 @@ static int solve_motion(KinematicRun *run, const Position *position, double *a, 
  * status. correction: incremented by the corrections; last_correction: the last one; both in rad or fractions of the
  * size.
  */
-static int close_linkage(const KinematicRun *run, double t, double *q, double *correction,
+static int solve_position_equations(const KinematicRun *run, double t, double *q, double *correction,
     double *last_correction)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)], step[N_Q], before = INFINITY;
@@ -28,7 +28,7 @@ static int close_linkage(const KinematicRun *run, double t, double *q, double *c
         const int status = project(t, q, phi, run->p, step);
         if (status)
             return status;
-        const double size = angle_norm(step, run->extent);
+        const double size = compute_angle_norm(step, run->extent);
         for (int k = 0; k < N_Q; k++)
             q[k] -= step[k];
         *correction += size;
@@ -79,7 +79,7 @@ static int solve_position_at(const KinematicRun *run, double t, const Position *
     position->interpolated = 0;
     for (int k = 0; k < N_Q; k++)
         position->q[k] = start->q[k] + (t - start->t) * start->v[k];
-    const int status = close_linkage(run, after_jump(t), position->q, correction,
+    const int status = solve_position_equations(run, after_jump(t), position->q, correction,
         &position->last_correction);
     return status ? status : solve_velocities(after_jump(t), position->q, run->p, position->v);
 }
@@ -94,15 +94,15 @@ static int complete_position(KinematicRun *run, Position *position)
     RhsOutputs rhs;
     if (position->interpolated)
         return 0;
-    const int status = solve_motion(run, position, position->a, &rhs);
+    const int status = solve_accelerations(run, position, position->a, &rhs);
     if (status)
         return status;
     constraints(after_jump(position->t), position->q, run->p, phi);
     position->phi = position->phi_dot = 0.0;
     for (int r = 0; r < N_ALL_ROWS; r++)
-        position->phi = larger_or_nan(position->phi, fabs(phi[r]));
+        position->phi = get_larger_or_nan(position->phi, fabs(phi[r]));
     for (int r = 0; r < N_ROWS; r++)
-        position->phi_dot = larger_or_nan(position->phi_dot, fabs(rhs.phi_dot[r]));
+        position->phi_dot = get_larger_or_nan(position->phi_dot, fabs(rhs.phi_dot[r]));
     return 0;
 }
 

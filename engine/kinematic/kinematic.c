@@ -111,7 +111,7 @@ static void record_position(KinematicRun *run, const Position *position)
 }
 
 /* Return the larger number; NaN if `value` is NaN. */
-static double larger_or_nan(double largest, double value)
+static double get_larger_or_nan(double largest, double value)
 {
     return value > largest || isnan(value) ? value : largest;
 }
@@ -120,11 +120,11 @@ static double larger_or_nan(double largest, double value)
  * Return the maximum norm of a change or rate of q (N_Q) as an angle, rad or rad/s; NaN is propagated. Lengths are
  * divided by the mechanism's size `extent`, m.
  */
-static double angle_norm(const double *change, double extent)
+static double compute_angle_norm(const double *change, double extent)
 {
     double most = 0.0;
     for (int k = 0; k < N_Q; k++)
-        most = larger_or_nan(most, fabs(change[k]) / (k % 3 == 2 ? 1.0 : extent));
+        most = get_larger_or_nan(most, fabs(change[k]) / (k % 3 == 2 ? 1.0 : extent));
     return most;
 }
 
@@ -137,16 +137,16 @@ static double angle_norm(const double *change, double extent)
  * Return the largest difference of positions b from a plus the trapezoidal rule of their velocities, rad. Lengths are
  * divided by the mechanism's size `extent`, m. It shows whether both are on one branch.
  */
-static double trapezoidal_error(const Position *a, const Position *b, double extent)
+static double compute_trapezoidal_error(const Position *a, const Position *b, double extent)
 {
     const double half = 0.5 * (b->t - a->t), fraction = 1.0 / extent;
     double lengths = 0.0, angles = 0.0;
     for (int k = 0; k < N_Q; k += 3) {
         for (int c = k; c < k + 2; c++)
-            lengths = larger_or_nan(lengths, fabs(b->q[c] - a->q[c] - half * (a->v[c] + b->v[c])));
-        angles = larger_or_nan(angles, fabs(b->q[k + 2] - a->q[k + 2] - half * (a->v[k + 2] + b->v[k + 2])));
+            lengths = get_larger_or_nan(lengths, fabs(b->q[c] - a->q[c] - half * (a->v[c] + b->v[c])));
+        angles = get_larger_or_nan(angles, fabs(b->q[k + 2] - a->q[k + 2] - half * (a->v[k + 2] + b->v[k + 2])));
     }
-    return larger_or_nan(angles, lengths * fraction);
+    return get_larger_or_nan(angles, lengths * fraction);
 }
 
 #include "change_point.c"
@@ -154,7 +154,7 @@ static double trapezoidal_error(const Position *a, const Position *b, double ext
 #if N_PULSES
 /*
  * Return whether a missed term of time can be ignored: its excess is known by bounds only, not for certain
- * (`is_certain`). A callback of undersampled_term().
+ * (`is_certain`). A callback of find_undersampled_term().
  */
 static int is_uncertain_term(void *context, double fraction, int is_certain)
 {
@@ -169,7 +169,7 @@ static int is_uncertain_term(void *context, double fraction, int is_certain)
 static int has_hidden_transient(double t0, double t1, const Parameters *p)
 {
     static const double place[] = {0.0, 0.1127016653792583, 0.5, 0.8872983346207417, 1.0};
-    return undersampled_term(t0, t1 - t0, place, 5, is_uncertain_term, NULL, p) > 0.0;
+    return find_undersampled_term(t0, t1 - t0, place, 5, is_uncertain_term, NULL, p) > 0.0;
 }
 #else
 /* Return 0: the scene has no terms of time alone. */
@@ -214,7 +214,7 @@ static int make_step(KinematicRun *run, StepLength *stride, double t1, Position 
         }
         const int is_near = !status && correction <= run->reach;
         if (is_near)
-            error = trapezoidal_error(position, &next_position, run->extent);
+            error = compute_trapezoidal_error(position, &next_position, run->extent);
         if (is_near && error <= max_error
             && (stride->halvings > PULSE_HALVINGS || !has_hidden_transient(position->t, next, run->p))) {
             *position = next_position;
@@ -266,7 +266,7 @@ int gudgeon_kinematic(void *integrator, long n, const double *t, const double *p
     *done = 0;
     for (long i = run->motion_begun; i <= n; i++) {
         const int status = i > 0 ? follow_motion_to(run, t[i], position, steps)
-            : set_position_near(run, t[0], q, v, position);
+            : begin_position_near(run, t[0], q, v, position);
         if (status)
             return status;
         run->motion_begun = 1;

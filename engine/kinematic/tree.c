@@ -5,7 +5,7 @@
  * Compute tree accelerations a and powers at a position by the reduced equations of motion. Return 0 or a status. A
  * positive status is a constraint equation, numbered after the N_LOOPS closures.
  */
-static int solve_motion(KinematicRun *run, const Position *position, double *a, RhsOutputs *rhs)
+static int solve_accelerations(KinematicRun *run, const Position *position, double *a, RhsOutputs *rhs)
 {
     const DiscreteState discrete = {.token = &run->cancellation};
     const int status = reduced_dynamics(after_jump(position->t), position->s, position->s_rate, &discrete, run->p, a,
@@ -18,7 +18,7 @@ static int solve_motion(KinematicRun *run, const Position *position, double *a, 
  * or a status. It ends if the correction is rounding or no longer decreases. correction: incremented by the
  * corrections, in rad or fractions of the mechanism's size.
  */
-static int close_linkage(const KinematicRun *run, double t, Position *position, double *correction)
+static int solve_position_equations(const KinematicRun *run, double t, Position *position, double *correction)
 {
     double step[N_X + 1], before = INFINITY;
     position->last_correction = 0.0;
@@ -28,7 +28,7 @@ static int close_linkage(const KinematicRun *run, double t, Position *position, 
         if (status)
             return status;
         for (int k = 0; k < N_X; k++)
-            size = larger_or_nan(size, fabs(step[k]) / (is_angle[k] ? 1.0 : run->extent));
+            size = get_larger_or_nan(size, fabs(step[k]) / (is_angle[k] ? 1.0 : run->extent));
         if (isnan(size))
             return NEWTON_FAILED;
         position->last_correction = size;
@@ -50,7 +50,7 @@ static int has_large_second_rates(const Position *start, double h, double extent
 {
     double most = 0.0;
     for (int k = 0; k < N_X; k++)
-        most = larger_or_nan(most, fabs(0.5 * h * h * start->s_second[k]) / (is_angle[k] ? 1.0 : extent));
+        most = get_larger_or_nan(most, fabs(0.5 * h * h * start->s_second[k]) / (is_angle[k] ? 1.0 : extent));
     return !(most <= MAX_BEND);
 }
 
@@ -68,7 +68,7 @@ static int solve_position_at(const KinematicRun *run, double t, const Position *
     for (int k = 0; k < N_X; k++)
         position->s[k] = start->s[k] + h * (start->s_rate[k] + (half_h != 0.0 ? half_h * start->s_second[k] : 0.0));
     const double then = after_jump(t);
-    const int status = close_linkage(run, then, position, correction);
+    const int status = solve_position_equations(run, then, position, correction);
     return status ? status
         : arrive(then, position->s, position->s_rate, run->p, position->s_second, position->q, position->v, position->a,
         &position->phi_dot);

@@ -8,9 +8,9 @@ static int compute_powers(KinematicRun *run, Position *position, double *power)
     RhsOutputs rhs;
 #if POSITIONS_IN_TREE
     double a[N_X + 1];
-    const int status = solve_motion(run, position, a, &rhs);
+    const int status = solve_accelerations(run, position, a, &rhs);
 #else
-    const int status = solve_motion(run, position, position->a, &rhs);
+    const int status = solve_accelerations(run, position, position->a, &rhs);
 #endif
     for (int k = 0; k < N_WORK; k++)
         power[k] = rhs.power[k];
@@ -49,9 +49,9 @@ static int integrate_work(
         }
         for (int k = 0; k < N_Q; k++)
             missed[k] -= half * weight[i] * at.a[k];
-        scale = larger_or_nan(scale, half * angle_norm(at.a, run->extent));
+        scale = get_larger_or_nan(scale, half * compute_angle_norm(at.a, run->extent));
     }
-    const double most = angle_norm(missed, run->extent);
+    const double most = compute_angle_norm(missed, run->extent);
     /* or an acceleration is undefined: the slope of a rate is unbounded */
     *has_jump = !(scale <= DBL_MAX) || (most > min_jump && most > 1e-6 * scale);
     return 0;
@@ -112,8 +112,8 @@ static int integrate_work_over_jumps(
 static int integrate_work_of_step(KinematicRun *run, const Position *a, const Position *b, double *work)
 {
     int halvings = MAX_SPLITS;
-    const double speed = larger_or_nan(angle_norm(a->v, run->extent),
-        angle_norm(b->v, run->extent));
+    const double speed = get_larger_or_nan(compute_angle_norm(a->v, run->extent),
+        compute_angle_norm(b->v, run->extent));
     return integrate_work_over_jumps(run, a, b, 1e-12 + 1e-9 * speed, &halvings, work);
 }
 
@@ -129,7 +129,7 @@ int gudgeon_kinematic_works(void *integrator, long n, const double *t, const dou
     Position position = run->work;
     run->p = (const Parameters *)parameters;
     *done = 0;
-    int status = run->work_begun ? 0 : set_position_near(run, t[0], q, v, &position);
+    int status = run->work_begun ? 0 : begin_position_near(run, t[0], q, v, &position);
     for (long i = 0; i < n && !status; i++) {
         StepLength stride = {t[i + 1] - t[i], 0};
         double *sum = work + (i + 1) * N_WORK;

@@ -22,7 +22,7 @@ static void update_event_signs_within_step(Integrator *run, Step *step, double f
         double y[N_Y], dy[N_Y];
         const double s = fraction * part / N_SIGN_PARTS;
         RhsOutputs rhs;
-        if (state_at(run, step, s, p, y, dy, &rhs))
+        if (evaluate_state_at(run, step, s, p, y, dy, &rhs))
             return;
         update_event_signs(run, step->t + s * step->h, y, &rhs, p);
     }
@@ -38,7 +38,7 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
 {
     update_event_signs_within_step(run, step, fraction, event, p);
     /* the dense output exists if the step ends early: its end may be replaced */
-    int status = fraction < 1.0 ? state_at(run, step, fraction, p, step->y, step->dy, &step->rhs) : 0;
+    int status = fraction < 1.0 ? evaluate_state_at(run, step, fraction, p, step->y, step->dy, &step->rhs) : 0;
     if (status)
         return status;
     find_inner_peaks(run, step, fraction, p);
@@ -49,7 +49,7 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
         run->dy[k] = step->dy[k];
     }
     run->rhs = step->rhs;
-    set_last_length(run, t_new - run->t);
+    set_last_step_length(run, t_new - run->t);
     record_step_end(run, event, event >= 0 && t_new - run->t < 1e-9 * step->h);
     run->t = t_new;
     count_step(run, !!step->method->stiff);
@@ -64,13 +64,13 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
     if (DRIVE_IMPULSES && event >= N_CLEARANCES && event < N_CLEARANCES + N_SWITCHES)
         set_phi_dot_max(run, drift);
     if (!status && event < 0 && run->roots.skip >= 0) { /* away from the switching point, on either branch */
-        watch_every_switch(run);
+        clear_suppressed_switch(run);
         status = update_branches(run, -1, p);
     }
     update_event_signs(run, run->t, run->y, &run->rhs, p);
     if (!status && event >= 0)
         status = is_chattering(run) ? CHATTERING : apply_event(run, event, p);
-    return status ? status : check_contacts(run, p);
+    return status ? status : check_open_contacts(run, p);
 }
 
 /*
@@ -164,12 +164,12 @@ static void record_step_end_state(Integrator *run, int has_jump, int is_last, co
 static int repeat_step(
     Integrator *run, double h, double t_end, const Parameters *p, Step *step, double *fraction, int *event)
 {
-    set_length(run, h);
+    set_next_step_length(run, h);
     open_attempt(run, t_end, p);
     run->discrete.held = 1;
     const int status = find_accepted_step(run, p, step);
     if (!status)
-        *fraction = first_event(run, step, p, event);
+        *fraction = find_first_event(run, step, p, event);
     return status;
 }
 
@@ -210,7 +210,7 @@ static int find_event_of_step(
     const double t_end = samples->t[samples->n - 1], length_factor = PERIODS ? PERIOD_END : NEAR_END;
     const int is_adaptive = run->control.fixed <= 0.0;
     int status = 0;
-    *fraction = first_event(run, step, p, event);
+    *fraction = find_first_event(run, step, p, event);
     for (int k = 0; k < MAX_SHORTENED && !status && is_adaptive && is_dense_output_missing(run, step, p, samples); k++)
         status = repeat_step(run, 0.25 * step->h, t_end, p, step, fraction, event);
     for (int k = 0; k < MAX_REPEATS && !status && *event >= 0 && length_factor * *fraction < 1.0; k++) {
@@ -218,10 +218,10 @@ static int find_event_of_step(
         if (h <= run->roots.time_resolution)
             break; /* the event is at the beginning of the step, where constraints do not differ */
         if (is_adaptive && !PERIODS && !is_far_beyond_knot(run, step, *fraction)
-            && !has_wrong_film_force_at(run, step, *fraction, p))
+            && !has_wrong_film_force_at_event(run, step, *fraction, p))
             break; /* a fixed step is repeated: its dense output may be of low order */
         status = repeat_step(run, h, t_end, p, step, fraction, event);
-        set_length(run, next);
+        set_next_step_length(run, next);
     }
     return status;
 }
@@ -232,11 +232,11 @@ static int find_event_of_step(
  * continued. Return 0 at the last sample, or if `is_last`: the step is left to the next call. Also return 0 if *status
  * is EVENTS_FULL, STOPPED, STALLED or an error.
  */
-static int needs_step(Integrator *run, int is_last, const Parameters *p, const Samples *samples, int *status)
+static int prepare_step(Integrator *run, int is_last, const Parameters *p, const Samples *samples, int *status)
 {
     const double t_end = samples->t[samples->n - 1];
     const int is_new_step = !run->discrete.held && !run->control.attempt.open;
-    *status = is_new_step ? begin_adaptive(run, t_end - run->t, p) : 0;
+    *status = is_new_step ? begin_integration(run, t_end - run->t, p) : 0;
     if (!*status && is_new_step)
         record_after_jump(run, p);
     mark_jump(run, is_new_step);
@@ -297,11 +297,11 @@ static int accept_step(Integrator *run, const Parameters *p, const Samples *samp
     if (!status)
         status = commit_step(run, step, fraction, t_new, event, p);
     if (!status && event >= 0)
-        status = first_step_after_event(run, t_end - run->t, p);
+        status = fit_first_step_after_event(run, t_end - run->t, p);
     run->discrete.held = 1;
     if (may_jump && !status) {
         set_phi_dot_max(run, drift); /* the branch of a rate exactly at the jump is arbitrary */
-        status = pass_drive_jumps_here(run, p);
+        status = apply_drive_jumps_now(run, p);
     }
     if (!status && run->t == t_end)
         status = record_events_at_end(run, 0.0, p);
@@ -326,9 +326,9 @@ int gudgeon_adaptive_run(void *integrator, const double *parameters, long n, con
     const Parameters *p = (const Parameters *)parameters;
     const Samples samples = {.n = n, .done = done, .t = t, .y = y, .latched = latched, .state = state};
     int status;
-    relink_choice(run);
-    run->step.method = local_method(run->step.method);
-    for (long i = 0; needs_step(run, i == limit, p, &samples, &status); i++) {
+    relink_methods(run);
+    run->step.method = find_method_in_library(run->step.method);
+    for (long i = 0; prepare_step(run, i == limit, p, &samples, &status); i++) {
         status = find_accepted_step(run, p, &run->step);
         if (!status)
             status = accept_step(run, p, &samples);

@@ -18,7 +18,7 @@ static int is_branch_consistent(const Integrator *run, const RhsOutputs *rhs)
     for (int k = 0; k < N_SWITCHES; k++)
         is_consistent &= !(run->discrete.branch[k] * rhs->g[k] < 0.0);
     for (int i = 0; i < N_CLEARANCES; i++)
-        is_consistent &= !gives(i) || !run->discrete.contact[i].closed == !(rhs->clearance[i].delta > 0.0);
+        is_consistent &= !is_compliant(i) || !run->discrete.contact[i].closed == !(rhs->clearance[i].delta > 0.0);
     return is_consistent;
 }
 
@@ -26,7 +26,7 @@ static int is_branch_consistent(const Integrator *run, const RhsOutputs *rhs)
  * Return the error weight, 1/tolerance, of component k (0 ... 2 N_X - 1: coordinates, then velocities) of the state. It
  * is computed independently of both/error_weights.h, as a check.
  */
-static double audit_weight(const Integrator *run, int k)
+static double compute_audit_weight(const Integrator *run, int k)
 {
     const int kind = is_angle[k % N_X];
     return run->norm.inverse_scale[k] / (k < N_X ? 1.0 : run->norm.speed[kind] + run->norm.speed_floor[kind]);
@@ -36,13 +36,13 @@ static double audit_weight(const Integrator *run, int k)
  * Return whether a rate of a drive jumps, or is unbounded, at the beginning or at the end of a step. Checks that fail
  * in such a step are not recorded. Always 0 without drives.
  */
-static int is_at_drive_jump(const Integrator *run, const Step *step, const Parameters *p)
+static int has_drive_jump_at_ends(const Integrator *run, const Step *step, const Parameters *p)
 {
     for (int end = 0; end < 2 && N_DRIVES; end++) {
         const double t = end ? step->t + step->h : run->t;
         double all[N_S];
-        to_absolute(t, end ? step->y : run->y, &run->discrete, p, all);
-        if (drives_jump(t, all, all + N_Q, p))
+        convert_to_absolute(t, end ? step->y : run->y, &run->discrete, p, all);
+        if (has_drive_jump(t, all, all + N_Q, p))
             return 1;
     }
     return 0;
@@ -62,7 +62,7 @@ static void check_convergence_order(Integrator *run, double error, double change
     audit->measured++;
     audit->errors += error;
     audit->changes += change;
-    const double limit = AUDIT_ORDER * max_of(1.0, sqrt(tolerance_of(run) / AUDIT_LOOSE));
+    const double limit = AUDIT_ORDER * max_of(1.0, sqrt(get_rtol(run) / AUDIT_LOOSE));
     if (audit->measured >= AUDIT_ENOUGH && audit->errors / audit->measured * (double)run->counts.steps > AUDIT_SUM)
         record_check(audit, CHECK_step, audit->errors, limit * audit->changes, run->t, -1);
 }
@@ -84,7 +84,7 @@ static double find_largest_error(const Integrator *run, const Step *step, const 
     double worst = 0.0;
     *error_norm = 0.0;
     for (int k = 0; k < 2 * N_X; k++) {
-        const double weight = audit_weight(run, k);
+        const double weight = compute_audit_weight(run, k);
         const double rounding = AUDIT_DIGITS * (fabs(step->y[k]) + fabs(step->h * step->dy[k]));
         worst = max_of(worst, fabs(error[k]) * weight / (limit + rounding * weight));
         *error_norm = max_of(*error_norm, (fabs(error[k]) - rounding) * weight);
@@ -111,16 +111,16 @@ static void check_step_error(Integrator *run, Step *step, const Parameters *p)
     if (run->counts.steps == 0 || run->discrete.singular_policy != SINGULAR_CONTINUE
         || compute_dense_output(run, p, step))
         return; /* the first step projects a start that violates the constraints */
-    const double limit = AUDIT_STEP * max_of(1.0, AUDIT_FINEST / tolerance_of(run));
+    const double limit = AUDIT_STEP * max_of(1.0, AUDIT_FINEST / get_rtol(run));
     for (int n = 0; n < COUNT_OF(gauss_node); n++) {
         interpolate(run, step, gauss_node[n], y);
-        if (rates(run, step->t + gauss_node[n] * h, y, p, dy, &rhs) || !is_branch_consistent(run, &rhs))
+        if (evaluate_rhs(run, step->t + gauss_node[n] * h, y, p, dy, &rhs) || !is_branch_consistent(run, &rhs))
             return;
         interpolate_rates(step, gauss_node[n], N_Y, rate);
         for (int k = 0; k < N_Y; k++)
             mean[k] += gauss_weight[n] * (rate[k] - dy[k]);
         for (int k = 0; k < 2 * N_X; k++)
-            change = max_of(change, h * fabs(dy[k] - run->dy[k]) * audit_weight(run, k));
+            change = max_of(change, h * fabs(dy[k] - run->dy[k]) * compute_audit_weight(run, k));
     }
     for (int k = 0; k < N_Y; k++)
         error[k] = h * mean[k];
@@ -133,6 +133,6 @@ static void check_step_error(Integrator *run, Step *step, const Parameters *p)
     }
     check_convergence_order(run, error_norm, change);
     run->audit.longest = max_of(run->audit.longest, h);
-    if (worst <= 1.0 || !is_at_drive_jump(run, step, p))
+    if (worst <= 1.0 || !has_drive_jump_at_ends(run, step, p))
         record_check(&run->audit, CHECK_step, worst, 1.0, step->t + h, -1);
 }

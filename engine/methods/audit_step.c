@@ -42,7 +42,7 @@ static double compute_scaled_defect(Integrator *run, const Step *step, const dou
     for (int pass = 0; pass < 2; pass++) {
         defect = known, least = known * AUDIT_DEFECT;
         for (int k = 0; k < rows; k++) {
-            /* audit_weight() */
+            /* compute_audit_weight() */
             const double weight = norm->inverse_scale[k] * (k < N_X ? 1.0 : fast[is_angle[k % N_X]]);
             const double size = fabs(off[k]) * weight;
             if (size <= least)
@@ -74,12 +74,12 @@ static void check_dense_output_rates(Integrator *run, const Step *step, double t
         const int bounded = !step->method->stiff && run->choice.stability > 1.0;
         double off = 0.0, most = 0.0, allowed = max_of(AUDIT_DRIFT / passed, bounded ? AUDIT_BOUNDED / step->h : 0.0);
         for (int k = part * N_X; k < (part + 1) * N_X; k++) {
-            const double weight = audit_weight(run, k), change = fabs(step->dy[k] - run->dy[k]);
+            const double weight = compute_audit_weight(run, k), change = fabs(step->dy[k] - run->dy[k]);
             off = max_of(off, fabs(rate[k] - dy[k]) * weight);
             most = max_of(most, (fabs(dy[k]) + (part ? 0.0 : fabs(step->h * dy[N_X + k]))) * weight);
             allowed = max_of(allowed, (AUDIT_CHANGE * change + AUDIT_DIGITS * fabs(y[k]) / step->h + slip) * weight);
         }
-        if (off <= AUDIT_RATE * most + allowed || !is_at_drive_jump(run, step, p))
+        if (off <= AUDIT_RATE * most + allowed || !has_drive_jump_at_ends(run, step, p))
             record_check(&run->audit, CHECK_rate, off, AUDIT_RATE * most + allowed, t, -1);
     }
 }
@@ -92,7 +92,7 @@ static void check_rates_at_step_end(Integrator *run, Step *step, const Parameter
 {
     double dy[N_Y];
     RhsOutputs rhs;
-    if (has_tolerance(run) && !rates(run, step->t + step->h, step->y, p, dy, &rhs))
+    if (has_tolerance(run) && !evaluate_rhs(run, step->t + step->h, step->y, p, dy, &rhs))
         record_check(&run->audit, CHECK_defect, compute_scaled_defect(run, step, step->y, step->dy, dy, p), 1.0,
             step->t + step->h, -1);
 }
@@ -108,13 +108,13 @@ static void check_film_forces(Integrator *run, const Step *step, double t, const
     int joint;
     if (!has_films())
         return;
-    double most = largest_film_force(rhs, &joint);
+    double most = find_largest_film_force(rhs, &joint);
     for (int i = 0; i < N_CLEARANCES; i++)
         most = has_film(i) ? max_of(most, FILM_FADED * run->contacts.F_peak[i]) : most;
-    const double fraction = relative_film_error(run, step, rate, dy, most, 1.0);
-    const double limit = film_audit_limit(run, step);
+    const double fraction = compute_relative_film_error(run, step, rate, dy, most, 1.0);
+    const double limit = compute_film_audit_limit(run, step);
     if (joint >= 0 && has_tolerance(run) && run->counts.steps > 0
-        && (fraction <= limit || !is_at_drive_jump(run, step, p)))
+        && (fraction <= limit || !has_drive_jump_at_ends(run, step, p)))
         record_check(&run->audit, CHECK_force, fraction, limit, t, joint);
 }
 
@@ -130,13 +130,13 @@ static void check_interior_state(Integrator *run, Step *step, double theta, int 
     double rate[2 * N_X];
     interpolate_rates(step, theta, 2 * N_X, rate);
     const double defect = has_tolerance(run) ? compute_scaled_defect(run, step, y, rate, dy, p) : 0.0;
-    if (has_tolerance(run) && (defect <= 1.0 || !is_at_drive_jump(run, step, p)))
+    if (has_tolerance(run) && (defect <= 1.0 || !has_drive_jump_at_ends(run, step, p)))
         record_check(&run->audit, CHECK_defect, defect, 1.0, t, -1);
     if (is_random && has_tolerance(run) && !N_CLEARANCES) /* rates in contacts change quickly inside a step */
         check_dense_output_rates(run, step, t, y, rate, dy, p);
     check_film_forces(run, step, t, rhs, rate, dy, p);
-    check_joints(run, t, rhs, p);
-    check_branches(run, step, t, y, rhs, p);
+    check_open_gaps(run, t, rhs, p);
+    check_frozen_branches(run, step, t, y, rhs, p);
 }
 
 /*
@@ -154,14 +154,14 @@ static void check_interior_point(Integrator *run, Step *step, double theta, int 
         return;
     if (run->counts.steps == 0) { /* the first step projects a start that violates the constraints */
         interpolate(run, step, theta, y);
-        if (rates(run, t, y, p, dy, &rhs))
+        if (evaluate_rhs(run, t, y, p, dy, &rhs))
             return;
-    } else if (state_at(run, step, theta, p, y, dy, &rhs))
+    } else if (evaluate_state_at(run, step, theta, p, y, dy, &rhs))
         return; /* states after an event may be undefined */
     check_interior_state(run, step, theta, is_random, y, dy, &rhs, p);
     if (!is_random)
         return;
-    to_absolute(t, y, &run->discrete, p, all);
+    convert_to_absolute(t, y, &run->discrete, p, all);
     check_constraints(run, t, all, !RATE_JUMPS, p);
     if (is_branch_consistent(run, &rhs))
         check_accelerations(run, t, y, dy, all, p);
@@ -180,7 +180,7 @@ static int has_event_zero(Integrator *run, Step *step, double fraction, int i, c
     RhsOutputs rhs;
     for (int n = 0; n < AUDIT_HALVINGS && compute_dense_output(run, p, step) == 0; n++) {
         const double middle = 0.5 * (low + high);
-        if (state_at(run, step, middle, p, y, dy, &rhs))
+        if (evaluate_state_at(run, step, middle, p, y, dy, &rhs))
             return 0;
         nearest = fabs(rhs.event[i]);
         if (rhs.event[i] * before > 0.0)
@@ -198,8 +198,8 @@ static int has_event_zero(Integrator *run, Step *step, double fraction, int i, c
 static int is_event_resolved(Integrator *run, const Step *step, int is_end, int i, const Parameters *p)
 {
     const int k = N_EVENT_FUNCTIONS - N_USER_EVENTS + i;
-    return is_end ? is_resolved(run, step->t + step->h, step->y, &step->rhs, k, p)
-        : is_resolved(run, run->t, run->y, &run->rhs, k, p);
+    return is_end ? is_above_uncertainty(run, step->t + step->h, step->y, &step->rhs, k, p)
+        : is_above_uncertainty(run, run->t, run->y, &run->rhs, k, p);
 }
 
 /*
@@ -214,18 +214,18 @@ static void check_event_zeros(Integrator *run, Step *step, double fraction, int 
     audit->ended = event - (N_EVENT_FUNCTIONS - N_USER_EVENTS);
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const double before = run->rhs.event[i], after = step->rhs.event[i];
-        const StageValues seen = stage_values(step, N_EVENT_FUNCTIONS - N_USER_EVENTS + i);
+        const StageValues seen = get_stage_values(step, N_EVENT_FUNCTIONS - N_USER_EVENTS + i);
         double inside = fabs(after); /* the beginning may be a located pole */
         for (int k = 0; k < step->n_seen; k++)
-            inside = max_of(inside, fabs(stage_value(seen, k)));
+            inside = max_of(inside, fabs(read_stage(seen, k)));
         if (step->h > AUDIT_SHORT * audit->longest && isfinite(inside))
             audit->event_scale[i] = max_of(audit->event_scale[i], inside);
         const double noise = AUDIT_NOISE * audit->event_scale[i];
         audit->away[i] |= max_of(fabs(before), inside) > noise;
-        /* start_just_after() set the sign already */
+        /* initialize_event_signs() set the sign already */
         const int begins_beyond = run->counts.steps == 0 && run->discrete.event_sign[i] * after > 0.0;
         /* also from a pole, near which it grows and falls at once */
-        const int far = fraction * step->h > event_location_tolerance(run);
+        const int far = fraction * step->h > compute_event_location_tolerance(run);
         audit->event_before[i] = audit->ended == i && far && is_event_resolved(run, step, 0, i, p) ? before : 0.0;
         audit->crossed[i] = fraction >= 1.0 && audit->ended != i && !begins_beyond && before * after < 0.0
             && fabs(before) > noise && fabs(after) > noise && event_direction[i] * after >= 0.0

@@ -13,12 +13,12 @@ static int set_initial_event_signs(Integrator *run, const Parameters *p)
         for (int i = 0; i < N_USER_EVENTS; i++)
             zeros |= run->discrete.event_sign[i] == 0;
         const double ahead = fraction * run->control.h; /* s */
-        const int status = zeros ? evaluate_events_ahead(run, run->t, ahead, run->y, run->dy, p, value) : 0;
+        const int status = zeros ? extrapolate_event_functions(run, run->t, ahead, run->y, run->dy, p, value) : 0;
         if (status || !zeros)
             return fraction > 1e-6 ? 0 : status;
         for (int i = 0; i < N_USER_EVENTS; i++)
             if (run->discrete.event_sign[i] == 0)
-                event_crosses(i, &run->discrete.event_sign[i], value[i]);
+                detect_event_crossing(i, &run->discrete.event_sign[i], value[i]);
     }
     return 0;
 }
@@ -55,7 +55,7 @@ static void set_speed_floors(Integrator *run, double time_left, const Parameters
 {
     double rate = find_fastest_rate(run, run->dy), dy[N_Y];
     RhsOutputs rhs;
-    if (rate * time_left > MAX_RATES_PER_RUN && !rates(run, run->t + time_left / MAX_RATES_PER_RUN, run->y, p, dy,
+    if (rate * time_left > MAX_RATES_PER_RUN && !evaluate_rhs(run, run->t + time_left / MAX_RATES_PER_RUN, run->y, p, dy,
         &rhs))
         rate = min_of(rate, find_fastest_rate(run, dy));
     for (int kind = 0; kind < 2; kind++) {
@@ -69,7 +69,7 @@ static int is_starting_in_contact(const Integrator *run)
 {
     int is_closed_contact = 0;
     for (int i = 0; i < N_CLEARANCES; i++)
-        is_closed_contact |= gives(i) && run->discrete.contact[i].closed;
+        is_closed_contact |= is_compliant(i) && run->discrete.contact[i].closed;
     return is_closed_contact;
 }
 
@@ -95,17 +95,17 @@ static void set_inner_state_weights(Integrator *run, const Parameters *p)
 /*
  * Evaluate the first right-hand side, contacts and friction modes of a run at its start. Return 0 or the status. A
  * start at or just before a jump of a drive's rate is first projected onto the constraints after the jump, without
- * work. Called once, by begin_adaptive().
+ * work. Called once, by begin_integration().
  */
 static int begin_run(Integrator *run, const Parameters *p)
 {
     if (DRIVE_IMPULSES) {
         double all[N_S];
-        to_absolute(run->t, run->y, &run->discrete, p, all);
-        if (drives_jump(run->t, all, all + N_Q, p))
+        convert_to_absolute(run->t, run->y, &run->discrete, p, all);
+        if (has_drive_jump(run->t, all, all + N_Q, p))
             project_state(run, just_after(run->t), run->y, p);
     }
-    const int status = begin_state(run, p);
+    const int status = initialize_discrete_state(run, p);
     if (DRIVE_IMPULSES)
         set_phi_dot_max(run, 0.0); /* rates are those after the jump */
     return status;
@@ -116,35 +116,35 @@ static int begin_run(Integrator *run, const Parameters *p)
  * length. Contacts and branches are frozen from here on. A first step length that is known already is kept; in a closed
  * contact it is fitted as at an onset. time_left: time to the end of the run, s. Return 0 or the status.
  */
-static int begin_adaptive(Integrator *run, double time_left, const Parameters *p)
+static int begin_integration(Integrator *run, double time_left, const Parameters *p)
 {
     int status = run->ready ? 0 : begin_run(run, p);
     set_time_resolution(run, time_left);
-    start_films(run, p);
+    set_film_mass_scale(run, p);
     freeze_branches(run);
     if (!status)
         status = update_branches(run, -1, p);
     set_speed_floors(run, time_left, p);
     update_speeds(run);
     /* error weights are its inverse */
-    run->norm.energy_scale = max_of(initial_energy_scale(run, p), MIN_RESOLVED / run->norm.work_scale);
+    run->norm.energy_scale = max_of(compute_initial_energy_scale(run, p), MIN_RESOLVED / run->norm.work_scale);
     set_inner_state_weights(run, p);
     update_error_weights(run);
     if (!status)
-        status = pass_drive_jumps_here(run, p); /* to the branches after the jumps */
+        status = apply_drive_jumps_now(run, p); /* to the branches after the jumps */
     if (!status)
-        status = start_just_after(run, 0.0, p);
+        status = initialize_event_signs(run, 0.0, p);
     if (!status && !(run->control.h > 0.0)) {
         status = estimate_initial_step(run, time_left, p);
         if (!status && is_starting_in_contact(run)) { /* the contact force may have just begun: as at an onset */
-            set_first_length(run, &run->control.after_contact[count_closed(run)][0], ONSET_ORDER);
-            status = first_step_after_event(run, time_left, p);
+            set_first_step(run, &run->control.after_contact[count_closed_contacts(run)][0], ONSET_ORDER);
+            status = fit_first_step_after_event(run, time_left, p);
         }
     }
     if (!status)
         status = set_initial_event_signs(run, p);
     if (run->choice.method->controls_length)
-        set_length(run, time_left);
+        set_next_step_length(run, time_left);
     return status;
 }
 
@@ -158,13 +158,13 @@ void gudgeon_adaptive_setup(void *integrator, int method, int automatic, const d
     double fixed)
 {
     Integrator *run = integrator;
-    start_choice(run, method, automatic);
-    start_control(run, fixed);
-    start_roots(run);
+    set_method_choice(run, method, automatic);
+    start_step_control(run, fixed);
+    initialize_root_finding(run);
     for (int k = 0; k < 2 * N_X; k++)
         run->norm.inverse_scale[k] = 1.0 / scale[k];
     run->norm.work_scale = max_of(1e-10, WORK_TOL * scale[2 * N_X - 1]); /* smaller: rounding of summed works */
     run->norm.least[0] = least[0];
     run->norm.least[1] = least[1];
-    start_series(run, scale[2 * N_X - 1]);
+    set_series_order(run, scale[2 * N_X - 1]);
 }

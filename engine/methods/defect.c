@@ -22,13 +22,13 @@ static inline void interpolate_rates(const Step *step, double theta, int n, doub
 }
 
 /* Return the largest film force of all joints in `rhs`, N, and its joint in *joint; 0 and -1 if no film acts. */
-static double largest_film_force(const RhsOutputs *rhs, int *joint)
+static double find_largest_film_force(const RhsOutputs *rhs, int *joint)
 {
     double most = 0.0;
     *joint = -1;
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (has_film(i) && total_force(&rhs->clearance[i]) > most)
-            most = total_force(&rhs->clearance[i]), *joint = i;
+        if (has_film(i) && compute_force_magnitude(&rhs->clearance[i]) > most)
+            most = compute_force_magnitude(&rhs->clearance[i]), *joint = i;
     return most;
 }
 
@@ -40,7 +40,7 @@ static double largest_film_force(const RhsOutputs *rhs, int *joint)
  * the largest acceleration of the same kind (length or angle). Rounding of velocities over the step is subtracted. The
  * result is 0 if film_force is 0.
  */
-static double relative_film_error(const Integrator *run, const Step *step, const double *rate, const double *dy,
+static double compute_relative_film_error(const Integrator *run, const Step *step, const double *rate, const double *dy,
     double film_force, double scale_fraction)
 {
     const double rounded = RATE_ROUNDED / step->h;
@@ -67,16 +67,16 @@ static double relative_film_error(const Integrator *run, const Step *step, const
 /* Return the allowed relative error of film forces inside a step: FILM_FORCE times rtol, between 3e-5 and 0.1. */
 static double compute_film_error_limit(const Integrator *run)
 {
-    return min_of(0.1, max_of(3e-5, FILM_FORCE * tolerance_of(run)));
+    return min_of(0.1, max_of(3e-5, FILM_FORCE * get_rtol(run)));
 }
 
 /*
  * Return the limit of the relative error of film forces in the audit: FILM_AUDIT times rtol, at least 1e-3 and at most
  * 1. It is tenfold for explicit methods, whose film errors are not controlled.
  */
-static double film_audit_limit(const Integrator *run, const Step *step)
+static double compute_film_audit_limit(const Integrator *run, const Step *step)
 {
-    return min_of(1.0, (step->method->stiff ? 1.0 : 10.0) * max_of(1e-3, FILM_AUDIT * tolerance_of(run)));
+    return min_of(1.0, (step->method->stiff ? 1.0 : 10.0) * max_of(1e-3, FILM_AUDIT * get_rtol(run)));
 }
 
 /*
@@ -90,10 +90,10 @@ static double evaluate_relative_film_error(Integrator *run, const Step *step, do
     double y[N_Y], dy[N_Y], rate[N_Y];
     int joint;
     RhsOutputs rhs;
-    if (state_at(run, step, theta, p, y, dy, &rhs))
+    if (evaluate_state_at(run, step, theta, p, y, dy, &rhs))
         return -1.0;
     interpolate_rates(step, theta, 2 * N_X, rate);
-    return relative_film_error(run, step, rate, dy, max_of(min_force, largest_film_force(&rhs, &joint)),
+    return compute_relative_film_error(run, step, rate, dy, max_of(min_force, find_largest_film_force(&rhs, &joint)),
         FILM_PART);
 }
 
@@ -106,8 +106,8 @@ static double evaluate_relative_film_error(Integrator *run, const Step *step, do
 static double measure_film_error(Integrator *run, Step *step, const Parameters *p)
 {
     int joint;
-    const double force_at_ends = max_of(largest_film_force(&step->rhs, &joint),
-        largest_film_force(&run->rhs, &joint));
+    const double force_at_ends = max_of(find_largest_film_force(&step->rhs, &joint),
+        find_largest_film_force(&run->rhs, &joint));
     const double fraction = compute_dense_output(run, p, step)
         ? -1.0 : evaluate_relative_film_error(run, step, step->method->max_error_fraction, force_at_ends, p);
     if (fraction < 0.0)
@@ -123,7 +123,7 @@ static double measure_film_error(Integrator *run, Step *step, const Parameters *
  * Return whether the film forces of a stiff method exceed their error limit at an event at `fraction` of a step. The
  * state there is the start of the next step. Always 0 for explicit methods and without films.
  */
-static int has_wrong_film_force_at(Integrator *run, const Step *step, double fraction, const Parameters *p)
+static int has_wrong_film_force_at_event(Integrator *run, const Step *step, double fraction, const Parameters *p)
 {
     return has_films() && step->method->stiff && evaluate_relative_film_error(run, step, fraction, 0.0,
         p) > compute_film_error_limit(run);
@@ -154,22 +154,22 @@ enum { FILM_STEPS = 16 /* steps between two measurements */ };
 /*
  * Return the error of film forces at both ends of a step in multiples of its limit, without evaluating a right-hand
  * side. At the beginning it is the error of the dense output, at the end that of the iteration of velocities.
- * scale_fraction: see relative_film_error(). Return 0 for explicit methods and without films. The result of
+ * scale_fraction: see compute_relative_film_error(). Return 0 for explicit methods and without films. The result of
  * measure_film_error() was up to 37 times as large, for errors far below the limit.
  */
-static double film_error_at_ends(const Integrator *run, const Step *step, double scale_fraction)
+static double estimate_film_error_at_ends(const Integrator *run, const Step *step, double scale_fraction)
 {
     const Method *method = step->method;
     double rate[N_Y];
     int joint;
     if (!method->stiff || !has_films())
         return 0.0;
-    const double film_force = largest_film_force(&step->rhs, &joint);
+    const double film_force = find_largest_film_force(&step->rhs, &joint);
     compute_end_rates(run, step, method->begin_weights, method->n_begin_weights, method->begin_weight_of_end, rate);
-    double fraction = relative_film_error(run, step, rate, run->dy, film_force, scale_fraction);
+    double fraction = compute_relative_film_error(run, step, rate, run->dy, film_force, scale_fraction);
     if (method->n_end_weights) {
         compute_end_rates(run, step, method->end_weights, method->n_end_weights, method->end_weight_of_end, rate);
-        fraction = max_of(fraction, relative_film_error(run, step, rate, step->dy, film_force, scale_fraction));
+        fraction = max_of(fraction, compute_relative_film_error(run, step, rate, step->dy, film_force, scale_fraction));
     }
     return fraction / compute_film_error_limit(run);
 }
@@ -189,12 +189,12 @@ static int is_film_error_small(const Integrator *run, const Step *step, double e
 
 /*
  * Return whether a step passes over a film force that decays or rises at its beginning, so that it must be shortened.
- * end_error: result of film_error_at_ends() with FILM_PART; if it exceeds 1, it must also exceed 1 with a
+ * end_error: result of estimate_film_error_at_ends() with FILM_PART; if it exceeds 1, it must also exceed 1 with a
  * scale_fraction of 1.
  */
 static int has_wrong_film_force(const Integrator *run, const Step *step, double end_error)
 {
-    return end_error > 1.0 && film_error_at_ends(run, step, 1.0) > 1.0;
+    return end_error > 1.0 && estimate_film_error_at_ends(run, step, 1.0) > 1.0;
 }
 
 /* Return the smallest non-zero mass of a body, kg; infinity if there is none. */
@@ -208,7 +208,7 @@ static double find_lightest_mass(const Parameters *p)
 }
 
 /* Set the lightest mass of the scene, by which errors of film forces are scaled; infinity without films. */
-static void start_films(Integrator *run, const Parameters *p)
+static void set_film_mass_scale(Integrator *run, const Parameters *p)
 {
     run->films.lightest = has_films() ? find_lightest_mass(p) : INFINITY;
 }

@@ -28,7 +28,7 @@ static int estimate_initial_step(Integrator *run, double time_left, const Parame
     double h = min_of(first_norm > 0.0 ? 1.0 / first_norm : INFINITY, FIRST_SHARE * time_left);
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + h * run->dy[k];
-    const int status = rates(run, run->t + h, y, p, dy, &rhs);
+    const int status = evaluate_rhs(run, run->t + h, y, p, dy, &rhs);
     if (status)
         return status;
     for (int k = 0; k < 2 * N_X; k++)
@@ -51,7 +51,7 @@ static int compute_acceleration_change(Integrator *run, double h, const Paramete
     RhsOutputs rhs;
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + h * run->dy[k];
-    const int status = rates(run, run->t + h, y, p, dy, &rhs);
+    const int status = evaluate_rhs(run, run->t + h, y, p, dy, &rhs);
     *change = *size = 0.0;
     for (int k = N_X; k < 2 * N_X && !status; k++) {
         *change = max_of(*change, fabs(dy[k] - run->dy[k]) * run->norm.weight[k]);
@@ -82,10 +82,10 @@ static double compute_length_factor(const Integrator *run, double h, double chan
  * steps reuse the length stored for that kind of event. Does nothing for fixed steps, methods that choose their length,
  * and without an event. time_left: to the end of the run, s. Return 0, or STOPPED; other failures shorten the step.
  */
-static int first_step_after_event(Integrator *run, double time_left, const Parameters *p)
+static int fit_first_step_after_event(Integrator *run, double time_left, const Parameters *p)
 {
     const int stiff = !!run->choice.method->stiff, is_onset = run->control.first_step_order > 0.0;
-    const int is_after_switch = begins_at_switch(run);
+    const int is_after_switch = is_first_after_switch(run);
     const double last_onset_error = run->control.onset[stiff], default_onset_error = stiff ? ONSET_ERROR_STIFF
         : ONSET_ERROR;
     const double onset_error = last_onset_error > 0.0 ? last_onset_error : default_onset_error;

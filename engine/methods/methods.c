@@ -12,7 +12,7 @@ struct Method {
     int (*dense)(Integrator *, const Parameters *, Step *);            /* computes the dense output of a step */
     void (*interpolate)(const Integrator *, const Step *, double fraction, double *y);
     const struct Tableau *tableau; /* coefficients of an explicit method, methods/runge_kutta.c */
-    int drifts;               /* whether Baumgarte's terms replace the projection onto the constraints */
+    int uses_baumgarte_terms;               /* whether Baumgarte's terms replace the projection onto the constraints */
     int lane;                 /* its code in lanes (BY_..., run/run.h) */
     double power;             /* exponent of the step-size control: 1 / (order of the error estimate + 1) */
     int stiff;                /* whether it uses the Jacobian */
@@ -54,7 +54,7 @@ static const Method *const METHODS[] = {
 /*
  * Return whether the method of a run stabilises the constraints by Baumgarte's terms instead of projecting its steps.
  */
-static int drifts(const Integrator *run) { return run->choice.method->drifts; }
+static int uses_baumgarte_terms(const Integrator *run) { return run->choice.method->uses_baumgarte_terms; }
 
 /* Return the index of the method with this name for gudgeon_adaptive_setup(), -1 if the library has no such method. */
 int gudgeon_method(const char *name)

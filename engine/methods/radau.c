@@ -15,16 +15,16 @@ static int factor_complex_matrix(Integrator *run, double eta, double eta_i, Comp
 static void load_iteration_history(Integrator *run) { update_iteration_history(run); }
 
 /*
- * Do nothing: for one run, rates() counts its own evaluations. In lanes, n evaluations of the active runs are counted
+ * Do nothing: for one run, evaluate_rhs() counts its own evaluations. In lanes, n evaluations of the active runs are counted
  * here.
  */
-static void count_stage_rates(Integrator *run, int is_active, int n) { (void)run, (void)is_active, (void)n; }
+static void count_stage_evaluations(Integrator *run, int is_active, int n) { (void)run, (void)is_active, (void)n; }
 
 /*
  * Begin an iteration of the stages: discard what the last iteration recorded of them in `step`. The other arguments are
  * used in lanes only.
  */
-static void begin_iteration(Integrator *run, Step *step, int is_active, int n)
+static void begin_stage_iteration(Integrator *run, Step *step, int is_active, int n)
 {
     (void)run, (void)is_active, (void)n;
     discard_stages(step);
@@ -34,16 +34,16 @@ static void begin_iteration(Integrator *run, Step *step, int is_active, int n)
  * Record the state y and the right-hand side's outputs `rhs` at one stage of an iteration, at fraction `node` of the
  * step.
  */
-static void record_pass(Integrator *run, Step *step, int is_active, const double *y, const RhsOutputs *rhs,
+static void record_iterated_stage(Integrator *run, Step *step, int is_active, const double *y, const RhsOutputs *rhs,
     double node)
 {
     (void)is_active;
-    record_stage_state(step, y);
+    extend_stage_range(step, y);
     record_stage(run, step, rhs, node);
 }
 
 /* Return NOT_FOUND, which rejects the step, if the iteration of its stages failed (`has_failed`); else 0. */
-static int mark_missed_stages(Integrator *run, int has_failed) { return (void)run, has_failed ? NOT_FOUND : 0; }
+static int mark_failed_stages(Integrator *run, int has_failed) { return (void)run, has_failed ? NOT_FOUND : 0; }
 
 #include "../both/radau.h"
 

@@ -66,7 +66,7 @@ static void rodas5p_interpolate(const Integrator *run, const Step *step, double 
 
 /* The Rosenbrock method rodas5p. */
 static const Method rodas5p = {.name = "rodas5p",
-    .try = rodas5p_try,
+    .try = rodas5p_try_step,
     .dense = rodas5p_compute_dense_output,
     .interpolate = rodas5p_interpolate,
     .power = 0.2,

@@ -7,14 +7,14 @@
 /* Try a step of length h (s) by the tableau of the step's method: stages, error and end. Return 0 or the status. */
 static int tableau_try_step(Integrator *run, double h, const Parameters *p, Step *step)
 {
-    return runge_kutta_try(run, step->method->tableau, h, p, step);
+    return runge_kutta_try_step(run, step->method->tableau, h, p, step);
 }
 
 /* Compute the dense output of a step by the tableau of its method. Return 0. */
 static int tableau_compute_dense_output(Integrator *run, const Parameters *p, Step *step)
 {
     (void)p;
-    runge_kutta_dense(run, step->method->tableau, step);
+    runge_kutta_compute_dense_output(run, step->method->tableau, step);
     return 0;
 }
 
@@ -39,7 +39,7 @@ static const double rk4_error_nodes[] = {0.0, 0.5, 1.0};
 
 /* The classical method of order 4, for fixed steps; in the full formulation Baumgarte's terms stabilise it. */
 static const Method rk4 = {.name = "rk4", BY_TABLEAU, .tableau = &classical, .stages = RK4_STAGES, .lane = BY_RK4,
-    .drifts = !TREE, .power = 1.0 / 4.0, .unstable = 2.8, .bounded = 2.5, .error_nodes = rk4_error_nodes,
+    .uses_baumgarte_terms = !TREE, .power = 1.0 / 4.0, .unstable = 2.8, .bounded = 2.5, .error_nodes = rk4_error_nodes,
     .n_error_nodes = COUNT_OF(rk4_error_nodes)};
 
 /* Fractions of a step, ascending, of the error estimate of dopri5. */

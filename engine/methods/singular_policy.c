@@ -30,7 +30,7 @@ static void begin_singular_policy(Integrator *run)
  * attempts: the policy of states outside steps is set. After a step that could only be made with SINGULAR_IGNORE,
  * detection is suspended for 1, 3, 7, ... steps.
  */
-static int next_singular_policy(Integrator *run, int status)
+static int advance_singular_policy(Integrator *run, int status)
 {
     const int policy = run->discrete.singular_policy;
     if (status == NEAR) {
@@ -54,7 +54,7 @@ static int next_singular_policy(Integrator *run, int status)
 static inline void reset_singular_policy(Integrator *run)
 {
     begin_singular_policy(run);
-    next_singular_policy(run, 0);
+    advance_singular_policy(run, 0);
 }
 #else
 /* Do nothing: the scene does not continue its motion past singular positions. */
@@ -64,5 +64,5 @@ static inline void reset_singular_policy(Integrator *run) { (void)run; }
 static void begin_singular_policy(Integrator *run) { (void)run; }
 
 /* Return 0: no step is repeated for a singular position. */
-static int next_singular_policy(Integrator *run, int status) { return (void)run, (void)status, 0; }
+static int advance_singular_policy(Integrator *run, int status) { return (void)run, (void)status, 0; }
 #endif

@@ -13,13 +13,13 @@ enum { MAX_STRAYED = 4 }; /* attempts of a step rejected for their distance from
 static double event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int k)
 {
     if (k < N_CLEARANCES)
-        return contact_event_function(discrete, rhs, k);
+        return evaluate_contact_event_function(discrete, rhs, k);
     k -= N_CLEARANCES;
     if (k < N_SWITCHES)
         return discrete->branch[k] * rhs->g[k];
     k -= N_SWITCHES;
     if (k < N_FRICTIONS)
-        return friction_event_function(discrete, rhs, k);
+        return evaluate_friction_event_function(discrete, rhs, k);
     return discrete->event_sign[k - N_FRICTIONS] * rhs->event[k - N_FRICTIONS];
 }
 
@@ -27,7 +27,7 @@ static double event_function(const DiscreteState *discrete, const RhsOutputs *rh
 static void evaluate_event_functions(const DiscreteState *discrete, const RhsOutputs *rhs, double *out)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
-        out[i] = contact_event_function(discrete, rhs, i);
+        out[i] = evaluate_contact_event_function(discrete, rhs, i);
     for (int k = 0; k < N_SWITCHES; k++)
         out[N_CLEARANCES + k] = discrete->branch[k] * rhs->g[k];
     for (int k = N_CLEARANCES + N_SWITCHES; k < N_EVENT_FUNCTIONS; k++)
@@ -35,7 +35,7 @@ static void evaluate_event_functions(const DiscreteState *discrete, const RhsOut
 }
 
 /* Return the relative tolerance of the steps of a run, 0 for fixed steps. */
-static double tolerance_of(const Integrator *run)
+static double get_rtol(const Integrator *run)
 {
     return run->control.fixed > 0.0 ? 0.0 : 1.0 / run->norm.inverse_scale[2 * N_X - 1];
 }
@@ -48,9 +48,9 @@ typedef struct {
 
 /*
  * Return the location of the values number k (an event function, or STAGE_FORCES and later) at all stages of a step.
- * They are in the lane if the step was computed in lanes. stage_value() reads them.
+ * They are in the lane if the step was computed in lanes. read_stage() reads them.
  */
-static StageValues stage_values(const Step *step, int k)
+static StageValues get_stage_values(const Step *step, int k)
 {
     return step->seen_lane
         ? (StageValues){step->seen_lane + k * step->lanes, AT_LEAST_ONE(N_STAGE_VALUES) * step->lanes}
@@ -58,7 +58,7 @@ static StageValues stage_values(const Step *step, int k)
 }
 
 /* Return the value of the i-th stage from `values`. */
-static double stage_value(StageValues values, int i) { return values.first[i * values.stride]; }
+static double read_stage(StageValues values, int i) { return values.first[i * values.stride]; }
 
 /* Discard all that is stored of the stages of a step: values, extrema, crossed switching points, range of the state. */
 static void discard_stages(Step *step)
@@ -102,7 +102,7 @@ static void record_stage(const Integrator *run, Step *step, const RhsOutputs *rh
 }
 
 /* Extend the range of the coordinates and velocities in a step by those of a stage y; only if functions are watched. */
-static void record_stage_state(Step *step, const double *y)
+static void extend_stage_range(Step *step, const double *y)
 {
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
         step->least[k] = min_of(step->least[k], y[k]);
@@ -117,10 +117,10 @@ static void record_stage_state(Step *step, const double *y)
  * Return whether they are finite; 0 without a computation if not `is_active`, or if the constraints cannot be solved. y
  * is not changed.
  */
-static int has_closing_step(Integrator *run, int is_active, double t, const double *y, const Parameters *p,
+static int find_closure_correction(Integrator *run, int is_active, double t, const double *y, const Parameters *p,
     double *dq, double *dv, double *residual)
 {
-    return is_active && !closing_of_state(t, y, &run->discrete, p, dq, dv, residual) && all_finite(dq, N_X)
+    return is_active && !compute_correction(t, y, &run->discrete, p, dq, dv, residual) && all_finite(dq, N_X)
         && all_finite(dv, N_X);
 }
 
@@ -133,7 +133,7 @@ static int has_closing_step(Integrator *run, int is_active, double t, const doub
  * yet). That step then updates *stored_length. first_step_order: order of the error of such a step, 0: that of the
  * method.
  */
-static void set_first_length(Integrator *run, double *stored_length, double first_step_order)
+static void set_first_step(Integrator *run, double *stored_length, double first_step_order)
 {
     if (*stored_length > 0.0)
         run->control.h = *stored_length;
@@ -142,30 +142,30 @@ static void set_first_length(Integrator *run, double *stored_length, double firs
 }
 
 /* Return whether the next step is the first one after a switching point. */
-static inline int begins_at_switch(const Integrator *run)
+static inline int is_first_after_switch(const Integrator *run)
 {
     return run->control.first && run->control.first >= &run->control.after_switch[0][0];
 }
 
 /* Set the length of the next step, s. */
-static void set_length(Integrator *run, double h) { run->control.h = h; }
+static void set_next_step_length(Integrator *run, double h) { run->control.h = h; }
 
 /* Set the length of the present attempt, s. */
-static inline void set_attempt_length(Integrator *run, double h) { run->control.attempt.h = h; }
+static inline void set_attempt_step_length(Integrator *run, double h) { run->control.attempt.h = h; }
 
 /* Store the length of the last step up to its end, s. */
-static void set_last_length(Integrator *run, double h) { run->control.last_step = h; }
+static void set_last_step_length(Integrator *run, double h) { run->control.last_step = h; }
 
 /* Discard the stored length of the stiff method: it does not apply after an event. */
-static void discard_stiff_length(Integrator *run) { run->control.h_stiff = 0.0; }
+static void discard_stiff_step_length(Integrator *run) { run->control.h_stiff = 0.0; }
 
-static int drifts(const Integrator *run); /* methods/methods.c */
+static int uses_baumgarte_terms(const Integrator *run); /* methods/methods.c */
 
 /* Project state y onto the constraint equations, unless Baumgarte's terms of the method stabilise them. */
 static void project_unless_stabilised(Integrator *run, double t, double *y, const Parameters *p)
 {
-    if (!drifts(run))
-        project_rows(run, t, y, p);
+    if (!uses_baumgarte_terms(run))
+        project_onto_constraints(run, t, y, p);
 }
 
 /* Project state y at time t onto the constraint equations and the closed rigid contacts, in place. */
@@ -182,15 +182,15 @@ static void project_state(Integrator *run, double t, double *y, const Parameters
 static inline void apply_drive_impulse(Integrator *run, const Parameters *p)
 {
     const double before = kinetic_energy(run, p);
-    project_rows(run, run->t, run->y, p);
+    project_onto_constraints(run, run->t, run->y, p);
     run->y[2 * N_X] += kinetic_energy(run, p) - before;
 }
 
 /* Return whether the error norm of a step is not finite. */
-static int is_not_a_number(const Integrator *run, double error) { return (void)run, !isfinite(error); }
+static int is_error_not_finite(const Integrator *run, double error) { return (void)run, !isfinite(error); }
 
 /* Return whether the error norm of a step exceeds the accepted one. */
-static int is_step_refused(const Integrator *run, const Step *step) { return step->error > run->control.accept; }
+static int is_step_rejected(const Integrator *run, const Step *step) { return step->error > run->control.accept; }
 
 /*
  * Project the end of a tried step onto the constraints and closed contacts, and evaluate the right-hand side there. A
@@ -205,8 +205,8 @@ static int finish_step(Integrator *run, Step *step, const Parameters *p)
         return NOT_FINITE;
     memcpy(before, step->y, sizeof before);
     project_unless_stabilised(run, step->t + step->h, step->y, p);
-    const double missed = distance_from_constraints(run, before, step->y);
-    if (missed > max_of(MAX_CONSTRAINT_DRIFT, CONSTRAINT_ROUNDING / tolerance_of(run)) && run->counts.steps > 0
+    const double missed = compute_constraint_distance(run, before, step->y);
+    if (missed > max_of(MAX_CONSTRAINT_DRIFT, CONSTRAINT_ROUNDING / get_rtol(run)) && run->counts.steps > 0
         && run->control.attempt.n_strayed++ < MAX_STRAYED)
         step->error = max_of(step->error, missed);
     project_closed_contacts(run, step->t + step->h, step->y, p);

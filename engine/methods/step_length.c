@@ -26,7 +26,7 @@
 #define SHRINK_NEWTON 0.5       /* ratio if Newton's iteration failed [2] */
 #define SHRINK_FAILED 0.25      /* ratio if a stage is not finite */
 #define SHRINK_UNRESOLVED 0.25  /* ratio if the motion between the stages is not resolved */
-#define FLIGHT_STEP_SLACK 1.5        /* times flight_step_limit(): longer steps are rejected */
+#define FLIGHT_STEP_SLACK 1.5        /* times compute_flight_step_limit(): longer steps are rejected */
 #define SHRINK_FLIGHT_STEP 0.5       /* ratio of the next attempt then */
 #define TRANSIENT_PART 0.5          /* of the time up to a missed transient: length of the next attempt */
 #define MIN_PARTING 0.1         /* of a step: an earlier separation does not shorten it */
@@ -50,23 +50,23 @@ enum { PATIENCE = 8, MAX_PATIENCE = 4096,
  * Return the method of the same name in this library; NULL if `method` is NULL. A run may have begun in another library
  * of the same code, whose pointers are other ones.
  */
-static const Method *local_method(const Method *method)
+static const Method *find_method_in_library(const Method *method)
 {
     return method ? METHODS[gudgeon_method(method->name)] : NULL;
 }
 
 /* Replace the methods that a run stores by those of this library, when a call continues the run. */
-static void relink_choice(Integrator *run)
+static void relink_methods(Integrator *run)
 {
-    run->choice.method = local_method(run->choice.method);
-    run->choice.implicit = local_method(run->choice.implicit);
+    run->choice.method = find_method_in_library(run->choice.method);
+    run->choice.implicit = find_method_in_library(run->choice.implicit);
 }
 
 /*
  * Set the first method of a run by its index from gudgeon_method(), and the stiff method to which it may change.
  * automatic: index of that stiff method; 0: the method never changes.
  */
-static void start_choice(Integrator *run, int method, int automatic)
+static void set_method_choice(Integrator *run, int method, int automatic)
 {
     run->choice.method = METHODS[method];
     run->choice.automatic = automatic > 0;
@@ -77,7 +77,7 @@ static void start_choice(Integrator *run, int method, int automatic)
 /*
  * Start the step-size control of a run at its present time. fixed: length of all steps, s; 0: error norms determine it.
  */
-static void start_control(Integrator *run, double fixed)
+static void start_step_control(Integrator *run, double fixed)
 {
     run->control.fixed = run->control.h = fixed;
     run->control.grid = run->t;
@@ -123,7 +123,7 @@ static double estimate_largest_rate(Integrator *run, const Parameters *p)
         growth[n % 2] = size; /* over two iterations: a vibration alternates between positions and velocities */
         for (int k = 0; k < N_Y; k++)
             y[k] = run->y[k] + direction[k] / size;
-        if (!(size > 0.0 && isfinite(size)) || rates(run, run->t, y, p, dy, &rhs))
+        if (!(size > 0.0 && isfinite(size)) || evaluate_rhs(run, run->t, y, p, dy, &rhs))
             return 0.0;
         for (int k = 0; k < N_Y; k++)
             direction[k] = dy[k] - run->dy[k];
@@ -179,7 +179,7 @@ static double get_bounded_error(const Step *step) { return max_of(MIN_ERROR, ste
  * attempt at this step was rejected before, both errors show their order; else it is compute_error_order(). The
  * rejected length, its error and its end are stored in the run.
  */
-static double shrink_factor(Integrator *run, const Step *step)
+static double compute_shrink_factor(Integrator *run, const Step *step)
 {
     Attempt *attempt = &run->control.attempt;
     double order = compute_error_order(run, step);
@@ -233,10 +233,10 @@ static double compute_observed_growth(Integrator *run, const Step *step, int was
  * ended before the end of the run. A cut step with a small error does not shorten the next one. Methods that control
  * their length only get its largest value.
  */
-static void next_length(Integrator *run, const Step *step, int was_rejected, int is_uncut)
+static void choose_next_length(Integrator *run, const Step *step, int was_rejected, int is_uncut)
 {
     if (step->method->controls_length) { /* up to the largest length of the next attempt */
-        run->control.h = was_rejected ? step->h : max_attempt_length(run);
+        run->control.h = was_rejected ? step->h : get_max_attempt_length(run);
         return;
     }
     const double error = get_bounded_error(step), power = step->method->power;
@@ -265,7 +265,7 @@ static double limit_length_by_separation(const Integrator *run, double h)
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &run->rhs.clearance[i];
         const double left = SEPARATION_MARGIN * joint->delta / -joint->deltadot;
-        if (gives(i) && run->discrete.contact[i].closed && joint->deltadot < 0.0 && left < h && left > MIN_PARTING * h)
+        if (is_compliant(i) && run->discrete.contact[i].closed && joint->deltadot < 0.0 && left < h && left > MIN_PARTING * h)
             h = left;
     }
     return h;
@@ -280,7 +280,7 @@ static double limit_length_by_flight(const Integrator *run, double h, const Para
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &run->rhs.clearance[i];
         const double c = radial_clearance(p, i), distance = max_of(c, 2.0 * c + joint->delta);
-        if (gives(i) && !run->discrete.contact[i].closed && joint->deltadot < 0.0)
+        if (is_compliant(i) && !run->discrete.contact[i].closed && joint->deltadot < 0.0)
             h = min_of(h, MAX_FLIGHTS * distance / -joint->deltadot);
     }
     return h;
@@ -293,7 +293,7 @@ static double limit_length_by_flight(const Integrator *run, double h, const Para
  */
 static double limit_length_by_rejection(const Integrator *run, double h)
 {
-    const int is_limited = begins_at_switch(run) && run->t < run->control.too_long_until;
+    const int is_limited = is_first_after_switch(run) && run->t < run->control.too_long_until;
     return is_limited ? min_of(h, run->control.too_long) : h;
 }
 
@@ -307,7 +307,7 @@ static double compute_fixed_step_length(Integrator *run, double t_end, double *e
     StepControl *control = &run->control;
     double h;
     for (;; control->on_grid += 1.0) {
-        *end_time = step_end(control->grid, t_end, control->fixed, control->on_grid + 1.0, &h);
+        *end_time = compute_step_end(control->grid, t_end, control->fixed, control->on_grid + 1.0, &h);
         if (*end_time > run->t || *end_time == t_end)
             break;
     }
@@ -334,7 +334,7 @@ static void open_attempt(Integrator *run, double t_end, const Parameters *p)
         h = run->roots.skip >= 0 ? min_of(run->control.h, run->roots.monitor) : run->control.h;
         h = limit_length_by_flight(
             run, limit_length_by_separation(run, min_of(limit_length_by_rejection(run, h),
-                flight_step_limit(run, NULL, p))), p);
+                compute_flight_step_limit(run, NULL, p))), p);
         h = h > left * EQUAL_LENGTH_RATIO ? left : h;
     }
     run->control.attempt = (Attempt){.h = h, .longest = h, .left = left, .end = end, .far = far, .open = 1,
@@ -370,7 +370,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     if (trial_status == STOPPED || is_fixed)
         return 1;
     const int is_within_tolerance = !trial_status && step->error <= run->control.accept;
-    const double end_error = is_within_tolerance ? film_error_at_ends(run, step, FILM_PART) : 0.0;
+    const double end_error = is_within_tolerance ? estimate_film_error_at_ends(run, step, FILM_PART) : 0.0;
     if (is_within_tolerance && !is_film_error_small(run, step, end_error)) {
         const double error = measure_film_error(run, step, p);
         if (!(error > FILM_ERROR_RATIO * attempt->film_error_norm)) /* not rounding */
@@ -387,7 +387,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
             attempt->h *= method->bounded / run->choice.stability;
         return retry_step(run);
     }
-    if (is_good && FLIGHT_STEP_SLACK * flight_step_limit(run, step, p) < attempt->h) {
+    if (is_good && FLIGHT_STEP_SLACK * compute_flight_step_limit(run, step, p) < attempt->h) {
         attempt->again = 1;
         count_rejected(run);
         attempt->h *= SHRINK_FLIGHT_STEP;
@@ -402,7 +402,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
         return retry_step(run);
     }
     const double transient = is_good && attempt->h > MIN_TRANSIENT_FRACTION * attempt->far
-        ? missed_transient(run, step, p) : 0.0;
+        ? find_missed_transient(run, step, p) : 0.0;
     if (transient > 0.0 && attempt->n_shortened++ < MAX_SHORTENED) {
         attempt->again = 1;
         count_rejected(run);
@@ -410,7 +410,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
         return retry_step(run);
     }
     if (is_good) {
-        next_length(run, step, attempt->again, attempt->h < attempt->left);
+        choose_next_length(run, step, attempt->again, attempt->h < attempt->left);
         const int is_short = attempt->h < SHORT_STEP_FRACTION * attempt->far;
         *status = is_stuck_in_short_steps(run, is_short) ? diagnose_stall(run, TOO_SMALL, p) : 0;
         return 1;
@@ -418,7 +418,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     attempt->again = 1;
     count_rejected(run);
     attempt->h *= trial_status == NOT_FOUND ? SHRINK_NEWTON : trial_status ? SHRINK_FAILED
-        : shrink_factor(run, step);
+        : compute_shrink_factor(run, step);
     if (attempt->h > min_length)
         return retry_step(run);
     if (N_SWITCHES > 0 && trial_status == NOT_FINITE && run->discrete.held) {
@@ -437,7 +437,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
 
 /*
  * Compute one attempt at a step of length run->control.attempt.h by the run's method. Return 0 or the status. Near a
- * singular position it is computed again with other policies (next_singular_policy()).
+ * singular position it is computed again with other policies (advance_singular_policy()).
  */
 static int try_step(Integrator *run, const Parameters *p, Step *step)
 {
@@ -445,7 +445,7 @@ static int try_step(Integrator *run, const Parameters *p, Step *step)
     step->stages_lane = NULL;
     int status;
     for (begin_singular_policy(run);
-         next_singular_policy(run, status = run->choice.method->try(run, run->control.attempt.h, p, step));)
+         advance_singular_policy(run, status = run->choice.method->try(run, run->control.attempt.h, p, step));)
         ;
     return status;
 }

@@ -25,10 +25,10 @@ typedef double SeriesPart __attribute__((vector_size(REGISTER), aligned(8)));
  * Do nothing: for one run, step->error is tested after the step. In lanes, steps with too large an error are rejected
  * here.
  */
-static void reject_late(const Integrator *run, const Step *step) { (void)run, (void)step; }
+static void reject_step_by_defect(const Integrator *run, const Step *step) { (void)run, (void)step; }
 
 /* Subtract one evaluation: the second evaluation at the end of a repeated series step does not count, as in lanes. */
-static void discard_end(Integrator *run) { count_evaluations(run, -1); }
+static void uncount_end_evaluation(Integrator *run) { count_evaluations(run, -1); }
 
 #include "../both/taylor.h"
 
@@ -44,7 +44,7 @@ static int expand_series(Integrator *run, const Parameters *p)
     if (status)
         return status;
     count_evaluations(run, run->series.ready != IN_LANE);
-    run->series.reach = taylor_reach(run);
+    run->series.reach = taylor_limit_length(run);
     run->series.ready = IN_RUN;
     return 0;
 }
@@ -59,10 +59,10 @@ static int taylor_try_step(Integrator *run, double h, const Parameters *p, Step 
     const int status = expand_series(run, p);
     if (status || !all_finite(run->series.terms[run->series.order], N_Y)) {
         step->method = &dop853; /* links in one line: its right-hand side passes singular positions */
-        return dop853_try(run, h, p, step);
+        return dop853_try_step(run, h, p, step);
     }
-    const int status_of_step = taylor_step(run, h, p, step);
-    set_attempt_length(run, step->h);
+    const int status_of_step = taylor_try_series_step(run, h, p, step);
+    set_attempt_step_length(run, step->h);
     return status_of_step;
 }
 
@@ -96,7 +96,7 @@ static int taylor_compute_dense_output(Integrator *run, const Parameters *p, Ste
 /* Compute the state y (N_Y) at fraction s of a step from the series at its beginning. */
 static void taylor_interpolate(const Integrator *run, const Step *step, double s, double *y)
 {
-    taylor_at(run, s * step->h, y);
+    taylor_evaluate_state(run, s * step->h, y);
 }
 
 /* Taylor's method, which chooses the length of a step itself. */
@@ -113,7 +113,7 @@ static const Method taylor = {.name = "taylor",
     .controls_length = 1};
 
 /* Set the order of the series of a run from the relative tolerance of its steps. */
-static void start_series(Integrator *run, double tolerance) { run->series.order = choose_taylor_order(tolerance); }
+static void set_series_order(Integrator *run, double tolerance) { run->series.order = choose_taylor_order(tolerance); }
 
 /* Discard the stored series of a run, because its state changes. */
 static void discard_series(Integrator *run) { run->series.ready = 0; }
@@ -121,14 +121,14 @@ static void discard_series(Integrator *run) { run->series.ready = 0; }
 /*
  * Return the largest length in s of the next tried step: TAYLOR_AHEAD times the longest valid one of the last series.
  */
-static double max_attempt_length(const Integrator *run) { return TAYLOR_AHEAD * run->series.reach; }
+static double get_max_attempt_length(const Integrator *run) { return TAYLOR_AHEAD * run->series.reach; }
 #else
 /* Do nothing: the library has no Taylor method. */
-static inline void start_series(Integrator *run, double tolerance) { (void)run, (void)tolerance; }
+static inline void set_series_order(Integrator *run, double tolerance) { (void)run, (void)tolerance; }
 
 /* Do nothing: the library has no Taylor method. */
 static inline void discard_series(Integrator *run) { (void)run; }
 
 /* Return infinity: the library has no Taylor method. */
-static inline double max_attempt_length(const Integrator *run) { return (void)run, INFINITY; }
+static inline double get_max_attempt_length(const Integrator *run) { return (void)run, INFINITY; }
 #endif

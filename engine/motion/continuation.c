@@ -25,7 +25,7 @@ static int project_and_evaluate(
     double moved = 0.0, before = INFINITY;
     for (int pass = 0; pass < 6; pass++) {
         double dq[N_X], dv[N_X], residual, step = 0.0;
-        const int status = closing_here(t, y, discrete, p, dq, dv, &residual);
+        const int status = solve_correction(t, y, discrete, p, dq, dv, &residual);
         if (status)
             return status;
         for (int k = 0; k < N_X; k++) {
@@ -37,7 +37,7 @@ static int project_and_evaluate(
         if (!(moved <= max_move))
             return LOST;
         if (residual < 1e-15 || (residual < 1e-12 && residual > 0.5 * before))
-            return motion_here(t, y, discrete, p, dy, rhs);
+            return evaluate_rhs(t, y, discrete, p, dy, rhs);
         before = residual;
     }
     return LOST;
@@ -56,7 +56,7 @@ typedef struct {
 static void add_interpolation_node(
     int k, const double *y, const double *dy, const RhsOutputs *rhs, ContinuedMotion *sum)
 {
-    const double weight = weight_at(SIDE_NODES, k), lower = k < SIDE_NODES ? weight_at(SIDE_NODES - 1, k) : 0.0;
+    const double weight = compute_lagrange_weight(SIDE_NODES, k), lower = k < SIDE_NODES ? compute_lagrange_weight(SIDE_NODES - 1, k) : 0.0;
     for (int i = 0; i < 2 * N_X; i++)
         sum->y[i] += weight * y[i];
     for (int i = 0; i < N_Y; i++)
@@ -159,7 +159,7 @@ int motion(double t, const double *y, DiscreteState *discrete, const Parameters 
             return 0;
         }
     }
-    const int status = motion_here(t, y, discrete, p, dy, rhs);
+    const int status = evaluate_rhs(t, y, discrete, p, dy, rhs);
     const int open = discrete->singular_policy == SINGULAR_PROJECT
         || discrete->singular_policy == SINGULAR_PROJECT_OR_IGNORE; /* near enough that it cannot be closed */
     if (discrete->singular_policy == SINGULAR_DETECT || (status != NEAR && (status || !open)))
@@ -169,7 +169,7 @@ int motion(double t, const double *y, DiscreteState *discrete, const Parameters 
     if (discrete->singular_policy == SINGULAR_PROJECT)
         return NEAR;
     DiscreteState now = copy_with_usual_pivot_limits(discrete);
-    return motion_here(t, y, &now, p, dy, rhs);
+    return evaluate_rhs(t, y, &now, p, dy, rhs);
 }
 
 /*
@@ -178,19 +178,19 @@ int motion(double t, const double *y, DiscreteState *discrete, const Parameters 
  * *residual = 0: one pass is enough. If the motion cannot be continued there, the usual limits of pivots apply. y is
  * not changed.
  */
-int closing_of_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
+int compute_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *residual)
 {
-    int status = closing_here(t, y, discrete, p, dq, dv, residual);
+    int status = solve_correction(t, y, discrete, p, dq, dv, residual);
     if (!status || discrete->singular_policy == SINGULAR_IGNORE || discrete->singular_policy == SINGULAR_DETECT)
         return status;
     double dy[N_Y];
     RhsOutputs rhs;
     ContinuedMotion at;
     DiscreteState now = *discrete;
-    if (motion_here(t, y, &now, p, dy, &rhs) != NEAR || !continue_motion(t, y, discrete, p, &at)) {
+    if (evaluate_rhs(t, y, &now, p, dy, &rhs) != NEAR || !continue_motion(t, y, discrete, p, &at)) {
         now = copy_with_usual_pivot_limits(discrete);
-        return closing_here(t, y, &now, p, dq, dv, residual);
+        return solve_correction(t, y, &now, p, dq, dv, residual);
     }
     for (int k = 0; k < N_X; k++) {
         dq[k] = y[k] - at.y[k];
@@ -207,16 +207,16 @@ int closing_of_state(double t, const double *y, DiscreteState *discrete, const P
  */
 int motion(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    return motion_here(t, y, discrete, p, dy, rhs);
+    return evaluate_rhs(t, y, discrete, p, dy, rhs);
 }
 
 /*
  * Compute the corrections dq, dv (N_X) that return state y to the closures, and the largest residual *residual. Return
  * 0 or a status. The scene has no continuation.
  */
-int closing_of_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
+int compute_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *residual)
 {
-    return closing_here(t, y, discrete, p, dq, dv, residual);
+    return solve_correction(t, y, discrete, p, dq, dv, residual);
 }
 #endif

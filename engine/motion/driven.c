@@ -7,10 +7,10 @@
  * Compute the rates dy of the integrated state y: independent tree coordinates, their rates, works. Return 0 or a
  * status. Coordinates of driven loops are not in y: they are solved for at time t.
  */
-int motion_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
+int evaluate_rhs(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     TreeState tree;
-    int status = tree_state(t, y, discrete, p, &tree);
+    int status = build_tree_state(t, y, discrete, p, &tree);
     if (status)
         return status;
 #if !SMOOTH_CHAINS
@@ -35,7 +35,7 @@ int motion_here(double t, const double *y, DiscreteState *discrete, const Parame
 int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
     TreeState tree;
-    const int status = tree_state(t, y, discrete, p, &tree);
+    const int status = build_tree_state(t, y, discrete, p, &tree);
     if (status)
         return status;
 #if !SMOOTH_CHAINS
@@ -59,7 +59,7 @@ static void extrapolate_flat_loops(
         for (int branch = -1; branch <= 1; branch += 2) {
             const double h = branch * e / fastest;
             DiscreteState now = *discrete;
-            if (tree_state(t - h, y, &now, p, tree))
+            if (build_tree_state(t - h, y, &now, p, tree))
                 continue;
             for (int k = 0; k < N_CHAIN; k++) {
                 tree->q[N_X + k] += h * (tree->v[N_X + k] + 0.5 * h * tree->v[N_X + N_CHAIN + k]);
@@ -68,19 +68,19 @@ static void extrapolate_flat_loops(
             chain_directions(t, tree->q, discrete, p, tree->q);
             return;
         }
-    restore_chains(&discrete->chain, tree);
+    restore_driven_loops(&discrete->chain, tree);
 }
 
 /*
  * Compute the state of all bodies, (q, v, works) in `absolute_state`, from the integrated state y; driven loops are
  * solved at time t. If they cannot be solved, they are extrapolated (extrapolate_flat_loops()).
  */
-void to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
+void convert_to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
     double *absolute_state)
 {
     TreeState tree;
     DiscreteState now = *discrete;
-    if (tree_state(t, y, &now, p, &tree))
+    if (build_tree_state(t, y, &now, p, &tree))
         extrapolate_flat_loops(t, y, discrete, p, &tree);
     expand(t, tree.q, tree.v, p, absolute_state, absolute_state + N_Q);
     for (int k = 0; k < N_WORK; k++)
@@ -91,7 +91,7 @@ void to_absolute(double t, const double *y, const DiscreteState *discrete, const
  * Compute the integrated state y from the state of all bodies, (q, v, works) in `absolute_state`. The positions of the
  * driven loops are stored in `discrete`, from which they are followed.
  */
-void from_absolute(double t, const double *absolute_state, DiscreteState *discrete, const Parameters *p,
+void convert_from_absolute(double t, const double *absolute_state, DiscreteState *discrete, const Parameters *p,
     double *y)
 {
     TreeState tree;
@@ -109,11 +109,11 @@ void from_absolute(double t, const double *absolute_state, DiscreteState *discre
  * Compute the corrections dq, dv (N_X) that return state y to the closures, and the largest residual *residual. Return
  * 0 or a status. Driven loops are solved at time t first. y is not changed.
  */
-int closing_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
+int solve_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *residual)
 {
     TreeState tree;
-    const int status = tree_state(t, y, discrete, p, &tree);
+    const int status = build_tree_state(t, y, discrete, p, &tree);
     return status ? status : closing_step(t, tree.q, tree.v, discrete, p, dq, dv, residual);
 }
 
@@ -125,7 +125,7 @@ int linearize_state(double t, const double *y, DiscreteState *discrete, const Pa
     const RhsOutputs *rhs, Linear *linear)
 {
     TreeState tree;
-    const int status = tree_state(t, y, discrete, p, &tree);
+    const int status = build_tree_state(t, y, discrete, p, &tree);
     if (status)
         return status;
     chain_third(t, tree.q, tree.v, discrete, p, tree.v + N_X + 2 * N_CHAIN);
@@ -142,9 +142,9 @@ int accept_state(double t, const double *y, DiscreteState *discrete, const Param
 {
     TreeState tree;
     (void)rhs;
-    int status = tree_state(t, y, discrete, p, &tree);
+    int status = build_tree_state(t, y, discrete, p, &tree);
     if (!status)
-        status = accept_chains(t, &tree, discrete, p);
+        status = accept_driven_loops(t, &tree, discrete, p);
     if (status)
         return status;
     double phi[N_LOOPS + 1], phi_dot[N_LOOPS + 1];
@@ -162,7 +162,7 @@ int accept_state(double t, const double *y, DiscreteState *discrete, const Param
  * Compute the corrections dq, dv (N_X) that return state y to the closures, and the largest residual *residual. Return
  * 0 or a status. y is not changed.
  */
-int closing_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
+int solve_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *residual)
 {
     return closing_step(t, y, y + N_X, discrete, p, dq, dv, residual);

@@ -4,7 +4,7 @@
  * Build the state `tree` that the scene's functions read from the coordinates q and rates v of a call from Python.
  * Driven loops are solved at time t from the guess in q. Return 0 or a status.
  */
-static int close_tree_state(
+static int solve_tree_state(
     double t, const double *q, const double *v, DiscreteState *discrete, const Parameters *p, TreeState *tree)
 {
     double y[N_Y];
@@ -13,7 +13,7 @@ static int close_tree_state(
         y[N_X + k] = v[k];
     }
     solve_driven_loops(t, q + N_X, discrete, p);
-    return tree_state(t, y, discrete, p, tree);
+    return build_tree_state(t, y, discrete, p, tree);
 }
 
 /*
@@ -24,7 +24,7 @@ void gudgeon_expand(double t, const double *q, const double *v, const double *p,
 {
     DiscreteState now = {0};
     TreeState tree = {0};
-    close_tree_state(t, q, v, &now, (const Parameters *)p, &tree);
+    solve_tree_state(t, q, v, &now, (const Parameters *)p, &tree);
     expand(t, tree.q, tree.v, (const Parameters *)p, all_q, all_v);
 }
 
@@ -46,7 +46,7 @@ int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double
     RhsOutputs rhs;
     TreeState tree;
     read_discrete_state(discrete, &now);
-    int status = close_tree_state(t, q, v, &now, (const Parameters *)p, &tree);
+    int status = solve_tree_state(t, q, v, &now, (const Parameters *)p, &tree);
     if (status)
         return status;
     status = reduced_dynamics(t, tree.q, tree.v, &now, (const Parameters *)p, a, &rhs);
@@ -65,7 +65,7 @@ void gudgeon_closures(double t, const double *q, const double *v, const double *
 {
     DiscreteState now = {0};
     TreeState tree = {0};
-    close_tree_state(t, q, v, &now, (const Parameters *)p, &tree);
+    solve_tree_state(t, q, v, &now, (const Parameters *)p, &tree);
     closures(t, tree.q, (const Parameters *)p, phi);
     closure_rates(t, tree.q, tree.v, (const Parameters *)p, phi_dot);
 }
@@ -78,7 +78,7 @@ int gudgeon_reduced_project(double t, const double *q, const double *r, const do
 {
     DiscreteState now = {0};
     TreeState tree;
-    const int status = close_tree_state(t, q, q, &now, (const Parameters *)p, &tree);
+    const int status = solve_tree_state(t, q, q, &now, (const Parameters *)p, &tree);
     return status ? status : reduced_project(t, tree.q, r, (const Parameters *)p, x);
 }
 
@@ -94,7 +94,7 @@ int gudgeon_reduced_rescue(
     RhsOutputs rhs;
     TreeState tree;
     read_discrete_state(discrete, &now);
-    const int status = close_tree_state(t, q, v, &now, (const Parameters *)p, &tree);
+    const int status = solve_tree_state(t, q, v, &now, (const Parameters *)p, &tree);
     return status ? status : solve_by_absolute(t, tree.q, tree.v, &now, (const Parameters *)p, a, &rhs);
 }
 

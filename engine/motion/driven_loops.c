@@ -61,7 +61,7 @@ static inline void store_driven_loops(double t, const TreeState *tree, Chain *lo
 /*
  * Copy stored coordinates and two rates of the driven loops to `tree`; third rates are computed where they are needed.
  */
-static void restore_chains(const Chain *start, TreeState *tree)
+static void restore_driven_loops(const Chain *start, TreeState *tree)
 {
     for (int k = 0; k < N_LED; k++)
         tree->q[N_X + k] = start->q[k];
@@ -159,11 +159,11 @@ static int interpolate_flat_loops(double t, const DiscreteState *discrete, const
         if (!status)
             status = chain_third(t_node, tree.q, tree.v, discrete, p, tree.v + N_X + 2 * N_CHAIN);
         for (int i = 0; i < N_CHAIN && !status; i++) {
-            loops->q[i] += weight_at(FLAT_NODES, k) * tree.q[N_X + i];
-            lower[i] += k < FLAT_NODES ? weight_at(FLAT_NODES - 1, k) * tree.q[N_X + i] : 0.0;
+            loops->q[i] += compute_lagrange_weight(FLAT_NODES, k) * tree.q[N_X + i];
+            lower[i] += k < FLAT_NODES ? compute_lagrange_weight(FLAT_NODES - 1, k) * tree.q[N_X + i] : 0.0;
         }
         for (int i = 0; i < 3 * N_CHAIN && !status; i++)
-            loops->v[i] += weight_at(FLAT_NODES, k) * tree.v[N_X + i];
+            loops->v[i] += compute_lagrange_weight(FLAT_NODES, k) * tree.v[N_X + i];
     }
     for (int i = 0; i < N_CHAIN && !status; i++)
         status = !(fabs(loops->q[i] - lower[i]) * chain_share(p, i) <= FLAT_SMOOTH);
@@ -175,7 +175,7 @@ static int interpolate_flat_loops(double t, const DiscreteState *discrete, const
  * rates cannot be solved, as where a loop lies flat, the loops are interpolated. Return 0, or the number of a closure
  * that fails.
  */
-static int accept_chains(double t, const TreeState *tree, DiscreteState *discrete, const Parameters *p)
+static int accept_driven_loops(double t, const TreeState *tree, DiscreteState *discrete, const Parameters *p)
 {
     Chain loops = {0}, flat;
     store_driven_loops(t, tree, &loops);
@@ -200,7 +200,7 @@ static inline int follow_driven_loops(double t, const DiscreteState *discrete, c
         return discrete->chain.failed;
 #if SMOOTH_CHAINS
     if (discrete->recent.t == t) {
-        restore_chains(&discrete->recent, tree);
+        restore_driven_loops(&discrete->recent, tree);
         return 0;
     }
 #endif
@@ -210,7 +210,7 @@ static inline int follow_driven_loops(double t, const DiscreteState *discrete, c
     Chain flat;
     if (!status || interpolate_flat_loops(t, discrete, p, &flat))
         return status;
-    restore_chains(&flat, tree);
+    restore_driven_loops(&flat, tree);
     chain_directions(t, tree->q, discrete, p, tree->q);
     return 0;
 }
@@ -220,7 +220,7 @@ static inline int follow_driven_loops(double t, const DiscreteState *discrete, c
  * rates of y. Several stages of a method share a time. Return 0, or TREE_PIVOTS plus the number of a closure of a
  * driven loop.
  */
-static inline int tree_state(double t, const double *y, DiscreteState *discrete, const Parameters *p,
+static inline int build_tree_state(double t, const double *y, DiscreteState *discrete, const Parameters *p,
     TreeState *tree)
 {
     const int status = follow_driven_loops(t, discrete, p, tree);
@@ -248,6 +248,6 @@ void solve_driven_loops(double t, const double *guess, DiscreteState *discrete, 
     int status = solve_loop_closures(t, tree.q, discrete, p, &step_sum);
     if (!status)
         status = chain_rates(t, tree.q, discrete, p, tree.v);
-    const int last = accept_chains(t, &tree, discrete, p);
+    const int last = accept_driven_loops(t, &tree, discrete, p);
     discrete->chain.failed = status ? status : last;
 }

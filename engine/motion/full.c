@@ -1,9 +1,9 @@
 /* The integrated state in absolute coordinates: right-hand side, conversions, accepted states. */
 
 /* Compute the rates dy of the state y in absolute coordinates and the outputs rhs. Return 0 or a status. */
-int motion_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
+int evaluate_rhs(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    return state_equation(t, y, discrete, p, dy, rhs);
+    return compute_absolute_rates(t, y, discrete, p, dy, rhs);
 }
 
 /*
@@ -12,11 +12,11 @@ int motion_here(double t, const double *y, DiscreteState *discrete, const Parame
 int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
     double dy[N_Y];
-    return state_equation(t, y, discrete, p, dy, rhs);
+    return compute_absolute_rates(t, y, discrete, p, dy, rhs);
 }
 
 /* Copy the integrated state y to the state of all bodies, (q, v, works) in `absolute_state`: both are the same. */
-void to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
+void convert_to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
     double *absolute_state)
 {
     (void)t, (void)discrete, (void)p;
@@ -25,7 +25,7 @@ void to_absolute(double t, const double *y, const DiscreteState *discrete, const
 }
 
 /* Copy the state of all bodies, (q, v, works) in `absolute_state`, to the integrated state y: both are the same. */
-void from_absolute(double t, const double *absolute_state, DiscreteState *discrete, const Parameters *p,
+void convert_from_absolute(double t, const double *absolute_state, DiscreteState *discrete, const Parameters *p,
     double *y)
 {
     (void)t, (void)discrete, (void)p;

@@ -14,12 +14,12 @@ typedef double SeriesRow __attribute__((vector_size(REGISTER)));
  */
 int taylor_series(double t, const double *y, const Parameters *p, int order, double (*c)[TAYLOR_Y])
 {
-    SeriesRow (*const factors)[TAYLOR_ORDERS][SERIES_ROWS] = series_factors();
+    SeriesRow (*const factors)[TAYLOR_ORDERS][SERIES_ROWS] = get_series_factors();
     TaylorValues at;
     for (int i = 0; i < N_Y; i++)
         c[0][i] = y[i];
     const int status = taylor_values(t, y, y + N_X, p, &at, c[1] + N_X, c[1] + 2 * N_X);
     if (!status)
-        series_orders(p, &at, order, c, factors[0], factors[1]);
+        compute_series_orders(p, &at, order, c, factors[0], factors[1]);
     return status;
 }

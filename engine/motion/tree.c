@@ -1,8 +1,8 @@
 /* The integrated state of a tree of bodies: tree coordinates, their rates, works. */
 #include "../both/one.h"
 
-#define IN_BOTH
-#define MOTION motion_here
+#define FUNCTION_LINKAGE
+#define MOTION evaluate_rhs
 #define REDUCED_DYNAMICS reduced_dynamics
 #define CLOSURES(t, q, discrete, p, phi) closures(t, q, p, phi)
 #define CLOSURE_RATES(t, q, v, discrete, p, phi_dot) closure_rates(t, q, v, p, phi_dot)
@@ -20,7 +20,7 @@ int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const 
 /*
  * Compute the state of all bodies, (q, v, works) in `absolute_state`, from the integrated state y in tree coordinates.
  */
-void to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
+void convert_to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
     double *absolute_state)
 {
     (void)discrete;
@@ -32,7 +32,7 @@ void to_absolute(double t, const double *y, const DiscreteState *discrete, const
 /*
  * Compute the integrated state y in tree coordinates from the state of all bodies, (q, v, works) in `absolute_state`.
  */
-void from_absolute(double t, const double *absolute_state, DiscreteState *discrete, const Parameters *p,
+void convert_from_absolute(double t, const double *absolute_state, DiscreteState *discrete, const Parameters *p,
     double *y)
 {
     (void)discrete;

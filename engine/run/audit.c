@@ -20,7 +20,7 @@
 /* successive steps on a wrong branch that count; steps after which the magnitude of a function is known */
 enum { AUDIT_WRONG = 3, AUDIT_SETTLED = 20 };
 
-static int is_resolved(Integrator *run, double t, const double *y, const RhsOutputs *rhs, int k,
+static int is_above_uncertainty(Integrator *run, double t, const double *y, const RhsOutputs *rhs, int k,
     const Parameters *p);
 
 /*
@@ -40,7 +40,7 @@ static int has_tolerance(const Integrator *run) { return run->control.fixed <= 0
  * Return the relative tolerance to which the audit refers: that of step-size control, or AUDIT_FIXED for steps of fixed
  * length. Used for the limits of all checks.
  */
-static double get_audit_tolerance(const Integrator *run) { return has_tolerance(run) ? tolerance_of(run)
+static double get_audit_tolerance(const Integrator *run) { return has_tolerance(run) ? get_rtol(run)
     : AUDIT_FIXED; }
 
 /* Return the size of the mechanism in m, which start_audit() has stored. */
@@ -77,11 +77,11 @@ static void record_check(Audit *audit, int check, double value, double limit, do
 
 /*
  * Check the largest residual |Phi| of all accepted steps so far against its limit, at the end of a step. A residual
- * that is not larger than that of the first step counts as zero. Methods without projection (drifts()) are not checked.
+ * that is not larger than that of the first step counts as zero. Methods without projection (uses_baumgarte_terms()) are not checked.
  */
 static void check_constraint_residuals(Integrator *run)
 {
-    if (drifts(run))
+    if (uses_baumgarte_terms(run))
         return;
     double limit = max_of(get_audit_tolerance(run) * run->norm.least[0], AUDIT_ROUNDING * get_mechanism_size(run));
     if (run->counts.steps <= 1)
@@ -95,14 +95,14 @@ static void check_constraint_residuals(Integrator *run)
 /*
  * Check the constraint equations of all bodies at time t (s), and with `include_velocities` their velocity constraints
  * Phi_q v = nu. absolute_state (N_S): coordinates, velocities and works of all bodies. Each equation is recorded under
- * CHECK_position or CHECK_velocity. Methods without projection (drifts()) are not checked. Called at the end of steps
+ * CHECK_position or CHECK_velocity. Methods without projection (uses_baumgarte_terms()) are not checked. Called at the end of steps
  * of scenes with driven loops, and at states inside steps.
  */
 static void check_constraints(Integrator *run, double t, const double *absolute_state, int include_velocities,
     const Parameters *p)
 {
     Audit *audit = &run->audit;
-    if (drifts(run))
+    if (uses_baumgarte_terms(run))
         return;
     double phi[AT_LEAST_ONE(N_ALL_ROWS)], velocity_residual[AT_LEAST_ONE(N_ALL_ROWS)], nu[AT_LEAST_ONE(N_ALL_ROWS)];
     double max_coordinate[2] = {0.0, 0.0}, max_speed[2] = {0.0, 0.0};
@@ -156,7 +156,7 @@ static double compute_neighbouring_states(const Integrator *run, double t, const
         }
         for (int k = 2 * N_X; k < N_Y; k++)
             state[k] = y[k];
-        to_absolute(side ? after : before, state, &run->discrete, p, neighbours[side]);
+        convert_to_absolute(side ? after : before, state, &run->discrete, p, neighbours[side]);
     }
     return after - before;
 }
@@ -174,14 +174,14 @@ static int is_comparison_ill_conditioned(Integrator *run, double t, const double
     double state[N_Y], absolute_state[N_S], a_perturbed[N_Q], rate[N_Y], force;
     DiscreteState discrete = run->discrete;
     RhsOutputs rhs;
-    if (motion_here(t, y, &discrete, p, rate, &rhs))
+    if (evaluate_rhs(t, y, &discrete, p, rate, &rhs))
         return 1; /* near a singular position rates are continued from both sides */
     const double size = get_mechanism_size(run);
     for (int k = 0; k < N_Y; k++)
         state[k] = k < N_X
             ? y[k] + AUDIT_CLOSURE * (is_angle[k] ? 1.0 : size) * (2.0 * draw_random(&run->audit) - 1.0) : y[k];
     const double t_perturbed = N_CHAIN ? t * (1.0 - AUDIT_CLOSED * DBL_EPSILON) : t;
-    to_absolute(t_perturbed, state, &run->discrete, p, absolute_state);
+    convert_to_absolute(t_perturbed, state, &run->discrete, p, absolute_state);
     if (compute_absolute_accelerations(t_perturbed, absolute_state, &run->discrete, p, a_perturbed, &force))
         return 1;
     for (int k = 0; k < N_Q; k++)
@@ -237,7 +237,7 @@ static void check_accelerations(Integrator *run, double t, const double *y, cons
         if (second_difference < 1e-4) {
             /* at a jump of a drive the step holds the old branch, the bodies have the new one */
             if (largest_difference > AUDIT_ACCELERATION
-                && (drives_jump(t, absolute_state, absolute_state + N_Q, p)
+                && (has_drive_jump(t, absolute_state, absolute_state + N_Q, p)
                     || is_comparison_ill_conditioned(run, t, y, a, scale, largest_difference, p)))
                 return;
             record_check(&run->audit, CHECK_acceleration, largest_difference, AUDIT_ACCELERATION, t, index);
@@ -254,7 +254,7 @@ static void check_accelerations(Integrator *run, double t, const double *y, cons
  * Penetrations up to AUDIT_GRAZE count as zero; the limit contains the error of event location. Runs with steps of
  * fixed length are not checked. Called at the end of each step and at states inside selected steps.
  */
-static void check_joints(Integrator *run, double t, const RhsOutputs *rhs, const Parameters *p)
+static void check_open_gaps(Integrator *run, double t, const RhsOutputs *rhs, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES && has_tolerance(run); i++) {
         const Clearance *joint = &rhs->clearance[i];
@@ -275,13 +275,13 @@ static void check_joints(Integrator *run, double t, const RhsOutputs *rhs, const
 }
 
 /* Return the time in s after its zero within which an event is located: AUDIT_LOCATED event tolerances. */
-static double event_location_tolerance(const Integrator *run)
+static double compute_event_location_tolerance(const Integrator *run)
 {
     return AUDIT_LOCATED * (run->roots.time_resolution + 2.0 * DBL_EPSILON * fabs(run->t));
 }
 
 static int compute_dense_output(Integrator *run, const Parameters *p, Step *step);
-static int state_at(
+static int evaluate_state_at(
     Integrator *run, const Step *step, double fraction, const Parameters *p, double *y, double *dy, RhsOutputs *rhs);
 
 /*
@@ -291,11 +291,11 @@ static int state_at(
  */
 static int has_jumped_at(Integrator *run, Step *step, double t, int switch_index, const Parameters *p)
 {
-    const double fraction = (t - event_location_tolerance(run) - step->t) / step->h;
+    const double fraction = (t - compute_event_location_tolerance(run) - step->t) / step->h;
     double y[N_Y], dy[N_Y];
     RhsOutputs rhs;
     return fraction <= 0.0 || compute_dense_output(run, p, step)
-        || state_at(run, step, fraction, p, y, dy, &rhs)
+        || evaluate_state_at(run, step, fraction, p, y, dy, &rhs)
         || run->discrete.branch[switch_index] * rhs.g[switch_index] >= 0.0;
 }
 
@@ -305,23 +305,23 @@ static int has_jumped_at(Integrator *run, Step *step, double t, int switch_index
  * after the beginning, functions that the step passes or suppresses, functions whose branches meet, values below their
  * uncertainty, and jumps that have just happened. Called at states inside the steps that the audit selects.
  */
-static void check_branches(Integrator *run, Step *step, double t, const double *y, const RhsOutputs *rhs,
+static void check_frozen_branches(Integrator *run, Step *step, double t, const double *y, const RhsOutputs *rhs,
     const Parameters *p)
 {
     if (N_SWITCHES > 0)
         record_check(&run->audit, CHECK_branch, 0.0, 1.0, t, -1);
-    if (t <= run->t + event_location_tolerance(run))
+    if (t <= run->t + compute_event_location_tolerance(run))
         return; /* functions that change at one time, as those of one mod, do so one after the other */
     for (int k = 0; k < N_SWITCHES; k++)
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(rhs->g[k]));
     for (int k = 0; k < N_SWITCHES && run->counts.steps > AUDIT_SETTLED; k++) {
         const double g = run->discrete.branch[k] * rhs->g[k];
         if (!(g < 0.0) || step->passed[k] || k == run->roots.skip || meets[k]
-            || !is_resolved(run, t, y, rhs, N_CLEARANCES + k, p))
+            || !is_above_uncertainty(run, t, y, rhs, N_CLEARANCES + k, p))
             continue;
-        const StageValues stages = stage_values(step, N_CLEARANCES + k);
+        const StageValues stages = get_stage_values(step, N_CLEARANCES + k);
         for (int n = 0; n < step->n_seen; n++) /* at zeros that end steps the magnitude appears only inside */
-            run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(stage_value(stages, n)));
+            run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(read_stage(stages, n)));
         if (-g <= 1e-3 * run->audit.switch_scale[k] || !has_jumped_at(run, step, t, k, p))
             record_check(&run->audit, CHECK_branch, -g, 1e-3 * run->audit.switch_scale[k], t, k);
     }
@@ -334,7 +334,7 @@ static void check_branches(Integrator *run, Step *step, double t, const double *
 static void check_forces_of_open_joints(Integrator *run)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (!run->discrete.contact[i].closed && gives(i) && !has_film(i))
-            record_check(&run->audit, CHECK_free, total_force(&run->rhs.clearance[i]),
+        if (!run->discrete.contact[i].closed && is_compliant(i) && !has_film(i))
+            record_check(&run->audit, CHECK_free, compute_force_magnitude(&run->rhs.clearance[i]),
                 max_of(1e-6 * run->contacts.F_peak[i], 1e-300), run->t, i);
 }

@@ -51,7 +51,7 @@ static void check_branches_at_step_end(Integrator *run, const Parameters *p)
             continue;
         }
         audit->wrong[k] = (unsigned char)min_of(audit->wrong[k] + 1, 100);
-        if (audit->wrong[k] >= AUDIT_WRONG && is_resolved(run, run->t, run->y, &run->rhs, N_CLEARANCES + k, p))
+        if (audit->wrong[k] >= AUDIT_WRONG && is_above_uncertainty(run, run->t, run->y, &run->rhs, N_CLEARANCES + k, p))
             record_check(audit, CHECK_branch, -g[k], 1e-4 * audit->switch_scale[k], run->t, k);
     }
 }
@@ -67,10 +67,10 @@ static int audit_state(Integrator *run, int n_before, const Parameters *p)
     if (!audit->level)
         return 0;
     check_constraint_residuals(run);
-    check_joints(run, run->t, &run->rhs, p);
+    check_open_gaps(run, run->t, &run->rhs, p);
 #if N_CHAIN
     double absolute_state[N_S];
-    to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
+    convert_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
     check_constraints(run, run->t, absolute_state, 0, p);
 #endif
     check_forces_of_open_joints(run);

@@ -8,7 +8,7 @@ enum { MAX_POLL_AFTER = 64, MAX_SLOW_CHECKS = 3, MIN_DOUBLED_STEPS = 1 << 18 };
 #define MIN_GAIN_RATIO 1e-3     /* of the earlier gain per step: slower steps count as slow */
 
 /* Return the present time in s since the epoch, from the clock of the system. */
-double seconds_now(void)
+double read_clock(void)
 {
     struct timespec now;
     timespec_get(&now, TIME_UTC);
@@ -27,7 +27,7 @@ int poll_cancellation(Cancellation *token)
     if (!token->ask)
         token->poll_after = LONG_MAX;
     if (token->ask && !token->stop) {
-        const double time_now = seconds_now(), elapsed = time_now - token->last;
+        const double time_now = read_clock(), elapsed = time_now - token->last;
         token->last = time_now;
         if (elapsed < 0.1 * token->every)
             token->poll_after = token->poll_after < MAX_POLL_AFTER / 2 ? 2 * token->poll_after + 1 : MAX_POLL_AFTER;
@@ -35,7 +35,7 @@ int poll_cancellation(Cancellation *token)
             token->poll_after = (token->poll_after + 1) / 2;
         if (time_now >= token->next || elapsed < 0.0) {
             token->stop = token->ask(token->caller) != 0;
-            token->last = seconds_now();
+            token->last = read_clock();
             token->next = token->last + token->every;
         }
     }
@@ -120,7 +120,7 @@ int has_stalled(ProgressMonitor *monitor, double t, double t_end)
  * Return how many of the next calls of has_stalled() only count steps, without a comparison. Used by runs in lanes,
  * which make these steps without the test.
  */
-long steps_before_check(const ProgressMonitor *monitor)
+long count_steps_before_check(const ProgressMonitor *monitor)
 {
     const long to_doubling = monitor->doubling.next - monitor->steps - 1;
     const long to_monitoring = monitor->steps % MONITOR_STEPS ? MONITOR_STEPS - monitor->steps % MONITOR_STEPS : 0;

@@ -22,10 +22,10 @@ typedef struct {
     Doubling doubling;
 } ProgressMonitor;
 
-double seconds_now(void);
+double read_clock(void);
 void start_polling(Cancellation *token, int (*ask)(void *), void *caller, double every);
 int has_stalled(ProgressMonitor *monitor, double t, double t_end);
-long steps_before_check(const ProgressMonitor *monitor);
+long count_steps_before_check(const ProgressMonitor *monitor);
 
 /* Defer a request to stop until the present operation is complete. */
 static inline void defer_stop(Cancellation *token) { token->hold = 1; }

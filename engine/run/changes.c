@@ -23,7 +23,7 @@ static int update_branches(Integrator *run, int crossed_switch, const Parameters
  */
 static int update_branches_after_event(Integrator *run, int crossed_switch, const Parameters *p)
 {
-    const double h = event_location_tolerance(run);
+    const double h = compute_event_location_tolerance(run);
     double branch[N_SWITCHES], y[N_Y], dy[N_Y];
     RhsOutputs rhs_after;
     memcpy(branch, run->discrete.branch, sizeof branch);
@@ -32,7 +32,7 @@ static int update_branches_after_event(Integrator *run, int crossed_switch, cons
     const int status = update_branches_at(run, run->t + h, y, dy, &rhs_after, crossed_switch, p);
     if (status || !memcmp(branch, run->discrete.branch, sizeof branch))
         return status;
-    return rates(run, run->t, run->y, p, run->dy, &run->rhs);
+    return evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
 }
 
 /*
@@ -44,7 +44,7 @@ static int has_equal_sign_after_event(Integrator *run, int event, const double *
 {
     double value[N_USER_EVENTS];
     return memcmp(branches_before, run->discrete.branch, sizeof run->discrete.branch)
-        && !evaluate_events_ahead(run, run->t, event_location_tolerance(run), run->y, run->dy, p, value)
+        && !extrapolate_event_functions(run, run->t, compute_event_location_tolerance(run), run->y, run->dy, p, value)
         && run->discrete.event_sign[event] * value[event] > 0.0;
 }
 #else
@@ -62,7 +62,7 @@ static int has_equal_sign_after_event(Integrator *run, int event, const double *
 #endif
 
 /* Return the number of joints with play whose contact is closed. */
-static int count_closed(const Integrator *run)
+static int count_closed_contacts(const Integrator *run)
 {
     int count = 0;
     for (int i = 0; i < N_CLEARANCES; i++)
@@ -82,9 +82,9 @@ static void toggle_contact(Integrator *run, int joint, double min_speed)
         open_contact(run, joint, run->t);
     else
         close_contact(run, joint, run->t, run->rhs.clearance[joint].deltadot, min_speed);
-    set_first_length(run, &run->control.after_contact[count_closed(run)][was_closed], was_closed ? 0.0
+    set_first_step(run, &run->control.after_contact[count_closed_contacts(run)][was_closed], was_closed ? 0.0
         : ONSET_ORDER);
-    discard_stiff_length(run);
+    discard_stiff_step_length(run);
 }
 
 /*
@@ -94,14 +94,14 @@ static void toggle_contact(Integrator *run, int joint, double min_speed)
  */
 static void toggle_contact_or_branch(Integrator *run, int event_function, const Parameters *p)
 {
-    if (event_function < N_CLEARANCES && !gives(event_function))
+    if (event_function < N_CLEARANCES && !is_compliant(event_function))
         return; /* update_contacts() changes all rigid contacts */
     if (event_function < N_CLEARANCES)
         toggle_contact(run, event_function, min_approach_speed(p, event_function));
     else if (event_function < N_CLEARANCES + N_SWITCHES) {
         const int switch_index = event_function - N_CLEARANCES;
         run->discrete.branch[switch_index] *= -1.0;
-        set_first_length(run, &run->control.after_switch[switch_index][run->discrete.branch[switch_index] > 0.0], 0.0);
+        set_first_step(run, &run->control.after_switch[switch_index][run->discrete.branch[switch_index] > 0.0], 0.0);
     }
 }
 
@@ -109,7 +109,7 @@ static void toggle_contact_or_branch(Integrator *run, int event_function, const 
  * Return the scale of works at the start in J: the kinetic energy plus that of all bodies at the smallest relevant
  * speeds. Called once, when a run begins.
  */
-static double initial_energy_scale(const Integrator *run, const Parameters *p)
+static double compute_initial_energy_scale(const Integrator *run, const Parameters *p)
 {
     double m[N_Q], sum = kinetic_energy(run, p);
     mass_matrix(p, m);
@@ -131,7 +131,7 @@ static int update_branches_just_after(Integrator *run, double t_after, int cross
     for (int pass = 0; pass < 6; pass++) {
         int changed = 0;
         RhsOutputs rhs;
-        const int status = rates(run, t_after, run->y, p, dy, &rhs);
+        const int status = evaluate_rhs(run, t_after, run->y, p, dy, &rhs);
         if (status)
             return status;
         for (int k = 0; k < N_SWITCHES; k++)
@@ -192,7 +192,7 @@ static int apply_drive_jump(Integrator *run, int switch_index, const Parameters 
         return update_branches(run, switch_index, p);
     status = update_branches_just_after(run, t_after, switch_index, p); /* branches that depend on the changed speeds */
     if (!status)
-        status = rates(run, t, run->y, p, run->dy, &run->rhs);
+        status = evaluate_rhs(run, t, run->y, p, run->dy, &run->rhs);
     return status ? status : record_crossed_events(run, NULL, p);
 }
 
@@ -201,7 +201,7 @@ static int apply_drive_jump(Integrator *run, int switch_index, const Parameters 
  * just after that time, apply the impulse, resolve the impacts it causes and record the user-defined events that it
  * crosses. Return 0, ENDED or another status.
  */
-static int pass_drive_jumps_here(Integrator *run, const Parameters *p)
+static int apply_drive_jumps_now(Integrator *run, const Parameters *p)
 {
     double branches_before[N_SWITCHES + 1];
     int has_changed = 0;
@@ -215,7 +215,7 @@ static int pass_drive_jumps_here(Integrator *run, const Parameters *p)
     apply_drive_impulse(run, p);
     status = update_branches_just_after(run, just_after(run->t), -1, p);
     if (!status)
-        status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
+        status = evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     if (!status)
         status = update_contacts(run, -1, p);
     return status ? status : record_crossed_events(run, NULL, p);
@@ -230,7 +230,7 @@ static inline int apply_drive_jump(Integrator *run, int switch_index, const Para
 }
 
 /* Return 0: no drive of the scene has a rate that jumps. */
-static inline int pass_drive_jumps_here(Integrator *run, const Parameters *p) { return (void)run, (void)p, 0; }
+static inline int apply_drive_jumps_now(Integrator *run, const Parameters *p) { return (void)run, (void)p, 0; }
 #endif
 
 /*
@@ -253,8 +253,8 @@ static int change_branch(Integrator *run, int switch_index, const Parameters *p)
 static void record_onset_forces(Integrator *run)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (run->discrete.contact[i].closed && run->contacts.open[i].t_on == run->t && gives(i))
-            record_force(run, i, run->t, total_force(&run->rhs.clearance[i]));
+        if (run->discrete.contact[i].closed && run->contacts.open[i].t_on == run->t && is_compliant(i))
+            record_force(run, i, run->t, compute_force_magnitude(&run->rhs.clearance[i]));
 }
 
 /*
@@ -299,7 +299,7 @@ static int apply_event(Integrator *run, int event, const Parameters *p)
  * Return LOST if an open contact has a penetration beyond its tolerance, so that contact detection has failed;
  * otherwise 0. Called at accepted states.
  */
-static int check_contacts(const Integrator *run, const Parameters *p)
+static int check_open_contacts(const Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
         if (!run->discrete.contact[i].closed

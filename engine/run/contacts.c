@@ -8,7 +8,7 @@
 /* Return the negative penetration in m that counts as rounding at a joint: an event function above it has no sign. */
 static double compute_penetration_rounding(const Parameters *p, int joint)
 {
-    return gives(joint) ? -min_of(SHALLOW, 1e-10 * deepest(p, joint))
+    return is_compliant(joint) ? -min_of(SHALLOW, 1e-10 * deepest(p, joint))
         : -SHALLOW_RIGID * radial_clearance(p, joint);
 }
 
@@ -182,7 +182,7 @@ static int initialize_compliant_contacts(Integrator *run, const Parameters *p)
         const int was_closed = run->discrete.contact[i].closed;
         const int touches = clearance->delta >= 0.0
             && (clearance->delta > -compute_penetration_rounding(p, i) || clearance->deltadot > 0.0);
-        if (!gives(i)) /* rigid contacts change at events only (run/impacts.c) */
+        if (!is_compliant(i)) /* rigid contacts change at events only (run/impacts.c) */
             continue;
         if (!was_closed && touches)
             close_contact(run, i, run->t, fabs(clearance->deltadot), min_approach_speed(p, i));

@@ -88,7 +88,7 @@ static void extend_envelope(Integrator *run)
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &run->rhs.clearance[i];
         double *columns = current->joint[i];
-        extend_force_envelope(run, i, run->t, total_force(joint));
+        extend_force_envelope(run, i, run->t, compute_force_magnitude(joint));
         extend_path_envelope(run, i, run->t, joint);
         columns[ENVELOPE_ex] = joint->ex;
         columns[ENVELOPE_ey] = joint->ey;

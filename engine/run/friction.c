@@ -1,6 +1,6 @@
 /*
  * Friction that may stick: its modes, and their changes at events. A step ends where the slip reaches zero or the force
- * of stick reaches its limit: at the zero of friction_event_function() on the step.
+ * of stick reaches its limit: at the zero of evaluate_friction_event_function() on the step.
  */
 #if N_FRICTIONS
 #define ROUNDING 1e-12 /* m/s: rounding of a slip that other constraints hold at zero */
@@ -10,7 +10,7 @@ enum { MAX_TRIES = 8 + 4 * N_FRICTIONS };
  * Return the event function of a friction element, positive while its mode lasts. In stick: static limit minus |force|
  * in N; in slip: the slip in its direction, m/s; held by others (MODE_HELD): AT_REST minus |slip|, m/s.
  */
-static double friction_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int element)
+static double evaluate_friction_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int element)
 {
     const Friction *friction = &rhs->friction[element];
     if (discrete->mode[element] == MODE_HELD)
@@ -27,10 +27,10 @@ static double friction_event_function(const DiscreteState *discrete, const RhsOu
  */
 static int evaluate_rates_with_modes(Integrator *run, const Parameters *p)
 {
-    int status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
+    int status = evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     for (int i = 0; i < N_FRICTIONS && status > N_LOOPS && status <= N_LOOPS + N_FRICTIONS; i++) {
         run->discrete.mode[friction_of_pivot[status - N_LOOPS - 1]] = MODE_HELD;
-        status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
+        status = evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     }
     return status;
 }
@@ -56,7 +56,7 @@ static int remove_slips_at_rest(Integrator *run, const Parameters *p)
 /*
  * Correct the friction mode with the largest violation and return whether there was one. Violations are a sticking
  * force beyond its limit, or a slip from rest against its own rate. If an element would start to slip while another is
- * held, the held one slips instead, so that its force acts first. Called in each pass of update_modes() after
+ * held, the held one slips instead, so that its force acts first. Called in each pass of iterate_friction_modes() after
  * the right-hand side.
  */
 static int correct_worst_mode(Integrator *run)
@@ -91,7 +91,7 @@ static int correct_worst_mode(Integrator *run)
  * unloads the others at once. Held elements at rest may stick again. Return 0, CHATTERING if MAX_TRIES passes find no
  * set, or another status. Called after each change of modes, at the start and after impacts.
  */
-static int update_modes(Integrator *run, const Parameters *p)
+static int iterate_friction_modes(Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_FRICTIONS; i++)
         if (run->discrete.mode[i] == MODE_HELD && fabs(run->rhs.friction[i].v) <= AT_REST)
@@ -114,7 +114,7 @@ static int change_friction_modes(Integrator *run, const Parameters *p)
     for (int i = 0; i < N_FRICTIONS; i++) {
         const Friction *friction = &run->rhs.friction[i];
         double *mode = &run->discrete.mode[i];
-        if (friction_event_function(&run->discrete, &run->rhs, i) > 0.0)
+        if (evaluate_friction_event_function(&run->discrete, &run->rhs, i) > 0.0)
             continue;
         count_mode_change(run);
         if (*mode == 0.0) /* the limit is reached: it slips against the force */
@@ -123,7 +123,7 @@ static int change_friction_modes(Integrator *run, const Parameters *p)
             *mode = *mode == MODE_HELD ? (friction->v > 0.0 ? 1.0 : -1.0) : 0.0;
     }
     const int status = remove_slips_at_rest(run, p);
-    return status ? status : update_modes(run, p);
+    return status ? status : iterate_friction_modes(run, p);
 }
 
 /*
@@ -140,12 +140,12 @@ static int initialize_friction_modes(Integrator *run, const Parameters *p)
         has_unknown = 1;
         run->discrete.mode[i] = fabs(v) <= AT_REST ? 0.0 : v > 0.0 ? 1.0 : -1.0;
     }
-    return has_unknown ? update_modes(run, p) : 0;
+    return has_unknown ? iterate_friction_modes(run, p) : 0;
 }
 
 #if N_RIGID
 /* Iterate the friction modes to a consistent set while rigid contacts change. */
-static int update_friction_modes(Integrator *run, const Parameters *p) { return update_modes(run, p); }
+static int update_friction_modes(Integrator *run, const Parameters *p) { return iterate_friction_modes(run, p); }
 
 /*
  * Set the modes of friction elements after an impact and evaluate the right-hand side: an element with a slip above
@@ -153,7 +153,7 @@ static int update_friction_modes(Integrator *run, const Parameters *p) { return 
  */
 static int update_modes_after_impact(Integrator *run, const Parameters *p)
 {
-    const int status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
+    const int status = evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     for (int i = 0; i < N_FRICTIONS && !status; i++) {
         const double v = run->rhs.friction[i].v;
         if (fabs(v) > AT_REST)
@@ -165,7 +165,7 @@ static int update_modes_after_impact(Integrator *run, const Parameters *p)
 
 #else
 /* Return 1: the scene has no friction that may stick. */
-static inline double friction_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int element)
+static inline double evaluate_friction_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int element)
 {
     (void)discrete, (void)rhs, (void)element;
     return 1.0;
@@ -175,7 +175,7 @@ static inline double friction_event_function(const DiscreteState *discrete, cons
 static inline int evaluate_rates_at_rest(
     Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    return rates(run, t, y, p, dy, rhs);
+    return evaluate_rhs(run, t, y, p, dy, rhs);
 }
 
 /* Leave the state unchanged: the scene has no friction that may stick. */

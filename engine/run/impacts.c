@@ -14,12 +14,12 @@ enum { MAX_PASSES = 1000, LISTED_PASSES = 8, MAX_SEPARATIONS = 12 };
  * Return the event function of a contact, non-negative while it stays open or closed: gap of an open contact in m,
  * pressing force of a closed rigid contact in N, penetration of a closed compliant one in m.
  */
-static double contact_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int joint)
+static double evaluate_contact_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int joint)
 {
     const Clearance *clearance = &rhs->clearance[joint];
     if (!discrete->contact[joint].closed)
         return -clearance->delta;
-    return !gives(joint) ? -clearance->F_n : clearance->delta;
+    return !is_compliant(joint) ? -clearance->F_n : clearance->delta;
 }
 
 /*
@@ -29,7 +29,7 @@ static double contact_event_function(const DiscreteState *discrete, const RhsOut
 static int is_rigid_joint_touching(const Integrator *run, int joint, const Parameters *p)
 {
     const int has_no_gap = run->rhs.clearance[joint].delta >= -TOUCHING * radial_clearance(p, joint);
-    return !gives(joint) && (has_no_gap || run->discrete.contact[joint].closed);
+    return !is_compliant(joint) && (has_no_gap || run->discrete.contact[joint].closed);
 }
 
 /*
@@ -37,12 +37,12 @@ static int is_rigid_joint_touching(const Integrator *run, int joint, const Param
  * smooth that a longer step could leave the bearing and return. Gap rates are those of the state and, if `step` is not
  * NULL, of its stages. Infinite without an open rigid joint. Called before each step, and after it with its stages.
  */
-static double flight_step_limit(const Integrator *run, const Step *step, const Parameters *p)
+static double compute_flight_step_limit(const Integrator *run, const Step *step, const Parameters *p)
 {
     double limit = INFINITY;
     for (int i = 0; i < N_CLEARANCES; i++) {
         double rate = fabs(run->rhs.clearance[i].deltadot);
-        if (gives(i) || run->discrete.contact[i].closed)
+        if (is_compliant(i) || run->discrete.contact[i].closed)
             continue;
         if (step)
             rate = max_of(rate, max_of(fabs(step->rate[i][0]), fabs(step->rate[i][1])));
@@ -156,7 +156,7 @@ static int update_closed_contacts(Integrator *run, int opening_joint, const Para
         const double speed_limit = max_of(threshold_of(p, i), min_rate);
         is_resting[i] = i != opening_joint && is_rigid_joint_touching(run, i, p)
             && fabs(run->rhs.clearance[i].deltadot) <= speed_limit;
-        if (!gives(i))
+        if (!is_compliant(i))
             run->discrete.contact[i].closed = is_resting[i];
         if (is_resting[i])
             contacts.joint[contacts.n++] = i;
@@ -171,7 +171,7 @@ static int update_closed_contacts(Integrator *run, int opening_joint, const Para
     for (int i = 0; i < N_CLEARANCES; i++)
         run->discrete.contact[i].closed = known_state.contact[i].closed;
     for (int i = 0; i < N_CLEARANCES && !status; i++)
-        if (!gives(i))
+        if (!is_compliant(i))
             status = set_rigid_contact(run, i, has_force[i]);
     return status;
 }
@@ -191,17 +191,17 @@ static int separate_contacts(Integrator *run, const Parameters *p)
         double gap[N_RIGID];
         Delassus touching = {0};
         for (int i = 0; i < N_CLEARANCES; i++) {
-            if (gives(i) || (!run->discrete.contact[i].closed && run->rhs.clearance[i].delta < -distance))
+            if (is_compliant(i) || (!run->discrete.contact[i].closed && run->rhs.clearance[i].delta < -distance))
                 continue;
             gap[touching.n] = run->discrete.contact[i].closed ? 0.0 : distance;
             touching.joint[touching.n++] = i;
         }
         status = touching.n ? project_contacts(run, run->t, run->y, p, &touching, gap) : 0;
         if (!status && touching.n)
-            status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
+            status = evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
         has_contact = 0; /* distant points round by more; separating one contact may close another, as in a wedge */
         for (int i = 0; i < N_CLEARANCES && touching.n; i++)
-            has_contact |= !gives(i) && !run->discrete.contact[i].closed && !(run->rhs.clearance[i].delta < 0.0);
+            has_contact |= !is_compliant(i) && !run->discrete.contact[i].closed && !(run->rhs.clearance[i].delta < 0.0);
     }
     run->y[2 * N_X + 2] += kinetic_energy(run, p) - energy; /* of separations slower than the threshold */
     return status;
@@ -219,13 +219,13 @@ static int separate_contacts(Integrator *run, const Parameters *p)
 static int resolve_impacts(Integrator *run, const Parameters *p)
 {
     double energies[5] = {0.0}; /* impulse times approach speed of the last passes, J */
-    int is_limit = 0, status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
+    int is_limit = 0, status = evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     for (int pass = 0; pass < 2 * MAX_PASSES && !status; pass++) {
         memmove(energies, energies + 1, sizeof energies - sizeof *energies);
         status = resolve_impact(run, p, pass, is_limit, &energies[4]);
         if (status || !(energies[4] > 0.0))
             return status;
-        status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
+        status = evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
         const double ratio_before = energies[2] / energies[0],
             ratio = energies[4] / energies[2]; /* of two passes: contacts alternate */
         is_limit |= pass >= MAX_PASSES || (pass >= 4 && ratio < 1.0 && fabs(ratio - ratio_before) < RATIO_TOL * ratio);
@@ -240,7 +240,7 @@ static int resolve_impacts(Integrator *run, const Parameters *p)
  */
 static int update_contacts(Integrator *run, int event, const Parameters *p)
 {
-    const int is_opening = event >= 0 && event < N_CLEARANCES && !gives(event)
+    const int is_opening = event >= 0 && event < N_CLEARANCES && !is_compliant(event)
         && run->discrete.contact[event].closed;
     int status = resolve_impacts(run, p);
     for (int pass = 0; pass < 2 && !status; pass++) { /* forces of stick and of contacts depend on each other */
@@ -263,7 +263,7 @@ static int initialize_rigid_contacts(Integrator *run, const Parameters *p)
 {
     int has_touching = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        if (gives(i) || run->discrete.contact[i].closed)
+        if (is_compliant(i) || run->discrete.contact[i].closed)
             continue;
         if (run->rhs.clearance[i].delta > 1e-6 * radial_clearance(p, i))
             return LOST;
@@ -277,7 +277,7 @@ static int initialize_rigid_contacts(Integrator *run, const Parameters *p)
  * Return the event function of a contact in m, non-negative while it stays open or closed: the gap of an open contact,
  * the penetration of a closed one.
  */
-static inline double contact_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int joint)
+static inline double evaluate_contact_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int joint)
 {
     return discrete->contact[joint].closed ? rhs->clearance[joint].delta : -rhs->clearance[joint].delta;
 }
@@ -289,7 +289,7 @@ static inline void project_closed_contacts(Integrator *run, double t, double *y,
 }
 
 /* Return infinity: the scene has no rigid contacts that limit the step. */
-static inline double flight_step_limit(const Integrator *run, const Step *step, const Parameters *p)
+static inline double compute_flight_step_limit(const Integrator *run, const Step *step, const Parameters *p)
 {
     return (void)run, (void)step, (void)p, INFINITY;
 }

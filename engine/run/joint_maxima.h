@@ -4,7 +4,7 @@
  */
 
 /* Return the magnitude of the force of a joint with play, N, from its normal and tangential components. */
-static inline double total_force(const Clearance *clearance)
+static inline double compute_force_magnitude(const Clearance *clearance)
 {
     return sqrt(clearance->F_n * clearance->F_n + clearance->F_t * clearance->F_t);
 }
@@ -39,7 +39,7 @@ static inline void update_compression(Integrator *run, int joint, double deltado
 static inline void update_joint_peaks(Integrator *run, int joint)
 {
     const Clearance *clearance = &run->rhs.clearance[joint];
-    const double F = total_force(clearance);
+    const double F = compute_force_magnitude(clearance);
     const int closed = is_closed(&run->discrete.contact[joint]), higher = F > run->contacts.F_peak[joint];
     run->contacts.e_max[joint] = max_of(clearance->e, run->contacts.e_max[joint]);
     run->contacts.F_peak[joint] = pick(higher, F, run->contacts.F_peak[joint]);
@@ -49,7 +49,7 @@ static inline void update_joint_peaks(Integrator *run, int joint)
     const int highest = closed & (F > run->contacts.open[joint].F_peak);
     run->contacts.open[joint].F_peak = pick(highest, F, run->contacts.open[joint].F_peak);
     run->contacts.open[joint].t_peak = pick(highest, run->t, run->contacts.open[joint].t_peak);
-    if (!gives(joint))
+    if (!is_compliant(joint))
         return; /* rigid contacts have no rate */
     const double ratio = clearance->deltadot / run->discrete.contact[joint].deltadot_minus;
     const int outside = (ratio < -1.0) | (ratio > 1.0);

@@ -38,14 +38,14 @@ static double evaluate_joint_force(Integrator *run, const Step *step, double fra
     if (!status && has_wrong_branch) { /* a switching point was passed inside the step: use the other branch */
         const DiscreteState discrete = run->discrete;
         double y[N_Y], dy[N_Y];
-        status = state_at(run, step, fraction, p, y, dy, &rhs);
+        status = evaluate_state_at(run, step, fraction, p, y, dy, &rhs);
         if (!status)
             status = update_branches_at(run, step->t + fraction * step->h, y, dy, &rhs, -1, p);
         run->discrete = discrete;
     }
     if (status)
         return 0.0;
-    const double F = total_force(&rhs.clearance[joint]);
+    const double F = compute_force_magnitude(&rhs.clearance[joint]);
     record_force(run, joint, step->t + fraction * step->h, F);
     update_largest_eccentricity(run, joint, rhs.clearance[joint].e);
     return F;
@@ -57,11 +57,11 @@ static double evaluate_joint_force(Integrator *run, const Step *step, double fra
  */
 static double find_node_of_largest_force(const Step *step, double fraction, int joint, double min_force)
 {
-    const StageValues forces = stage_values(step, STAGE_FORCES + joint);
+    const StageValues forces = get_stage_values(step, STAGE_FORCES + joint);
     double largest_square = min_force * min_force, node = 0.5 * fraction;
     for (int k = 0; k < step->n_seen && !step->method->stiff; k++)
-        if (step->node[k] > 0.0 && step->node[k] < fraction && stage_value(forces, k) > largest_square)
-            largest_square = stage_value(forces, k), node = step->node[k];
+        if (step->node[k] > 0.0 && step->node[k] < fraction && read_stage(forces, k) > largest_square)
+            largest_square = read_stage(forces, k), node = step->node[k];
     return node;
 }
 
@@ -76,7 +76,7 @@ static void find_inner_peak(Integrator *run, const Step *step, double fraction, 
     const Parameters *p)
 {
     const double node = find_node_of_largest_force(step, fraction, joint, max_of(force_begin, force_end));
-    const double tolerance = min_of(MAX_PEAK_TOL, max_of(MIN_PEAK_TOL, PEAK_TOL * tolerance_of(run)));
+    const double tolerance = min_of(MAX_PEAK_TOL, max_of(MIN_PEAK_TOL, PEAK_TOL * get_rtol(run)));
     double f[3] = {force_begin, evaluate_joint_force(run, step, node, joint, p), force_end};
     double x[3] = {0.0, node, fraction}, error = INFINITY;
     record_force(run, joint, step->t, force_begin);
@@ -114,7 +114,7 @@ static int is_force_monotone(Step *step, double fraction, int joint, double forc
     const Parameters *p)
 {
     Sample all[N_STAGES + 2];
-    const StageValues forces = stage_values(step, STAGE_FORCES + joint);
+    const StageValues forces = get_stage_values(step, STAGE_FORCES + joint);
     const Sample begin = {0.0, force_begin * force_begin, NAN}, end = {1.0, force_end * force_end, NAN};
     const int n = collect_stage_samples(step, begin, end, forces, all);
     const double bend = bound_second_derivative(all, n);
@@ -225,13 +225,13 @@ static void find_largest_eccentricity(Integrator *run, Step *step, double fracti
 static int estimate_force_trend(const Step *step, double fraction, int joint, double force_end)
 {
     double s[2] = {-1.0, -1.0}, f[2] = {NAN, NAN};
-    const StageValues forces = stage_values(step, STAGE_FORCES + joint);
+    const StageValues forces = get_stage_values(step, STAGE_FORCES + joint);
     for (int k = 0; k < step->n_seen && !step->method->stiff; k++) {
         const double node = step->node[k];
         if (!(node < 0.99 * fraction && node > s[1]) || node == s[0])
             continue;
         const int last = node > s[0];
-        const double square = stage_value(forces, k);
+        const double square = read_stage(forces, k);
         s[1] = last ? s[0] : node, f[1] = last ? f[0] : square;
         s[0] = last ? node : s[0], f[0] = last ? square : f[0];
     }
@@ -260,7 +260,7 @@ static int determine_force_trends(Integrator *run, const Step *step, double frac
     const int status = evaluate_contacts_at(run, step->t + fraction * step->h + duration, y, p, &rhs);
     for (int i = 0; i < N_CLEARANCES && !status; i++)
         if (!trends[i])
-            trends[i] = total_force(&rhs.clearance[i]) > force_end[i] ? 1 : -1;
+            trends[i] = compute_force_magnitude(&rhs.clearance[i]) > force_end[i] ? 1 : -1;
     return status;
 }
 
@@ -270,11 +270,11 @@ static int determine_force_trends(Integrator *run, const Step *step, double frac
  */
 static int may_have_inner_maximum(const Step *step, double fraction, int joint, double force_begin, double force_end)
 {
-    const StageValues forces = stage_values(step, STAGE_FORCES + joint);
+    const StageValues forces = get_stage_values(step, STAGE_FORCES + joint);
     double node = INFINITY, force = NAN;
     for (int k = 0; k < step->n_seen; k++)
         if (step->node[k] > fraction && step->node[k] < node)
-            node = step->node[k], force = sqrt(stage_value(forces, k));
+            node = step->node[k], force = sqrt(read_stage(forces, k));
     const double bend = 2.0 * ((force - force_begin) / node - (force_end - force_begin) / fraction) / (node - fraction);
     const double curve = ERROR_SAFETY * fabs(bend) * fraction * fraction;
     return !(fabs(force_end - force_begin) > 0.5 * curve
@@ -288,17 +288,17 @@ static int may_have_inner_maximum(const Step *step, double fraction, int joint, 
  */
 static double find_largest_inner_force(Integrator *run, Step *step, double fraction, int joint, const Parameters *p)
 {
-    const double force_begin = total_force(&run->rhs.clearance[joint]),
-        force_end = total_force(&step->rhs.clearance[joint]);
+    const double force_begin = compute_force_magnitude(&run->rhs.clearance[joint]),
+        force_end = compute_force_magnitude(&step->rhs.clearance[joint]);
     double most = 0.0;
     int n_inner = 0;
-    const StageValues forces = stage_values(step, STAGE_FORCES + joint);
+    const StageValues forces = get_stage_values(step, STAGE_FORCES + joint);
     for (int k = 0; k < step->n_seen; k++)
         if (step->node[k] > 0.0 && step->node[k] < fraction) {
-            most = max_of(most, stage_value(forces, k));
+            most = max_of(most, read_stage(forces, k));
             n_inner++;
         }
-    if (n_inner < MIN_INNER_STAGES && run->discrete.contact[joint].closed && gives(joint)
+    if (n_inner < MIN_INNER_STAGES && run->discrete.contact[joint].closed && is_compliant(joint)
         && may_have_inner_maximum(step, fraction, joint, force_begin, force_end)
             && compute_dense_output(run, p, step) == 0)
         return max_of(sqrt(most), evaluate_joint_force(run, step, 0.5 * fraction, joint, p));
@@ -326,19 +326,19 @@ static void find_inner_peaks(Integrator *run, Step *step, double fraction, const
         const Clearance *a = &run->rhs.clearance[i], *b = &step->rhs.clearance[i];
         const double largest_known = run->discrete.contact[i].closed ? run->contacts.open[i].F_peak
             : run->contacts.F_peak[i];
-        force_begin[i] = total_force(a), force_end[i] = total_force(b);
+        force_begin[i] = compute_force_magnitude(a), force_end[i] = compute_force_magnitude(b);
         /* a contact's force may double in a step, a film's grows by some percent */
         const double min_ratio = run->discrete.contact[i].closed ? 0.9 : 0.97;
 #if N_RIGID
-        if (!gives(i) && run->discrete.contact[i].closed)
+        if (!is_compliant(i) && run->discrete.contact[i].closed)
             find_rigid_peak(run, step, fraction, i, force_begin[i], force_end[i], p);
 #endif
         const int has_force = run->discrete.contact[i].closed || has_film(i);
         const double larger_end = max_of(force_begin[i], force_end[i]),
                      largest_inner = has_force ? find_largest_inner_force(run, step, fraction, i, p) : 0.0;
-        has_inner_peak[i] = gives(i) && largest_inner > (step->method->stiff ? MAXIMUM_RATIO_STIFF
+        has_inner_peak[i] = is_compliant(i) && largest_inner > (step->method->stiff ? MAXIMUM_RATIO_STIFF
             : MAXIMUM_RATIO) * larger_end;
-        const double candidate = !gives(i) ? 0.0 : has_inner_peak[i] ? largest_inner : larger_end;
+        const double candidate = !is_compliant(i) ? 0.0 : has_inner_peak[i] ? largest_inner : larger_end;
         const int has_event_candidate = candidate > min_ratio * largest_known && candidate > 0.0;
         const int is_pulling = has_event_candidate && has_tension_at_end(force_begin[i], force_end[i]);
         trends[i] = !has_event_candidate ? LOW : is_pulling ? -1

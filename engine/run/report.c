@@ -16,7 +16,7 @@ void gudgeon_run_sample(const void *integrator, const double *p, double *y, doub
  * gained. steps: that number, and whether these steps are far shorter than earlier ones. ended (N_STEP_ENDS): how many
  * steps each kind of event ended since the last check. Called when a run of a batch ends.
  */
-static void report_monitor(const Integrator *run, double *time_gained, long *steps, long *ended)
+static void report_progress(const Integrator *run, double *time_gained, long *steps, long *ended)
 {
     *time_gained = run->progress.monitor.gain;
     steps[0] = MONITOR_STEPS;

@@ -28,7 +28,7 @@ static int motion_with_inner_states(
  * are computed first. Evaluations are counted and the caller is polled. Return 0, STOPPED after a cancellation, or the
  * number of the vanished pivot.
  */
-static int rates(Integrator *run, double t, const double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
+static int evaluate_rhs(Integrator *run, double t, const double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     count_evaluations(run, 1);
     if (is_cancelled(&run->cancellation))
@@ -92,7 +92,7 @@ static void store_sample(const Integrator *run, double t, const double *state_ve
     double *discrete, signed char *codes)
 {
     enum { MEMORY = AT_LEAST_ONE(N_DISCRETE), JOINTS = AT_LEAST_ONE(N_CLEARANCES) };
-    to_absolute(t, state_vector, &run->discrete, p, y + row * N_S);
+    convert_to_absolute(t, state_vector, &run->discrete, p, y + row * N_S);
     for (int k = 0; k < N_CLEARANCES; k++) {
         discrete[row * MEMORY + k] = run->discrete.contact[k].closed ? run->discrete.contact[k].deltadot_minus : NAN;
         codes[row * JOINTS + k] = (signed char)(!run->discrete.contact[k].closed ? CODE_FREE
@@ -127,7 +127,7 @@ static int update_branches_at(
     int status = 0, changed = 1;
     for (int pass = 0; pass < 6 && changed; pass++) {
         changed = 0;
-        status = rates(run, t, y, p, dy, rhs);
+        status = evaluate_rhs(run, t, y, p, dy, rhs);
         for (int k = 0; k < N_SWITCHES && status != STOPPED; k++)
             if (k != fixed_switch && run->discrete.branch[k] * rhs->g[k] < 0.0) {
                 run->discrete.branch[k] = -run->discrete.branch[k];
@@ -142,7 +142,7 @@ static double kinetic_energy(const Integrator *run, const Parameters *p)
 {
     double mass[N_Q], absolute_state[N_S], sum = 0.0;
     mass_matrix(p, mass);
-    to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
+    convert_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
     for (int k = 0; k < N_Q; k++)
         sum += 0.5 * mass[k] * absolute_state[N_Q + k] * absolute_state[N_Q + k];
     return sum;
@@ -188,7 +188,7 @@ static double compute_effective_mass(Integrator *run, int joint, double *directi
         force[closed] = rhs.clearance[joint].F_n;
         for (int k = N_X; k < 2 * N_X; k++)
             y[k] = run->y[k] + duration * dy[closed][k];
-        if (rates(run, run->t, y, p, dy_unused, &rhs))
+        if (evaluate_rhs(run, run->t, y, p, dy_unused, &rhs))
             return NAN;
         rate[closed] = rhs.clearance[joint].deltadot;
     }
@@ -218,7 +218,7 @@ static void estimate_approach_speed(Integrator *run, int joint, const Parameters
             y[k] = run->y[k] - (sample ? 0.1 * delta[0] * direction[k] : 0.0);
             y[N_X + k] = run->y[N_X + k] - deltadot * direction[k];
         }
-        const int status = rates(run, run->t, y, p, dy, &rhs);
+        const int status = evaluate_rhs(run, run->t, y, p, dy, &rhs);
         force[sample] = status ? NAN : fabs(rhs.clearance[joint].F_n);
         delta[sample] = rhs.clearance[joint].delta;
     }
@@ -238,9 +238,9 @@ static void estimate_approach_speed(Integrator *run, int joint, const Parameters
  * record the state. A start with penetration is in contact; friction begins with the mode of its slip. Return 0 or a
  * status. Called once, when the memory of the run has been initialized.
  */
-static int begin_state(Integrator *run, const Parameters *p)
+static int initialize_discrete_state(Integrator *run, const Parameters *p)
 {
-    int status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
+    int status = evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     if (!status)
         status = initialize_friction_modes(run, p);
     const DiscreteState discrete_before = run->discrete;
@@ -249,14 +249,14 @@ static int begin_state(Integrator *run, const Parameters *p)
             if (run->discrete.contact[i].closed && !discrete_before.contact[i].closed
                 && run->rhs.clearance[i].delta > 0.0)
                 estimate_approach_speed(run, i, p);
-        status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
+        status = evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     }
     if (!status)
         status = initialize_rigid_contacts(run, p);
     double value[AT_LEAST_ONE(N_USER_EVENTS)];
     evaluate_resolved_events(run, run->t, run->y, &run->rhs, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++) {
-        event_crosses(i, &run->discrete.event_sign[i], value[i]);
+        detect_event_crossing(i, &run->discrete.event_sign[i], value[i]);
         if (isnan(run->rhs.event[i]) && !status)
             record_nan_event(run, i, run->t);
     }
@@ -285,7 +285,7 @@ void gudgeon_run_start(void *integrator, const double *p, double t, const double
 {
     Integrator *run = integrator;
     *run = (Integrator){.t = t};
-    from_absolute(t, y, &run->discrete, (const Parameters *)p, run->y);
+    convert_from_absolute(t, y, &run->discrete, (const Parameters *)p, run->y);
     read_discrete_state(discrete, &run->discrete);
     run->discrete.token = &run->cancellation;
     if (CONTINUES)

@@ -17,9 +17,9 @@ static double compute_slip_response(Integrator *run, double t, const double *y, 
     const double mode_before = *mode;
     RhsOutputs rhs_against, rhs_along;
     *mode = -1.0;
-    int status = rates(run, t, y, p, dy, &rhs_against);
+    int status = evaluate_rhs(run, t, y, p, dy, &rhs_against);
     *mode = 1.0;
-    status = status ? status : rates(run, t, y, p, dy_along, &rhs_along);
+    status = status ? status : evaluate_rhs(run, t, y, p, dy_along, &rhs_along);
     *mode = mode_before;
     for (int k = 0; k < N_Y; k++)
         dy[k] -= dy_along[k];
@@ -74,8 +74,8 @@ static int remove_slip_residuals(Integrator *run, double t, double *y, const Rhs
 static int evaluate_rates_at_rest(
     Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    const int status = rates(run, t, y, p, dy, rhs);
-    return status || !remove_slip_residuals(run, t, y, rhs, p) ? status : rates(run, t, y, p, dy, rhs);
+    const int status = evaluate_rhs(run, t, y, p, dy, rhs);
+    return status || !remove_slip_residuals(run, t, y, rhs, p) ? status : evaluate_rhs(run, t, y, p, dy, rhs);
 }
 
 /*

@@ -13,7 +13,7 @@
 static void add_constraint_residuals(Integrator *run, double t, const double *y, const Parameters *p, double *error)
 {
     double dq[N_X + 1], dv[N_X + 1], perturbed[N_Y], residual;
-    if (N_LOOPS == 0 || closing_of_state(t, y, &run->discrete, p, dq, dv, &residual))
+    if (N_LOOPS == 0 || compute_correction(t, y, &run->discrete, p, dq, dv, &residual))
         return;
     for (int k = 0; k < N_X; k++) {
         error[k] += isfinite(dq[k]) ? CLOSING_STEPS * fabs(dq[k]) : 0.0;
@@ -23,7 +23,7 @@ static void add_constraint_residuals(Integrator *run, double t, const double *y,
     for (int pattern = 0; pattern < 3; pattern++) {
         for (int k = 0; k < N_X; k++)
             perturbed[k] = y[k] + (k & pattern ? -error[k] : error[k]);
-        if (closing_of_state(t, perturbed, &run->discrete, p, dq, dv, &residual))
+        if (compute_correction(t, perturbed, &run->discrete, p, dq, dv, &residual))
             continue;
         for (int k = 0; k < N_X; k++)
             error[N_X + k] += isfinite(dv[k]) ? fabs(dv[k]) : 0.0;
@@ -62,7 +62,7 @@ static void add_residual_slips(Integrator *run, double t, const double *y, const
     for (int element = 0; element < N_FRICTIONS; element++) {
         if (run->discrete.mode[element] != 0.0)
             continue;
-        status = status < 0 ? rates(run, t, y, p, dy_unused, &rhs) : status;
+        status = status < 0 ? evaluate_rhs(run, t, y, p, dy_unused, &rhs) : status;
         const double response = status ? 0.0 : compute_slip_response(run, t, y, element, p, direction);
         for (int k = N_X; k < 2 * N_X && response > 0.0; k++)
             error[k] += fabs(direction[k] * rhs.friction[element].v / response);
@@ -96,7 +96,7 @@ static inline double get_watched_value(const RhsOutputs *rhs, int index)
 static void estimate_watched_errors(
     Integrator *run, double t, const double *y, const double *error, const Parameters *p, double *uncertainty)
 {
-    error_by_bounds(t, y, y + N_X, error, error + N_X, N_X, &run->discrete, p, uncertainty);
+    estimate_error_by_bounds(t, y, y + N_X, error, error + N_X, N_X, &run->discrete, p, uncertainty);
 }
 #else
 /*
@@ -109,14 +109,14 @@ static void estimate_watched_errors(
 {
     double y_perturbed[N_Y], dy[N_Y];
     RhsOutputs rhs, rhs_perturbed;
-    const int failed = rates(run, t, y, p, dy, &rhs);
+    const int failed = evaluate_rhs(run, t, y, p, dy, &rhs);
     memcpy(y_perturbed, y, sizeof y_perturbed);
     for (int i = 0; i < N_WATCHED; i++)
         uncertainty[i] = 0.0;
     for (int pattern = 0; pattern < 8 && !failed; pattern = pattern ? 2 * pattern : 1) {
         for (int k = 0; k < 2 * N_X; k++)
             y_perturbed[k] = y[k] + (k & pattern ? -error[k] : error[k]) / OBSERVED_FACTOR;
-        if (rates(run, t, y_perturbed, p, dy, &rhs_perturbed))
+        if (evaluate_rhs(run, t, y_perturbed, p, dy, &rhs_perturbed))
             continue;
         for (int i = 0; i < N_WATCHED; i++) {
             const double change = OBSERVED_FACTOR * fabs(get_watched_value(&rhs_perturbed, i)

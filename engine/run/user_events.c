@@ -75,7 +75,7 @@ static void update_event_signs(Integrator *run, double t, const double *y, const
     evaluate_resolved_events(run, t, y, rhs, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++)
         if (run->discrete.event_sign[i] == 0)
-            event_crosses(i, &run->discrete.event_sign[i], value[i]);
+            detect_event_crossing(i, &run->discrete.event_sign[i], value[i]);
 }
 
 /*
@@ -90,7 +90,7 @@ static int record_crossed_events(Integrator *run, const double *values_before, c
     evaluate_resolved_events(run, run->t, run->y, &run->rhs, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++)
         if ((!values_before || !have_same_sign(values_before[i], value[i]))
-            && event_crosses(i, &run->discrete.event_sign[i], value[i])
+            && detect_event_crossing(i, &run->discrete.event_sign[i], value[i])
                 && record_user_event(run, i, run->t, run->y, p))
             status = ENDED;
     return status;
@@ -101,14 +101,14 @@ static int record_crossed_events(Integrator *run, const double *values_before, c
  * Evaluate the user-defined event functions `duration` seconds after a state, extrapolated along its rates dy, into
  * `values` (N_USER_EVENTS). Values below their uncertainty are 0; all are 0 if the evaluation fails. Return a status.
  */
-static int evaluate_events_ahead(Integrator *run, double t, double duration, const double *y, const double *dy,
+static int extrapolate_event_functions(Integrator *run, double t, double duration, const double *y, const double *dy,
     const Parameters *p, double *values)
 {
     double y_after[N_Y], dy_unused[N_Y];
     RhsOutputs rhs;
     for (int k = 0; k < N_Y; k++)
         y_after[k] = y[k] + duration * dy[k];
-    const int status = rates(run, t + duration, y_after, p, dy_unused, &rhs);
+    const int status = evaluate_rhs(run, t + duration, y_after, p, dy_unused, &rhs);
     for (int i = 0; i < N_USER_EVENTS; i++)
         values[i] = 0.0;
     if (!status)
@@ -170,7 +170,7 @@ static int compute_event_signs_after(Integrator *run, double fixed_step, const P
         has_unknown |= !signs[i];
     }
     for (double later = 1e3 * h; has_unknown && later < 1e10 * h; later *= 1e3) {
-        const int is_evaluated = !evaluate_events_ahead(run, run->t, later, run->y, run->dy, p, value_later);
+        const int is_evaluated = !extrapolate_event_functions(run, run->t, later, run->y, run->dy, p, value_later);
         for (int i = 0; i < N_USER_EVENTS; i++)
             if (is_evaluated && !signs[i])
                 signs[i] = (signed char)((value_later[i] > 0.0) - (value_later[i] < 0.0));
@@ -191,7 +191,7 @@ static int record_events_at_end(Integrator *run, double fixed_step, const Parame
     int status = 0;
     run->discrete = discrete_before;
     for (int i = 0; i < N_USER_EVENTS && !failed; i++)
-        if (event_crosses(i, &run->discrete.event_sign[i], sign[i])
+        if (detect_event_crossing(i, &run->discrete.event_sign[i], sign[i])
             && record_user_event(run, i, run->t, run->y, p))
             status = ENDED;
     return status;
@@ -202,7 +202,7 @@ static int record_events_at_end(Integrator *run, double fixed_step, const Parame
  * length fixed_step (s) do not freeze branches, branches stay as they were; 0: another method. If branches change, the
  * right-hand side is evaluated again. Return a status.
  */
-static int start_just_after(Integrator *run, double fixed_step, const Parameters *p)
+static int initialize_event_signs(Integrator *run, double fixed_step, const Parameters *p)
 {
     signed char sign[N_USER_EVENTS];
     const DiscreteState discrete_before = run->discrete;
@@ -213,7 +213,7 @@ static int start_just_after(Integrator *run, double fixed_step, const Parameters
         run->discrete.event_sign[i] = sign[i] ? sign[i] : run->discrete.event_sign[i];
     if (status || !memcmp(discrete_before.branch, run->discrete.branch, sizeof discrete_before.branch))
         return status;
-    return rates(run, run->t, run->y, p, run->dy, &run->rhs);
+    return evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
 }
 #else
 /* Return 0: the scene has no user-defined events. */
@@ -223,7 +223,7 @@ static inline int record_events_at_end(Integrator *run, double fixed_step, const
 }
 
 /* Return 0: the scene has no user-defined events. */
-static inline int start_just_after(Integrator *run, double fixed_step, const Parameters *p)
+static inline int initialize_event_signs(Integrator *run, double fixed_step, const Parameters *p)
 {
     return (void)run, (void)fixed_step, (void)p, 0;
 }
@@ -261,7 +261,7 @@ static int has_new_constraint(const DiscreteState *discrete_before, const Discre
     for (int i = 0; i < N_FRICTIONS; i++)
         is_held |= discrete_after->mode[i] == 0.0 && discrete_before->mode[i] != 0.0;
     for (int i = 0; i < N_CLEARANCES; i++)
-        is_held |= !gives(i) && discrete_after->contact[i].closed && !discrete_before->contact[i].closed;
+        is_held |= !is_compliant(i) && discrete_after->contact[i].closed && !discrete_before->contact[i].closed;
     return is_held;
 }
 
@@ -283,16 +283,16 @@ static int record_arrivals_at_zero(Integrator *run, const StateBeforeEvent *stat
         return 0;
     DiscreteState discrete = run->discrete;
     estimate_uncertainty(run, run->t, state_before->y, p, error); /* before: slips that were just stopped count */
-    (void)evaluate_events_ahead(run, run->t, duration, run->y, run->dy, p, value_after);
+    (void)extrapolate_event_functions(run, run->t, duration, run->y, run->dy, p, value_after);
     run->discrete = state_before->discrete;
-    (void)evaluate_events_ahead(run, run->t, duration, state_before->y, state_before->dy, p, value_without);
+    (void)extrapolate_event_functions(run, run->t, duration, state_before->y, state_before->dy, p, value_without);
     run->discrete = discrete;
     for (int i = 0; i < N_USER_EVENTS; i++) {
         signed char *branch = &run->discrete.event_sign[i];
         const double uncertain = error[N_WATCHED - N_USER_EVENTS + i];
         const int sign_before = *branch, is_moving = fabs(value_after[i]) > uncertain + 0.01 * fabs(value_without[i]);
         if (sign_before == 0 && is_moving)
-            event_crosses(i, branch, value_after[i]);
+            detect_event_crossing(i, branch, value_after[i]);
         if (sign_before == 0 || is_moving || !is_held || !(fabs(run->rhs.event[i]) <= uncertain))
             continue;
         const int arrives = sign_before * state_before->event[i] > uncertain

@@ -55,7 +55,7 @@ void compute_velocity_residuals(double t, const double *q, const double *v, doub
  * at and just after t. q, v: coordinates and velocities of all bodies. Used where an audit or a start must not rely on
  * rates at t.
  */
-int drives_jump(double t, const double *q, const double *v, const Parameters *p)
+int has_drive_jump(double t, const double *q, const double *v, const Parameters *p)
 {
     const double interval = max_of(1e-9 * fabs(t), 1e-12);
     double nu[3][AT_LEAST_ONE(N_ALL_ROWS)], gamma[3][AT_LEAST_ONE(N_ALL_ROWS)];
@@ -105,7 +105,7 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
             y[N_Q + k] = v[k];
         }
         read_discrete_state(discrete, &now);
-        if (drives_jump(t[i], q, v, p) || evaluate_rates_at(t[i], y, &now, p, dy, &rhs))
+        if (has_drive_jump(t[i], q, v, p) || evaluate_rates_at(t[i], y, &now, p, dy, &rhs))
             continue;
         for (int k = 0; k < N_Q; k++) {
             const int angle = k % 3 == 2;

@@ -6,7 +6,7 @@
  * Compute the rates dy of the state y = (q, v, works) in absolute coordinates, and the outputs rhs, with the contact
  * forces stored in `discrete`. Return a status.
  */
-static int state_equation(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
+static int compute_absolute_rates(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
     double *dy,
     RhsOutputs *rhs)
 {
@@ -28,7 +28,7 @@ static int state_equation(double t, const double *y, const DiscreteState *discre
 static int evaluate_state_rates(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    return state_equation(t, y, discrete, p, dy, rhs);
+    return compute_absolute_rates(t, y, discrete, p, dy, rhs);
 }
 
 /*
@@ -45,7 +45,7 @@ static int evaluate_rates_at(
 static int evaluate_rates_at(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    return state_equation(t, y, discrete, p, dy, rhs);
+    return compute_absolute_rates(t, y, discrete, p, dy, rhs);
 }
 #endif
 

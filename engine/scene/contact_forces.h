@@ -48,7 +48,7 @@ static int list_closed_contacts(const DiscreteState *discrete, int *joints)
 {
     int n = 0;
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (!gives(i) && discrete->contact[i].closed)
+        if (!is_compliant(i) && discrete->contact[i].closed)
             joints[n++] = i;
     return n;
 }

@@ -75,15 +75,15 @@ void solve_driven_loops(double t, const double *guess, DiscreteState *discrete, 
 #if INTEGRATES
 /* The integrated state (motion/): its rates, conversions from and to the state of all bodies, steps to the closures. */
 int motion(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs);
-void to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p, double *all);
-void from_absolute(double t, const double *all, DiscreteState *discrete, const Parameters *p, double *y);
-int closing_of_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
+void convert_to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p, double *all);
+void convert_from_absolute(double t, const double *all, DiscreteState *discrete, const Parameters *p, double *y);
+int compute_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *worst);
 /* Rates and steps at the state itself, without continuation; NEAR: the motion is to be continued from both sides. */
-int motion_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs);
+int evaluate_rhs(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs);
 /* Contacts of joints with play at a state: gaps, their rates, forces of laws. */
 int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs);
-int closing_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
+int solve_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *worst);
 /*
  * Accept a state, with `rhs` of motion() there: update the maxima of |Phi| and |Phi_dot|; follow driven loops from it.
@@ -138,7 +138,7 @@ int compute_absolute_accelerations(double t, const double *all, const DiscreteSt
     double *a,
     double *force);
 /* Return whether the first or second rate of a drive jumps at time t. */
-int drives_jump(double t, const double *q, const double *v, const Parameters *p);
+int has_drive_jump(double t, const double *q, const double *v, const Parameters *p);
 /* Phi_q v - nu, and nu, of all constraint equations; Phi_q v is the difference of Phi over h (s) before and after. */
 void compute_velocity_residuals(double t, const double *q, const double *v, double h, const Parameters *p,
     double *missed,

@@ -50,7 +50,7 @@ static inline double rounded(double t, double h) { return 8.0 * DBL_EPSILON * fa
  * number of the step, from 0. The last step ends at t_end and may be shorter. Steps from a multiple of their length end
  * at multiples, so that a resumed run makes the same steps to the bit.
  */
-static inline double step_end(double t_begin, double t_end, double fixed_step, double index, double *length)
+static inline double compute_step_end(double t_begin, double t_end, double fixed_step, double index, double *length)
 {
     const double n_steps = max_of(ceil((t_end - t_begin) / fixed_step * (1.0 - 1e-12)), 1.0);
     const double last_length = t_end - t_begin - (n_steps - 1.0) * fixed_step, n_before = rint(t_begin / fixed_step);
@@ -135,7 +135,7 @@ static inline void turn_back(double *direction, double angle)
 }
 
 /* Return the weight of a node at 0 for Lagrange's interpolation through the nodes -n ... -1, 1 ... n. */
-static inline double weight_at(int n, int node)
+static inline double compute_lagrange_weight(int n, int node)
 {
     double weight = 1.0;
     for (int other = 1; other <= n; other++)

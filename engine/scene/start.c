@@ -213,7 +213,7 @@ SELDOM static int compute_start_velocities(StartWorkspace *workspace, double t, 
  * |Phi| reached, m or rad. Return 0, or 1 if the search in Python must decide: the start does not close, is far from
  * the guess, has no velocities, was cancelled, or guesses points. Called for each run of a batch.
  */
-int close_start(
+int compute_start(
     double t, const double *parameters, double size, double *q, double *v, double *residual, Cancellation *cancellation)
 {
     const Parameters *p = (const Parameters *)parameters;
@@ -240,13 +240,13 @@ int close_start(
 }
 
 /*
- * Compute the start q, v nearest to the guess as close_start() does, without cancellation. *residual: largest |Phi|
+ * Compute the start q, v nearest to the guess as compute_start() does, without cancellation. *residual: largest |Phi|
  * reached. Return 0, or 1 if Python must search.
  */
 int gudgeon_start(double t, const double *parameters, double size, double *q, double *v, double *residual)
 {
     Cancellation no_cancellation = {0};
-    return close_start(t, parameters, size, q, v, residual, &no_cancellation);
+    return compute_start(t, parameters, size, q, v, residual, &no_cancellation);
 }
 
 /*

@@ -2,7 +2,7 @@
 #ifndef GUDGEON_START_H
 #define GUDGEON_START_H
 
-int close_start(double t, const double *parameters, double size, double *q, double *v, double *residual,
+int compute_start(double t, const double *parameters, double size, double *q, double *v, double *residual,
     Cancellation *cancellation);
 
 #endif

@@ -46,9 +46,9 @@ typedef struct {
 
 /* Whether the surfaces of joint i with play are compliant. If rigid, velocities jump and a contact is a constraint. */
 #if N_RIGID
-#define gives(i) (!rigid_joint[i])
+#define is_compliant(i) (!rigid_joint[i])
 #else
-#define gives(i) ((void)(i), 1)
+#define is_compliant(i) ((void)(i), 1)
 #endif
 
 /* Whether the law of joint i with play has a film: its force acts without a contact. */

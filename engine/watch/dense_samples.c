@@ -8,7 +8,7 @@
 static void sample_dense_output(Integrator *run, double t, const double *y, const Parameters *p, RhsOutputs *rhs)
 {
     double dy[N_Y];
-    (void)rates(run, t, y, p, dy, rhs);
+    (void)evaluate_rhs(run, t, y, p, dy, rhs);
 }
 
 /*
@@ -20,10 +20,10 @@ static int may_have_zero(const Integrator *run, const Step *step, int event, dou
     const double start = event_function(&run->discrete, &run->rhs, event),
                  end = event_function(&run->discrete, &step->rhs, event);
     double smallest = min_of(start, end), largest = max_of(start, end); /* the end may lie outside of the domain */
-    const StageValues stages = stage_values(step, event);
+    const StageValues stages = get_stage_values(step, event);
     for (int i = 0; i < step->n_seen; i++) {
-        smallest = min_of(smallest, stage_value(stages, i));
-        largest = max_of(largest, stage_value(stages, i));
+        smallest = min_of(smallest, read_stage(stages, i));
+        largest = max_of(largest, read_stage(stages, i));
     }
     *range = largest - smallest;
     return smallest < *range;

@@ -20,14 +20,14 @@ static void flip_ignored_branches(Integrator *run, const Step *step)
 }
 
 /* Search every switching point again: end the suppression of a repeated one. */
-static void watch_every_switch(Integrator *run) { run->roots.skip = -1; }
+static void clear_suppressed_switch(Integrator *run) { run->roots.skip = -1; }
 
 /*
  * Mark in step->passed the switching points that the step may pass without an event, and return whether there is any.
  * They are those of contact laws whose branches meet, and a suppressed repeated one (suppress_repeated_switch), crossed
  * near the end of the step. The error of the frozen branch is at most the step times the difference of the rates at its
  * end. If it is below HARMLESS tolerances, the end of the step gets the rates of the new branch. Otherwise no point is
- * passed, and suppressed ones are searched again. Called by first_event() before zeros are searched.
+ * passed, and suppressed ones are searched again. Called by find_first_event() before zeros are searched.
  */
 static int ignore_harmless_switches(Integrator *run, Step *step, const Parameters *p)
 {
@@ -45,7 +45,7 @@ static int ignore_harmless_switches(Integrator *run, Step *step, const Parameter
     if (!has_passed)
         return 0;
     flip_ignored_branches(run, step);
-    const int status = rates(run, step->t + step->h, step->y, p, dy, &rhs);
+    const int status = evaluate_rhs(run, step->t + step->h, step->y, p, dy, &rhs);
     flip_ignored_branches(run, step); /* frozen until the step is accepted */
     for (int k = 0; k < 2 * N_X && !status; k++)
         largest_change = max_of(largest_change, fabs(step->h * (dy[k] - step->dy[k])) * run->norm.weight[k]);
@@ -62,7 +62,7 @@ static int ignore_harmless_switches(Integrator *run, Step *step, const Parameter
     }
     for (int k = 0; k < N_SWITCHES; k++)
         step->passed[k] = 0;
-    watch_every_switch(run); /* also the suppressed one: its error is too large */
+    clear_suppressed_switch(run); /* also the suppressed one: its error is too large */
     return 0;
 }
 
@@ -80,9 +80,9 @@ static int is_ignored(const Integrator *run, const Step *step, int event)
 /* Return the node, as a fraction of the step, of the stage at which an event function was lowest; 1: no stage. */
 static double find_stage_of_minimum(const Step *step, int event)
 {
-    const StageValues stages = stage_values(step, event);
+    const StageValues stages = get_stage_values(step, event);
     for (int i = 0; i < step->n_seen; i++)
-        if (stage_value(stages, i) == step->lowest[event])
+        if (read_stage(stages, i) == step->lowest[event])
             return step->node[i];
     return 1.0;
 }
@@ -93,10 +93,10 @@ static double find_stage_of_minimum(const Step *step, int event)
  */
 static double find_first_negative_stage(const Step *step, int event, double end_value)
 {
-    const StageValues stages = stage_values(step, event);
+    const StageValues stages = get_stage_values(step, event);
     double first = 1.0, last_positive = end_value >= 0.0 ? 1.0 : 0.0;
     for (int i = 0; i < step->n_seen; i++) {
-        const double f = stage_value(stages, i);
+        const double f = read_stage(stages, i);
         first = f < 0.0 ? min_of(first, step->node[i]) : first;
         last_positive = f >= 0.0 ? max_of(last_positive, step->node[i]) : last_positive;
     }
@@ -130,7 +130,7 @@ static double find_negative_fraction(Integrator *run, Step *step, int event, con
  * Return whether a watched event function is larger than its uncertainty at the state y at time t (s), with outputs
  * rhs. 1 for all other event functions. Also used by the audit.
  */
-static int is_resolved(Integrator *run, double t, const double *y, const RhsOutputs *rhs, int event,
+static int is_above_uncertainty(Integrator *run, double t, const double *y, const RhsOutputs *rhs, int event,
     const Parameters *p)
 {
     double error[AT_LEAST_ONE(N_WATCHED)] = {0.0};
@@ -148,8 +148,8 @@ static int is_resolved_at(Integrator *run, const Step *step, double fraction, in
 {
     double y[N_Y], dy[N_Y];
     RhsOutputs rhs;
-    return watched_as[event] < 0 || state_at(run, step, fraction, p, y, dy, &rhs)
-        || is_resolved(run, step->t + fraction * step->h, y, &rhs, event, p);
+    return watched_as[event] < 0 || evaluate_state_at(run, step, fraction, p, y, dy, &rhs)
+        || is_above_uncertainty(run, step->t + fraction * step->h, y, &rhs, event, p);
 }
 
 /*
@@ -174,7 +174,7 @@ static double find_earlier_event(Integrator *run, const Step *step, double first
         const Sample high = evaluate_bracket_point(run, step, first, earlier, p);
         const Bracket of = build_stage_bracket(step, earlier, get_bracket_begin(run, step, earlier), high);
         const double s = locate_event_in_step(run, step, earlier, of,
-            guess_zero(&of, count_interpolation_points(run, earlier)), p);
+            estimate_zero(&of, count_interpolation_points(run, earlier)), p);
         if (!(s < first))
             return first;
         first = s;
@@ -223,7 +223,7 @@ static int has_event_candidate(Integrator *run, Step *step, int event, const Par
     if (!is_gap)
         end = high < 1.0 ? evaluate_bracket_point(run, step, high, event, p) : get_bracket_end(run, step, event);
     candidate->of = build_stage_bracket(step, event, low, end);
-    candidate->guess = low.f >= 0.0 ? guess_zero(&candidate->of, count_interpolation_points(run, event)) : low.s;
+    candidate->guess = low.f >= 0.0 ? estimate_zero(&candidate->of, count_interpolation_points(run, event)) : low.s;
     candidate->about = low.f >= 0.0 ? clamp_to_bracket(candidate->guess, &candidate->of) : low.s;
     return 1;
 }
@@ -231,7 +231,7 @@ static int has_event_candidate(Integrator *run, Step *step, int event, const Par
 /*
  * Return the first fraction of the step at which an event function is negative, and its number *event; 1 and -1 if
  * there is none. Candidates are located in the order of their estimated zeros. Functions that are not sampled are
- * searched at that fraction as well (find_earlier_event()). Called by first_event() for each tried step.
+ * searched at that fraction as well (find_earlier_event()). Called by find_first_event() for each tried step.
  */
 static double find_first_crossing(Integrator *run, Step *step, const Parameters *p, int *event)
 {
@@ -316,9 +316,9 @@ static int evaluate_user_events_at(Integrator *run, const Step *step, double fra
     double y[N_Y], dy[N_Y];
     RhsOutputs rhs;
     if (fraction > 1.0)
-        return evaluate_events_ahead(run, step->t + step->h, (fraction - 1.0) * step->h, step->y, step->dy, p,
+        return extrapolate_event_functions(run, step->t + step->h, (fraction - 1.0) * step->h, step->y, step->dy, p,
             values);
-    const int status = state_at(run, step, fraction, p, y, dy, &rhs);
+    const int status = evaluate_state_at(run, step, fraction, p, y, dy, &rhs);
     if (!status)
         evaluate_resolved_events(run, step->t + fraction * step->h, y, &rhs, p, values);
     return status;
@@ -334,7 +334,7 @@ static int is_pole(Integrator *run, const Step *step, double fraction, int user_
 {
     double y[N_Y], dy[N_Y], value[N_USER_EVENTS], distance = compute_event_time_tolerance(run, step);
     RhsOutputs rhs;
-    if (state_at(run, step, fraction, p, y, dy, &rhs))
+    if (evaluate_state_at(run, step, fraction, p, y, dy, &rhs))
         return 0;
     for (int n = 0; n < FAR_PLACES && isfinite(rhs.event[user_event]); n++) {
         distance *= POLE_DISTANCE;
@@ -357,7 +357,7 @@ static inline int is_pole(Integrator *run, const Step *step, double fraction, in
  * is passed. Also store whether a user-defined event is a pole. Called for each accepted attempt, before the step is
  * shortened to the event.
  */
-static double first_event(Integrator *run, Step *step, const Parameters *p, int *event)
+static double find_first_event(Integrator *run, Step *step, const Parameters *p, int *event)
 {
     const int has_passed = ignore_harmless_switches(run, step, p);
     find_watched_zeros(run, step, p);
@@ -375,7 +375,7 @@ static double first_event(Integrator *run, Step *step, const Parameters *p, int 
 }
 
 /* Reset the root finding of a run: no switching point was crossed, none is suppressed. */
-static void start_roots(Integrator *run) { run->roots.crossed = run->roots.skip = -1; }
+static void initialize_root_finding(Integrator *run) { run->roots.crossed = run->roots.skip = -1; }
 
 /*
  * Set the resolution of event times, s, from the time that is left of the run, s. With steps of fixed length it is a

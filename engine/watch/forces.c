@@ -27,7 +27,7 @@ static int is_contact_force_function(const Integrator *run, int event)
 {
     const int friction = event - N_CLEARANCES - N_SWITCHES;
     if (event < N_CLEARANCES)
-        return !gives(event) && run->discrete.contact[event].closed;
+        return !is_compliant(event) && run->discrete.contact[event].closed;
     return friction >= 0 && friction < N_FRICTIONS && run->discrete.mode[friction] != MODE_HELD;
 }
 
@@ -43,7 +43,7 @@ static double compute_slip_tolerance(Integrator *run, int element, const Paramet
     for (int k = N_X; k < 2 * N_X; k++) {
         memcpy(y, run->y, sizeof y);
         y[k] += 1.0 / run->norm.weight[k];
-        if (!rates(run, run->t, y, p, dy, &rhs))
+        if (!evaluate_rhs(run, run->t, y, p, dy, &rhs))
             sum += fabs(rhs.friction[element].v - run->rhs.friction[element].v);
     }
     return isfinite(sum) ? sum : 0.0;
@@ -81,7 +81,7 @@ static int collect_stage_samples(const Step *step, Sample begin, Sample end, Sta
             continue;
         for (n++; samples[position - 1].s > step->node[i]; position--)
             samples[position] = samples[position - 1];
-        samples[position] = (Sample){step->node[i], stage_value(values, i), NAN};
+        samples[position] = (Sample){step->node[i], read_stage(values, i), NAN};
     }
     samples[n++] = end;
     return n;
@@ -166,7 +166,7 @@ static int is_clear_of_zero(const Integrator *run, Step *step, int event, double
     Sample samples[N_STAGES + 2];
     const int n =
         collect_stage_samples(step, get_bracket_begin(run, step, event), get_bracket_end(run, step, event),
-            stage_values(step, event), samples);
+            get_stage_values(step, event), samples);
     const int friction = event - N_CLEARANCES - N_SWITCHES;
     double smallest = INFINITY, largest = -INFINITY;
     for (int i = 0; i < n; i++) {

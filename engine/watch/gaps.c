@@ -51,7 +51,7 @@ static Sample evaluate_gap_function(
 static int collect_gap_samples(const Integrator *run, const Step *step, int joint, const Parameters *p,
     Sample *samples)
 {
-    const StageValues event_functions = stage_values(step, joint), rates = stage_values(step, STAGE_GAP_RATES + joint);
+    const StageValues event_functions = get_stage_values(step, joint), rates = get_stage_values(step, STAGE_GAP_RATES + joint);
     const double inverse_clearance = 1.0 / radial_clearance(p, joint), sign = run->discrete.contact[joint].closed ? 1.0
         : -1.0;
     const Clearance *clearance_begin = &run->rhs.clearance[joint], *clearance_end = &step->rhs.clearance[joint];
@@ -66,7 +66,7 @@ static int collect_gap_samples(const Integrator *run, const Step *step, int join
         for (n++; samples[position - 1].s > node; position--)
             samples[position] = samples[position - 1];
         samples[position] =
-            evaluate_gap_function(run, step, joint, node, sign * stage_value(event_functions, k), stage_value(rates, k),
+            evaluate_gap_function(run, step, joint, node, sign * read_stage(event_functions, k), read_stage(rates, k),
                 inverse_clearance);
     }
     samples[n++] = evaluate_gap_function(run, step, joint, 1.0, clearance_end->delta, clearance_end->deltadot,
@@ -80,7 +80,7 @@ static int collect_gap_samples(const Integrator *run, const Step *step, int join
  */
 static double compute_dense_output_error(const Integrator *run, int joint, const Parameters *p)
 {
-    return DENSE_ERROR * tolerance_of(run) * radial_clearance(p, joint);
+    return DENSE_ERROR * get_rtol(run) * radial_clearance(p, joint);
 }
 
 /*

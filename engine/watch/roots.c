@@ -20,7 +20,7 @@ static void interpolate(const Integrator *run, const Step *step, double fraction
  * Compute the projected state y, its rates dy and the outputs rhs at a fraction of the step. The last sample after a
  * zero is stored and returned without evaluation. Residual slips of sticking friction are removed. Return a status.
  */
-static int state_at(
+static int evaluate_state_at(
     Integrator *run, const Step *step, double fraction, const Parameters *p, double *y, double *dy, RhsOutputs *rhs)
 {
     if (fraction == run->roots.samples.beyond) {
@@ -44,7 +44,7 @@ static int evaluate_contacts_at(Integrator *run, double t, const double *y, cons
 {
 #if N_RIGID
     double dy[N_Y];
-    return rates(run, t, y, p, dy, rhs);
+    return evaluate_rhs(run, t, y, p, dy, rhs);
 #else
     count_evaluations(run, 1);
     if (is_cancelled(&run->cancellation))
@@ -68,7 +68,7 @@ static int evaluate_contacts_in_step(Integrator *run, const Step *step, double f
     }
 #if N_FRICTIONS
     double dy[N_Y];
-    return state_at(run, step, fraction, p, y, dy, rhs);
+    return evaluate_state_at(run, step, fraction, p, y, dy, rhs);
 #else
     interpolate(run, step, fraction, y);
     project_state(run, step->t + fraction * step->h, y, p);
@@ -82,7 +82,7 @@ static int evaluate_contacts_in_step(Integrator *run, const Step *step, double f
  */
 static double compute_event_function_slope(const Integrator *run, const Step *step, const RhsOutputs *rhs, int event)
 {
-    if (event >= N_CLEARANCES || (run->discrete.contact[event].closed && !gives(event)))
+    if (event >= N_CLEARANCES || (run->discrete.contact[event].closed && !is_compliant(event)))
         return NAN;
     return (run->discrete.contact[event].closed ? step->h : -step->h) * rhs->clearance[event].deltadot;
 }
@@ -134,7 +134,7 @@ static int get_dense_sample(Integrator *run, const Step *step, double fraction, 
     double y[N_Y], dy[N_Y];
     RhsOutputs rhs;
     int index = find_dense_sample(samples, fraction, 0);
-    if (index >= 0 || state_at(run, step, fraction, p, y, dy, &rhs))
+    if (index >= 0 || evaluate_state_at(run, step, fraction, p, y, dy, &rhs))
         return index;
     index = add_dense_sample(run, step, fraction, &rhs, 0);
     if (event >= 0 && samples->event_function[index][event] < 0.0) {
@@ -215,9 +215,9 @@ static Sample get_bracket_end(const Integrator *run, const Step *step, int event
 static Bracket build_stage_bracket(const Step *step, int event, Sample low, Sample high)
 {
     Sample nearest = {NAN, NAN, NAN}, second_nearest = nearest;
-    const StageValues stages = stage_values(step, event);
+    const StageValues stages = get_stage_values(step, event);
     for (int i = 0; i < step->n_seen; i++) {
-        const Sample sample = {step->node[i], stage_value(stages, i), NAN};
+        const Sample sample = {step->node[i], read_stage(stages, i), NAN};
         if (!(sample.s > low.s && sample.s < high.s && sample.f == sample.f))
             continue;
         if (!(fabs(sample.f) >= fabs(nearest.f)))
@@ -247,7 +247,7 @@ static int may_be_located_after_zero(const Integrator *run, int event)
     const int switch_index = event - N_CLEARANCES;
     if (run->control.fixed > 0.0 || watched_as[event] >= 0)
         return 0;
-    return switch_index < 0 ? gives(event) : switch_index < N_SWITCHES && meets[switch_index];
+    return switch_index < 0 ? is_compliant(event) : switch_index < N_SWITCHES && meets[switch_index];
 }
 
 /*
@@ -257,7 +257,7 @@ static int may_be_located_after_zero(const Integrator *run, int event)
  */
 static double compute_max_contact_overshoot(const Integrator *run, int joint)
 {
-    const double tolerance = tolerance_of(run);
+    const double tolerance = get_rtol(run);
     return run->discrete.contact[joint].closed ? min_of(MAX_END_OVERSHOOT, tolerance * sqrt(tolerance))
         : min_of(ONSET_TIME_TOLERANCE, tolerance * tolerance);
 }

@@ -108,7 +108,7 @@ static double find_undersampled_fraction(double t, double h, double begin, doubl
  * sure) decides the accuracy. Monotone terms show at both ends, so that 0 is returned at once. Called for steps of
  * integrators and of kinematic analyses.
  */
-static double undersampled_term(double t, double h, const double *node, int n, AccuracyTest *is_accurate,
+static double find_undersampled_term(double t, double h, const double *node, int n, AccuracyTest *is_accurate,
     void *context,
     const Parameters *p)
 {

@@ -11,7 +11,7 @@ typedef struct {
 
 /*
  * Return whether the right-hand side at a fraction of the step equals the rate of the dense output, within
- * HARMLESS_DEFECT tolerances over the step. Callback of undersampled_term(); context: a StepDefect; is_certain is
+ * HARMLESS_DEFECT tolerances over the step. Callback of find_undersampled_term(); context: a StepDefect; is_certain is
  * not used. Return 0 if an evaluation fails, or if friction or a rigid contact may change its mode there.
  */
 static int has_small_defect(void *context, double fraction, int is_certain)
@@ -28,7 +28,7 @@ static int has_small_defect(void *context, double fraction, int is_certain)
     interpolate(run, step, fraction - offset, before);
     interpolate(run, step, fraction, y);
     interpolate(run, step, fraction + offset, after);
-    if (rates(run, step->t + fraction * step->h, y, defect->p, dy, &rhs))
+    if (evaluate_rhs(run, step->t + fraction * step->h, y, defect->p, dy, &rhs))
         return 0;
     /* friction or a rigid contact may change its mode before a motion begins */
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
@@ -44,15 +44,15 @@ static int has_small_defect(void *context, double fraction, int is_certain)
  * Return the fraction at which a tried step misses a transient of a term of time alone, between the nodes of its error
  * estimate; 0: nowhere. Called for each tried step; a step that misses one is repeated shorter.
  */
-static double missed_transient(Integrator *run, Step *step, const Parameters *p)
+static double find_missed_transient(Integrator *run, Step *step, const Parameters *p)
 {
     StepDefect defect = {run, step, p};
-    return undersampled_term(
+    return find_undersampled_term(
         step->t, step->h, step->method->error_nodes, step->method->n_error_nodes, has_small_defect, &defect, p);
 }
 #else
 /* Return 0: the scene has no terms of time alone that may act between the stages. */
-static double missed_transient(const Integrator *run, const Step *step, const Parameters *p)
+static double find_missed_transient(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;
     return 0.0;

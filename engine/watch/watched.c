@@ -198,7 +198,7 @@ typedef struct {
 } WatchedStep;
 
 /*
- * Classify a watched function over a part of length `width` up to the fraction `end`, as zero_verdict() does: 1 a
+ * Classify a watched function over a part of length `width` up to the fraction `end`, as classify_zero() does: 1 a
  * zero, 0 none, -1 to be halved. index: of the function; bounds: over the part; *value_end: its value at the end, set
  * to 0 if it is below its uncertainty. A function that is held at zero has none. Parts over which a user-defined event
  * may be undefined are halved until its NaN is recorded. is_small: the part is not halved further.
@@ -207,12 +207,12 @@ static int classify_event_function(WatchedStep *search, int index, Range bounds,
     double *value_end)
 {
     const int event = watched[index] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
-    int result = zero_verdict(bounds, search->at_a[index], *value_end, width, is_small);
+    int result = classify_zero(bounds, search->at_a[index], *value_end, width, is_small);
     if (width == 1.0)
         search->uncertain.whole_lower[index] = bounds.lo;
     if (result > 0 && is_below_uncertainty(search->run, search->step, end, index, *value_end, search->p)) {
         *value_end = 0.0;
-        result = zero_verdict(bounds, search->at_a[index], 0.0, width, is_small);
+        result = classify_zero(bounds, search->at_a[index], 0.0, width, is_small);
     }
     if (result < 0) {
         estimate_uncertainties(search->run, search->step, &search->uncertain, search->p);
@@ -222,7 +222,7 @@ static int classify_event_function(WatchedStep *search, int index, Range bounds,
 }
 
 /*
- * Classify the part [begin, end] of a step, as the callback of halve_parts(): 1 if a watched function has its first
+ * Classify the part [begin, end] of a step, as the callback of bisect_parts(): 1 if a watched function has its first
  * zero in it, 0 if none has, -1 if the part is to be halved. A zero stores its bracket in the step. User-defined events
  * that are NaN at the end of the part are recorded. context: a WatchedStep; is_small: the part is not halved further.
  */
@@ -290,7 +290,7 @@ static int is_clear_by_stages(Integrator *run, const Step *step, EventUncertaint
 /*
  * Find the first zero of the watched functions along a tried step. step->from and step->to of each function enclose it;
  * 0: none. If bounds by the stages exclude zeros, or without dense output, nothing is searched. Called by
- * first_event().
+ * find_first_event().
  */
 static void find_watched_zeros(Integrator *run, Step *step, const Parameters *p)
 {
@@ -304,7 +304,7 @@ static void find_watched_zeros(Integrator *run, Step *step, const Parameters *p)
     expand_dense_output(run, step, &search.powers);
 #endif
     evaluate_event_functions_at(run, step, 0.0, p, search.at_a);
-    (void)halve_parts(0.0, 1.0, 4.0 * compute_event_time_tolerance(run, step), classify_event_functions, &search);
+    (void)bisect_parts(0.0, 1.0, 4.0 * compute_event_time_tolerance(run, step), classify_event_functions, &search);
 }
 
 /* Return 0: bounds of the watched functions resolve every step. */

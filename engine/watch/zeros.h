@@ -11,13 +11,13 @@
  * All memory belongs to the caller. A status is 0, or the value with which a function of the caller ended the search.
  *
  *   locate_zero    narrows a bracket until it is at most `width` wide.
- *   halve_parts     halves an interval until bounds decide, its first part first: finds zeros of odd order, and pairs
+ *   bisect_parts     halves an interval until bounds decide, its first part first: finds zeros of odd order, and pairs
  *                  of them (grazes) however near; a zero of even order changes no sign and is not an event.
- *   zero_verdict   decides by bounds and two values: a zero, none, or to be halved.
+ *   classify_zero   decides by bounds and two values: a zero, none, or to be halved.
  *   is_near_pole   distinguishes poles, at which a sign changes as well, from zeros.
  *
  * Guarantees: a bracket with f >= 0 at its lower end and f < 0 at its upper end remains one, whatever f does between.
- * From the FAST_EVALUATIONS-th one on, three evaluations at least halve it. halve_parts misses no zero of a function
+ * From the FAST_EVALUATIONS-th one on, three evaluations at least halve it. bisect_parts misses no zero of a function
  * whose bounds hold, if parts are wider than `width` and no more than MAX_PARTS_SEEN are needed.
  */
 #ifndef GUDGEON_ZEROS_H
@@ -114,7 +114,7 @@ static inline double find_hermite_zero(Sample low, Sample high, Sample third)
  * Return the estimated location of the zero of a bracket: by a Hermite polynomial if both slopes are known, else by
  * inverse interpolation through at most n_points of its samples. It may lie outside of the bracket.
  */
-static inline double guess_zero(const Bracket *bracket, int n_points)
+static inline double estimate_zero(const Bracket *bracket, int n_points)
 {
     const Sample low = bracket->at[0], high = bracket->at[1];
     if (isfinite(low.f + low.slope + high.f + high.slope))
@@ -157,7 +157,7 @@ static inline int locate_zero(EvaluateEventFunction *evaluate, void *context, co
     double width = INFINITY, width_before = INFINITY;
     for (int i = 0;; i++) {
         const double low = bracket->at[0].s, high = bracket->at[1].s;
-        double s = i ? guess_zero(bracket, n_points) : guess;
+        double s = i ? estimate_zero(bracket, n_points) : guess;
         const double distance = compute_distance_beyond(bracket, tolerance, s),
             min_distance = max_of(distance, tolerance->width);
         if (!(high - low > min_distance))
@@ -195,7 +195,7 @@ static inline int locate_zero(EvaluateEventFunction *evaluate, void *context, co
  * is_small) returns 1, 0 or -1 (ClassifyPart). Parts of at most `width`, beyond DEEPEST halvings or MAX_PARTS_SEEN
  * parts are small: they are not halved. Return 1 if a part ends the search, else 0.
  */
-static inline int halve_parts(double begin, double end, double width, ClassifyPart *classify, void *context)
+static inline int bisect_parts(double begin, double end, double width, ClassifyPart *classify, void *context)
 {
     double ends[DEEPEST + 2] = {end};
     for (int n_ends = 1, n_parts = 0; n_ends > 0;) {
@@ -219,7 +219,7 @@ static inline int halve_parts(double begin, double end, double width, ClassifyPa
  * not before, 0 if it is negative nowhere, -1 if that is not known (never if is_small). Bounds contain rounding errors:
  * the sign computed at the end has priority.
  */
-static inline int zero_verdict(Range bounds, double value_begin, double value_end, double width, int is_small)
+static inline int classify_zero(Range bounds, double value_begin, double value_end, double width, int is_small)
 {
     if (is_empty(bounds) || (bounds.lo >= 0.0 && !(value_end < 0.0)))
         return 0;
@@ -253,7 +253,7 @@ static inline int is_near_pole(double here, double further) { return isinf(here)
  * *sign: the last sign of the function (1 or -1; 0: none yet), updated. A value of zero keeps the sign; a first sign is
  * no event.
  */
-static inline int event_crosses(int event, signed char *sign, double value)
+static inline int detect_event_crossing(int event, signed char *sign, double value)
 {
     const int sign_before = *sign, sign_now = (value > 0.0) - (value < 0.0);
     if (sign_now)
@@ -267,7 +267,7 @@ static inline int event_crosses(int event, signed char *sign, double value)
  * function: uncertainty (N_WATCHED), half widths of its bounds. 0 where the bounds include a pole. The time has an
  * error of 4 ulp.
  */
-static inline void error_by_bounds(double t, const double *q, const double *v, const double *q_error,
+static inline void estimate_error_by_bounds(double t, const double *q, const double *v, const double *q_error,
     const double *v_error, int n_coordinates, const DiscreteState *discrete, const Parameters *p, double *uncertainty)
 {
     Range q_bounds[N_Q + N_X], v_bounds[N_Q + N_X], bounds[N_WATCHED];

@@ -147,7 +147,7 @@ def library(source: KernelSource, folder: Path, name: str) -> CompiledModel:
         chained = bool(source.chain)
         state = "at.q, at.v" if chained else "s, rate"
         seat = (
-            "TreeState at;\n    if (close_tree_state(t, s, rate, &now, p, &at))\n        return 1;" if chained else ""
+            "TreeState at;\n    if (solve_tree_state(t, s, rate, &now, p, &at))\n        return 1;" if chained else ""
         )
         rescue = "reduce_accelerations(t, q, v, all_a, p, rescued);"
         has_rescue = "gudgeon_reduced_rescue" in message

@@ -68,7 +68,7 @@ def value_of(field: Field) -> str:
 
 def contact(law: Law) -> str:
     """Return a contact in which the law has what its role needs beside it."""
-    numbers = "".join(f", {own.name}: {value_of(own)}" for own in law.parameters if own.required)
+    numbers = "".join(f", {own.name}: {get_output(own)}" for own in law.parameters if own.required)
     own = f"{law.role}: {{law: {law.name}{numbers}}}"
     return {
         "normal": own,

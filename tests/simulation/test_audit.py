@@ -220,7 +220,7 @@ def test_taylor_whose_steps_are_endless(rtol: float, tmp_path: Path) -> None:
             "return real_exp2(-real_max(real_log2(most) / n, real_log2(most_before) / (n - 1)));",
             "(void)most, (void)most_before, (void)n;\n    return real_of(0.9);",
         ),
-        ("engine/both/taylor.h", "status ? real_of(INFINITY) : taylor_defect(run, step, rate)", "real_of(0.0)"),
+        ("engine/both/taylor.h", "status ? real_of(INFINITY) : taylor_compute_defect(run, step, rate)", "real_of(0.0)"),
     )
     found = reported(wrong, 10.0, method="taylor", rtol=rtol)
     assert any(x in found for x in ("check defect", "check rate", "check step", "no step is small enough")), found

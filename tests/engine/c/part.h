@@ -9,18 +9,18 @@
 #pragma weak compute_absolute_accelerations
 #pragma weak accept_state
 #pragma weak constraints
-#pragma weak drives_jump
-#pragma weak from_absolute
+#pragma weak has_drive_jump
+#pragma weak convert_from_absolute
 #pragma weak jacobian
 #pragma weak linearize_state
 #pragma weak mass_matrix
-#pragma weak motion_here
+#pragma weak evaluate_rhs
 #pragma weak newton_factor
 #pragma weak newton_solve
 #pragma weak read_discrete_state
 #pragma weak same_start
 #pragma weak start_values
-#pragma weak to_absolute
+#pragma weak convert_to_absolute
 #pragma weak compute_velocity_residuals
 #pragma weak velocity_rhs
 

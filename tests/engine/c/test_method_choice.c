@@ -21,10 +21,10 @@ int main(void)
     const int explicit = gudgeon_method("dop853"), stiff = gudgeon_method("rodas5p");
     const double beyond = 2.0 * METHODS[explicit]->bounded, below = 0.5 * MAX_EXPLICIT_STABILITY;
 
-    start_choice(&run, explicit, 0);
+    set_method_choice(&run, explicit, 0);
     CHECK(steps_to_change(beyond, 1000) == 0); /* it may not change */
 
-    start_choice(&run, explicit, stiff);
+    set_method_choice(&run, explicit, stiff);
     CHECK(steps_to_change(below, 1000) == 0);
     CHECK(steps_to_change(beyond, 1000) == MAX_AGAINST);
     CHECK(run.choice.method == METHODS[stiff]);

@@ -27,7 +27,7 @@ int main(void)
     /* three looks in a row, each after MONITOR_STEPS, at a pace that leaves more steps than can ever be made */
     CHECK(steps_to_stall(1e-9, 1e3, 1000000) == 3 * MONITOR_STEPS + 1);
     CHECK(steps_to_stall(1e-6, 1.0, 1000000) == 0);
-    CHECK(steps_before_check(&run.progress.monitor) < MONITOR_STEPS);
+    CHECK(count_steps_before_check(&run.progress.monitor) < MONITOR_STEPS);
 
     /* an event at the beginning of each step */
     run = (Integrator){.t = 0.0};

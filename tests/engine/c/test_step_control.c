@@ -7,11 +7,11 @@ static Step step;
 /* An accepted step of length 1 with this error after one with the error `before`: the ratio of the next length. */
 static double growth(double error, double before)
 {
-    start_control(&run, 0.0);
+    start_step_control(&run, 0.0);
     run.control.error_before = before;
     step.h = run.control.h = 1.0;
     step.error = error;
-    next_length(&run, &step, 0, 1);
+    choose_next_length(&run, &step, 0, 1);
     return run.control.h;
 }
 
@@ -20,13 +20,13 @@ static double shrinks_to(double h, double error)
 {
     run.control.attempt.h = h;
     step.error = error;
-    return shrink_factor(&run, &step);
+    return compute_shrink_factor(&run, &step);
 }
 
 int main(void)
 {
-    start_choice(&run, gudgeon_method("dop853"), 0);
-    start_roots(&run);
+    set_method_choice(&run, gudgeon_method("dop853"), 0);
+    initialize_root_finding(&run);
     step.method = run.choice.method;
     const double power = step.method->power;
 
@@ -46,11 +46,11 @@ int main(void)
 
     /* where errors are h^(1/power), lengths converge to the fixed point of the formula: 0.9 e^(-0.6 power) = 1 */
     double h = 0.1;
-    start_control(&run, 0.0);
+    start_step_control(&run, 0.0);
     for (int k = 0; k < 100; k++) {
         step.h = run.control.h = h;
         step.error = pow(h, 1.0 / power);
-        next_length(&run, &step, 0, 1);
+        choose_next_length(&run, &step, 0, 1);
         h = run.control.h;
     }
     CHECK(CLOSE(pow(h, 1.0 / power), pow(0.9, 1.0 / (0.6 * power)), 1e-2));
@@ -65,7 +65,7 @@ int main(void)
     CHECK(shrinks_to(1.0, 0.9) == MAX_SHRINK);
 
     /* fixed lengths: the last step ends where the run does */
-    start_control(&run, 0.3);
+    start_step_control(&run, 0.3);
     CHECK(!(1e300 > run.control.accept));
     run.t = 0.0;
     open_attempt(&run, 1.0, &(Parameters){.radius = 1.0});
@@ -81,16 +81,16 @@ int main(void)
 
     /* the length that fits after an event is kept in its place, and begins the next such step */
     double *known = &run.control.after_contact[1][0];
-    start_control(&run, 0.0);
-    set_length(&run, 1.0);
-    set_first_length(&run, known, 0.0);
+    start_step_control(&run, 0.0);
+    set_next_step_length(&run, 1.0);
+    set_first_step(&run, known, 0.0);
     CHECK(run.control.h == 1.0);
     step.h = 0.1;
     step.error = 1.0;
-    next_length(&run, &step, 0, 1);
+    choose_next_length(&run, &step, 0, 1);
     CHECK(CLOSE(*known, 0.09, 1e-4));
-    set_length(&run, 1.0);
-    set_first_length(&run, known, 0.0);
+    set_next_step_length(&run, 1.0);
+    set_first_step(&run, known, 0.0);
     CHECK(run.control.h == *known);
     return failures;
 }

@@ -24,7 +24,7 @@ static int evaluate(void *context, double s, Sample *now)
 static Bracket located(Evaluated *of, double from, double to, ZeroTolerance near, int places)
 {
     Bracket zero = {{{from, of->f(from), NAN}, {to, of->f(to), NAN}}, 2};
-    CHECK(locate_zero(evaluate, of, &near, places, guess_zero(&zero, 2), &zero) == 0);
+    CHECK(locate_zero(evaluate, of, &near, places, estimate_zero(&zero, 2), &zero) == 0);
     CHECK(zero.at[0].f >= 0.0 && zero.at[1].f < 0.0);
     return zero;
 }
@@ -75,7 +75,7 @@ static int judge(void *context, double a, double b, int small)
     Parabola *of = context;
     const Range s = {a - of->middle, b - of->middle, 1.0, 1.0, 0};
     const Range f = range_add(range_times(s, s), only(-of->depth));
-    const int found = zero_verdict(f, s.lo * s.lo - of->depth, s.hi * s.hi - of->depth, b - a, small);
+    const int found = classify_zero(f, s.lo * s.lo - of->depth, s.hi * s.hi - of->depth, b - a, small);
     of->parts++;
     of->a = found > 0 ? a : of->a;
     of->b = found > 0 ? b : of->b;
@@ -86,15 +86,15 @@ static void check_grazes(void)
 {
     for (double depth = 0.04; depth > 1e-18; depth *= 0.1) {
         Parabola of = {.middle = 0.3, .depth = depth};
-        CHECK(halve_parts(0.0, 1.0, 1e-12, judge, &of) == 1); /* two zeros, 2 sqrt(depth) apart: the first of them */
+        CHECK(bisect_parts(0.0, 1.0, 1e-12, judge, &of) == 1); /* two zeros, 2 sqrt(depth) apart: the first of them */
         CHECK(of.a <= 0.3 - sqrt(depth) + 1e-12 && of.b >= 0.3 - sqrt(depth) - 1e-12 && of.a < 0.3);
         CHECK(of.b < 0.3 + sqrt(depth) + 1e-12);
         of = (Parabola){.middle = 0.3, .depth = -depth};
-        CHECK(halve_parts(0.0, 1.0, 1e-12, judge, &of) == 0);
+        CHECK(bisect_parts(0.0, 1.0, 1e-12, judge, &of) == 0);
         CHECK(of.parts < 200);
     }
     Parabola touched = {.middle = 0.3};
-    CHECK(halve_parts(0.0, 1.0, 1e-12, judge, &touched) == 0); /* it comes to zero and is not below it */
+    CHECK(bisect_parts(0.0, 1.0, 1e-12, judge, &touched) == 0); /* it comes to zero and is not below it */
 }
 
 int main(void)
