@@ -35,7 +35,7 @@
 #include "methods/audit_error.c"
 #include "methods/audit_step.c"
 #include "methods/adaptive.c"
-#include "batch/many.c"
+#include "batch/ensemble.c"
 #else
 #include "kinematic/kinematic.c"
 #include "kinematic/works.c"

@@ -59,11 +59,11 @@ SCENES = (
     ("slider_crank", "dry", 0.02),
 )
 ENGINE_FILES = (
-    "both/dop853.h",
-    "both/motion.h",
-    "both/project.h",
-    "both/error_weights.h",
-    "both/rodas5p.h",
+    "scalar_simd/dop853.h",
+    "scalar_simd/motion.h",
+    "scalar_simd/project.h",
+    "scalar_simd/error_weights.h",
+    "scalar_simd/rodas5p.h",
     "motion/tree.c",
     "methods/step.c",
     "methods/adaptive.c",

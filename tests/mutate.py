@@ -105,7 +105,7 @@ GROUPS = {
         ),
     ),
     "methods": (
-        ("engine/both/dop853.h", "engine/both/rodas5p.h", "engine/both/radau.h", "engine/methods/rodas5p.c"),
+        ("engine/scalar_simd/dop853.h", "engine/scalar_simd/rodas5p.h", "engine/scalar_simd/radau.h", "engine/methods/rodas5p.c"),
         _tests("integrators", "tables", "radau", "methods"),
     ),
     "starts": (

@@ -27,7 +27,7 @@ static inline int compute_lane_accelerations(Lanes t, const Lanes *q, const Lane
 #define REDUCED_DYNAMICS compute_lane_accelerations
 #define CLOSURES(t, q, discrete, p, phi) closures(t, q, p, phi, &(discrete)->rare)
 #define CLOSURE_RATES(t, q, v, discrete, p, phi_dot) closure_rates(t, q, v, p, phi_dot, &(discrete)->rare)
-#include "../both/motion.h"
+#include "../scalar_simd/motion.h"
 
 /* Return the mask of the lanes in which the sum of n components of a (plus those of b, unless NULL) is not finite. */
 static LaneBits find_nonfinite_lanes(const Lanes *a, const Lanes *b, int n)
@@ -38,7 +38,7 @@ static LaneBits find_nonfinite_lanes(const Lanes *a, const Lanes *b, int n)
     return ~(lanes_fabs(sum) <= DBL_MAX);
 }
 
-#include "../both/states.h"
+#include "../scalar_simd/inner_states.h"
 
 /*
  * Compute the rates dy of the integrated state y and the outputs rhs of all lanes. Return 0. Lanes in which that fails
@@ -65,4 +65,4 @@ static LaneBits find_closure_correction(LaneIntegrator *run, LaneBits is_active,
     return is_active;
 }
 
-#include "../both/project.h"
+#include "../scalar_simd/project.h"

@@ -2,7 +2,7 @@
 #define SeriesRow Lanes
 #define SeriesWide Lanes
 #define SeriesPart Lanes
-#include "../both/series.h"
+#include "../scalar_simd/series.h"
 
 /* Remove the lanes whose error, known only at the end of the step, is too large from the mask of accepting lanes. */
 static void reject_step_by_defect(const LaneIntegrator *run, LaneStep *step)
@@ -13,7 +13,7 @@ static void reject_step_by_defect(const LaneIntegrator *run, LaneStep *step)
 /* Do nothing: lanes do not count the repeated evaluation at the end of a step. */
 static void uncount_end_evaluation(const LaneIntegrator *run) { (void)run; }
 
-#include "../both/taylor.h"
+#include "../scalar_simd/taylor.h"
 
 /*
  * Try a step of length h (s) by Taylor series in all lanes. Return 0 or a status. Lanes at singular positions or with

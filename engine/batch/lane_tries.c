@@ -3,7 +3,7 @@
  * not finite, its own run repeats the step (methods/). All consequences of a step belong to its run.
  */
 #include "lane_motion.c"
-#include "../both/distance.h"
+#include "../scalar_simd/distance.h"
 
 /* Discard what is stored of the stages of the previous step in all lanes: values, extrema, range of the state. */
 static void discard_stages(LaneStep *step)
@@ -131,9 +131,9 @@ static int factor_newton_matrix(LaneIntegrator *run, Lanes hg, const LaneParamet
     return 0;
 }
 
-#include "../both/dop853.h"
-#include "../both/runge_kutta.h"
-#include "../both/rodas5p.h"
+#include "../scalar_simd/dop853.h"
+#include "../scalar_simd/runge_kutta.h"
+#include "../scalar_simd/rodas5p.h"
 
 #if IMPLICIT_STAGES
 /*
@@ -209,7 +209,7 @@ static int mark_failed_stages(LaneIntegrator *run, LaneBits has_failed)
     return 0;
 }
 
-#include "../both/radau.h"
+#include "../scalar_simd/radau.h"
 #endif
 
 /* Try a step of length h (s) by `method` (BY_...) in all lanes. Return 0 or a status. */

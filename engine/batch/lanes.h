@@ -87,7 +87,7 @@ static inline void put_together(Lanes *g, const Lanes *film_switches, int first,
         g[k] = pick(is_touching_mask, pick(is_mixed & (g[k] != g[k]), film_switches[k], g[k]), film_switches[k]);
 }
 
-/* Types and operations that the text of both/ uses for lanes. */
+/* Types and operations that the text of scalar_simd/ uses for lanes. */
 #define Real Lanes
 #define Mask LaneBits
 #define IntegratorOf LaneIntegrator

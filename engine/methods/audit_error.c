@@ -24,7 +24,7 @@ static int is_branch_consistent(const Integrator *run, const RhsOutputs *rhs)
 
 /*
  * Return the error weight, 1/tolerance, of component k (0 ... 2 N_X - 1: coordinates, then velocities) of the state. It
- * is computed independently of both/error_weights.h, as a check.
+ * is computed independently of scalar_simd/error_weights.h, as a check.
  */
 static double compute_audit_weight(const Integrator *run, int k)
 {

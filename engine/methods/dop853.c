@@ -3,7 +3,7 @@
  * E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I (1993), section II.5.
  */
 
-#include "../both/dop853.h"
+#include "../scalar_simd/dop853.h"
 
 /* Fractions of a step, ascending, at which the error estimate evaluates the equations. */
 static const double dop853_error_nodes[] = {0.0, 0.25, 0.3076923076923077, 0.3333333333333333, 0.6, 0.6512820512820513,

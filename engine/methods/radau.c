@@ -1,4 +1,4 @@
-/* Radau IIA of orders 5 and 9: dense output and method tables, and the functions of one run that both/radau.h needs. */
+/* Radau IIA of orders 5 and 9: dense output and method tables, and the functions of one run that scalar_simd/radau.h needs. */
 
 /*
  * Factorize Newton's matrix at the complex number eta + i eta_i (s), from the linearization of the run, into `matrix`.
@@ -45,7 +45,7 @@ static void record_iterated_stage(Integrator *run, Step *step, int is_active, co
 /* Return NOT_FOUND, which rejects the step, if the iteration of its stages failed (`has_failed`); else 0. */
 static int mark_failed_stages(Integrator *run, int has_failed) { return (void)run, has_failed ? NOT_FOUND : 0; }
 
-#include "../both/radau.h"
+#include "../scalar_simd/radau.h"
 
 /*
  * Compute the dense output of a Radau step: the collocation polynomial through its stages. Return 0. Without films,

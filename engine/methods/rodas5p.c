@@ -26,7 +26,7 @@ static int factor_newton_matrix(Integrator *run, double hg, const Parameters *p)
 /* Discard the stored linearization of a run, because its state changes. */
 static void discard_linearization(Integrator *run) { run->newton.ready = 0; }
 
-#include "../both/rodas5p.h"
+#include "../scalar_simd/rodas5p.h"
 
 /* Fractions of a step, ascending, at which the method evaluates the equations. */
 static const double rodas5p_error_nodes[] = {0.0, 0.4095798393397535, 0.4288403609558664, 0.6358126895828704,

@@ -2,7 +2,7 @@
  * Explicit Runge-Kutta methods that are defined by their coefficients: a new method is a Tableau, its source, and a
  * line of METHODS. The last stage is at the end of the step, where rates are evaluated once more after all stages.
  */
-#include "../both/runge_kutta.h"
+#include "../scalar_simd/runge_kutta.h"
 
 /* Try a step of length h (s) by the tableau of the step's method: stages, error and end. Return 0 or the status. */
 static int tableau_try_step(Integrator *run, double h, const Parameters *p, Step *step)

@@ -110,7 +110,7 @@ static void extend_stage_range(Step *step, const double *y)
     }
 }
 
-#include "../both/error_weights.h"
+#include "../scalar_simd/error_weights.h"
 
 /*
  * Compute the corrections dq, dv (N_X) that close the constraints at state y, and their largest residual *residual.
@@ -124,8 +124,8 @@ static int find_closure_correction(Integrator *run, int is_active, double t, con
         && all_finite(dv, N_X);
 }
 
-#include "../both/project.h"
-#include "../both/distance.h"
+#include "../scalar_simd/project.h"
+#include "../scalar_simd/distance.h"
 #include "singular_policy.c"
 
 /*

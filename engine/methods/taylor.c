@@ -30,7 +30,7 @@ static void reject_step_by_defect(const Integrator *run, const Step *step) { (vo
 /* Subtract one evaluation: the second evaluation at the end of a repeated series step does not count, as in lanes. */
 static void uncount_end_evaluation(Integrator *run) { count_evaluations(run, -1); }
 
-#include "../both/taylor.h"
+#include "../scalar_simd/taylor.h"
 
 /*
  * Compute the series at the state of the run and its longest step, unless they are stored already. All steps tried from

@@ -2,11 +2,11 @@
  * Coefficients of the Taylor series of a motion. Order 0 and its accelerations are the scene's derived functions
  * (taylor.c), higher orders follow one after the other.
  */
-#include "../both/one.h"
+#include "../scalar_simd/scalar.h"
 
 #define SeriesWide Wide
 typedef double SeriesRow __attribute__((vector_size(REGISTER)));
-#include "../both/series.h"
+#include "../scalar_simd/series.h"
 
 /*
  * Compute the coefficients c[k], k = 0 ... order, of the Taylor series of the integrated state at time t, where it is

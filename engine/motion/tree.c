@@ -1,12 +1,12 @@
 /* The integrated state of a tree of bodies: tree coordinates, their rates, works. */
-#include "../both/one.h"
+#include "../scalar_simd/scalar.h"
 
 #define FUNCTION_LINKAGE
 #define MOTION evaluate_rhs
 #define REDUCED_DYNAMICS reduced_dynamics
 #define CLOSURES(t, q, discrete, p, phi) closures(t, q, p, phi)
 #define CLOSURE_RATES(t, q, v, discrete, p, phi_dot) closure_rates(t, q, v, p, phi_dot)
-#include "../both/motion.h"
+#include "../scalar_simd/motion.h"
 
 /*
  * Evaluate the contacts of joints with play at state y into `rhs`, without solving for accelerations. Return 0 or a

@@ -1,9 +1,9 @@
 /* Begin of a run, its right-hand side, and what is recorded at accepted states: peaks, residuals, samples. */
 #include "run.h"
 #include "../watch/zeros.h"
-#include "../both/one.h"
+#include "../scalar_simd/scalar.h"
 
-#include "../both/states.h"
+#include "../scalar_simd/inner_states.h"
 
 /*
  * Evaluate the right-hand side at (t, y) with the inner states of contact laws, for the rigid contact forces stored in

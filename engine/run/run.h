@@ -201,7 +201,7 @@ typedef struct {
 
 /*
  * Progress of time: the monitor, and the number of steps that each event function ended since the last check.
- * Written by: run/step_log.h, run/cancellation.c. Copied by: batch/lane_quiet.c.
+ * Written by: run/step_log.h, run/cancellation.c. Copied by: batch/lane_local_steps.c.
  */
 typedef struct {
     ProgressMonitor monitor;
@@ -211,7 +211,7 @@ typedef struct {
 
 /*
  * Choice of the method of the next step: `auto` changes to the stiff method and back.
- * Written by: methods/step_length.c, both/distance.h. Copied by: batch/lane_exchange.c, batch/lane_quiet.c.
+ * Written by: methods/step_length.c, scalar_simd/distance.h. Copied by: batch/lane_exchange.c, batch/lane_local_steps.c.
  */
 typedef struct {
     const Method *method, *implicit; /* method of the next step; the stiff method of `auto` */
@@ -223,7 +223,7 @@ typedef struct {
 /*
  * Control of the step length.
  * Written by: methods/step.c, methods/step_length.c, methods/first_step.c.
- * Copied by: batch/lane_exchange.c, batch/lane_quiet.c.
+ * Copied by: batch/lane_exchange.c, batch/lane_local_steps.c.
  */
 typedef struct {
     Attempt attempt;
@@ -243,8 +243,8 @@ typedef struct {
 
 /*
  * The norm of errors: error weights, and the scales to which tolerances are relative.
- * Written by: both/error_weights.h, both/speed.h, methods/begin.c.
- * Copied by: batch/lane_exchange.c, batch/lane_quiet.c.
+ * Written by: scalar_simd/error_weights.h, scalar_simd/speed.h, methods/begin.c.
+ * Copied by: batch/lane_exchange.c, batch/lane_local_steps.c.
  */
 typedef struct {
     double inverse_scale[2 * N_X + 1], least[2]; /* 1/tolerances; smallest relevant length (m), angle */
@@ -255,8 +255,8 @@ typedef struct {
 
 /*
  * Newton's matrix and, for methods with iterated stages, the data of their initial guesses.
- * Written by: methods/rodas5p.c, run/iteration_history.h, both/radau_step.h.
- * Copied by: batch/lane_exchange.c, batch/lane_quiet.c, batch/lane_tries.c.
+ * Written by: methods/rodas5p.c, run/iteration_history.h, scalar_simd/radau_step.h.
+ * Copied by: batch/lane_exchange.c, batch/lane_local_steps.c, batch/lane_tries.c.
  */
 typedef struct {
     Linear linear;
@@ -284,8 +284,8 @@ typedef struct {
 #if TAYLOR
 /*
  * Taylor series of the motion at the run's state.
- * Written by: methods/taylor.c, both/taylor.h.
- * Copied by: batch/lane_exchange.c, batch/lane_quiet.c, batch/lane_series.c.
+ * Written by: methods/taylor.c, scalar_simd/taylor.h.
+ * Copied by: batch/lane_exchange.c, batch/lane_local_steps.c, batch/lane_series.c.
  */
 typedef struct {
     int order, ready;   /* ready: where the series is stored, as in NewtonIteration */

@@ -105,7 +105,7 @@ int newton_factor(double eta, Linear *lin);
 void newton_substitute(const Linear *lin, double *x);
 void newton_solve(const Linear *lin, double eta, double s, const double *r, double *u);
 #if IMPLICIT_STAGES
-/* Newton's matrix at a complex eta, without f_t (both/radau.h). */
+/* Newton's matrix at a complex eta, without f_t (scalar_simd/radau.h). */
 int newton_factor_complex(double eta, double eta_i, ComplexLinear *lin);
 void newton_solve_complex(const ComplexLinear *lin, double eta, double eta_i, const double *r, double *u);
 #endif
@@ -120,7 +120,7 @@ int project(double t, const double *q, const double *r, const Parameters *p, dou
 #endif
 #endif
 
-/* Equations with a vanishing pivot: in absolute coordinates (singular.c), in tree coordinates (motion/rescue.c). */
+/* Equations with a vanishing pivot: in absolute coordinates (singular.c), in tree coordinates (motion/absolute_fallback.c). */
 int solve_dependent(double t, const double *q, const Parameters *p, const double *force, const double *rhs, double *a,
     double *lambda, int pivot, const DiscreteState *discrete);
 int solve_by_absolute(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,

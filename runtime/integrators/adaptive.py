@@ -2,11 +2,11 @@
 
 - `dop853`: explicit, order 8, dense output of order 7 (E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary
   Differential Equations I, 1993, section II.5).
-- `dopri5`: explicit, order 5, dense output of order 4 (J. R. Dormand, P. J. Prince, 1980; engine/both/runge_kutta.h).
+- `dopri5`: explicit, order 5, dense output of order 4 (J. R. Dormand, P. J. Prince, 1980; engine/scalar_simd/runge_kutta.h).
 - `rodas5p`: Rosenbrock, order 5, L-stable, exact Jacobian, dense output of order 4 (G. Steinebach, BIT 63:27, 2023).
 - `taylor`: Taylor series of the motion, of an order that follows from the tolerance, for smooth motion.
 - `radau5`, `radau9`: Radau IIA of orders 5 and 9, L-stable, exact Jacobian, dense output of order 4
-  (engine/both/radau.h).
+  (engine/scalar_simd/radau.h).
 - `auto`: an explicit and a stiff method. It is explicit until h ρ(J) reaches the stability bound in some steps, and
   stiff until h ρ(J) is so small that the explicit method needs no more steps. The stiff method is `rodas5p`. In a scene
   with films it is `radau5`, below the tolerance FINE `radau9`, because a film's force is strongly non-linear.

@@ -20,8 +20,8 @@ TABLES = {"radau5": 3, "radau9": 5}
 
 @cache
 def printed(name: str) -> dict[str, np.ndarray]:
-    """A table of engine/both/radau.h, member by member."""
-    text = (ENGINE / "both/radau.h").read_text(encoding="utf-8")
+    """A table of engine/scalar_simd/radau.h, member by member."""
+    text = (ENGINE / "scalar_simd/radau.h").read_text(encoding="utf-8")
     body = re.search(rf"RadauTable {name.upper()} = \{{(.*?)\}};", text, re.DOTALL)
     assert body
     found = re.findall(r"\.(\w+) = (\{.*?\}(?=,\s*\.|$)|[\d.]+)", body[1].strip(), re.DOTALL)

@@ -160,7 +160,7 @@ def test_a_branch_of_a_law_that_is_wrong(text: str, wrong: str, tmp_path: Path) 
 
 def test_a_method_that_is_not_consistent(tmp_path: Path) -> None:
     """A stage less: the steps become so short that their errors pass, and add up to another motion."""
-    edit = ("engine/both/dop853.h", "step->k[0][i] = run->dy[i];", "step->k[0][i] = 0.9 * run->dy[i];")
+    edit = ("engine/scalar_simd/dop853.h", "step->k[0][i] = run->dy[i];", "step->k[0][i] = 0.9 * run->dy[i];")
     broken = mutant(gudgeon.load("pendulum"), tmp_path, edit)
     found = reported(broken, 1e-3, method="dop853")
     assert "check rate" in found or "check step" in found
@@ -181,22 +181,22 @@ def test_a_step_control_that_is_too_loose(tmp_path: Path) -> None:
     """The estimate of order 3 in other units: steps become so long that they err by many tolerances."""
     right = gudgeon.load("slider_crank", "dry")
     assert not reported(right, 0.02, audit="full")
-    edit = ("engine/both/dop853.h", "three = real_max(real_abs(of_3) * by", "three = real_max(real_abs(of_3) + by")
+    edit = ("engine/scalar_simd/dop853.h", "three = real_max(real_abs(of_3) * by", "three = real_max(real_abs(of_3) + by")
     assert "check step" in reported(mutant(right, tmp_path, edit), 0.02, audit="full")
 
 
 @pytest.mark.parametrize(
     "method, edit",
     [
-        ("rodas5p", ("engine/both/rodas5p.h", "real_abs(step->k[7][i])", "1e-4 * real_abs(step->k[7][i])")),
-        ("dop853", ("engine/both/dop853.h", "five = real_max(real_abs(of_5)", "five = real_max(1e-4 * real_abs(of_5)")),
+        ("rodas5p", ("engine/scalar_simd/rodas5p.h", "real_abs(step->k[7][i])", "1e-4 * real_abs(step->k[7][i])")),
+        ("dop853", ("engine/scalar_simd/dop853.h", "five = real_max(real_abs(of_5)", "five = real_max(1e-4 * real_abs(of_5)")),
     ],
 )
 def test_an_error_estimate_that_is_too_small(method: str, edit: tuple[str, str, str], tmp_path: Path) -> None:
     right = gudgeon.load("andrews_squeezer")
     assert not reported(right, 0.03, method=method)
     # the distance from the constraint equations would refuse the worst of these steps
-    also = ("engine/both/distance.h", "#define MAX_CONSTRAINT_DRIFT 10.0", "#define MAX_CONSTRAINT_DRIFT INFINITY")
+    also = ("engine/scalar_simd/distance.h", "#define MAX_CONSTRAINT_DRIFT 10.0", "#define MAX_CONSTRAINT_DRIFT INFINITY")
     assert "audit: check" in reported(mutant(right, tmp_path, edit, also), 0.03, method=method)
 
 
@@ -210,7 +210,7 @@ def test_an_error_estimate_that_is_too_small(method: str, edit: tuple[str, str, 
 def test_a_method_that_loses_its_order(name: str, t_end: float, edit: tuple[str, str], tmp_path: Path) -> None:
     """A stage of DOP853 at another place: many short steps, of which each alone errs by less than the tolerance."""
     right = gudgeon.load(name)
-    broken = mutant(right, tmp_path, ("engine/both/dop853.h", *edit))
+    broken = mutant(right, tmp_path, ("engine/scalar_simd/dop853.h", *edit))
     run = broken.simulate(t_end, output=20, audit=False)
     assert run.diagnostics.steps > 20 * right.simulate(t_end, output=20).diagnostics.steps
     assert "check step" in reported(broken, t_end)
@@ -232,7 +232,7 @@ def test_a_start_that_is_not_the_one_of_the_file(tmp_path: Path) -> None:
 
 
 def test_positions_that_are_not_projected(tmp_path: Path) -> None:
-    edit = ("engine/both/project.h", "pass < 3 && N_LOOPS > 0", "pass < 3 && N_LOOPS < 0")
+    edit = ("engine/scalar_simd/project.h", "pass < 3 && N_LOOPS > 0", "pass < 3 && N_LOOPS < 0")
     broken = mutant(gudgeon.load("slider_crank_spring"), tmp_path, edit)
     assert "check rows" in reported(broken, 1.0)
 

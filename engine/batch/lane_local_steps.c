@@ -6,7 +6,7 @@
 #define LOCAL_STEPS (TAYLOR && !N_LOOPS && !N_USER_EVENTS && !N_WATCHED && !N_PULSES && !DRIVE_IMPULSES)
 
 #if LOCAL_STEPS
-#include "../both/error_weights.h"
+#include "../scalar_simd/error_weights.h"
 
 /* Of each lane: the time of its run's next sample and its end, s; the longest step of the last series, s. */
 typedef struct {
