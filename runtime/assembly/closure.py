@@ -67,53 +67,61 @@ class Closure:
         self.weight[self.guessed] = np.where(self.is_angle[self.guessed], GUESSED, GUESSED / self.size)
 
     def residual(self, q: Array, p: Array | None = None) -> Array:
-        """Return the residuals of the equations in m or rad, optionally with other parameter values p."""
+        """Return the residuals of all equations (constraint equations, then set coordinates) in m or rad.
+
+        p: other parameter values than those of the closure, or None.
+        """
         phi = self.linkage.closed_phi(self.t, q, self.p if p is None else p)
         phi[self.apart_index] += self.apart  # Φ of these joints is −e
         return np.concatenate([phi, q[self.set_index] - self.set])
 
     def jacobian(self, q: Array, p: Array | None = None) -> Array:
-        """Return the Jacobian of the residuals with respect to q."""
+        """Return the Jacobian of `residual` with respect to q; p as there."""
         extra = np.zeros((len(self.set_index), len(q)))
         extra[np.arange(len(self.set_index)), self.set_index] = 1.0
         return np.concatenate([self.linkage.closed_phi_q(self.t, q, self.p if p is None else p), extra])
 
     def least(self, q: Array, p: Array) -> Array:
-        """Return the configuration with the least residuals for parameter values p."""
-        return self._nearest_fit(
+        """Return the configuration with the least sum of squared residuals for parameter values p, found from q."""
+        return self._minimize_residual(
             q, lambda x: self.residual(x, p) / self.row_scale, lambda x: self.jacobian(x, p) / self.row_scale[:, None]
         )
 
     def norm(self, q: Array) -> float:
         """Return the norm of the residuals, with lengths relative to the mechanism's size."""
-        return float(np.linalg.norm(self._scaled_residual(q)))
+        return float(np.linalg.norm(self._compute_scaled_residual(q)))
 
-    def _scaled_residual(self, q: Array) -> Array:
-        """Return the residuals, with lengths relative to the mechanism's size."""
+    def _compute_scaled_residual(self, q: Array) -> Array:
+        """Return the residuals without units: lengths are divided by the mechanism's size."""
         return self.residual(q) / self.row_scale
 
-    def _newton_step(self, q: Array, open_by: Array, columns: NDArray[np.bool_] | slice = slice(None)) -> Array:
-        """Return the smallest weighted step that closes the linearized equations with residuals `open_by`.
+    def _compute_newton_step(
+        self, q: Array, scaled_residual: Array, columns: NDArray[np.bool_] | slice = slice(None)
+    ) -> Array:
+        """Return the step (n,) of least weighted norm that closes the equations linearized at q with these residuals.
 
-        `columns`: coordinates that may change.
+        columns: mask of the coordinates that may change. It is 0 if a number is not finite; with dependent equations
+        it is a least-squares step.
         """
         weight = self.weight[columns]
         matrix = self.jacobian(q)[:, columns] / self.row_scale[:, None] / weight
-        target, step = -open_by, np.zeros_like(q)
+        target, step = -scaled_residual, np.zeros_like(q)
         if np.isfinite(matrix).all() and np.isfinite(target).all():  # a driven distance has no direction at zero
-            few = len(self.place) >= LARGE and len(matrix) > matrix.shape[1]
-            step[columns] = (nearest_step if few else smallest)(matrix, target) / weight
+            use_nearest_step = len(self.place) >= LARGE and len(matrix) > matrix.shape[1]
+            step[columns] = (nearest_step if use_nearest_step else smallest)(matrix, target) / weight
         return step
 
     def first_guess(self) -> Array:
-        """Return the guessed configuration: guessed and held coordinates, angles from angle equations, guessed
-        points.
+        """Return the guessed configuration: guessed and held coordinates, angles that equations in angles alone
+        determine.
+
+        With guessed points, the configuration is fitted to them. Sets `expected` and `reach`.
         """
         q = np.zeros(len(self.place))
         q[self.guessed] = list(self.guess.values())
         q[self.set_index] = self.set
         self.expected = q = self.place_angles(q)
-        self.reach = self._farthest_place(q)
+        self.reach = self._find_farthest_position(q)
         return self._fit_points(q) if self.points else q
 
     def nearest(self) -> tuple[Array, bool]:
@@ -123,84 +131,100 @@ class Closure:
         tried. If all results are far away or open, other starts are tried.
         """
         guess = self.first_guess()
-        first = self.newton(guess)
-        if self._is_assembly(first) and self._relative_miss(first) < 1.0:
-            best = self._search_beyond_guess(first, guess)
-            if self._relative_miss(best) < 1.0:
+        first_result = self.newton(guess)
+        if self._is_assembly(first_result) and self._compute_relative_miss(first_result) < 1.0:
+            best = self._search_beyond_guess(first_result, guess)
+            if self._compute_relative_miss(best) < 1.0:
                 return best, True
-        found = [first]
+        results = [first_result]
         for spread in (1.0, np.pi) if self.guess else (np.pi,):
-            found += [self.newton(other) for other in self._other_starts(guess, spread)]
-            near = [q for q in found if self.is_near(q)]
-            closed = [self.unwound(q) for q in near if self.is_closed(q)]
-            if closed and self._relative_miss(best := min(closed, key=self.distance)) < 1.0:
+            results += [self.newton(other) for other in self._draw_other_starts(guess, spread)]
+            near_results = [q for q in results if self.is_near(q)]
+            closed_results = [self.unwound(q) for q in near_results if self.is_closed(q)]
+            if closed_results and self._compute_relative_miss(best := min(closed_results, key=self.distance)) < 1.0:
                 return best, True
-        if closed:  # none is near enough: more starts
-            found = [self.newton(other) for seed in range(1, MORE) for other in self._other_starts(guess, 1.0, seed)]
-            more = (self.unwound(q) for q in found if self._is_assembly(q))
+        if closed_results:  # none is near enough: more starts
+            results = [
+                self.newton(other) for seed in range(1, MORE) for other in self._draw_other_starts(guess, 1.0, seed)
+            ]
+            more = (self.unwound(q) for q in results if self._is_assembly(q))
             return min([best, *more], key=self.distance), True
-        return min(near, key=self.norm, default=guess), False
+        return min(near_results, key=self.norm, default=guess), False
 
     def _is_assembly(self, q: Array) -> bool:
-        """Return whether a configuration is closed and not far away."""
+        """Return whether a configuration satisfies all equations and no body is lost far away."""
         return self.is_closed(q) and self.is_near(q)
 
-    def _search_beyond_guess(self, first: Array, guess: Array) -> Array:
-        """Return the given closed configuration, or a nearer one found from starts beyond the guess."""
-        if self._relative_miss(first) < MIRRORED:
-            return first
-        beyond, found = 2.0 * guess - first, first.copy()
-        found[self.guessed] = beyond[self.guessed]
-        for mirrored in (found, beyond):
+    def _search_beyond_guess(self, closed: Array, guess: Array) -> Array:
+        """Return the closed configuration `closed`, or a nearer one found from starts on the other side of the guess.
+
+        Nothing is searched if it is near the guess.
+        """
+        if self._compute_relative_miss(closed) < MIRRORED:
+            return closed
+        beyond, mixed = 2.0 * guess - closed, closed.copy()
+        mixed[self.guessed] = beyond[self.guessed]
+        for mirrored in (mixed, beyond):
             mirrored[self.set_index] = self.set
             other = self.newton(self.place_angles(mirrored))
             if not self._is_assembly(other):
                 continue
             other = self.unwound(other)
-            if self.distance(other) < (1.0 - NEARER) * self.distance(first):
-                first = other
-        return first
+            if self.distance(other) < (1.0 - NEARER) * self.distance(closed):
+                closed = other
+        return closed
 
     def distance(self, q: Array) -> float:
-        """Return the distance of a configuration from the guess: weighted coordinates, points relative to the size."""
+        """Return the distance of a configuration from the guess: weighted coordinates, points relative to the size.
+
+        With guessed points only guessed coordinates count.
+        """
         off = [self.off_point(q, point, target) * (GUESSED / self.size) for point, target in self.points]
         free = np.where(np.isin(np.arange(len(q)), self.guessed), 1.0, 0.0 if self.points else 1.0)
         return float(np.linalg.norm(np.concatenate([(q - self.expected) * self.weight * free, *off])))
 
     def off_point(self, q: Array, point: PointInfo, target: Array) -> Array:
-        """Return the vector (2,) in m from where a point is guessed to where it is."""
+        """Return the vector (2,) in m from the guessed position `target` of a point to its position at q."""
         return place_of(self.linkage.source, self.p, q, point) - target
 
     def _fit_points(self, q: Array) -> Array:
-        """Return a configuration whose guessed points are as near to their guess as the equations allow."""
+        """Return the configuration, found from q, whose guessed points are as near to their guesses as the equations
+        allow.
+        """
         held = np.diag(self.weight)[self.guessed]
 
-        def left(x: Array) -> Array:
-            """Return the residuals of equations, guesses and points."""
+        def residuals_of(x: Array) -> Array:
+            """Return the residuals of equations, guessed coordinates and guessed points."""
             off = [self.off_point(x, point, target) / self.size for point, target in self.points]
             return np.concatenate([self.residual(x) / self.row_scale, held @ (x - q), *off])
 
-        def slopes(x: Array) -> Array:
+        def jacobian_of(x: Array) -> Array:
             """Return the Jacobian of these residuals."""
             rows = self.jacobian(x) / self.row_scale[:, None]
-            return np.concatenate([rows, held, self._points_jacobian(x) / self.size])
+            return np.concatenate([rows, held, self._compute_points_jacobian(x) / self.size])
 
-        return self._nearest_fit(q, left, slopes)
+        return self._minimize_residual(q, residuals_of, jacobian_of)
 
-    def _nearest_fit(self, q: Array, left: Callable[[Array], Array], slopes: Callable[[Array], Array]) -> Array:
-        """Return the minimum of the sum of squares of `left`, by Levenberg–Marquardt steps from q."""
-        damping, best = 1e-3, left(q)
+    def _minimize_residual(
+        self, q: Array, residual_of: Callable[[Array], Array], jacobian_of: Callable[[Array], Array]
+    ) -> Array:
+        """Return the configuration that minimizes the sum of squares of `residual_of`, by Levenberg–Marquardt steps
+        from q.
+
+        jacobian_of: its Jacobian. The iteration ends at numbers that are not finite.
+        """
+        damping, residual = 1e-3, residual_of(q)
         scale = np.where(self.is_angle, 1.0, self.size)
         for _ in range(2 * MAX_STEPS):
-            J = slopes(q) * scale
-            if not (np.isfinite(J).all() and np.isfinite(best).all()):
+            J = jacobian_of(q) * scale
+            if not (np.isfinite(J).all() and np.isfinite(residual).all()):
                 break
-            step = scale * np.linalg.solve(J.T @ J + damping * np.eye(len(q)), -J.T @ best)
-            trial = left(q + step)
-            before, after = float(np.linalg.norm(best)), float(np.linalg.norm(trial))
-            if after < before:
-                q, best, damping = q + step, trial, max(1e-12, 0.1 * damping)
-                if before - after < 1e-12 * before:
+            step = scale * np.linalg.solve(J.T @ J + damping * np.eye(len(q)), -J.T @ residual)
+            trial = residual_of(q + step)
+            norm, trial_norm = float(np.linalg.norm(residual)), float(np.linalg.norm(trial))
+            if trial_norm < norm:
+                q, residual, damping = q + step, trial, max(1e-12, 0.1 * damping)
+                if norm - trial_norm < 1e-12 * norm:
                     break
             elif damping < 1e6:
                 damping *= 10.0
@@ -208,8 +232,8 @@ class Closure:
                 break
         return q
 
-    def _points_jacobian(self, q: Array) -> Array:
-        """Return the Jacobian of the positions of guessed points, (2 · points, n)."""
+    def _compute_points_jacobian(self, q: Array) -> Array:
+        """Return the Jacobian of the positions of the guessed points with respect to q, (2 · points, n)."""
         J, source = np.zeros((2 * len(self.points), len(q))), self.linkage.source
         for k, (point, _) in enumerate(self.points):
             i = source.bodies[point.body].index
@@ -217,8 +241,10 @@ class Closure:
             J[2 * k, i], J[2 * k, i + 2], J[2 * k + 1, i + 1], J[2 * k + 1, i + 2] = 1.0, -arm[1], 1.0, arm[0]
         return J
 
-    def _farthest_place(self, guess: Array) -> float:
-        """Return the largest distance (m) from the origin that drives and start ask for; at least the size."""
+    def _find_farthest_position(self, guess: Array) -> float:
+        """Return the largest distance (m) from the origin that drives and start require; at least the size of the
+        mechanism.
+        """
         requested = np.abs(self.residual(guess))[: len(self.linkage.source.start_rows)]
         lengths = [row.unit == "m" for row in self.linkage.source.start_rows]
         return float(
@@ -226,82 +252,98 @@ class Closure:
         )
 
     def is_closed(self, q: Array) -> bool:
-        """Return whether all equations are satisfied to rounding."""
+        """Return whether all equations are satisfied to rounding at q."""
         return self.norm(q) < CLOSED + ROUNDING * self.reach / self.size
 
     def is_near(self, q: Array) -> bool:
-        """Return whether no body is so far away that every equation seems to close."""
+        """Return whether no body is so far away at q that every equation seems to be satisfied."""
         return bool(np.abs(q[~self.is_angle]).max(initial=0.0) < AWAY * self.reach)
 
-    def _relative_miss(self, q: Array) -> float:
-        """Return how far the worst guessed angle or point is off, relative to the limit for a longer search."""
-        off = np.where(np.isin(np.arange(len(q)), self.guessed), q - self.expected, 0.0)
-        places = np.hypot(off[0::3], off[1::3]) / np.maximum(
+    def _compute_relative_miss(self, q: Array) -> float:
+        """Return how far the worst guessed angle, position or point is off, relative to the limit for a longer search.
+
+        It is 0 without guesses.
+        """
+        differences = np.where(np.isin(np.arange(len(q)), self.guessed), q - self.expected, 0.0)
+        position_errors = np.hypot(differences[0::3], differences[1::3]) / np.maximum(
             self.size, np.hypot(self.expected[0::3], self.expected[1::3])
         )
-        points = [np.linalg.norm(self.off_point(q, *point)) / (APART * self.size) for point in self.points]
-        return float(max([*places / APART, *np.abs(off[2::3]) / FAR, *points], default=0.0))
+        point_errors = [np.linalg.norm(self.off_point(q, *point)) / (APART * self.size) for point in self.points]
+        return float(max([*position_errors / APART, *np.abs(differences[2::3]) / FAR, *point_errors], default=0.0))
 
-    def _other_starts(self, guess: Array, of_guessed: float, seed: int = 0) -> Iterator[Array]:
-        """Yield starts around the guess, the same in every run; driven and set coordinates keep their values.
+    def _draw_other_starts(self, guess: Array, angle_range: float, seed: int = 0) -> Iterator[Array]:
+        """Yield random starts around the guess, the same in every run; driven and set coordinates keep their values.
 
         Each draw is followed by its mirror image in the axes of the bodies. A linkage that is turned or mirrored with
-        its guess thus finds a start that is turned or mirrored. of_guessed: rad, how far guessed angles are turned,
+        its guess thus finds a start that is turned or mirrored. angle_range: rad, how far guessed angles are turned,
         because a guess may lie where every search ends in a minimum of the residual above zero.
         """
         rng = np.random.default_rng(seed)
         spread = np.where(self.is_angle, np.pi, self.size)
-        spread[self.guessed] *= of_guessed / np.pi
-        turned = np.exp(1j * np.where(spread[0::3] == spread[1::3], guess[2::3], 0.0))  # places: in axes of their body
+        spread[self.guessed] *= angle_range / np.pi
+        body_axes = np.exp(
+            1j * np.where(spread[0::3] == spread[1::3], guess[2::3], 0.0)
+        )  # places: in axes of their body
         for _ in range((TRIES if len(guess) <= MANY else TRIES // 4) // 2):
-            drawn = spread * rng.uniform(-1.0, 1.0, len(guess))
+            deviations = spread * rng.uniform(-1.0, 1.0, len(guess))
             for mirror in (1.0, -1.0):
-                places = turned * (drawn[0::3] + 1j * mirror * drawn[1::3])
+                position_steps = body_axes * (deviations[0::3] + 1j * mirror * deviations[1::3])
                 q = guess.copy()
-                q[0::3] += places.real
-                q[1::3] += places.imag
-                q[2::3] += mirror * drawn[2::3]
+                q[0::3] += position_steps.real
+                q[1::3] += position_steps.imag
+                q[2::3] += mirror * deviations[2::3]
                 q[self.set_index] = self.set
                 yield self.place_angles(q)
 
     def unwound(self, q: Array) -> Array:
-        """Return the configuration with angles within half a turn of the guess, where no equation counts turns."""
+        """Return the configuration with its angles within half a turn of the guess, unless an equation then opens."""
         for k in np.flatnonzero(self.is_angle & (np.abs(q - self.expected) > np.pi)):
-            other = q.copy()
-            other[k] -= 2.0 * np.pi * np.round((q[k] - self.expected[k]) / (2.0 * np.pi))
-            q = other if self.is_closed(other) else q
+            reduced = q.copy()
+            reduced[k] -= 2.0 * np.pi * np.round((q[k] - self.expected[k]) / (2.0 * np.pi))
+            q = reduced if self.is_closed(reduced) else q
         return q
 
     def newton(self, q: Array) -> Array:
         """Return the result of Newton's method with line search from q; q itself if it is closed already.
 
-        Positions are adapted first.
+        Positions are adapted first. A Jacobian is used again while the norm falls to a tenth in each step. The result
+        may be open.
         """
-        open_by, rounding = self._scaled_residual(q), ROUNDING * self.reach / self.size
-        if float(np.linalg.norm(open_by)) < rounding:
+        scaled_residual, rounding = self._compute_scaled_residual(q), ROUNDING * self.reach / self.size
+        if float(np.linalg.norm(scaled_residual)) < rounding:
             return q
-        q = q + self._newton_step(q, open_by, ~self.is_angle)
-        at, held, open_by = q, False, self._scaled_residual(q)  # at: where the rows are linearized
+        q = q + self._compute_newton_step(q, scaled_residual, ~self.is_angle)
+        linearized_at, is_reused, scaled_residual = (
+            q,
+            False,
+            self._compute_scaled_residual(q),
+        )  # at: where the rows are linearized
         for _ in range(MAX_STEPS):
-            step, share, norm = self._newton_step(at, open_by), 1.0, float(np.linalg.norm(open_by))
-            while share > (0.5 if held else 1e-4):
-                after = self._scaled_residual(q + share * step)
-                if float(np.linalg.norm(after)) < (1.0 - 1e-4 * share) * norm:
+            step, step_length, norm = (
+                self._compute_newton_step(linearized_at, scaled_residual),
+                1.0,
+                float(np.linalg.norm(scaled_residual)),
+            )
+            while step_length > (0.5 if is_reused else 1e-4):
+                trial = self._compute_scaled_residual(q + step_length * step)
+                if float(np.linalg.norm(trial)) < (1.0 - 1e-4 * step_length) * norm:
                     break
-                share *= 0.5
+                step_length *= 0.5
             else:
-                if not held or norm < rounding:
+                if not is_reused or norm < rounding:
                     break
-                at, held = q, False
+                linearized_at, is_reused = q, False
                 continue
-            q, open_by = q + share * step, after
-            left = float(np.linalg.norm(open_by))
-            held = left < HELD and (left < 0.1 * norm or left < rounding)
-            at = at if held else q
+            q, scaled_residual = q + step_length * step, trial
+            new_norm = float(np.linalg.norm(scaled_residual))
+            is_reused = new_norm < HELD and (new_norm < 0.1 * norm or new_norm < rounding)
+            linearized_at = linearized_at if is_reused else q
         return q
 
     def place_angles(self, q: Array) -> Array:
-        """Return q with the angles that equations in angles alone (drives, sliders) determine."""
+        """Return a copy of q with the angles that equations in angles alone (drives, sliders) determine, by one Newton
+        step.
+        """
         rows = np.abs(self.jacobian(q)[:, ~self.is_angle]).max(axis=1, initial=0.0) == 0.0
         matrix = self.jacobian(q)[rows][:, self.is_angle] / self.weight[self.is_angle]
         q = q.copy()

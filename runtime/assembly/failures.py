@@ -29,47 +29,57 @@ ENDS = {"tail", "head"}
 MOST, LEAST = 4.0, -0.95  # limits of the relative change: a length beyond them is not the cause
 
 
-def stuck(closure: Closure, matrix: Array, left: Array) -> AssemblyError:
-    """Return the error for velocities that do not fit, with the dependent equations, drives and rates among them."""
+def stuck(closure: Closure, matrix: Array, residuals: Array) -> AssemblyError:
+    """Return the error for a start whose velocities do not satisfy the equations.
+
+    matrix: equations of drives, joints and rates for the velocities. residuals: what is left of each. The message
+    names the cause: mass ratios, rates of closed joints, contradicting rates, a dead centre, or else the worst
+    equation.
+    """
     source = closure.linkage.source
-    if message := mass_ratio_message(source, closure.linkage.mass(closure.p)):
-        return AssemblyError(message)
+    if mass_message := mass_ratio_message(source, closure.linkage.mass(closure.p)):
+        return AssemblyError(mass_message)
     rows = [row.name for row in source.start_rows] + list(source.start_rates)
-    moving = {row.name for row in source.start_rows if row.kind == "drive"} | set(source.start_rates)
-    stuck = [name for name, share in zip(rows, tied(matrix), strict=True) if share > 1e-6]
-    movers = [name for name in stuck if name in moving]
-    rates = [name for name in stuck if name in source.start_rates]
+    prescribed = {row.name for row in source.start_rows if row.kind == "drive"} | set(source.start_rates)
+    dependent = [name for name, share in zip(rows, tied(matrix), strict=True) if share > 1e-6]
+    dependent_motions = [name for name in dependent if name in prescribed]
+    rates = [name for name in dependent if name in source.start_rates]
     play = {joint.joint: joint.at_wall for joint in source.clearances}
-    closed = dict.fromkeys(row.owner for row in source.start_rows if row.name in stuck and row.owner in play)
-    if rates and closed:
-        first = next(iter(closed))
+    closed_joints = dict.fromkeys(row.owner for row in source.start_rows if row.name in dependent and row.owner in play)
+    if rates and closed_joints:
+        first = next(iter(closed_joints))
         key = "offset_rate" if play[first] else "rate"
         return AssemblyError(
             f"start.rates {', '.join(rates)} cannot be met: a start closes the joints with play"
-            f" ({', '.join(closed)}), and then the linkage moves as its drives say\n"
+            f" ({', '.join(closed_joints)}), and then the linkage moves as its drives say\n"
             f"  leave the rate out, say how journals move (start: {{play: {{{first}: {{{key}: ..}}}}}}),"
             " or begin from a State of your own: simulate(start=...)"
         )
-    if len(movers) > 1:
+    if len(dependent_motions) > 1:
         owners = dict(zip(rows, [row.owner for row in source.start_rows], strict=False))
-        joints = dict.fromkeys(owners[name] for name in stuck if name not in moving)
+        joints = dict.fromkeys(owners[name] for name in dependent if name not in prescribed)
         among = f" (joints {', '.join(joints)} tie them)" if joints else ""
         return AssemblyError(
-            f"the start's velocities contradict each other: {', '.join(movers)} ask for different motions{among}\n"
+            f"the start's velocities contradict each other: {', '.join(dependent_motions)} ask for different"
+            f" motions{among}\n"
             "  leave out a rate, or make drives and rates agree at the start"
         )
-    if movers:
+    if dependent_motions:
         return AssemblyError(
-            f"the start is a dead centre: {', '.join(movers)} cannot move the linkage from here (rows"
-            f" {', '.join(name for name in stuck if name not in moving)} stand against it)\n"
+            f"the start is a dead centre: {', '.join(dependent_motions)} cannot move the linkage from here (rows"
+            f" {', '.join(name for name in dependent if name not in prescribed)} stand against it)\n"
             "  start from another angle, or drive another body"
         )
-    worst = rows[int(left.argmax())]
-    return AssemblyError(f"no velocities fit the start: row {worst} is left with {left.max():.3g}")
+    worst = rows[int(residuals.argmax())]
+    return AssemblyError(f"no velocities fit the start: row {worst} is left with {residuals.max():.3g}")
 
 
 def closure_error(closure: Closure, q: Array) -> AssemblyError:
-    """Return the error for a linkage that does not close: open equations, residuals and remedies."""
+    """Return the error for a linkage that does not close: open equations with their residuals, and remedies.
+
+    q: the best configuration that was found. The message may name lengths with a wrong unit, or a link whose change
+    would close the linkage.
+    """
     scaled = np.abs(closure.residual(q) / closure.row_scale)
     if not np.isfinite(scaled).all():
         why = reason(closure.linkage.source, closure.p, closure.t, q, np.zeros_like(q))
@@ -77,12 +87,12 @@ def closure_error(closure: Closure, q: Array) -> AssemblyError:
         return AssemblyError(f"the start cannot be assembled: {message}")
     worst = np.argsort(-scaled)[:6]
     worst = worst[scaled[worst] > 1e-3 * scaled.max()]
-    rows = ", ".join(_open_equation_text(closure, q, k) for k in worst)
+    rows = ", ".join(_format_open_equation(closure, q, k) for k in worst)
     if more := int((scaled >= max(CLOSED, 1e-6 * scaled.max())).sum()) - len(worst):
         rows += f" and {more} more, less far,"
     owners = ", ".join(dict.fromkeys(closure.owners[k] for k in worst if closure.owners[k] != "start"))
     sets = "what start.set holds, " if len(closure.set_index) else ""
-    lengths = _unit_mistake_text(closure) or _wrong_lengths_text(closure, q)
+    lengths = _describe_unit_mistake(closure) or _describe_wrong_lengths(closure, q)
     return AssemblyError(
         f"the start cannot be assembled: rows {rows} stay open (joints {owners or 'none'}){lengths}\n"
         "  either the constraints contradict each other or the guess is far from every branch: check"
@@ -90,15 +100,18 @@ def closure_error(closure: Closure, q: Array) -> AssemblyError:
     )
 
 
-def _open_equation_text(closure: Closure, q: Array, k: int) -> str:
-    """Return the text of an open equation: "C.x (8.2 mm, line 14)"."""
+def _format_open_equation(closure: Closure, q: Array, k: int) -> str:
+    """Return an open equation k with its residual and the line of its joint: "C.x (8.2 mm, line 14)"."""
     left, line = float(closure.residual(q)[k]), dict(closure.linkage.source.lines).get(closure.owners[k])
     amount = lengths_text(left) if closure.units[k] == "m" else f"{np.degrees(left):.3g} deg"
     return f"{closure.names[k]} ({amount}{f', line {line}' if line else ''})"
 
 
-def _wrong_lengths_text(closure: Closure, q: Array) -> str:
-    """Return a text on links that are too short or too long; "" if no single change would close the linkage."""
+def _describe_wrong_lengths(closure: Closure, q: Array) -> str:
+    """Return a text on up to three links, of which a change of one would close the linkage; "" if there is none.
+
+    Nothing is searched for more than FEW coordinates.
+    """
     if closure.linkage.n > FEW:
         return ""
     found = wrong_lengths(closure, closure.least(q, closure.p))[:3]
@@ -110,8 +123,8 @@ def _wrong_lengths_text(closure: Closure, q: Array) -> str:
     return f"\n  one change would close it: {', or '.join(message)}" if message else ""
 
 
-def _unit_mistake_text(closure: Closure) -> str:
-    """Return a text on few lengths in metres that are far larger than all others; "" if there are none."""
+def _describe_unit_mistake(closure: Closure) -> str:
+    """Return a text on few lengths of a metre or more that are far larger than all others; "" if there are none."""
     source = closure.linkage.source
     sizes = {
         slot.address: abs(float(closure.p[k]))
@@ -130,7 +143,7 @@ def _unit_mistake_text(closure: Closure) -> str:
 
 
 def lengths_text(length: float) -> str:
-    """Return a length with four digits, in mm or m."""
+    """Return a length (m) with four digits as text, in mm below 1 m, else in m."""
     return f"{1e3 * length:.4g} mm" if abs(length) < 1.0 else f"{length:.4g} m"
 
 
@@ -145,12 +158,12 @@ class WrongLength:
 
     @property
     def message(self) -> str:
-        """Return the body's name, with its points unless these are its ends."""
+        """Return the name of the body, with the names of its points unless these are its ends."""
         return self.body if {*self.points} == ENDS else f"{self.body}, {'–'.join(self.points)}"
 
 
 def wrong_lengths(closure: Closure, q: Array) -> list[WrongLength]:
-    """Return the bodies whose change of length would close the equations, the least change first.
+    """Return the bodies of which a change of length would close the equations, the least change first.
 
     q: the configuration with the least residuals.
     """
@@ -159,49 +172,59 @@ def wrong_lengths(closure: Closure, q: Array) -> list[WrongLength]:
 
 
 def _find_wrong_lengths(closure: Closure, q: Array) -> Iterator[WrongLength]:
-    """Yield the bodies whose change of length would close the equations."""
+    """Yield the bodies of which a change of length would close the equations, in the order of the file."""
     source = closure.linkage.source
-    held = {end for part in source.parts if part.section != "forces" for end in part.ends}
+    connected = {end for part in source.parts if part.section != "forces" for end in part.ends}
     for index, body in enumerate(source.bodies):
-        arms = [(p, point_in_body(closure.p, p)) for p in source.points if p.body == index and p.name in held]
-        apart = {(one, other): float(np.hypot(*(a - b))) for (one, a), (other, b) in combinations(arms, 2)}
-        furthest = max(apart, key=apart.__getitem__, default=None)
-        if furthest is not None and apart[furthest] > 0.0:
-            one, other = (point.name.partition(".")[2] for point in furthest)
-            places = sorted({k for point, _ in arms for k in (point.x, point.y) if k >= 0})
-            share = _closing_change(closure, q, places)
-            if share is not None:
-                yield WrongLength(body.name, (one, other), apart[furthest], share * apart[furthest])
+        arms = [(p, point_in_body(closure.p, p)) for p in source.points if p.body == index and p.name in connected]
+        distances = {(one, other): float(np.hypot(*(a - b))) for (one, a), (other, b) in combinations(arms, 2)}
+        furthest_points = max(distances, key=distances.__getitem__, default=None)
+        if furthest_points is not None and distances[furthest_points] > 0.0:
+            one, other = (point.name.partition(".")[2] for point in furthest_points)
+            parameter_indices = sorted({k for point, _ in arms for k in (point.x, point.y) if k >= 0})
+            relative_change = _find_closing_change(closure, q, parameter_indices)
+            if relative_change is not None:
+                yield WrongLength(
+                    body.name, (one, other), distances[furthest_points], relative_change * distances[furthest_points]
+                )
 
 
-def _closing_change(closure: Closure, q: Array, places: list[int]) -> float | None:
-    """Return the relative change of the values at `places` of p that just closes the equations; None if none does."""
-    p, opens, shut, share = closure.p, 0.0, None, 0.0
+def _find_closing_change(closure: Closure, q: Array, indices: list[int]) -> float | None:
+    """Return the relative change of the lengths at `indices` of p that just closes the equations; None if none does.
 
-    def scaled(by: float) -> Array:
-        """Return the parameter values with those at `places` scaled by 1 + by."""
+    Newton's method on the norm of the least residual, then bisection between open and closed. q: first configuration.
+    Changes outside LEAST to MOST are not considered.
+    """
+    p, open_change, closing_change, change = closure.p, 0.0, None, 0.0
+
+    def scaled(relative_change: float) -> Array:
+        """Return the parameter values with the lengths scaled by 1 + relative_change."""
         changed = np.array(p)
-        changed[places] *= 1.0 + by
+        changed[indices] *= 1.0 + relative_change
         return changed
 
     for _ in range(STEPS):
-        at = closure.least(q, scaled(share))
-        left = closure.residual(at, scaled(share)) / closure.row_scale
-        size = float(np.linalg.norm(left))
+        least_squares_q = closure.least(q, scaled(change))
+        residual = closure.residual(least_squares_q, scaled(change)) / closure.row_scale
+        size = float(np.linalg.norm(residual))
         if not np.isfinite(size):
             return None
         if size < SHUT:  # it may be more than is needed: what just closes lies between
-            if share == opens or abs(share - opens) < NUDGE:
-                return share
-            shut, share = share, 0.5 * (opens + share)
+            if change == open_change or abs(change - open_change) < NUDGE:
+                return change
+            closing_change, change = change, 0.5 * (open_change + change)
             continue
-        ahead, behind = (closure.residual(at, scaled(share + e)) / closure.row_scale for e in (NUDGE, -NUDGE))
-        slope = float(left @ (ahead - behind)) / (2.0 * NUDGE)
+        residual_above, residual_below = (
+            closure.residual(least_squares_q, scaled(change + e)) / closure.row_scale for e in (NUDGE, -NUDGE)
+        )
+        slope = float(residual @ (residual_above - residual_below)) / (2.0 * NUDGE)
         if abs(slope) < 1e-9 * size:
-            return shut
-        q, opens, share = at, share, share - size**2 / slope
-        if shut is not None and not min(opens, shut) < share < max(opens, shut):
-            share = 0.5 * (opens + shut)
-        if abs(share) > MOST or share <= LEAST:
-            return shut
-    return shut
+            return closing_change
+        q, open_change, change = least_squares_q, change, change - size**2 / slope
+        if closing_change is not None and not min(open_change, closing_change) < change < max(
+            open_change, closing_change
+        ):
+            change = 0.5 * (open_change + closing_change)
+        if abs(change) > MOST or change <= LEAST:
+            return closing_change
+    return closing_change

@@ -21,27 +21,31 @@ FOLLOWED = np.pi / 6  # rad; smaller differences from a guess are not reported
 
 
 def unfollowed(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
-    """Return the guessed coordinates that are far from their guess at q, and points by their distance: rad, or m."""
-    source, off = linkage.source, dict[str, float]()
+    """Return the guessed coordinates that differ from their guess at q by more than a limit, with the difference (rad
+    or m).
+
+    Guessed points are included with their distance (m).
+    """
+    source, differences = linkage.source, dict[str, float]()
     guess = dict(zip(source.start_guess, linkage.start_values(p)[0].tolist(), strict=True))
     size = mechanism_size(linkage, p)
     for name, expected in guess.items():
         if name in source.coordinates:
-            away = float(q[source.coordinates.index(name)]) - expected
+            difference = float(q[source.coordinates.index(name)]) - expected
             is_angle = name.endswith(".theta")
-            away = (away + np.pi) % (2.0 * np.pi) - np.pi if is_angle else away
-            if abs(away) > (FOLLOWED if is_angle else APART * max(size, abs(expected))):
-                off[name] = away
+            difference = (difference + np.pi) % (2.0 * np.pi) - np.pi if is_angle else difference
+            if abs(difference) > (FOLLOWED if is_angle else APART * max(size, abs(expected))):
+                differences[name] = difference
     for point in source.points:
         if f"{point.name}.x" in guess:
-            wanted_at = (guess[f"{point.name}.x"], guess[f"{point.name}.y"])
-            if (away := float(np.linalg.norm(place_of(source, p, q, point) - wanted_at))) > APART * size:
-                off[point.name] = away
-    return off
+            expected_position = (guess[f"{point.name}.x"], guess[f"{point.name}.y"])
+            if (difference := float(np.linalg.norm(place_of(source, p, q, point) - expected_position))) > APART * size:
+                differences[point.name] = difference
+    return differences
 
 
 def warn_unfollowed(linkage: Linkage, p: Array, q: Array) -> None:
-    """Warn about each guess that the start q does not follow; within a batch, note them in NOTED."""
+    """Warn about each guess that the start q does not follow; within a batch, append them to NOTED instead."""
     off, noted = unfollowed(linkage, p, q), NOTED.get()
     if noted is not None:
         noted.append(off)
@@ -52,7 +56,11 @@ def warn_unfollowed(linkage: Linkage, p: Array, q: Array) -> None:
 
 
 def warn_unfollowed_in_runs(source: KernelSource, noted: Sequence[Mapping[str, float]]) -> None:
-    """Issue one warning for all runs of a batch: which guesses, in how many runs, by how much at most."""
+    """Issue one warning for all runs of a batch: which guesses are not followed, in how many runs, by how much at
+    most.
+
+    noted: unfollowed guesses of each run. If a study collects notes in NOTED, they are added there instead.
+    """
     if (kept := NOTED.get()) is not None:  # by who makes many batches
         kept.extend(noted)
         return
@@ -68,19 +76,21 @@ def warn_unfollowed_in_runs(source: KernelSource, noted: Sequence[Mapping[str, f
 
 
 def outside() -> int:
-    """Return the stack level of the user's own line, as `warnings.warn` counts it."""
+    """Return the stack level of the first caller outside gudgeon, as `warnings.warn` counts it."""
     level, frame = 1, sys._getframe(1)
     while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "gudgeon":
         level, frame = level + 1, frame.f_back
     return level
 
 
-def guess_difference_text(name: str, off: float) -> str:
-    """Return the difference from a guess as text, in degrees or mm."""
-    return f"{np.degrees(abs(off)):.3g}°" if name.endswith(".theta") else f"{1e3 * abs(off):.3g} mm"
+def guess_difference_text(name: str, difference: float) -> str:
+    """Return the magnitude of a difference from a guess as text, in degrees for angles, else in mm."""
+    return f"{np.degrees(abs(difference)):.3g}°" if name.endswith(".theta") else f"{1e3 * abs(difference):.3g} mm"
 
 
 def no_nearer_text(source: KernelSource) -> str:
-    """Return a text that no nearer assembly was found; several guesses may contradict each other."""
+    """Return a text that no nearer assembly was found; it mentions several guesses, since they may contradict each
+    other.
+    """
     guessed = {name if name in source.coordinates else name.rpartition(".")[0] for name in source.start_guess}
     return f"no assembly nearer{' to all guesses together' if len(guessed) > 1 else ''} was found"

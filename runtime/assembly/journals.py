@@ -23,11 +23,14 @@ DEEPEST = 0.1  # of the radius: largest penetration of a journal (`deepest` of m
 
 
 def check_places(linkage: Linkage, p: Array) -> None:
-    """Raise AssemblyError for a journal that the file's start places deeper than any contact law holds."""
+    """Check the positions of journals and sliders with play that the file's start sets.
+
+    Raises AssemblyError for a position deeper in the wall than any contact law holds, or for a slider that turns over.
+    """
     for joint in linkage.source.clearances:
         if joint.name.endswith(".front_upper"):
-            _check_turning(linkage, p, joint)
-    for joint, e, c in _placed_joints(linkage, p):
+            _check_slider_tilt(linkage, p, joint)
+    for joint, e, c in _iterate_placed_joints(linkage, p):
         if joint.at_wall:
             _check_corner(linkage, p, joint, e - c)
             continue
@@ -50,8 +53,12 @@ def check_places(linkage: Linkage, p: Array) -> None:
             )
 
 
-def _check_turning(linkage: Linkage, p: Array, joint: ClearanceInfo) -> None:
-    """Raise AssemblyError for a slider that turns over in its guide: each corner meets its own wall only."""
+def _check_slider_tilt(linkage: Linkage, p: Array, joint: ClearanceInfo) -> None:
+    """Raise AssemblyError for a slider that could turn over in its guide: each corner meets its own wall only.
+
+    joint: the front upper corner of the slider. Its dimensions, and a tilt of 90 deg or more at the start, are
+    checked.
+    """
     source, c = linkage.source, float(p[joint.clearance])
     guide, a, b, radius = slider_of(source, p, joint)
     reach = math.hypot(a - radius, b - radius) + radius
@@ -73,7 +80,7 @@ def _check_turning(linkage: Linkage, p: Array, joint: ClearanceInfo) -> None:
 
 
 def _check_corner(linkage: Linkage, p: Array, joint: ClearanceInfo, depth: float) -> None:
-    """Raise AssemblyError for a slider's corner that is too deep, `depth` (m), in its wall."""
+    """Raise AssemblyError for a slider's corner that is too deep in its wall; `depth` in m, negative outside."""
     rigid, c = joint.name in linkage.source.rigid, float(p[joint.clearance])
     most = ROUNDED * c if rigid else DEEPEST * float(p[joint.constants["R_i"]])
     if depth > most:
@@ -90,8 +97,8 @@ def _check_corner(linkage: Linkage, p: Array, joint: ClearanceInfo, depth: float
 
 
 def in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
-    """Yield a note on each journal that the file's start places inside its bearing's wall."""
-    for joint, e, c in _placed_joints(linkage, p):
+    """Yield a note on each joint whose journal or corner starts inside the wall; rigid surfaces are left out."""
+    for joint, e, c in _iterate_placed_joints(linkage, p):
         if e > c and joint.name not in linkage.source.rigid:
             wall = "its wall" if joint.at_wall else "its bearing's wall"
             so = "a run begins in contact" if joint.dry else "there is no film there"
@@ -101,8 +108,11 @@ def in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
             )
 
 
-def _placed_joints(linkage: Linkage, p: Array) -> Iterator[tuple[ClearanceInfo, float, float]]:
-    """Yield the joints with play whose positions the file gives, with |e| and c (m), the largest of a contour."""
+def _iterate_placed_joints(linkage: Linkage, p: Array) -> Iterator[tuple[ClearanceInfo, float, float]]:
+    """Yield the joints with play whose positions the file's start sets, each with |e| and the clearance c (m).
+
+    For a corner, e is its approach to the wall; for a contour, c is the largest clearance.
+    """
     source = linkage.source
     if not source.start_apart:
         return
@@ -117,46 +127,51 @@ def _placed_joints(linkage: Linkage, p: Array) -> Iterator[tuple[ClearanceInfo, 
 
 
 def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array) -> tuple[str, ...]:
-    """Return a note on each dry contact that a run begins with while δ̇ ≤ 0: its δ̇⁻ is a convention.
+    """Return a note on each dry contact that a run begins with while the surfaces do not approach (δ̇ ≤ 0).
 
-    q, v (n,) at time t (s); memory (n_memory,): contacts resumed from another run know their onset.
+    Its approach speed δ̇⁻ at the onset is then a convention. q, v (n,) at time t (s). memory (n_memory,): contacts
+    resumed from another run know their onset and are left out, as are laws that do not depend on δ̇⁻.
     """
     joints = [k for k, joint in enumerate(compiled.source.clearances) if joint.dry and math.isnan(memory[k])]
-    message: list[str] = []
-    for number in joints:
-        joint = compiled.source.clearances[number]
+    notes: list[str] = []
+    for index in joints:
+        joint = compiled.source.clearances[index]
         if joint.at_wall:
-            message += _parting_corner(compiled, p, t, q, v, memory, number)
+            notes += _check_parting_corner(compiled, p, t, q, v, memory, index)
             continue
         rows, e = eccentricity(compiled, p, t, q, joint)
-        depth = math.hypot(*e) - float(p[joint.clearance]) - _contour_depth(compiled, p, q, joint, e)
+        depth = math.hypot(*e) - float(p[joint.clearance]) - _find_contour_depth(compiled, p, q, joint, e)
         if depth > 0.0:
             with np.errstate(all="ignore"):  # a state of anybody's: the run itself tells what is not finite
-                by_v = -(e / math.hypot(*e)) @ compiled.closed_phi_q(t, q, p)[rows]  # ∂δ̇/∂v
-                deltadot = float(by_v @ v + (e / math.hypot(*e)) @ compiled.closed_nu(t, q, p)[rows])
-                approach = v + (1.0 - deltadot) / float(by_v @ by_v) * by_v  # δ̇ = 1 m/s
-                if deltadot <= 0.0 and _reads_onset(compiled, p, t, q, approach, memory, number):
-                    message.append(_onset_note(joint.name, depth, deltadot))
-    return tuple(message)
+                deltadot_by_v = -(e / math.hypot(*e)) @ compiled.closed_phi_q(t, q, p)[rows]  # ∂δ̇/∂v
+                deltadot = float(deltadot_by_v @ v + (e / math.hypot(*e)) @ compiled.closed_nu(t, q, p)[rows])
+                approach = v + (1.0 - deltadot) / float(deltadot_by_v @ deltadot_by_v) * deltadot_by_v  # δ̇ = 1 m/s
+                if deltadot <= 0.0 and _depends_on_approach_speed(compiled, p, t, q, approach, memory, index):
+                    notes.append(_format_onset_note(joint.name, depth, deltadot))
+    return tuple(notes)
 
 
-def _parting_corner(
-    compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array, number: int
+def _check_parting_corner(
+    compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array, index: int
 ) -> Iterator[str]:
-    """Yield the same note for a slider's corner, whose δ̇ is linear in the velocities."""
-    joint = compiled.source.clearances[number]
-    depth, deltadot = corner_gap(compiled, p, t, q, v, number)
+    """Yield the note of `parting` for the corner of a slider, if it begins in contact without approaching.
+
+    index: of the joint among those with play. Other arguments as in `parting`.
+    """
+    joint = compiled.source.clearances[index]
+    depth, deltadot = corner_gap(compiled, p, t, q, v, index)
     if not (depth > 0.0 and deltadot <= 0.0):
         return
     steps = np.eye(len(v))
-    by_v = np.array([corner_gap(compiled, p, t, q, v + step, number)[1] - deltadot for step in steps])
-    approach = v + (1.0 - deltadot) / float(by_v @ by_v) * by_v  # δ̇ = 1 m/s
-    if _reads_onset(compiled, p, t, q, approach, memory, number):
-        yield _onset_note(joint.name, depth, deltadot)
+    deltadot_by_v = np.array([corner_gap(compiled, p, t, q, v + step, index)[1] - deltadot for step in steps])
+    approach = v + (1.0 - deltadot) / float(deltadot_by_v @ deltadot_by_v) * deltadot_by_v  # δ̇ = 1 m/s
+    if _depends_on_approach_speed(compiled, p, t, q, approach, memory, index):
+        yield _format_onset_note(joint.name, depth, deltadot)
 
 
-def _contour_depth(compiled: CompiledModel, p: Array, q: Array, joint: ClearanceInfo, e: Array) -> float:
-    """Return the depth (m) of the bearing's contour beyond its circle, where the journal lies."""
+def _find_contour_depth(compiled: CompiledModel, p: Array, q: Array, joint: ClearanceInfo, e: Array) -> float:
+    """Return the depth (m) of the bearing's contour beyond its circle in the direction of e (2,); 0 without a contour.
+    """
     if (depths := contour_of(compiled.source, p, joint.name)) is None:
         return 0.0
     theta = q[compiled.source.bodies[joint.first].index + 2] if joint.first >= 0 else 0.0
@@ -166,25 +181,32 @@ def _contour_depth(compiled: CompiledModel, p: Array, q: Array, joint: Clearance
 def eccentricity(
     compiled: CompiledModel, p: Array, t: float, q: Array, joint: ClearanceInfo
 ) -> tuple[list[int], Array]:
-    """Return the equations of a joint with play in the closed linkage, and e (2,) in ground axes, m."""
+    """Return the indices of a joint's equations in the closed linkage, and its eccentricity e (2,) in ground axes, m.
+    """
     rows = [k for k, row in enumerate(compiled.source.start_rows) if row.owner == joint.name]
     return rows, -compiled.closed_phi(t, q, p)[rows]  # physics.md, section 2: Φ of the joint is −e
 
 
-def _reads_onset(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array, number: int) -> bool:
-    """Return whether a joint's force depends on δ̇⁻, which it does not without loss, or if the law reads δ̇."""
-    latched = np.array([memory, memory])
-    latched[:, number] = 1e-3, np.inf
+def _depends_on_approach_speed(
+    compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array, index: int
+) -> bool:
+    """Return whether the force of a joint at this state differs for a small and an infinite approach speed δ̇⁻.
+
+    v: velocities at which the surfaces approach. index: of the joint among those with play. It is True if the state
+    cannot be evaluated.
+    """
+    contact_states = np.array([memory, memory])
+    contact_states[:, index] = 1e-3, np.inf
     try:
-        found = compiled.evaluate([t, t], [q, q], [v, v], latched, p, parts=("clearance",)).clearance[:, number]
+        found = compiled.evaluate([t, t], [q, q], [v, v], contact_states, p, parts=("clearance",)).clearance[:, index]
     except SingularError:  # the run itself tells
         return True
     force = found[:, [CLEARANCE_Fx, CLEARANCE_Fy]]
     return bool((force[0] != force[1]).any())
 
 
-def _onset_note(joint: str, depth: float, deltadot: float) -> str:
-    """Return the note on a contact at the start whose onset is not known."""
+def _format_onset_note(joint: str, depth: float, deltadot: float) -> str:
+    """Return the note on a contact at the start whose onset is not known; depth in m, deltadot (≤ 0) in m/s."""
     moves = f"part at {-deltadot:.4g} m/s" if deltadot < 0.0 else "are at rest"
     return (
         f"{joint} begins in contact, {1e6 * depth:.4g} µm deep, while its surfaces {moves}: the onset is not known, and"

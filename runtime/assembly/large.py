@@ -20,7 +20,10 @@ VANISHES = 1e-6  # of the largest singular value: smaller ones are ignored where
 
 
 def smallest(matrix: Array, target: Array) -> Array:
-    """Return the shortest x with matrix x = target, or the least-squares solution; 0 where they are not finite."""
+    """Return the shortest x (n,) with matrix x = target, or the shortest least-squares solution.
+
+    It is 0 if a number is not finite. From LARGE columns on sparse solvers are used.
+    """
     if not (np.isfinite(matrix).all() and np.isfinite(target).all()):
         return np.zeros(matrix.shape[1])
     if matrix.shape[1] >= LARGE:
@@ -30,7 +33,9 @@ def smallest(matrix: Array, target: Array) -> Array:
 
 
 def smallest_step(matrix: Array, target: Array) -> Array | None:
-    """Return the shortest x (n,) with matrix x = target by factoring [I Aᵀ; A 0]; None if A is rank-deficient."""
+    """Return the shortest x (n,) with matrix x = target by factorizing [I Aᵀ; A 0]; None if the rows depend on each
+    other.
+    """
     columns = matrix.shape[1]
     try:
         x = _factorize(matrix, 0.0)(np.concatenate([np.zeros(columns), target]))[:columns]
@@ -41,7 +46,11 @@ def smallest_step(matrix: Array, target: Array) -> Array | None:
 
 
 def dependent_step(matrix: Array, target: Array) -> Array:
-    """Return the shortest least-squares solution where rows depend on each other."""
+    """Return about the shortest least-squares solution x (n,) of matrix x = target, if rows depend on each other.
+
+    Singular values below VANISHES of the largest are damped; four repetitions reduce the effect of the damping on the
+    others.
+    """
     columns, x = matrix.shape[1], np.zeros(matrix.shape[1])
     solve = _factorize(matrix, (VANISHES * _norm_bound(matrix)) ** 2)
     for _ in range(4):  # damping takes a share of a step, less each time
@@ -50,17 +59,20 @@ def dependent_step(matrix: Array, target: Array) -> Array:
 
 
 def nearest_step(matrix: Array, target: Array) -> Array:
-    """Return x (n,) that minimizes matrix x − target with a little damping, for Newton's first steps."""
+    """Return x (n,) that minimizes |matrix x − target| with a little damping, for Newton's first steps with too many
+    equations.
+    """
     rows = len(matrix)
     damping = DAMPING * float((matrix**2).sum()) + 1e-300
     x = _factorize(matrix.T, damping)(np.concatenate([target, np.zeros(matrix.shape[1])]))[rows:]
     return np.asarray(x, dtype=np.float64)
 
 
-def is_independent(matrix: Array, least: float) -> bool:
+def is_independent(matrix: Array, relative_limit: float) -> bool:
     """Return whether all rows are surely independent, by an estimate of the smallest singular value.
 
-    It must be far above `least` times the largest. Powers of the inverse on a random column grow by 1/σ².
+    It must be far above `relative_limit` times the largest; False also for numbers that are not finite, no rows, or
+    more rows than columns. Powers of the inverse on a random column grow by 1/σ².
     """
     if not len(matrix) or len(matrix) > matrix.shape[1] or not np.isfinite(matrix).all():
         return False
@@ -73,18 +85,20 @@ def is_independent(matrix: Array, least: float) -> bool:
             growth, x = float(np.linalg.norm(y) / np.linalg.norm(x)), y / np.linalg.norm(y)
     except RuntimeError:
         return False
-    return growth * (least * _norm_bound(matrix)) ** 2 < 1e-2
+    return growth * (relative_limit * _norm_bound(matrix)) ** 2 < 1e-2
 
 
-def tied_shares(matrix: Array, least: float) -> Array:
-    """Return about the share of each row in vanishing combinations of rows: σ below `least` of the largest.
+def tied_shares(matrix: Array, relative_limit: float) -> Array:
+    """Return for each row, (m,), about its share in vanishing combinations of rows: σ below `relative_limit` of the
+    largest.
 
-    `least` ≥ 1e-7. (ε/(AAᵀ + ε))ᵏ leaves of random columns what is in these combinations, with ε = σ² at the limit.
+    relative_limit ≥ 1e-7. (ε/(AAᵀ + ε))ᵏ filters these combinations from random columns, with ε = σ² at the limit. All
+    0 for numbers that are not finite.
     """
     rows, columns = matrix.shape
     if not rows or not np.isfinite(matrix).all():
         return np.zeros(rows)
-    epsilon = (least * _norm_bound(matrix)) ** 2
+    epsilon = (relative_limit * _norm_bound(matrix)) ** 2
     solve = _factorize(matrix, epsilon)
     x = np.random.default_rng(0).standard_normal((rows, COLUMNS))
     for _ in range(SHARPER):
@@ -92,25 +106,30 @@ def tied_shares(matrix: Array, least: float) -> Array:
     return np.asarray(np.abs(x).max(axis=1, initial=0.0), dtype=np.float64)
 
 
-def rank_by_rows(matrix: Array, least: float) -> int:
-    """Return the number of independent rows, by Gram–Schmidt with pivoting; `least`: relative to the first."""
-    left, limit = np.array(matrix), 0.0
+def rank_by_rows(matrix: Array, relative_limit: float) -> int:
+    """Return the number of independent rows by Gram–Schmidt with pivoting.
+
+    relative_limit: remainder, relative to the longest row, at which a row counts as dependent.
+    """
+    remaining, limit = np.array(matrix), 0.0
     for k in range(min(matrix.shape)):
-        size = np.einsum("ij,ij->i", left, left)
+        size = np.einsum("ij,ij->i", remaining, remaining)
         pivot = int(size.argmax())
         length = float(np.sqrt(size[pivot]))
-        limit = limit or least * length
+        limit = limit or relative_limit * length
         if not length > limit:
             return k
-        direction = left[pivot] / length
-        left[pivot] = left[-1]
-        left = left[:-1]
-        left -= np.outer(left @ direction, direction)
+        direction = remaining[pivot] / length
+        remaining[pivot] = remaining[-1]
+        remaining = remaining[:-1]
+        remaining -= np.outer(remaining @ direction, direction)
     return min(matrix.shape)
 
 
 def _factorize(matrix: Array, damping: float) -> Callable[[Array], Array]:
-    """Return a solver of [I Aᵀ; A −ε] by sparse factorization. Raise RuntimeError if it is exactly singular."""
+    """Return a function that solves [I Aᵀ; A −damping I] x = b by sparse factorization. Raises RuntimeError if it is
+    singular.
+    """
     whole(*SPARSE)
     from scipy import sparse
     from scipy.sparse.linalg import splu
@@ -124,6 +143,6 @@ def _factorize(matrix: Array, damping: float) -> Callable[[Array], Array]:
 
 
 def _norm_bound(matrix: Array) -> float:
-    """Return an upper bound of the largest singular value, close to it where rows have few entries."""
+    """Return an upper bound of the largest singular value of a matrix, close to it if rows have few entries."""
     size = np.abs(matrix)
     return float(np.sqrt(size.sum(axis=0).max() * size.sum(axis=1).max()))

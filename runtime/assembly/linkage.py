@@ -23,23 +23,28 @@ class Linkage(Protocol):
     n: int
 
     def closed_phi(self, t: float, q: Array, p: Array) -> Array:
-        """Return the residuals Φ(q, t), (m,), in m and rad."""
+        """Return the residuals Φ(q, t) of the constraint equations, (m,), in m and rad."""
 
     def closed_phi_q(self, t: float, q: Array, p: Array) -> Array:
-        """Return the Jacobian ∂Φ/∂q, (m, n)."""
+        """Return the constraint Jacobian ∂Φ/∂q, (m, n)."""
 
     def closed_nu(self, t: float, q: Array, p: Array) -> Array:
-        """Return ν = −Φ_t, (m,), with Φ_q v = ν."""
+        """Return the right-hand side ν = −Φ_t of the velocity equations Φ_q v = ν, (m,)."""
 
     def mass(self, p: Array) -> Array:
-        """Return the diagonal of M, (n,)."""
+        """Return the diagonal of the mass matrix M, (n,)."""
 
     def start_values(self, p: Array) -> tuple[Array, Array, Array]:
-        """Return the file's start: guess, set, rates; the last two end with e and ė of `start_apart`."""
+        """Return the values of the file's start: guess, set coordinates, and rates.
+
+        The last two end with e and ė of the joints in `start_apart`.
+        """
 
 
 def mechanism_size(linkage: Linkage, p: Array) -> float:
-    """Return the size (m) of the mechanism; see `mechanism_sizes`."""
+    """Return the size (m) of the mechanism with parameter values p, by which lengths are scaled; see
+    `mechanism_sizes`.
+    """
     return float(mechanism_sizes(linkage.source, p))
 
 
@@ -49,19 +54,24 @@ def angles(source: KernelSource) -> NDArray[np.bool_]:
 
 
 def scaled_rows(linkage: Linkage, p: Array, matrix: Array) -> Array:
-    """Return rows of Φ_q without units, (m, n): angles count as arcs at the mechanism's size, each row has length 1."""
+    """Return rows (m, n) of the constraint Jacobian without units, each of length 1.
+
+    matrix: rows of Φ_q. Angles count as arcs at the mechanism's size.
+    """
     matrix = matrix / np.where(angles(linkage.source), mechanism_size(linkage, p), 1.0)
     return np.asarray(matrix / (np.linalg.norm(matrix, axis=1, keepdims=True) + 1e-300))
 
 
 def point_in_body(p: Array, point: PointInfo) -> Array:
-    """Return the coordinates (2,) in m of a point in its body's centre-of-mass frame, or in ground axes."""
+    """Return the coordinates (2,) in m of a point in its body's centre-of-mass frame; of a ground point in ground
+    axes.
+    """
     pairs = ((point.x, point.sign_x), (point.y, point.sign_y))
     return np.array([sign * float(p[k]) if k >= 0 else 0.0 for k, sign in pairs])
 
 
 def place_of(source: KernelSource, p: Array, q: Array, point: PointInfo) -> Array:
-    """Return the position (2,) in m of a point in ground axes."""
+    """Return the position (2,) in m of a point in ground axes at the configuration q."""
     arm = point_in_body(p, point)
     if point.body < 0:
         return arm
@@ -71,10 +81,10 @@ def place_of(source: KernelSource, p: Array, q: Array, point: PointInfo) -> Arra
 
 
 def project(compiled: CompiledModel, t: float, q: Array, v: Array, p: Array) -> tuple[Array, Array]:
-    """Return q and v (n,) projected onto the constraints by the smallest changes in the norm of M.
+    """Return q and v (n,) projected onto the constraints at time t by the smallest changes in the norm of M.
 
-    Where links are in line, equations depend on each other; the smallest least-squares solution is used. Values that
-    are not finite are returned unchanged.
+    Dependent equations, as for links in line, are satisfied in the least-squares sense. Values that are not finite are
+    returned unchanged.
     """
     root = np.sqrt(metric(compiled.source, p, compiled.mass(p)))
     for _ in range(PASSES):
@@ -90,6 +100,6 @@ def project(compiled: CompiledModel, t: float, q: Array, v: Array, p: Array) -> 
 
 
 def residuals(compiled: CompiledModel, t: float, q: Array, v: Array, p: Array) -> tuple[float, float]:
-    """Return max |Φ| and max |Φ̇|; 0 without constraints."""
+    """Return max |Φ| and max |Φ̇| at a state; 0 without constraints."""
     phi_dot = compiled.phi_q(t, q, p) @ v - compiled.nu(t, q, p)
     return float(np.abs(compiled.phi(t, q, p)).max(initial=0.0)), float(np.abs(phi_dot).max(initial=0.0))

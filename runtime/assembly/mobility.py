@@ -38,51 +38,62 @@ class Mobility:
 
     @property
     def gruebler(self) -> int:
-        """Return the number of coordinates less that of constraint equations."""
+        """Return Grübler's count: the number of coordinates less that of constraint equations."""
         return self.coordinates - self.rows
 
     @property
     def redundant(self) -> int:
-        """Return the number of redundant constraint equations."""
+        """Return the number of redundant constraint equations, by which rank and count differ."""
         return self.freedoms - self.gruebler
 
 
-def find_mobility(linkage: Linkage, p: Array, q: Array, rows: Sequence[int] | None = None, t: float = 0.0) -> Mobility:
-    """Return the mobility of a linkage assembled at q (n,), optionally of some of its equations only."""
-    kept = list(range(len(linkage.source.start_rows))) if rows is None else list(rows)
+def find_mobility(
+    linkage: Linkage, p: Array, q: Array, equation_indices: Sequence[int] | None = None, t: float = 0.0
+) -> Mobility:
+    """Return the mobility of a linkage assembled at q (n,), from the largest rank of Φ_q at q and near it.
+
+    equation_indices: indices of the equations that count, None for all. t: time of the drives, s.
+    """
+    row_indices = list(range(len(linkage.source.start_rows))) if equation_indices is None else list(equation_indices)
     with np.errstate(all="ignore"):
-        near = configurations(linkage, p, q, kept, SAMPLES, t)
-        matrices = [scaled_rows(linkage, p, linkage.closed_phi_q(t, x, p)[kept]) for x in near]
-    spaces = [_null_space(matrix) for matrix in matrices if np.isfinite(matrix).all()]
-    least = min(reversed(range(len(spaces))), key=lambda k: spaces[k].shape[1])  # not the start, where links may align
-    names, free = linkage.source.coordinates, spaces[least]
-    along = tuple(names[k] for k in _describing_coordinates(free, _preferred_order(names)))
-    aligned = spaces[0].shape[1] - free.shape[1]
-    return Mobility(len(names), len(kept), free.shape[1], along, _loose_bodies(linkage, matrices[least]), aligned)
+        near_q = configurations(linkage, p, q, row_indices, SAMPLES, t)
+        matrices = [scaled_rows(linkage, p, linkage.closed_phi_q(t, x, p)[row_indices]) for x in near_q]
+    null_spaces = [_compute_null_space(matrix) for matrix in matrices if np.isfinite(matrix).all()]
+    regular = min(
+        reversed(range(len(null_spaces))), key=lambda k: null_spaces[k].shape[1]
+    )  # not the start, where links may align
+    names, motions = linkage.source.coordinates, null_spaces[regular]
+    along = tuple(names[k] for k in _select_describing_coordinates(motions, _list_preferred_order(names)))
+    aligned = null_spaces[0].shape[1] - motions.shape[1]
+    return Mobility(
+        len(names), len(row_indices), motions.shape[1], along, _find_loose_bodies(linkage, matrices[regular]), aligned
+    )
 
 
 def free_motions(linkage: Linkage, p: Array, q: Array, t: float = 0.0) -> Array:
-    """Return an orthonormal basis (n, freedoms) of the velocities that all equations allow at q.
+    """Return an orthonormal basis (n, dof) of the velocities that all equations allow at q.
 
-    Angles count as arcs at the mechanism's size.
+    Angles count as arcs at the mechanism's size. It has no columns if the Jacobian is not finite.
     """
     scale = np.where(angles(linkage.source), 1.0 / mechanism_size(linkage, p), 1.0)
     with np.errstate(all="ignore"):
         matrix = scaled_rows(linkage, p, linkage.closed_phi_q(t, q, p))
-    return _null_space(matrix) * scale[:, None] if np.isfinite(matrix).all() else np.zeros((len(q), 0))
+    return _compute_null_space(matrix) * scale[:, None] if np.isfinite(matrix).all() else np.zeros((len(q), 0))
 
 
-def check_freedoms(expected: float, where: Location, found: Mobility) -> None:
-    """Raise BadValueError if the file states another number of degrees of freedom of its closed linkage."""
-    if found.freedoms != expected:
-        along = f": {', '.join(found.along)}" if found.along else ""
-        message = f"freedoms is {expected:g}, but with all joints closed there are {found.freedoms}{along}"
+def check_freedoms(expected: float, location: Location, mobility: Mobility) -> None:
+    """Raise BadValueError at `location` if the file states another number of degrees of freedom than was found."""
+    if mobility.freedoms != expected:
+        along = f": {', '.join(mobility.along)}" if mobility.along else ""
+        message = f"freedoms is {expected:g}, but with all joints closed there are {mobility.freedoms}{along}"
         hint = "look for a joint or a drive that is missing or too many, or correct the number"
-        raise BadValueError(message, where, f"expected {found.freedoms}, if that is meant; {hint}")
+        raise BadValueError(message, location, f"expected {mobility.freedoms}, if that is meant; {hint}")
 
 
-def _null_space(matrix: Array) -> Array:
-    """Return an orthonormal basis (n, freedoms) of the null space of a matrix."""
+def _compute_null_space(matrix: Array) -> Array:
+    """Return an orthonormal basis (n, dof) of the null space of a matrix, by singular values below RANK of the
+    largest.
+    """
     if not len(matrix):
         return np.eye(matrix.shape[1])
     _, values, right = np.linalg.svd(matrix)
@@ -90,33 +101,44 @@ def _null_space(matrix: Array) -> Array:
     return np.asarray(right[rank:].T, dtype=np.float64)
 
 
-def _preferred_order(names: tuple[str, ...]) -> list[int]:
-    """Return the order in which coordinates are tried: by body as in the file, the angle before x and y."""
+def _list_preferred_order(names: tuple[str, ...]) -> list[int]:
+    """Return the indices of coordinates in the order of preference: by body as in the file, the angle before x and y.
+    """
     return [k + shift for k in range(0, len(names), 3) for shift in (2, 0, 1)]
 
 
-def _describing_coordinates(free: Array, order: list[int]) -> list[int]:
-    """Return the first coordinates in this order that distinguish all free motions."""
-    basis, selected = np.zeros((0, free.shape[1])), list[int]()
-    for share in (0.1, 0.0):  # of a coordinate's motion that is its own; then those that only go with others
+def _select_describing_coordinates(motions: Array, order: list[int]) -> list[int]:
+    """Return the indices of the first coordinates in this order that distinguish all free motions (n, dof).
+
+    Coordinates whose motion is mostly independent of those selected are preferred.
+    """
+    basis, selected = np.zeros((0, motions.shape[1])), list[int]()
+    for independent_part in (0.1, 0.0):  # of a coordinate's motion that is its own; then those that only go with others
         for k in order:
-            rest = free[k] - (basis @ free[k]) @ basis
-            own = float(np.linalg.norm(rest))
-            if len(selected) < free.shape[1] and own > INDEPENDENT and own > share * float(np.linalg.norm(free[k])):
-                basis, selected = np.vstack([basis, rest / own]), [*selected, k]
+            rest = motions[k] - (basis @ motions[k]) @ basis
+            length = float(np.linalg.norm(rest))
+            if (
+                len(selected) < motions.shape[1]
+                and length > INDEPENDENT
+                and length > independent_part * float(np.linalg.norm(motions[k]))
+            ):
+                basis, selected = np.vstack([basis, rest / length]), [*selected, k]
     return selected
 
 
-def _loose_bodies(linkage: Linkage, matrix: Array) -> tuple[str, ...]:
-    """Return the bodies that no joint or drive connects to the ground, not even through other bodies."""
+def _find_loose_bodies(linkage: Linkage, matrix: Array) -> tuple[str, ...]:
+    """Return the names of the bodies that no joint or drive connects to the ground, not even through other bodies.
+
+    matrix: rows of Φ_q, one for each equation.
+    """
     bodies = linkage.source.bodies
-    touched = [{k for k, body in enumerate(bodies) if np.any(row[body.index : body.index + 3])} for row in matrix]
+    bodies_of_row = [{k for k, body in enumerate(bodies) if np.any(row[body.index : body.index + 3])} for row in matrix]
     # a row of one body ties it to the ground, and with it those that rows join to it
-    held = {k for row in touched if len(row) == 1 for k in row}
-    grown = True
-    while grown:
-        grown = False
-        for row in touched:
-            if row & held and not row <= held:
-                held, grown = held | row, True
-    return tuple(body.name for k, body in enumerate(bodies) if k not in held)
+    connected = {k for row in bodies_of_row if len(row) == 1 for k in row}
+    is_growing = True
+    while is_growing:
+        is_growing = False
+        for row in bodies_of_row:
+            if row & connected and not row <= connected:
+                connected, is_growing = connected | row, True
+    return tuple(body.name for k, body in enumerate(bodies) if k not in connected)

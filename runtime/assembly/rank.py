@@ -38,35 +38,44 @@ CONSISTENT = 1e-3  # relative contradiction of the rates at which the linkage ca
 SAME = 1e-6  # smallest relative difference of the rates of two branches
 
 
-def rank(matrix: Array, least: float = RANK) -> int:
-    """Return the number of independent rows of a matrix."""
+def rank(matrix: Array, relative_limit: float = RANK) -> int:
+    """Return the number of independent rows of a matrix.
+
+    relative_limit: singular values below this fraction of the largest count as zero. Large matrices are treated
+    without singular values.
+    """
     if matrix.shape[1] >= LARGE:
-        return len(matrix) if is_independent(matrix, least) else rank_by_rows(matrix, least)
-    return _rank(matrix, least)
+        return len(matrix) if is_independent(matrix, relative_limit) else rank_by_rows(matrix, relative_limit)
+    return _compute_rank_by_svd(matrix, relative_limit)
 
 
-def tied(matrix: Array, least: float = RANK) -> Array:
-    """Return for each row its largest share in a vanishing combination of rows; 0 for independent rows."""
+def tied(matrix: Array, relative_limit: float = RANK) -> Array:
+    """Return for each row, (m,), its largest share in a vanishing combination of rows; 0 for independent rows.
+
+    relative_limit: singular values below this fraction of the largest vanish.
+    """
     if matrix.shape[1] >= LARGE:
-        return tied_shares(matrix, max(least, DAMPED))
-    return _tied(matrix, least)
+        return tied_shares(matrix, max(relative_limit, DAMPED))
+    return _compute_shares_by_svd(matrix, relative_limit)
 
 
-def _rank(matrix: Array, least: float) -> int:
-    """Return the rank of a small matrix by its singular values."""
+def _compute_rank_by_svd(matrix: Array, relative_limit: float) -> int:
+    """Return the rank of a small matrix: singular values above `relative_limit` times the largest."""
     values = np.linalg.svd(matrix, compute_uv=False)
-    return int((values > least * values[0]).sum())
+    return int((values > relative_limit * values[0]).sum())
 
 
-def _tied(matrix: Array, least: float) -> Array:
-    """Return the shares of the rows of a small matrix in vanishing combinations."""
+def _compute_shares_by_svd(matrix: Array, relative_limit: float) -> Array:
+    """Return for each row of a small matrix its largest share in a vanishing combination, from the left singular
+    vectors.
+    """
     left, values, _ = np.linalg.svd(matrix)
-    vanishing = left[:, int((values > least * values[0]).sum()) :]
+    vanishing = left[:, int((values > relative_limit * values[0]).sum()) :]
     return np.asarray(np.abs(vanishing).max(axis=1, initial=0.0), dtype=np.float64)
 
 
 def dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tuple[str, ...]:
-    """Return the equations of Φ and start.rates that depend on each other at q; () at a regular position.
+    """Return the names of the equations of Φ and start.rates that depend on each other at q; () at a regular position.
 
     Equations that are redundant everywhere do not count: they were left out when the scene was derived, or depend on
     each other near q, too.
@@ -81,54 +90,68 @@ def dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tup
     for k, rate in enumerate(source.start_rates):
         body, _, component = rate.partition(".")
         rates[k, source.coordinates.index(f"{body}.{_POSITION[component]}")] = 1.0
-    tied_there = _tied_rows(compiled, p, np.concatenate([compiled.closed_phi_q(t, q, p)[index], rates]), names, DEAD)
-    if not tied_there:
+    dependent = _find_dependent_names(
+        compiled, p, np.concatenate([compiled.closed_phi_q(t, q, p)[index], rates]), names, DEAD
+    )
+    if not dependent:
         return ()
-    near = configurations(compiled, p, q, [k for k in index if source.start_rows[k].kind != "drive"], SAMPLES, t)
-    rows = (np.concatenate([compiled.closed_phi_q(t, x, p)[index], rates]) for x in near)
+    near_q = configurations(compiled, p, q, [k for k in index if source.start_rows[k].kind != "drive"], SAMPLES, t)
+    rows = (np.concatenate([compiled.closed_phi_q(t, x, p)[index], rates]) for x in near_q)
     at_start, *others = (rank(scaled_rows(compiled, p, matrix), DEAD) for matrix in rows)
-    return () if others and max(others) == at_start else tied_there
+    return () if others and max(others) == at_start else dependent
 
 
 def nearly_dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tuple[str, ...]:
-    """Return the equations of the motion (without joints with play) that nearly depend on each other at q."""
+    """Return the names of the equations of motion (joints with play left out) that nearly depend on each other at q.
+
+    () without equations, or if q is not finite.
+    """
     rows = compiled.source.rows
     if not rows or not np.isfinite(q).all():
         return ()
-    return _tied_rows(compiled, p, compiled.phi_q(t, q, p), [row.name for row in rows], NEAR)
+    return _find_dependent_names(compiled, p, compiled.phi_q(t, q, p), [row.name for row in rows], NEAR)
 
 
-def _tied_rows(compiled: CompiledModel, p: Array, matrix: Array, names: list[str], least: float) -> tuple[str, ...]:
-    """Return the names of the rows that depend on each other, by their geometry alone."""
-    shares = tied(scaled_rows(compiled, p, matrix), least)
+def _find_dependent_names(
+    compiled: CompiledModel, p: Array, matrix: Array, names: list[str], relative_limit: float
+) -> tuple[str, ...]:
+    """Return the names of the rows that depend on each other, after scaling, so that units do not matter.
+
+    matrix: rows of Φ_q. relative_limit: as in `tied`.
+    """
+    shares = tied(scaled_rows(compiled, p, matrix), relative_limit)
     return tuple(name for name, share in zip(names, shares, strict=True) if share > 1e-6)
 
 
 def configurations(
-    linkage: Linkage, p: Array, q: Array, rows: Sequence[int], count: int, t: float = 0.0
+    linkage: Linkage, p: Array, q: Array, equation_indices: Sequence[int], count: int, t: float = 0.0
 ) -> list[Array]:
-    """Return the start and `count` configurations near it: random steps along the motion, closed by Newton."""
+    """Return q and up to `count` configurations near it: random steps, closed by Newton's method.
+
+    equation_indices: indices of the equations that must be satisfied. Configurations that do not close are left out.
+    """
     if not count:  # NumPy's random numbers are imported on request
         return [q]
-    rng, found, kept, size = np.random.default_rng(0), [q], list(rows), mechanism_size(linkage, p)
+    rng, near_q, row_indices, size = np.random.default_rng(0), [q], list(equation_indices), mechanism_size(linkage, p)
     scale = np.where(angles(linkage.source), 1.0, size)
-    units = np.array([size if linkage.source.start_rows[k].unit == "m" else 1.0 for k in kept])
+    units = np.array([size if linkage.source.start_rows[k].unit == "m" else 1.0 for k in row_indices])
     for _ in range(count):
         x = q + REACH * rng.standard_normal(len(q)) * scale
         for _ in range(50):
-            residual = linkage.closed_phi(t, x, p)[kept] / units
+            residual = linkage.closed_phi(t, x, p)[row_indices] / units
             if np.abs(residual).max(initial=0.0) < 1e-13:
                 break
-            matrix = linkage.closed_phi_q(t, x, p)[kept] * scale / units[:, None]
+            matrix = linkage.closed_phi_q(t, x, p)[row_indices] * scale / units[:, None]
             x = x - scale * np.linalg.lstsq(matrix, residual, rcond=1e-10)[0]
-        if np.abs(linkage.closed_phi(t, x, p)[kept] / units).max(initial=0.0) < 1e-9:
-            found.append(x)
-    return found
+        if np.abs(linkage.closed_phi(t, x, p)[row_indices] / units).max(initial=0.0) < 1e-9:
+            near_q.append(x)
+    return near_q
 
 
 def left_out(compiled: CompiledModel) -> list[int]:
-    """Return the indices of equations of the closed linkage that are redundant: not kept, and not of joints with
-    play.
+    """Return the indices of the closed linkage's equations that were found redundant and are not integrated.
+
+    Equations of joints with play do not count.
     """
     source = compiled.source
     kept, with_play = {row.name for row in source.rows}, {joint.joint for joint in source.clearances}
@@ -136,7 +159,9 @@ def left_out(compiled: CompiledModel) -> list[int]:
 
 
 def check_start(compiled: CompiledModel, p: Array, t: float, q: Array) -> None:
-    """Raise AssemblyError if a redundant equation would remove a degree of freedom at the start."""
+    """Raise AssemblyError if an equation that was redundant with the file's values would remove a degree of freedom at
+    q.
+    """
     extra = left_out(compiled)
     if not extra:
         return
@@ -144,16 +169,17 @@ def check_start(compiled: CompiledModel, p: Array, t: float, q: Array) -> None:
     kept = scaled_rows(compiled, p, compiled.phi_q(t, q, p))
     if rank(kept) == len(kept) and rank(np.concatenate([kept, rows[extra]])) > len(kept):
         raise AssemblyError(
-            f"{_equations_text(compiled, extra)} said nothing new with the file's numbers and"
+            f"{_describe_equations(compiled, extra)} said nothing new with the file's numbers and"
             " would hold the linkage with these\n"
             "  give the numbers in the file or as overrides of load(), so that the constraints are counted anew"
         )
 
 
 def contradiction(problem: Problem, trajectory: Trajectory) -> SolverError | None:
-    """Return the error for the first sample at which a redundant equation is violated, or None.
+    """Return the error for the first sample of a trajectory at which a redundant equation is violated; None if there
+    is none.
 
-    For an interrupted run, at most MOST samples are checked, the last one among them. Raises KeyboardInterrupt.
+    Of an interrupted run, at most MOST samples are checked, the last one among them. Raises KeyboardInterrupt.
     """
     compiled, p = problem.compiled, problem.p
     extra = left_out(compiled)
@@ -168,7 +194,7 @@ def contradiction(problem: Problem, trajectory: Trajectory) -> SolverError | Non
         t = float(trajectory.t[k])
         far = np.abs(compiled.closed_phi(t, trajectory.q[k], p)[extra]) > OPEN * scale
         if far.any():
-            names = _equations_text(compiled, [row for row, is_far in zip(extra, far, strict=True) if is_far])
+            names = _describe_equations(compiled, [row for row, is_far in zip(extra, far, strict=True) if is_far])
             return SolverError(
                 f"the constraints contradict each other by t = {t:.9g} s: {names} depended on the others and is open"
                 " now\n  check the values of the drives and the lengths of links that run side by side",
@@ -177,15 +203,19 @@ def contradiction(problem: Problem, trajectory: Trajectory) -> SolverError | Non
     return None
 
 
-def _equations_text(compiled: CompiledModel, rows: list[int]) -> str:
-    """Return a text with the names of equations and their joints."""
-    found = [compiled.source.start_rows[k] for k in rows]
+def _describe_equations(compiled: CompiledModel, equation_indices: list[int]) -> str:
+    """Return the names of equations with those of their joints and of the joints with indeterminate forces."""
+    found = [compiled.source.start_rows[k] for k in equation_indices]
     owners = dict.fromkeys([*(row.owner for row in found), *compiled.source.indeterminate])
     return f"row {', '.join(row.name for row in found)} (with {', '.join(owners)})"
 
 
 def branch_rates(compiled: CompiledModel, p: Array, t: float, q: Array) -> list[Array]:
-    """Return the velocities q̇ (n,) of each branch at the singular position q (n,); [] if they are unknown."""
+    """Return the velocities q̇ (n,) of both branches of the motion at the singular position q.
+
+    [] if the position is regular, has more than one dependent equation, contradicts the drives, or has no two distinct
+    real branches.
+    """
     redundant = set(left_out(compiled))
     rows = [k for k in range(len(compiled.source.start_rows)) if k not in redundant]
     matrix = compiled.closed_phi_q(t, q, p)[rows]
@@ -208,7 +238,7 @@ def branch_rates(compiled: CompiledModel, p: Array, t: float, q: Array) -> list[
 
 
 def branches_text(compiled: CompiledModel, p: Array, t: float, q: Array) -> str:
-    """Return the branches at q as text, by the velocity that differs most; "" if none are known."""
+    """Return a text on both branches of the motion at q, by the velocity that differs most; "" if they are unknown."""
     rates = branch_rates(compiled, p, t, q)
     if not rates:
         return ""

@@ -36,7 +36,10 @@ class Start:
 
 
 def assemble(compiled: CompiledModel, p: Array, t: float = 0.0) -> Start:
-    """Return the start of a scene. Raise AssemblyError with equations, joints and residual."""
+    """Return the assembled start of a scene at time t, by C or, if that fails, by the search in Python.
+
+    Raises AssemblyError with equations, joints and residual.
+    """
     check_places(compiled, p)
     closed = compiled.close(t, p, mechanism_size(compiled, p)) if compiled.n < LARGE else None
     if closed is not None and np.isfinite(closed[1]).all():
@@ -45,7 +48,10 @@ def assemble(compiled: CompiledModel, p: Array, t: float = 0.0) -> Start:
 
 
 def search(linkage: Linkage, p: Array, t: float = 0.0) -> Start:
-    """Return the start by a search in Python. Raise AssemblyError with equations, joints and residual."""
+    """Return the start nearest to the guess by a search in Python: closed configuration, then velocities.
+
+    Raises AssemblyError with equations, joints and residual.
+    """
     from gudgeon.assembly.closure import Closure
 
     closure = Closure(linkage, p, t)
@@ -58,21 +64,24 @@ def search(linkage: Linkage, p: Array, t: float = 0.0) -> Start:
     return Start(q, velocities(closure, q), float(np.abs(closure.residual(q)).max(initial=0.0)))
 
 
-def _time_of_rates(closure: Closure) -> float:
-    """Return the time (s) at which the drives' rates are evaluated: after a jump of the rate at the start."""
+def _choose_rate_time(closure: Closure) -> float:
+    """Return the time (s) at which the drives' rates are evaluated: just after t if a rate jumps there, else t."""
     more = max(32 * np.finfo(float).eps * abs(closure.t), 1e-100)
     return closure.t + more if closure.linkage.source.rate_jumps else closure.t
 
 
 def velocities(closure: Closure, q: Array) -> Array:
-    """Return q̇ with Φ_q q̇ = ν and the start's rates; undetermined velocities are least in the norm of M."""
+    """Return q̇ (n,) with Φ_q q̇ = ν and the start's rates; undetermined velocities are least in the norm of M.
+
+    Raises AssemblyError if a rate is not finite or the equations contradict each other.
+    """
     names = {"x": "vx", "y": "vy", "theta": "omega"}
     expected = [f"{body}.{names[c]}" for body, c in (name.split(".") for name in closure.place)]
     index = [expected.index(name) for name in closure.linkage.source.start_rates]
-    extra = np.zeros((len(index), len(q)))
-    extra[np.arange(len(index)), index] = 1.0
-    matrix = np.concatenate([closure.linkage.closed_phi_q(closure.t, q, closure.p), extra])
-    nu = closure.linkage.closed_nu(_time_of_rates(closure), q, closure.p)
+    rate_rows = np.zeros((len(index), len(q)))
+    rate_rows[np.arange(len(index)), index] = 1.0
+    matrix = np.concatenate([closure.linkage.closed_phi_q(closure.t, q, closure.p), rate_rows])
+    nu = closure.linkage.closed_nu(_choose_rate_time(closure), q, closure.p)
     nu[closure.apart_index] -= closure.parting
     target = np.concatenate([nu, closure.rates])
     if not (np.isfinite(target).all() and np.isfinite(matrix).all()):
@@ -82,13 +91,13 @@ def velocities(closure: Closure, q: Array) -> Array:
             f"the start has no velocities: the rate of {', '.join(rows) or 'the constraints'} is not finite at"
             f" t = {closure.t:g} s\n  a root or a power has no slope where it begins: begin with smooth_step or later"
         )
-    root = np.sqrt(metric(closure.linkage.source, closure.p, closure.linkage.mass(closure.p)))
+    root_of_mass = np.sqrt(metric(closure.linkage.source, closure.p, closure.linkage.mass(closure.p)))
     v = np.zeros_like(q)
     for _ in range(2):  # once more for the rounding of the first solution
-        v += smallest(matrix / root, target - matrix @ v) / root
+        v += smallest(matrix / root_of_mass, target - matrix @ v) / root_of_mass
     left = np.abs(matrix @ v - target)
     if left.max(initial=0.0) > 1e-8 * float(np.abs(target).max(initial=0.0)) + MIN_RESOLVED:
         from gudgeon.assembly.failures import stuck
 
-        raise stuck(closure, matrix / root, left)
+        raise stuck(closure, matrix / root_of_mass, left)
     return v

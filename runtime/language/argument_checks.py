@@ -20,32 +20,36 @@ IN_RANGE = "expected a magnitude from 2.3e-308 to 1.7e308"
 
 
 def message(value: object) -> str:
-    """Return a short text of any value for a message."""
+    """Return a text of at most about 60 characters that shows any value in an error message.
+
+    Texts and bytes are quoted; objects other than numbers and None have their type before the value. It never raises,
+    even if `repr` does.
+    """
     if isinstance(value, (str, bytes)):
         return repr(value[:60])
     try:
-        text = repr(value)
+        representation = repr(value)
     except Exception:  # an integer of thousands of digits, an object's own mistake
-        text = ""
-    if value is None or (isinstance(value, (int, float)) and text):
-        return text[:60]
-    return f"{type(value).__name__} {text[:60]}".strip()
+        representation = ""
+    if value is None or (isinstance(value, (int, float)) and representation):
+        return representation[:60]
+    return f"{type(value).__name__} {representation[:60]}".strip()
 
 
 def refuse(name: str, value: object, expected: str, hint: str = "") -> NoReturn:
-    """Raise BadValueError: the argument `name` has a value other than expected."""
+    """Raise BadValueError: the argument `name` has this value, and `expected` says what it should be."""
     raise BadValueError(f"{name} is {message(value)}: expected {expected}", hint=hint)
 
 
 def flag(value: object, name: str) -> bool:
-    """Return a flag as bool. Only True and False of Python or NumPy are accepted."""
+    """Return a flag as bool. Raises BadValueError unless it is True or False of Python or NumPy."""
     if not isinstance(value, (bool, np.bool_)):
         refuse(name, value, "True or False")
     return bool(value)
 
 
 def text(value: object, name: str, expected: str = "a text") -> str:
-    """Return a text that can be encoded as UTF-8."""
+    """Return the value if it is a str that can be encoded as UTF-8, else raise BadValueError with `expected`."""
     if not isinstance(value, str):
         refuse(name, value, expected)
     try:
@@ -56,21 +60,22 @@ def text(value: object, name: str, expected: str = "a text") -> str:
 
 
 def function(value: Any, name: str) -> Any:
-    """Return a callable, or None."""
+    """Return the value if it is a callable or None, else raise BadValueError."""
     if value is not None and not callable(value):
         refuse(name, value, "a function, or None")
     return value
 
 
 def path(value: Any, name: str) -> str | os.PathLike[str]:
-    """Return the name of a file."""
+    """Return a file name (str or PathLike) unchanged; raise BadValueError unless the file system can have such a name.
+    """
     if not isinstance(value, (str, os.PathLike)) or not isinstance(os.fspath(value), str):
         refuse(name, value, "the name of a file: a text or a Path")
     try:
-        known = b"\0" not in os.fsencode(value)
+        is_possible = b"\0" not in os.fsencode(value)
     except UnicodeEncodeError:
-        known = False
-    if not known:
+        is_possible = False
+    if not is_possible:
         refuse(name, value, "a name that a file can have")
     return value
 
@@ -80,17 +85,23 @@ def is_whole(value: object) -> TypeGuard[int]:
     return isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
 
 
-def whole(value: Any, name: str, least: int, most: int) -> int:
-    """Return an integer between bounds."""
+def whole(value: Any, name: str, minimum: int, maximum: int) -> int:
+    """Return a value as int if it is an integer with minimum ≤ value ≤ maximum, else raise BadValueError.
+
+    Arrays without dimensions are accepted.
+    """
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value[()]
-    if not is_whole(value) or not least <= value <= most:
-        refuse(name, value, f"a whole number from {least} to {most}")
+    if not is_whole(value) or not minimum <= value <= maximum:
+        refuse(name, value, f"a whole number from {minimum} to {maximum}")
     return int(value)
 
 
 def number_of(value: Any, name: str) -> float:
-    """Return a finite float from any real number, but not from a text or boolean. Raise BadValueError."""
+    """Return any one real number as a finite float.
+
+    Raises BadValueError for texts, booleans, complex numbers, times, arrays with dimensions, NaN and infinity.
+    """
     try:
         if isinstance(value, (str, bytes, bool, np.bool_)) or np.ndim(value) or np.iscomplexobj(value):
             raise TypeError
@@ -105,20 +116,26 @@ def number_of(value: Any, name: str) -> float:
     return result
 
 
-def whole_digits(value: float, name: str) -> float:
-    """Return a number unless it is subnormal, since such numbers have lost digits. Raise BadValueError."""
-    if value and abs(value) < sys.float_info.min:
-        raise BadValueError(f"{name}: {value!r} is out of range", hint=IN_RANGE)
-    return value
+def whole_digits(number: float, name: str) -> float:
+    """Return the number unchanged. Raises BadValueError if it is subnormal, since such numbers have lost digits."""
+    if number and abs(number) < sys.float_info.min:
+        raise BadValueError(f"{name}: {number!r} is out of range", hint=IN_RANGE)
+    return number
 
 
 def time(value: Any) -> float:
-    """Return a time (s) as float. NaN and infinities are kept for C to handle."""
+    """Return a time (s) as float; a float is returned unchanged, also NaN and infinity, which C handles.
+
+    Raises BadValueError for anything that is not a number.
+    """
     return value if isinstance(value, float) else number_of(value, "t")
 
 
 def mapping(value: Any, name: str, hint: str = "") -> Mapping[str, Any]:
-    """Return a mapping with texts as keys; a pandas Series is accepted, None is an empty mapping."""
+    """Return a mapping with texts as keys; None gives an empty mapping, a pandas Series becomes a dict.
+
+    Raises BadValueError with `hint` for other values, keys that are not texts, or a Series with repeated names.
+    """
     if value is None:
         return {}
     found = value
@@ -135,7 +152,11 @@ def mapping(value: Any, name: str, hint: str = "") -> Mapping[str, Any]:
 
 
 def listed(value: Any, name: str, kind: type[One], expected: str) -> list[One]:
-    """Return a list of items of one type from any sequence but a text; arrays and table columns are accepted."""
+    """Return a list of the items of a sequence, set, one-dimensional array or table column, all of type `kind`.
+
+    Raises BadValueError with `expected` for other values, also for a single text, a mapping, or a column of 10⁶ or
+    more items.
+    """
     if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Iterable) or getattr(value, "ndim", 1) != 1:
         refuse(name, value, expected)
     if isinstance(value, Sequence) or len(getattr(value, "shape", ())) == 0 or len(value) < 10**6:  # type: ignore[arg-type]
@@ -146,25 +167,27 @@ def listed(value: Any, name: str, kind: type[One], expected: str) -> list[One]:
 
 
 def names(value: Any, name: str, expected: str) -> list[str]:
-    """Return one name or several names in any sequence or set as a list of plain texts."""
+    """Return one name, or several in any sequence or set, as a list of plain str. Raises BadValueError with
+    `expected`.
+    """
     every = [value] if isinstance(value, str) else listed(value, name, str, expected)
     return [str.__str__(text(one, name, expected)) for one in every]
 
 
 def instance(value: Any, name: str, kind: type[One]) -> One:
-    """Return an instance of a class."""
+    """Return the value if it is an instance of the class `kind`, else raise BadValueError."""
     if not isinstance(value, kind):
         refuse(name, value, f"a {kind.__name__}")
     return value
 
 
 def optional(value: Any, name: str, kind: type[One]) -> One | None:
-    """Return an instance of a class, or None."""
+    """Return the value if it is None or an instance of the class `kind`, else raise BadValueError."""
     return None if value is None else instance(value, name, kind)
 
 
 def positive(value: Any, name: str) -> float:
-    """Return a positive number."""
+    """Return any real number above zero as a finite float, else raise BadValueError."""
     number = number_of(value, name)
     if not number > 0.0:
         refuse(name, value, "a number above zero")
@@ -172,11 +195,11 @@ def positive(value: Any, name: str) -> float:
 
 
 def optional_positive(value: Any, name: str) -> float | None:
-    """Return a positive number, or None."""
+    """Return None for None, any real number above zero as a finite float, else raise BadValueError."""
     return None if value is None else positive(value, name)
 
 
 def numbers(values: Any, name: str) -> list[float]:
-    """Return the finite numbers of a list, an array or a column; [] for None."""
+    """Return the finite numbers of a list, array or column as floats; [] for None. Raises BadValueError."""
     every: list[Any] = [] if values is None else listed(values, name, object, "a list of numbers")
     return [number_of(value, f"{name}[{k}]") for k, value in enumerate(every)]

@@ -26,7 +26,7 @@ NATURAL, CLAMPED, PERIODIC, NOT_A_KNOT = ENDS = ("natural", "clamped", "periodic
 SPLINE, MONOTONE = INTERPOLATIONS = ("spline", "monotone")
 STOP, HOLD, LINE = EXTRAPOLATE = ("none", "hold", "line")
 LEAST = {NATURAL: 2, CLAMPED: 2, PERIODIC: 3, NOT_A_KNOT: 4}  # smallest number of points by condition at the ends
-_TOLD = {SPLINE: "cubic spline", MONOTONE: "monotone cubic"}  # names of the interpolations in messages
+_INTERPOLATION_NAMES = {SPLINE: "cubic spline", MONOTONE: "monotone cubic"}  # names of the interpolations in messages
 LONG = 4000  # points: tables of longer curves are stored and emitted as bytes, which takes a tenth of the time
 MARGIN = 1e-9  # of the range: an argument may be outside by so much through rounding
 
@@ -58,16 +58,18 @@ class Curve:
 
     @property
     def goes_on(self) -> bool:
-        """Return whether the curve has values beyond its range, which begin at a switching point."""
+        """Return whether the curve is extrapolated beyond its range (held or straight), which begins at a switching
+        point.
+        """
         return self.extrapolate != STOP
 
     @property
     def is_long(self) -> bool:
-        """Return whether tables are stored and emitted as bytes."""
+        """Return whether the curve has more than LONG knots, so that its tables are stored and emitted as bytes."""
         return len(self.x) > LONG
 
     def __hash__(self) -> int:
-        """Return a hash of name, range and options; the coefficients are too many."""
+        """Return a hash of name, range, number of knots and options; the coefficients would take too long."""
         return hash((self.name, self.x[0], self.x[-1], len(self.x), self.ends, self.extrapolate))
 
     @cached_property
@@ -84,42 +86,53 @@ class Curve:
         return f"from {self.x[0]:.6g} to {self.x[-1]:.6g} {unit or '(SI, angles in rad)'}"
 
     def outside(self, x: float) -> str:
-        """Return a text on an argument x outside the range, with enough digits to show the difference."""
+        """Return a text for a message: argument x lies outside the range, which is given in SI and in the file's unit.
+
+        The numbers have enough digits to differ. The text names keys that extend the curve.
+        """
         from gudgeon.language.plot_units import distinct_texts
         from gudgeon.language.units import parse_unit
 
         low, high = self.x[0], self.x[-1]
-        here, end = distinct_texts(x, high if x > high else low, 6)
+        value_text, end = distinct_texts(x, high if x > high else low, 6)
         ends = (f"{low:.6g}", end) if x > high else (end, f"{high:.6g}")
-        found = parse_unit(self.over) if self.over else None
-        size = found[0].to_si(Fraction(1)) if found else 1.0
-        own = f", from {low / size:.6g} to {high / size:.6g} {self.over}" if size != 1.0 else ""
+        unit_and_end = parse_unit(self.over) if self.over else None
+        size = unit_and_end[0].to_si(Fraction(1)) if unit_and_end else 1.0
+        file_range = f", from {low / size:.6g} to {high / size:.6g} {self.over}" if size != 1.0 else ""
         return (
-            f"at {here}, outside its range, from {ends[0]} to {ends[1]} (SI, angles in rad){own}; in curves.{self.name}"
-            " ends: periodic repeats it, extrapolate: hold or line goes on"
+            f"at {value_text}, outside its range, from {ends[0]} to {ends[1]} (SI, angles in rad){file_range};"
+            f" in curves.{self.name} ends: periodic repeats it, extrapolate: hold or line goes on"
         )
 
     def message(self) -> str:
-        """Return a description of the curve: interpolation, points, ends, range."""
+        """Return a description of the curve: interpolation, points and their file, ends, range, and what holds
+        outside.
+        """
         ends = f"{self.ends.replace('_', '-')} ends"
         after = "repeated" if self.repeats else {STOP: "none", HOLD: "held", LINE: "straight on"}[self.extrapolate]
         points = f"{self.points} points{f' of {self.source}' * bool(self.source)}"
-        return f"{_TOLD[self.interpolation]} through {points}, {ends}, {self.range_text}, outside {after}"
+        return (
+            f"{_INTERPOLATION_NAMES[self.interpolation]} through {points}, {ends}, {self.range_text}, outside {after}"
+        )
 
     def end(self, order: int) -> float:
-        """Return a derivative of the given order at the last knot."""
-        return float(_horner(np.array(self.coefficients[-1]), np.float64(self.x[-1] - self.x[-2]), order))
+        """Return the derivative of the given order (0: value) at the last knot."""
+        return float(_evaluate_horner(np.array(self.coefficients[-1]), np.float64(self.x[-1] - self.x[-2]), order))
 
     def within(self, x: Any) -> Any:
-        """Return whether the curve has a value at x (number or array)."""
+        """Return whether the curve has a value at x (number or array), with a tolerance of MARGIN times the range.
+
+        Periodic and extrapolated curves have one at every finite x.
+        """
         if self.repeats or self.extrapolate != STOP:
             return np.isfinite(x)
         margin = MARGIN * (self.x[-1] - self.x[0])
         return (x >= self.x[0] - margin) & (x <= self.x[-1] + margin)
 
     def at(self, x: Any, order: int = 0) -> Any:
-        """Return values or derivatives of the given order at x (number or array); NaN outside the range if it stops
-        there.
+        """Return the values or derivatives of the given order (0 to 3) at x, a number or an array, in SI.
+
+        Outside its range a curve is continued periodically, held or straight as its options say, else NaN.
         """
         x = np.asarray(x, dtype=float)
         (knots, pieces), first, last = self._tables, self.x[0], self.x[-1]
@@ -129,12 +142,16 @@ class Curve:
                 x = x - (last - first) * np.floor((x - first) / (last - first))
             held = np.clip(x, first, last) if self.extrapolate != STOP else x
             k = np.clip(np.searchsorted(knots, held, side="right") - 1, 0, len(knots) - 2)
-            value = _horner(np.moveaxis(pieces[k], -1, 0), held - knots[k], order)
+            value = _evaluate_horner(np.moveaxis(pieces[k], -1, 0), held - knots[k], order)
             value = self._extrapolate(value, x, order)
         return np.where(inside, value, np.nan)[()]
 
     def _extrapolate(self, value: Any, x: Any, order: int) -> Any:
-        """Replace the values outside the range by those of the extrapolation."""
+        """Return `value` with the entries outside the range replaced by those of the extrapolation; unchanged without
+        one.
+
+        value, x: values or derivatives of the given order at arguments x, already evaluated at the nearest end.
+        """
         if self.extrapolate == HOLD and order:
             return np.where((x < self.x[0]) | (x > self.x[-1]), 0.0, value)
         if self.extrapolate == LINE and order < 2:
@@ -147,29 +164,34 @@ class Curve:
         return value
 
     def to_data(self) -> list[Any]:
-        """Return the curve as JSON data for a stored expression, without dimensions."""
+        """Return the curve as a list of JSON data for a stored expression, without dimensions.
+
+        Tables of long curves are base64 texts.
+        """
         x, pieces = (packed(table) if self.is_long else table.tolist() for table in self._tables)
         return [self.name, x, pieces, self.ends, self.extrapolate, self.unit, self.over]
 
     @staticmethod
     def from_data(data: Sequence[Any]) -> Curve:
-        """Return the curve that `to_data` wrote."""
+        """Return the curve from the list that `to_data` wrote; lists of earlier versions lack the last entry, the
+        file's unit.
+        """
         name, x, coefficients, ends, extrapolate, unit, *over = data  # results of earlier versions hold no `over`
         if isinstance(x, str):
-            x, pieces = _unpacked(x, coefficients)
+            x, pieces = _decode_tables(x, coefficients)
         else:
             x, pieces = tuple(x), tuple(tuple(c) for c in coefficients)
         return Curve(name, x, pieces, ends, extrapolate, unit=unit, over=over[0] if over else "")
 
 
-def packed(table: Any) -> str:
-    """Return the numbers of an array as base64 of binary64, little-endian."""
-    return base64.b64encode(np.asarray(table, "<f8").tobytes()).decode()
+def packed(values: Any) -> str:
+    """Return the numbers of an array as base64 of binary64, little-endian, row by row."""
+    return base64.b64encode(np.asarray(values, "<f8").tobytes()).decode()
 
 
 @lru_cache(maxsize=8)
-def _unpacked(x: str, pieces: str) -> tuple[tuple[float, ...], tuple[tuple[float, float, float, float], ...]]:
-    """Return knots and coefficients that `packed` wrote."""
+def _decode_tables(x: str, pieces: str) -> tuple[tuple[float, ...], tuple[tuple[float, float, float, float], ...]]:
+    """Return knots and coefficients of the base64 texts that `packed` wrote; the last 8 results are cached."""
     knots, rows = (np.frombuffer(base64.b64decode(text), "<f8") for text in (x, pieces))
     return tuple(knots.tolist()), tuple(map(tuple, rows.reshape(-1, 4).tolist()))
 
@@ -177,7 +199,7 @@ def _unpacked(x: str, pieces: str) -> tuple[tuple[float, ...], tuple[tuple[float
 def even_pieces(
     x: Sequence[float], pieces: Sequence[tuple[float, float, float, float]]
 ) -> tuple[tuple[float, ...], tuple[tuple[float, float, float, float], ...]]:
-    """Return knots and pieces of an even number; if it is odd, the last piece is halved.
+    """Return knots and coefficients with an even number of pieces; if it is odd, the last piece is halved.
 
     Neighbouring pieces are distinguished by odd and even index, also across the end of a periodic curve.
     """
@@ -185,13 +207,13 @@ def even_pieces(
         return tuple(x), tuple(pieces)
     half = 0.5 * (x[-1] - x[-2])
     c = np.array(pieces[-1])
-    value, slope, bend = (float(_horner(c, half, order)) for order in range(3))
+    value, slope, bend = (float(_evaluate_horner(c, half, order)) for order in range(3))
     second = (value, slope, bend / 2.0, pieces[-1][3])
     return (*x[:-1], x[-2] + half, x[-1]), (*pieces, second)
 
 
-def _horner(c: Any, h: Any, order: int) -> Any:
-    """Return c0 + h (c1 + h (c2 + h c3)) or its derivative of the given order."""
+def _evaluate_horner(c: Any, h: Any, order: int) -> Any:
+    """Return the cubic c0 + h (c1 + h (c2 + h c3)), or its derivative of the given order (1 to 3), at h."""
     match order:
         case 0:
             return c[0] + h * (c[1] + h * (c[2] + h * c[3]))
@@ -205,18 +227,18 @@ def _horner(c: Any, h: Any, order: int) -> Any:
 def spline(
     x: Sequence[float], y: Sequence[float], ends: str, interpolation: str = SPLINE
 ) -> tuple[tuple[float, float, float, float], ...]:
-    """Return the coefficients (n, 4) of the cubic spline or monotone cubic through points.
+    """Return the coefficients (n, 4) of the cubic spline or monotone cubic through the points (x, y), x increasing.
 
     Ends: natural (no second derivative), clamped (no slope), not_a_knot (the first two pieces are one polynomial, and
-    the last two), periodic (slope and second derivative of the end equal those of the beginning). For a monotone cubic,
-    natural means end slopes from three points, limited to keep it monotone.
+    the last two), periodic (slope and second derivative of the end equal those of the beginning). For a monotone
+    cubic, natural means end slopes from three points, limited to keep it monotone.
     """
     h = [b - a for a, b in zip(x, x[1:], strict=False)]
     rises = [(b - a) / step for a, b, step in zip(y, y[1:], h, strict=False)]
     if interpolation == MONOTONE:
         slopes = monotone_slopes(h, rises, ends == PERIODIC, ends == CLAMPED)
     else:
-        slopes = _periodic_slopes(h, rises) if ends == PERIODIC else _slopes_with_ends(h, rises, ends)
+        slopes = _compute_periodic_slopes(h, rises) if ends == PERIODIC else _compute_slopes_with_ends(h, rises, ends)
     return tuple(
         (
             y[k],
@@ -228,30 +250,33 @@ def spline(
     )
 
 
-def _knot_equation(a: float, b: float, p: float, q: float) -> tuple[float, float, float, float]:
-    """Return a row of the linear system: a knot between pieces of lengths a, b and mean slopes p, q.
+def _build_knot_equation(a: float, b: float, p: float, q: float) -> tuple[float, float, float, float]:
+    """Return the linear equation of a spline at a knot between pieces of lengths a, b and mean slopes p, q.
 
-    The entries are those below, on and above the diagonal, and the right-hand side.
+    The result has the entries below, on and above the diagonal, and the right-hand side.
     """
     return b, 2.0 * (a + b), a, 3.0 * (b * p + a * q)
 
 
-def _slopes_with_ends(h: Sequence[float], rises: Sequence[float], ends: str) -> list[float]:
-    """Return the slopes at the knots of a spline with two ends."""
-    rows = [_knot_equation(a, b, p, q) for a, b, p, q in zip(h, h[1:], rises, rises[1:], strict=False)]
+def _compute_slopes_with_ends(h: Sequence[float], rises: Sequence[float], ends: str) -> list[float]:
+    """Return the slopes at all knots of a spline that is clamped, natural or not_a_knot at its ends.
+
+    h, rises: lengths and mean slopes of the pieces.
+    """
+    rows = [_build_knot_equation(a, b, p, q) for a, b, p, q in zip(h, h[1:], rises, rises[1:], strict=False)]
     if ends == CLAMPED:
         first, last = (0.0, 1.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)
     elif ends == NATURAL:
         first, last = (0.0, 2.0, 1.0, 3.0 * rises[0]), (1.0, 2.0, 0.0, 3.0 * rises[-1])
     else:
-        above, right = _not_a_knot_equation(h[0], h[1], rises[0], rises[1])
+        above, right = _build_not_a_knot_equation(h[0], h[1], rises[0], rises[1])
         first = (0.0, h[1], above, right)
-        below, right = _not_a_knot_equation(h[-1], h[-2], rises[-1], rises[-2])
+        below, right = _build_not_a_knot_equation(h[-1], h[-2], rises[-1], rises[-2])
         last = (below, h[-2], 0.0, right)
     return _solve_tridiagonal([first, *rows, last])
 
 
-def _not_a_knot_equation(a: float, b: float, p: float, q: float) -> tuple[float, float]:
+def _build_not_a_knot_equation(a: float, b: float, p: float, q: float) -> tuple[float, float]:
     """Return the end equation of not_a_knot: the factor of the inner slope, and the right-hand side.
 
     The outer piece has length a and mean slope p, its neighbour b and q.
@@ -260,10 +285,15 @@ def _not_a_knot_equation(a: float, b: float, p: float, q: float) -> tuple[float,
     return both, ((a + 2.0 * both) * b * p + a * a * q) / both
 
 
-def _periodic_slopes(h: Sequence[float], rises: Sequence[float]) -> list[float]:
-    """Return the slopes at the knots of a periodic spline, by two tridiagonal solves (Sherman and Morrison)."""
+def _compute_periodic_slopes(h: Sequence[float], rises: Sequence[float]) -> list[float]:
+    """Return the slopes at all knots of a periodic spline, by two tridiagonal solves (Sherman–Morrison formula).
+
+    h, rises: lengths and mean slopes of the pieces.
+    """
     before = [h[-1], *h[:-1]]
-    rows = [_knot_equation(a, b, p, q) for a, b, p, q in zip(before, h, [rises[-1], *rises[:-1]], rises, strict=True)]
+    rows = [
+        _build_knot_equation(a, b, p, q) for a, b, p, q in zip(before, h, [rises[-1], *rises[:-1]], rises, strict=True)
+    ]
     corner_up, corner_down = rows[0][0], rows[-1][2]  # entries (first, last) and (last, first)
     shift = -rows[0][1]
     kept = [list(row) for row in rows]
@@ -281,43 +311,55 @@ def _periodic_slopes(h: Sequence[float], rises: Sequence[float]) -> list[float]:
 
 
 def _solve_tridiagonal(rows: Sequence[Sequence[float]]) -> list[float]:
-    """Solve a diagonally dominant tridiagonal system of rows (below, on, above the diagonal, right-hand side)."""
+    """Return the solution of a diagonally dominant tridiagonal system by elimination without pivoting.
+
+    rows: entries below, on and above the diagonal, and right-hand side, for each equation.
+    """
     above, right = [0.0] * len(rows), [0.0] * len(rows)
-    for k, (below, on, up, given) in enumerate(rows):
-        pivot = on - (below * above[k - 1] if k else 0.0)
-        above[k], right[k] = up / pivot, (given - (below * right[k - 1] if k else 0.0)) / pivot
+    for k, (below, diagonal, superdiagonal, value) in enumerate(rows):
+        pivot = diagonal - (below * above[k - 1] if k else 0.0)
+        above[k], right[k] = superdiagonal / pivot, (value - (below * right[k - 1] if k else 0.0)) / pivot
     for k in range(len(rows) - 2, -1, -1):
         right[k] -= above[k] * right[k + 1]
     return right
 
 
 def monotone_slopes(h: Sequence[float], rises: Sequence[float], repeats: bool, flat_ends: bool) -> list[float]:
-    """Return the slopes at the knots: weighted harmonic means of the mean slopes on both sides, 0 at extrema.
+    """Return the slopes at all knots of a monotone cubic: weighted harmonic means of the mean slopes on both sides, 0
+    at extrema.
 
-    h, rises: lengths and mean slopes of the pieces, (n,). `repeats`: periodic; `flat_ends`: no slope at the ends.
+    h, rises: lengths and mean slopes of the pieces, (n,). repeats: periodic. flat_ends: no slope at the ends.
     """
     if repeats:
-        inner = [_harmonic_mean(*of) for of in zip([h[-1], *h[:-1]], h, [rises[-1], *rises[:-1]], rises, strict=True)]
+        inner = [
+            _compute_harmonic_mean(*of) for of in zip([h[-1], *h[:-1]], h, [rises[-1], *rises[:-1]], rises, strict=True)
+        ]
         return [*inner, inner[0]]
-    inner = [_harmonic_mean(*of) for of in zip(h, h[1:], rises, rises[1:], strict=False)]
+    inner = [_compute_harmonic_mean(*of) for of in zip(h, h[1:], rises, rises[1:], strict=False)]
     if flat_ends:
         return [0.0, *inner, 0.0]
     if not inner:
         return [rises[0], rises[0]]
-    first, last = _end_slope(*h[:2], *rises[:2]), _end_slope(*h[:-3:-1], *rises[:-3:-1])
+    first, last = _compute_end_slope(*h[:2], *rises[:2]), _compute_end_slope(*h[:-3:-1], *rises[:-3:-1])
     return [first, *inner, last]
 
 
-def _harmonic_mean(a: float, b: float, p: float, q: float) -> float:
-    """Return the monotone slope between pieces of lengths a, b and mean slopes p, q."""
+def _compute_harmonic_mean(a: float, b: float, p: float, q: float) -> float:
+    """Return the slope of a monotone cubic at a knot between pieces of lengths a, b and mean slopes p, q.
+
+    It is 0 if p and q have different signs.
+    """
     if p * q <= 0.0:
         return 0.0
     w, v = 2.0 * b + a, b + 2.0 * a
     return (w + v) / (w / p + v / q)
 
 
-def _end_slope(a: float, b: float, p: float, q: float) -> float:
-    """Return the limited slope at the end of piece (a, p), from the parabola through it and its neighbour (b, q)."""
+def _compute_end_slope(a: float, b: float, p: float, q: float) -> float:
+    """Return the limited slope at the end of piece (a, p), from the parabola through it and its neighbour (b, q).
+
+    a, b: lengths. p, q: mean slopes. It is 0 if its sign differs from that of p, and at most 3 p at an extremum.
+    """
     slope = ((2.0 * a + b) * p - a * q) / (a + b)
     if slope * p <= 0.0:
         return 0.0

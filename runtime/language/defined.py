@@ -19,7 +19,7 @@ DIVIDING = names_where(lambda f: f.divides)  # functions that divide by their la
 
 
 def is_total_expression(expr: Expr) -> bool:
-    """Return whether no part can be undefined: only sums, products, and functions of every number."""
+    """Return whether no part of an expression can be undefined: only sums, products, and functions of every number."""
     match expr:
         case Unary(operand=operand):
             return is_total_expression(operand)
@@ -30,71 +30,83 @@ def is_total_expression(expr: Expr) -> bool:
     return True
 
 
-def find_undefined_part(expr: Expr, known: Mapping[str, float]) -> float | None:
-    """Return the value of the first part that is not finite and depends on the `known` names alone; else None."""
-    parts = (inner for part in _constant_parts(expr, known) for inner in (part, *_absorbed_parts(part, known)))
-    numbers = (float(evaluate(part, known.__getitem__)) for part in parts)
+def find_undefined_part(expr: Expr, known_values: Mapping[str, float]) -> float | None:
+    """Return the value (NaN or infinite) of the first undefined part of an expression that needs only known names.
+
+    None if all such parts are finite. known_values: values by name.
+    """
+    parts = (
+        inner
+        for part in _iterate_constant_parts(expr, known_values)
+        for inner in (part, *_iterate_absorbed_parts(part, known_values))
+    )
+    numbers = (float(evaluate(part, known_values.__getitem__)) for part in parts)
     return next((number for number in numbers if not math.isfinite(number)), None)
 
 
-def _absorbed_parts(expr: Expr, known: Mapping[str, float]) -> Iterator[Expr]:
-    """Yield the parts of a constant whose infinity or NaN its value may lack: arguments, divisors, exponents.
+def _iterate_absorbed_parts(expr: Expr, known_values: Mapping[str, float]) -> Iterator[Expr]:
+    """Yield the parts of a constant expression whose infinity or NaN its value may hide: arguments, divisors,
+    exponents.
 
-    Of the inactive branch of a `where`, only parts without any parameter are included.
+    A divisor within a function is yielded as 1 over it. Of the inactive branch of a `where`, only parts without any
+    parameter are included.
     """
     match expr:
         case Unary(operand=operand):
-            yield from _absorbed_parts(operand, known)
+            yield from _iterate_absorbed_parts(operand, known_values)
         case Binary(operator=operator, left=left, right=right):
             yield from {"/": (right,), "**": (left, right)}.get(operator, ())
-            yield from _absorbed_parts(left, known)
-            yield from _absorbed_parts(right, known)
+            yield from _iterate_absorbed_parts(left, known_values)
+            yield from _iterate_absorbed_parts(right, known_values)
         case Call(function=function, arguments=arguments):
             if function == "where":
                 less, more, then, otherwise = arguments
-                is_less = evaluate(less, known.__getitem__) < evaluate(more, known.__getitem__)
+                is_less = evaluate(less, known_values.__getitem__) < evaluate(more, known_values.__getitem__)
                 selected, other = (then, otherwise) if is_less else (otherwise, then)
-                arguments = (less, more, selected, *_constant_parts(other, {}))
+                arguments = (less, more, selected, *_iterate_constant_parts(other, {}))
             yield from arguments
             if function in DIVIDING:
                 yield Binary("/", Number(1.0), arguments[-1])
             for argument in arguments:
-                yield from _absorbed_parts(argument, known)
+                yield from _iterate_absorbed_parts(argument, known_values)
 
 
-def _constant_parts(expr: Expr, known: Container[str]) -> Iterator[Expr]:
-    """Yield the largest parts that depend on `known` names alone, and 1 over each of them that divides."""
-    if all(name.path in known for name in names(expr)):
+def _iterate_constant_parts(expr: Expr, known_names: Container[str]) -> Iterator[Expr]:
+    """Yield the largest parts of an expression that depend on `known_names` names alone; a divisor as 1 over it."""
+    if all(name.path in known_names for name in names(expr)):
         yield expr
         return
     match expr:
         case Unary(operand=operand):
-            yield from _constant_parts(operand, known)
+            yield from _iterate_constant_parts(operand, known_names)
         case Binary(operator=operator, left=left, right=right):
-            yield from _constant_parts(left, known)
-            for part in _constant_parts(right, known):
+            yield from _iterate_constant_parts(left, known_names)
+            for part in _iterate_constant_parts(right, known_names):
                 yield Binary("/", Number(1.0), part) if operator == "/" and part is right else part
         case Call(function=function, arguments=arguments):
             divides = arguments[-1] if function in DIVIDING else None
             for argument in arguments:
-                for part in _constant_parts(argument, known):
+                for part in _iterate_constant_parts(argument, known_names):
                     yield Binary("/", Number(1.0), part) if part is divides else part
 
 
-def may_be_undefined(expr: Expr, known: Mapping[str, NDArray[np.float64]]) -> NDArray[np.bool_]:
-    """Return a mask (n,) of the cases in which a part of the expression may not be finite.
+def may_be_undefined(expr: Expr, known_values: Mapping[str, NDArray[np.float64]]) -> NDArray[np.bool_]:
+    """Return for each of n cases whether a part of the expression may not be finite, (n,).
 
-    `known`: values (n,) by name. The inactive branch of a `where` is included, so that undefined_part decides.
+    known_values: values (n,) by name. The inactive branch of a `where` is included, so that `find_undefined_part` must
+    decide.
     """
-    parts = (inner for part in _constant_parts(expr, known) for inner in (part, *_every_part(part)))
-    undefined = np.zeros(next(iter(known.values())).shape, dtype=bool)
+    parts = (inner for part in _iterate_constant_parts(expr, known_values) for inner in (part, *_iterate_parts(part)))
+    undefined = np.zeros(next(iter(known_values.values())).shape, dtype=bool)
     for part in parts:
-        undefined |= ~np.isfinite(evaluate(part, known.__getitem__))
+        undefined |= ~np.isfinite(evaluate(part, known_values.__getitem__))
     return undefined
 
 
-def _every_part(expr: Expr) -> Iterator[Expr]:
-    """Yield all parts of an expression, and 1 over the divisors within functions."""
+def _iterate_parts(expr: Expr) -> Iterator[Expr]:
+    """Yield all parts of an expression, and 1 over the divisors within functions; the expression itself is not
+    included.
+    """
     match expr:
         case Unary(operand=operand):
             parts: tuple[Expr, ...] = (operand,)
@@ -108,4 +120,4 @@ def _every_part(expr: Expr) -> Iterator[Expr]:
             return
     for part in parts:
         yield part
-        yield from _every_part(part)
+        yield from _iterate_parts(part)

@@ -17,7 +17,7 @@ class Deprecation:
     gone: str  # version that removes it, half a year later at the earliest
 
     def __str__(self) -> str:
-        """Return the warning as text."""
+        """Return the warning: what is deprecated since when, until when it works, and what replaces it."""
         return (
             f"{self.what} is deprecated since gudgeon {self.since} ({self.date}) and gone from {self.gone} on: "
             f"use {self.instead}"
@@ -28,6 +28,6 @@ STRESS = Deprecation("gudgeon stress", "0.1.0", "2026-11-26", "gudgeon map", "0.
 DEPRECATIONS = (STRESS,)
 
 
-def deprecated(one: Deprecation) -> None:
-    """Issue a DeprecationWarning at the line that called the caller."""
-    warnings.warn(str(one), DeprecationWarning, stacklevel=3)
+def deprecated(deprecation: Deprecation) -> None:
+    """Issue a DeprecationWarning that points to the line from which the caller of this function was called."""
+    warnings.warn(str(deprecation), DeprecationWarning, stacklevel=3)

@@ -29,22 +29,23 @@ class _Flexible:
 
 
 _BARE, _ANY = _Flexible(True), _Flexible(False)
-_Found = Dimension | _Flexible
+_DimensionOrFlexible = Dimension | _Flexible
 
 
 def check_dimension(
-    expr: Expr, expected: Dimension | None, dimension_of: Callable[[str], Dimension | None], where: Location
+    expr: Expr, expected: Dimension | None, dimension_of: Callable[[str], Dimension | None], location: Location
 ) -> Dimension | None:
-    """Return the dimension of `expr`: `expected` if given and `expr` fits it, None if `expr` fits any.
+    """Return the dimension of an expression after checking it: `expected` if the expression fits, None if it fits any.
 
-    `dimension_of(path)` returns the dimension of a name, None for one that fits any; it may raise. `where` is the
-    location of the expression's first character. Raises UnitError, which says what was found and what was expected.
+    expected: None for any dimension. dimension_of(path): dimension of a name, None for one that fits any; it may
+    raise. location: of the first character. Raises UnitError with what was found and expected, and hints on names that
+    hide units.
     """
     try:
-        found = _Checker(dimension_of, where).of(expr)
+        found = _Checker(dimension_of, location).of(expr)
         if expected is not None and isinstance(found, Dimension) and found != expected:
             message = f"expected {describe(expected)}, got {describe(found)}"
-            raise UnitError(message, where, _hint_on_divisor(expr, expected))
+            raise UnitError(message, location, _suggest_divisor(expr, expected))
     except UnitError as error:
         if not (shadowed := dict.fromkeys(names_over_units(expr))):
             raise
@@ -54,7 +55,7 @@ def check_dimension(
 
 
 def names_over_units(expr: Expr) -> Iterator[str]:
-    """Yield names that are symbols of units and factors after a number with a unit: `m` in `3 N/m`."""
+    """Yield names that are also symbols of units and are factors after a number with a unit: `m` in `3 N/m`."""
     match expr:
         case Unary(operand=operand):
             yield from names_over_units(operand)
@@ -72,8 +73,8 @@ def names_over_units(expr: Expr) -> Iterator[str]:
                 yield from names_over_units(argument)
 
 
-def _hint_on_divisor(expr: Expr, expected: Dimension) -> str:
-    """Return a hint for expressions such as `1/12 kg*m^2`, which is read as 1/(12 kg*m^2); else ""."""
+def _suggest_divisor(expr: Expr, expected: Dimension) -> str:
+    """Return a hint for expressions such as `1/12 kg*m^2`, which is read as 1/(12 kg*m^2); "" for all others."""
     if not (isinstance(expr, Binary) and expr.operator == "/" and isinstance(expr.right, Number)):
         return ""
     number, _, word = expr.right.text.partition(" ")
@@ -84,7 +85,7 @@ def _hint_on_divisor(expr: Expr, expected: Dimension) -> str:
 
 
 def _is_of_time_alone(expr: Expr) -> bool:
-    """Return whether an expression consists of `t` and bare numbers only."""
+    """Return whether an expression consists of `t`, numbers without unit and operators only."""
     match expr:
         case Number(has_unit=has_unit):
             return not has_unit
@@ -100,11 +101,15 @@ def _is_of_time_alone(expr: Expr) -> bool:
 class _Checker:
     """Compute the dimension of a tree. `where`: location of its first character, for errors."""
 
-    def __init__(self, dimension_of: Callable[[str], Dimension | None], where: Location) -> None:
-        self._dimension_of, self._where = dimension_of, where
+    def __init__(self, dimension_of: Callable[[str], Dimension | None], location: Location) -> None:
+        self._dimension_of, self._where = dimension_of, location
 
-    def of(self, expr: Expr) -> _Found:
-        """Return the dimension of a tree, computed from its leaves up."""
+    def of(self, expr: Expr) -> _DimensionOrFlexible:
+        """Return the dimension of an expression, computed from its leaves up, or that it is flexible (fits any
+        dimension).
+
+        Raises UnitError at the location of the first part that does not fit.
+        """
         match expr:
             case Number(text=text, has_unit=has_unit):
                 known = unit(text.partition(" ")[2]) if has_unit else None
@@ -119,7 +124,7 @@ class _Checker:
                 return self._check_call(expr)
         if expr.operator in ("+", "-"):
             word = "add" if expr.operator == "+" else "subtract"
-            return self._common_dimension(f"cannot {word}", expr.left, expr.right)
+            return self._find_common_dimension(f"cannot {word}", expr.left, expr.right)
         if expr.operator == "**":
             return self._check_power(expr)
         return self._check_product(expr)
@@ -130,30 +135,33 @@ class _Checker:
             expr = expr.left
         return Location(self._where.file, self._where.line, self._where.column + expr.offset)
 
-    def _common_dimension(self, what: str, *parts: Expr) -> _Found:
-        """Return the common dimension of all parts. Raise UnitError if two of them differ."""
-        result: _Found = _BARE
+    def _find_common_dimension(self, problem: str, *parts: Expr) -> _DimensionOrFlexible:
+        """Return the common dimension of all parts, or that all are flexible. Raises UnitError if two differ.
+
+        problem: beginning of the message, such as "cannot add".
+        """
+        result: _DimensionOrFlexible = _BARE
         for part in parts:
             found = self.of(part)
             if isinstance(found, _Flexible):
                 result = result if isinstance(result, Dimension) or found.pure else found
             elif isinstance(result, Dimension) and found != result:
-                message = f"{what}: {describe(result)} and {describe(found)}"
+                message = f"{problem}: {describe(result)} and {describe(found)}"
                 raise UnitError(message, self._location(part), f"expected {describe(result)}")
             else:
                 result = found
         return result
 
-    def _check_call(self, call: Call) -> _Found:
-        """Return the dimension of a function's value, after checking those of its arguments."""
+    def _check_call(self, call: Call) -> _DimensionOrFlexible:
+        """Return the dimension of a function's value, after checking those of its arguments. Raises UnitError."""
         units, unlike = FUNCTIONS[call.function].units, f"{call.function} of unlike quantities"
         if units is Units.SAME:
-            return self._common_dimension(unlike, *call.arguments)
+            return self._find_common_dimension(unlike, *call.arguments)
         if units is Units.CHOICE:
-            self._common_dimension("cannot compare", *call.arguments[:2])
-            return self._common_dimension(unlike, *call.arguments[2:])
+            self._find_common_dimension("cannot compare", *call.arguments[:2])
+            return self._find_common_dimension(unlike, *call.arguments[2:])
         if units is Units.RATIO:
-            self._common_dimension(unlike, *call.arguments)
+            self._find_common_dimension(unlike, *call.arguments)
             return DIMENSIONLESS
         argument = call.arguments[0]
         found = self.of(argument)
@@ -164,8 +172,8 @@ class _Checker:
             raise UnitError(message, self._location(argument))
         return DIMENSIONLESS if isinstance(found, Dimension) else _BARE  # `0.1 * sin(2*pi*t)` may still be a length
 
-    def _check_curve(self, call: CurveCall) -> _Found:
-        """Return the dimension of a curve's value, after checking that of its argument."""
+    def _check_curve(self, call: CurveCall) -> _DimensionOrFlexible:
+        """Return the dimension of a curve's value, after checking that of its argument. Raises UnitError."""
         (argument,), over = call.arguments, call.curve.argument
         found = self.of(argument)
         if isinstance(found, Dimension) and over is not None and found != over:
@@ -173,8 +181,10 @@ class _Checker:
             raise UnitError(message, self._location(argument))
         return _ANY if call.curve.value is None else call.curve.value
 
-    def _check_product(self, expr: Binary) -> _Found:
-        """Return the dimension of a product or quotient."""
+    def _check_product(self, expr: Binary) -> _DimensionOrFlexible:
+        """Return the dimension of a product or quotient; it is flexible with a unitless parameter, or for numbers
+        times `t`.
+        """
         left, right = self.of(expr.left), self.of(expr.right)
         if _ANY in (left, right):
             return _ANY
@@ -186,8 +196,11 @@ class _Checker:
         b = right if isinstance(right, Dimension) else DIMENSIONLESS
         return self._check_bounds(a * b if expr.operator == "*" else a / b, expr)
 
-    def _check_power(self, expr: Binary) -> _Found:
-        """Return the dimension of a power. Its exponent must be a plain number if the base has a dimension."""
+    def _check_power(self, expr: Binary) -> _DimensionOrFlexible:
+        """Return the dimension of a power; raise UnitError unless the exponent is a pure number.
+
+        With a dimensional base the exponent must be constant, rational and at most _MOST.
+        """
         base, exponent = self.of(expr.left), self.of(expr.right)
         if isinstance(exponent, Dimension) and exponent != DIMENSIONLESS:
             message = f"an exponent is a pure number, got {describe(exponent)}"
@@ -204,8 +217,8 @@ class _Checker:
             raise UnitError(message, self._location(expr.right))
         return self._check_bounds(base**power, expr)
 
-    def _check_bounds(self, found: Dimension, expr: Binary) -> Dimension:
-        """Return the dimension `found`. Raise UnitError if an exponent is too large."""
-        if max(abs(found.length), abs(found.mass), abs(found.time)) > _MOST:
+    def _check_bounds(self, dimension: Dimension, expr: Binary) -> Dimension:
+        """Return the dimension unchanged. Raises UnitError at the expression if an exponent exceeds _MOST."""
+        if max(abs(dimension.length), abs(dimension.mass), abs(dimension.time)) > _MOST:
             raise UnitError(f"a unit with an exponent above {_MOST}", self._location(expr))
-        return found
+        return dimension

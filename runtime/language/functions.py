@@ -94,29 +94,31 @@ class Function:
     usage: str = ""
 
     def call(self, *arguments: str) -> str:
-        """Return a call as files write it."""
+        """Return the call of the function with these argument texts as files write it; `where` has a `<` between the
+        first two.
+        """
         if self.units is Units.CHOICE:
             arguments = (" < ".join(arguments[:2]), *arguments[2:])
         return f"{self.name}({', '.join(arguments)})"
 
     @property
     def in_sympy(self) -> str:
-        """Return the name of SymPy's class; "" if there is none."""
+        """Return the name of SymPy's class for the function; "" if SymPy has none."""
         return "" if self.sympy is None else self.sympy or self.name
 
     @property
     def in_c(self) -> str:
-        """Return the name of the function in C."""
+        """Return the name of the function in C code."""
         return self.c or self.name
 
     @property
     def in_numpy(self) -> str:
-        """Return the name of NumPy's function."""
+        """Return the name of NumPy's function, which `compute` replaces where NumPy has none."""
         return self.numpy or self.name
 
     @cached_property
     def evaluate(self) -> Callable[..., Any]:
-        """Return the function of numbers or arrays."""
+        """Return the Python function that computes values for numbers or arrays."""
         return self.compute or getattr(np, self.in_numpy)
 
     @property
@@ -349,9 +351,9 @@ FUNCTIONS: Mapping[str, Function] = {function.name: function for function in _TA
 IN_SYMPY: Mapping[str, Function] = {function.in_sympy: function for function in _TABLE if function.in_sympy}
 
 
-def names_where(has: Callable[[Function], bool]) -> frozenset[str]:
-    """Return the names of the functions for which `has` holds."""
-    return frozenset(function.name for function in _TABLE if has(function))
+def names_where(predicate: Callable[[Function], bool]) -> frozenset[str]:
+    """Return the names of the functions in the table for which `predicate` is true."""
+    return frozenset(function.name for function in _TABLE if predicate(function))
 
 
 CORNERED = names_where(lambda f: f.jump_order in (0, 1))  # functions whose value or slope jumps: steps end there

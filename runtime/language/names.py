@@ -30,38 +30,44 @@ WORDS = frozenset(
 )
 
 
-def check_name(name: str, what: str, where: Location | None) -> None:
-    """Raise BadNameError unless `name` can name a thing: a free identifier of at most 64 characters."""
-    check_label(name, what, where)
-    reason = RESERVED.get(name) if what not in ("point", "mechanism") else None  # no expression has these alone
-    if what in ("parameter", "output", "curve", "expression"):  # the others stand in expressions with a dot only
+def check_name(name: str, kind: str, location: Location | None) -> None:
+    """Raise BadNameError unless `name` can name an item of a file: a free identifier of at most 64 characters.
+
+    kind: of the item, such as "parameter"; names that stand alone in expressions must not be functions or reserved
+    words. location: for the error.
+    """
+    check_label(name, kind, location)
+    reason = RESERVED.get(name) if kind not in ("point", "mechanism") else None  # no expression has these alone
+    if kind in ("parameter", "output", "curve", "expression"):  # the others stand in expressions with a dot only
         reason = "it is a function of expressions" if name in FUNCTIONS else reason
         reason = "an expression takes it for no name" if name in WORDS else reason
-    if what == "output" and name == "time":
+    if kind == "output" and name == "time":
         reason = "it is the axis of results"
-    other = ""
+    alternative = ""
     if "__" in name:
-        reason, other = "names that hold '__' are kept for emitted code", re.sub("__+", "_", name)
+        reason, alternative = "names that hold '__' are kept for emitted code", re.sub("__+", "_", name)
     if reason:
-        raise BadNameError(f"{name!r} cannot name this {what}: {reason}", where, another_name(name, other))
+        raise BadNameError(f"{name!r} cannot name this {kind}: {reason}", location, another_name(name, alternative))
 
 
-def another_name(name: str, other: str = "") -> str:
-    """Return the hint that proposes `other`, or `name` followed by a digit."""
-    return f"expected another name, such as {other or f'{name}1'}"
+def another_name(name: str, alternative: str = "") -> str:
+    """Return a hint that proposes `alternative`, or `name` followed by the digit 1 if that is empty."""
+    return f"expected another name, such as {alternative or f'{name}1'}"
 
 
-def check_not_null(name: str, what: str, where: Location | None) -> None:
-    """Raise BadNameError if YAML reads `name` as no value; what: "this body"."""
+def check_not_null(name: str, item: str, location: Location | None) -> None:
+    """Raise BadNameError if YAML would read `name` as no value; `item` names it in the message, such as "this body"."""
     if name in YAML_NULL:
         reason = "YAML reads it as no value where the name is used"
-        raise BadNameError(f"{str(name)!r} cannot name {what}: {reason}", where, another_name(name))
+        raise BadNameError(f"{str(name)!r} cannot name {item}: {reason}", location, another_name(name))
 
 
-def check_label(name: str, what: str, where: Location | None) -> None:
-    """Raise BadNameError unless `name` is an identifier of at most 64 characters.
+def check_label(name: str, kind: str, location: Location | None) -> None:
+    """Raise BadNameError with a hint unless `name` is an ASCII identifier of at most 64 characters that YAML reads as
+    text.
 
-    It is enough for what no expression and no C identifier is called by alone: scenes, materials, bearings, contacts.
+    This is enough for items that no expression and no C identifier names alone: scenes, materials, bearings, contacts.
+    kind: of the item. location: for the error.
     """
     if not IDENTIFIER.fullmatch(name):
         hint = "expected a letter, then letters, digits or '_', in ASCII"
@@ -71,16 +77,16 @@ def check_label(name: str, what: str, where: Location | None) -> None:
         if "=" in name and IDENTIFIER.fullmatch(plain := name.partition("=")[0].strip()):
             hint = f"a value stands behind a colon: {plain}:{name.partition('=')[2].partition('=')[0].rstrip()}"
         hint = odd_characters(name) + hint
-        raise BadNameError(f"{name[:MAX_LENGTH]!r} cannot name this {what}: it is no identifier", where, hint)
-    check_not_null(name, f"this {what}", where)
+        raise BadNameError(f"{name[:MAX_LENGTH]!r} cannot name this {kind}: it is no identifier", location, hint)
+    check_not_null(name, f"this {kind}", location)
     if len(name) > MAX_LENGTH:
         raise BadNameError(
-            f"the name of this {what} has {len(name)} characters", where, f"expected at most {MAX_LENGTH}"
+            f"the name of this {kind} has {len(name)} characters", location, f"expected at most {MAX_LENGTH}"
         )
 
 
 def character_text(character: str) -> str:
-    """Return a character as a message shows it: "'$'", "U+00A0 (no-break space)"."""
+    """Return a character as a message shows it: "'$'" or "U+00A0 (no-break space)"."""
     if character.isascii() and character.isprintable():
         return repr(character)
     name = unicodedata.name(character, "").lower()
@@ -89,7 +95,7 @@ def character_text(character: str) -> str:
 
 
 def advice_on(character: str) -> str:
-    """Return what to write in place of a character that looks like another one; "" where that is not known."""
+    """Return advice on a character that looks like another one, such as "write '-'"; "" for ASCII and unknown ones."""
     kind = unicodedata.category(character)
     if character.isascii():
         return ""
@@ -104,55 +110,63 @@ def advice_on(character: str) -> str:
 
 
 def odd_characters(name: str) -> str:
-    """Return "it contains U+00A0 (no-break space): …; " for a name with characters that look like others, or ""."""
+    """Return "it contains U+00A0 (no-break space): …; " for the first character of a name that looks like another;
+    else "".
+    """
     odd = next((one for one in name if not one.isascii() and advice_on(one)), "")
     return f"it contains {character_text(odd)}: {advice_on(odd)}; " if odd else ""
 
 
-def near(name: str, known: Iterable[str], most: int = 3, cutoff: float = 0.6) -> list[str]:
-    """Return the known names that `name` may stand for, the most similar first; addresses may lack their first
-    parts.
+def near(name: str, known_names: Iterable[str], max_names: int = 3, cutoff: float = 0.6) -> list[str]:
+    """Return at most `max_names` known names that a mistyped `name` may stand for, the most similar first.
+
+    The beginning of a dotted address may be missing. cutoff: least similarity, 0 to 1.
     """
-    ends: dict[str, list[str]] = {}
-    for candidate in sorted(known, key=lambda name: (name.count("."), name)):
+    names_by_ending: dict[str, list[str]] = {}
+    for candidate in sorted(known_names, key=lambda name: (name.count("."), name)):
         parts = candidate.lower().split(".")
         for k in range(max(1, len(parts) - name.count("."))):
-            ends.setdefault(".".join(parts[k:]), []).append(candidate)
-    found = difflib.get_close_matches(name.lower(), ends, n=2 * most, cutoff=cutoff)
-    return list(dict.fromkeys(candidate for end in found for candidate in ends[end]))[:most]
+            names_by_ending.setdefault(".".join(parts[k:]), []).append(candidate)
+    matches = difflib.get_close_matches(name.lower(), names_by_ending, n=2 * max_names, cutoff=cutoff)
+    return list(dict.fromkeys(candidate for end in matches for candidate in names_by_ending[end]))[:max_names]
 
 
-def nearest(name: str, known: Iterable[str], cutoff: float = 0.5) -> str | None:
-    """Return the known name that `name` most likely stands for, or None."""
-    return next(iter(near(name, known, 1, cutoff)), None)
+def nearest(name: str, known_names: Iterable[str], cutoff: float = 0.5) -> str | None:
+    """Return the known name that a mistyped `name` most likely stands for; None below the similarity `cutoff` (0 to
+    1).
+    """
+    return next(iter(near(name, known_names, 1, cutoff)), None)
 
 
-def known_hint(name: str, known: Iterable[str], most: int = 12) -> str:
-    """Return a hint on an unknown `name`: "did you mean 'mass'? expected one of: …"."""
-    candidates = list(known)
+def known_hint(name: str, known_names: Iterable[str], max_names: int = 12) -> str:
+    """Return a hint on an unknown `name`: "did you mean 'mass'? expected one of: …", with at most `max_names` names."""
+    candidates = list(known_names)
     guess = nearest(name, candidates)
-    listed = ", ".join(candidates[:most]) + (", …" if len(candidates) > most else "")
-    expected = f"expected one of: {listed}" if candidates else "none is defined"
+    name_list = ", ".join(candidates[:max_names]) + (", …" if len(candidates) > max_names else "")
+    expected = f"expected one of: {name_list}" if candidates else "none is defined"
     odd = odd_characters(name)
     if candidates == [guess]:
         return f"{odd}did you mean {guess!r}?"
     return f"{odd}did you mean {guess!r}? {expected}" if guess else odd + expected
 
 
-def unknown_name(what: str, name: str, known: Iterable[str], where: Location | None) -> UnknownNameError:
-    """Return the error for a name that nothing defines, with the nearest known names."""
-    return UnknownNameError(f"unknown {what} {str(name)[:200]!r}", where, known_hint(name, known))
+def unknown_name(kind: str, name: str, known_names: Iterable[str], location: Location | None) -> UnknownNameError:
+    """Return the UnknownNameError for a `name` that nothing defines, with the nearest known names as hint.
 
-
-def unknown(message: str, name: str, known: tuple[str, ...]) -> UnknownNameError:
-    """Return the error for a name that does not exist, with the nearest names, or all if they are few.
-
-    If there are many names, only those without a dot are listed: parameters, not addresses.
+    kind: of the name, such as "body". location: for the error.
     """
-    if found := near(name, known):
+    return UnknownNameError(f"unknown {kind} {str(name)[:200]!r}", location, known_hint(name, known_names))
+
+
+def unknown(message: str, name: str, known_names: tuple[str, ...]) -> UnknownNameError:
+    """Return an UnknownNameError with this message; the hint has the nearest known names, or all if they are few.
+
+    If there are many and none is near, parameters are listed first and addresses (with a dot) as examples.
+    """
+    if found := near(name, known_names):
         return UnknownNameError(message, hint=f"nearest: {', '.join(found)}")
-    if len(known) <= 12:
-        return UnknownNameError(message, hint=f"there are: {', '.join(known)}")
-    short, addresses = [n for n in known if "." not in n], [n for n in known if "." in n]
+    if len(known_names) <= 12:
+        return UnknownNameError(message, hint=f"there are: {', '.join(known_names)}")
+    short, addresses = [n for n in known_names if "." not in n], [n for n in known_names if "." in n]
     there = [*short[:20], "and addresses such as " * bool(short) + ", ".join(addresses[: 1 if short else 6])]
     return UnknownNameError(message, hint=f"there are: {', '.join(there)}{'' if short else ' and more'}")

@@ -25,15 +25,18 @@ _NAMES = ("N", "J", "N/m", "N*s/m", "Pa", "Pa*s", "W", "m", "m/s", "m/s^2", "rad
 
 
 def unit_of(expression: Expr, unit: Callable[[str], str | None]) -> str:
-    """Return the SI unit of `expression`; `unit(name)` returns the unit of a name, None if it has none."""
+    """Return the SI unit of an expression from the units of its names; "" if it cannot be derived.
+
+    unit(name): unit of a name, None if it has none.
+    """
     try:
-        return _text(_exponents(expression, unit) or _PLAIN)
+        return _format_exponents(_derive_exponents(expression, unit) or _PLAIN)
     except (ValueError, ZeroDivisionError):
         return ""
 
 
 def parse(unit: str) -> Exponents:
-    """Return the exponents of an SI unit such as "kg*m^2/s". Raise ValueError for any other text."""
+    """Return the exponents of m, kg, s, rad of an SI unit such as "kg*m^2/s". Raises ValueError for any other text."""
     total = list(_PLAIN)
     sign = 1
     for part in unit.replace("*", " * ").replace("/", " / ").split():
@@ -51,8 +54,11 @@ def parse(unit: str) -> Exponents:
     return total[0], total[1], total[2], total[3]
 
 
-def _exponents(expression: Expr, unit: Callable[[str], str | None]) -> Exponents | None:
-    """Return the exponents of an expression's unit; None for a bare number."""
+def _derive_exponents(expression: Expr, unit: Callable[[str], str | None]) -> Exponents | None:
+    """Return the exponents of an expression's unit; None for a bare number, which fits any unit.
+
+    Raises ValueError for a unit that is not SI.
+    """
     match expression:
         case Number():
             return None
@@ -60,48 +66,53 @@ def _exponents(expression: Expr, unit: Callable[[str], str | None]) -> Exponents
             text = unit(path)
             return None if text is None else parse(text)
         case Unary(operand=operand):
-            return _exponents(operand, unit)
+            return _derive_exponents(operand, unit)
         case Binary(operator="+" | "-", left=left, right=right):
-            return _either(_exponents(left, unit), _exponents(right, unit))
+            return _select_exponents(_derive_exponents(left, unit), _derive_exponents(right, unit))
         case Binary(operator="**", left=left, right=Number(value=power)):
-            return _scaled(_exponents(left, unit), Fraction(power).limit_denominator(12))
+            return _raise_unit(_derive_exponents(left, unit), Fraction(power).limit_denominator(12))
         case Binary(operator="*" | "/" as operator, left=left, right=right):
-            factor = _scaled(_exponents(right, unit) or _PLAIN, Fraction(1 if operator == "*" else -1))
-            return _sum(_exponents(left, unit) or _PLAIN, factor or _PLAIN)
+            factor = _raise_unit(_derive_exponents(right, unit) or _PLAIN, Fraction(1 if operator == "*" else -1))
+            return _multiply_units(_derive_exponents(left, unit) or _PLAIN, factor or _PLAIN)
         case CurveCall(curve=curve):
             return None if curve.unit is None else parse(curve.unit)
         case Call(function=function, arguments=arguments):
-            return _of_call(FUNCTIONS[function], [_exponents(argument, unit) for argument in arguments])
+            return _derive_call_exponents(
+                FUNCTIONS[function], [_derive_exponents(argument, unit) for argument in arguments]
+            )
     return _PLAIN
 
 
-def _of_call(function: Function, arguments: list[Exponents | None]) -> Exponents | None:
-    """Return the exponents of a function's value from those of its arguments."""
+def _derive_call_exponents(function: Function, arguments: list[Exponents | None]) -> Exponents | None:
+    """Return the exponents of a function's value from those of its arguments; None if it fits any unit."""
     if function.units is Units.ROOT:
-        return _scaled(arguments[0], Fraction(1, 2))
+        return _raise_unit(arguments[0], Fraction(1, 2))
     if function.units in (Units.SAME, Units.CHOICE):
         first, *rest = arguments[2:] if function.units is Units.CHOICE else arguments
-        return _either(first, rest[0] if rest else None)
+        return _select_exponents(first, rest[0] if rest else None)
     return parse("rad") if function.is_angle else _PLAIN
 
 
-def _either(a: Exponents | None, b: Exponents | None) -> Exponents | None:
-    """Return the exponents of a sum: those of a, unless a is a bare or pure number."""
+def _select_exponents(a: Exponents | None, b: Exponents | None) -> Exponents | None:
+    """Return the exponents of a sum: those of a, or those of b if a is a bare number or without unit."""
     return b if a is None or (a == _PLAIN and b is not None) else a
 
 
-def _sum(a: Exponents, b: Exponents) -> Exponents:
-    """Return the exponents of a product."""
+def _multiply_units(a: Exponents, b: Exponents) -> Exponents:
+    """Return the exponents of the product of two units."""
     return a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]
 
 
-def _scaled(a: Exponents | None, factor: Fraction) -> Exponents | None:
-    """Return the exponents of a power."""
+def _raise_unit(a: Exponents | None, factor: Fraction) -> Exponents | None:
+    """Return the exponents of a unit raised to the power `factor`; None for None."""
     return None if a is None else (a[0] * factor, a[1] * factor, a[2] * factor, a[3] * factor)
 
 
-def _text(exponents: Exponents) -> str:
-    """Return a unit as text: a preferred name, else a product of powers. Angles in compound units are left out."""
+def _format_exponents(exponents: Exponents) -> str:
+    """Return a unit as text: a preferred name, else a product of powers; "" for a pure number.
+
+    Angles in compound units are left out: "m/s", not "m*rad/s".
+    """
     if any(exponents[:2]):
         exponents = (*exponents[:3], Fraction(0))
     for name in _NAMES:
@@ -114,7 +125,9 @@ def _text(exponents: Exponents) -> str:
 
 
 def angle_power(expression: Expr) -> int:
-    """Return the power of an angle in which a file's number is measured: 1 for pi/6, 20 deg, 90 rpm; else 0."""
+    """Return the power of an angle unit in which a file's number is written: 1 for pi/6, 20 deg, 90 rpm; −1 per angle;
+    else 0.
+    """
     match expression:
         case Number(text=text, has_unit=has_unit):
             above, *below = text.removeprefix("pi").split("/") if has_unit else [""]

@@ -39,20 +39,20 @@ _COMPARISONS = ("<", "<=", ">", ">=")
 
 
 def parse(
-    text: str, where: Location, parameters: Container[str] = (), curves: Mapping[str, Curve] | None = None
+    text: str, location: Location, parameters: Container[str] = (), curves: Mapping[str, Curve] | None = None
 ) -> Expr:
-    """Return the tree of `text`, whose first character is at `where`.
+    """Return the tree of an expression, whose first character is at `location`; it is never evaluated as Python.
 
-    `parameters`: names that take precedence over units; `curves` may be called by their names. Raises ExpressionError
+    parameters: names that take precedence over units. curves: may be called by their names. Raises ExpressionError
     (syntax), UnitError (unknown unit) or LimitError (too long, deep or large), each at the exact column.
     """
     if len(text) > MAX_LENGTH:
-        raise LimitError(f"an expression of {len(text)} characters", where, f"expected at most {MAX_LENGTH}")
-    tokens = Tokenizer(text, where, parameters)
+        raise LimitError(f"an expression of {len(text)} characters", location, f"expected at most {MAX_LENGTH}")
+    tokens = Tokenizer(text, location, parameters)
     first = tokens.next()
     if first.number is not None and tokens.at_end():
         return first.number
-    return _Parser(tokens, first, curves or {}).whole()
+    return _Parser(tokens, first, curves or {}).parse_all()
 
 
 class _Parser:
@@ -61,82 +61,101 @@ class _Parser:
     def __init__(self, tokens: Tokenizer, first: Token, curves: Mapping[str, Curve]) -> None:
         self.tokens, self.token, self.where, self.curves = tokens, first, tokens.where, curves
         self.depths: dict[int, int] = {}  # id of a node → levels below it
-        self.weights: dict[int, int] = {}  # id of a node → nodes below it, with functions written out
-        self.kept: list[Expr] = []  # nodes whose ids are in use
+        self.node_counts: dict[int, int] = {}  # id of a node → nodes below it, with functions written out
+        self.registered: list[Expr] = []  # nodes whose ids are in use
 
-    def whole(self) -> Expr:
-        """Parse the whole text as one expression. Raise ExpressionError if anything follows it."""
+    def parse_all(self) -> Expr:
+        """Return the tree of the whole text. Raises ExpressionError if anything follows the expression."""
         expr = self.sum(0)
         if self.token.kind != "end":
             self.fail(
                 f"unexpected {self.token}",
                 self.token.offset,
-                self.compared() or self.decimal() or "expected an operator (a product is written with '*') or the end",
+                self.suggest_comparison()
+                or self.suggest_decimal_point()
+                or "expected an operator (a product is written with '*') or the end",
             )
         return expr
 
-    def decimal(self) -> str:
-        """Return a hint if a decimal comma was used in a number; else ""."""
+    def suggest_decimal_point(self) -> str:
+        """Return a hint if the present token is the decimal comma of a number such as 0,3; else ""."""
         text, at_comma = self.tokens.text, self.token.offset
         before, after = re.search(r"[0-9]+$", text[:at_comma]), re.match(r"[0-9]+", text[at_comma + 1 :])
         is_decimal = self.token.text == "," and before and after
         return f"a number is written with a point: {before[0]}.{after[0]}" if is_decimal and before and after else ""
 
     def fail(self, message: str, offset: int, hint: str) -> NoReturn:
-        """Raise ExpressionError at an offset of the text."""
+        """Raise ExpressionError with a hint at an offset of the text."""
         raise ExpressionError(message, at(self.where, offset), hint)
 
     def advance(self) -> Token:
-        """Return the present token and move to the next one."""
+        """Return the present token and read the next one."""
         token, self.token = self.token, self.tokens.next()
         return token
 
     def make(self, expr: Expr, *children: Expr) -> Expr:
-        """Register a new node with its children. Raise LimitError if the tree exceeds the limits."""
+        """Register a new node with its depth and number of nodes, and return it.
+
+        children: its direct operands. Raises LimitError if the tree exceeds the limits.
+        """
         depth = 1 + max((self.depths[id(child)] for child in children), default=0)
         self.depths[id(expr)] = depth
-        weight = 1 + sum(self.weights[id(child)] for child in children) * COPIES.get(getattr(expr, "function", ""), 1)
-        self.weights[id(expr)] = weight
-        self.kept.append(expr)
+        node_count = 1 + sum(self.node_counts[id(child)] for child in children) * COPIES.get(
+            getattr(expr, "function", ""), 1
+        )
+        self.node_counts[id(expr)] = node_count
+        self.registered.append(expr)
         self.bound(depth, expr.offset, MAX_TREE)
-        if len(self.kept) > MAX_NODES or weight > len(self.kept) + MAX_WRITTEN_OUT:
+        if len(self.registered) > MAX_NODES or node_count > len(self.registered) + MAX_WRITTEN_OUT:
             hint = f"expected at most {MAX_NODES}; smooth steps count six more each, in each other by powers of three"
             raise LimitError("an expression of too many parts", at(self.where, expr.offset), hint)
         return expr
 
-    def bound(self, depth: int, offset: int, most: int = MAX_DEPTH) -> None:
-        """Raise LimitError if the depth exceeds `most` levels."""
-        if depth > most:
-            hint = f"expected at most {most} levels; name a part of it, as a parameter or in expressions:"
+    def bound(self, depth: int, offset: int, max_depth: int = MAX_DEPTH) -> None:
+        """Raise LimitError at an offset of the text if `depth` exceeds `max_depth` levels."""
+        if depth > max_depth:
+            hint = f"expected at most {max_depth} levels; name a part of it, as a parameter or in expressions:"
             raise LimitError("an expression nested too deeply", at(self.where, offset), hint)
 
     def sum(self, level: int) -> Expr:
-        """Parse a sum of products."""
+        """Return the tree of a sum of products that begins at the present token; `level`: depth of nesting."""
         return self.chain(("+", "-"), level)
 
     def chain(self, operators: tuple[str, str], level: int) -> Expr:
-        """Parse left-associative operators: sums of products, or products of signed powers."""
-        below = self.signed if operators == ("*", "/") else lambda n: self.chain(("*", "/"), n)
+        """Return the tree of left-associative operators: sums of products, or products of signed powers.
+
+        operators: ("+", "-") or ("*", "/"). level: depth of nesting. Chains that would make the tree too deep are
+        balanced.
+        """
+        parse_operand = self.signed if operators == ("*", "/") else lambda n: self.chain(("*", "/"), n)
         self.bound(level, self.token.offset)
-        first, rest = below(level), list[Operand]()
+        first, operands = parse_operand(level), list[Operand]()
         while self.token.kind == "operator" and self.token.text in operators:
             operator = self.advance()
             self.refuse_ambiguous_angle(operator)
-            rest.append((operator.text, operator.offset, below(level)))
+            operands.append((operator.text, operator.offset, parse_operand(level)))
         depth = self.depths[id(first)]
-        for *_, operand in rest:
+        for *_, operand in operands:
             depth = 1 + max(depth, self.depths[id(operand)])
-        if depth <= MAX_DEPTH or len(rest) < 2:
-            return self.joined(first, rest, len(rest))
+        if depth <= MAX_DEPTH or len(operands) < 2:
+            return self.joined(first, operands, len(operands))
         if operators == ("+", "-"):
-            return self.joined(first, rest)
-        above = self.joined(first, [one for one in rest if one[0] == "*"])
-        under = [("*", offset, operand) for operator, offset, operand in rest if operator == "/"]
-        return self.joined(above, [("/", under[0][1], self.joined(under[0][2], under[1:]))]) if under else above
+            return self.joined(first, operands)
+        numerator = self.joined(first, [one for one in operands if one[0] == "*"])
+        divisors = [("*", offset, operand) for operator, offset, operand in operands if operator == "/"]
+        return (
+            self.joined(numerator, [("/", divisors[0][1], self.joined(divisors[0][2], divisors[1:]))])
+            if divisors
+            else numerator
+        )
 
-    def joined(self, first: Expr, rest: list[Operand], left: int = 1) -> Expr:
-        """Join the operands: up to `left` operators from left to right, more as a balanced tree of few levels."""
-        if len(rest) <= left:
+    def joined(self, first: Expr, rest: list[Operand], n_left: int = 1) -> Expr:
+        """Return the tree that joins operands: up to `n_left` operators from left to right, more as a balanced tree.
+
+        first: operand before all operators. rest: operator, offset and operand of each further one. For subtraction
+        the signs within the second half are inverted.
+        """
+        if len(rest) <= n_left:
             for operator, offset, operand in rest:
                 first = self.make(Binary(operator, first, operand, offset), first, operand)
             return first
@@ -147,9 +166,10 @@ class _Parser:
         return self.joined(self.joined(first, rest[:half]), [(operator, offset, self.joined(operand, after))])
 
     def refuse_ambiguous_angle(self, operator: Token) -> None:
-        """Raise ExpressionError for divisions such as `pi/4 deg`, which means pi/(4 deg) = 45.
+        """Raise ExpressionError for a division by a number with an angle unit, such as `pi/4 deg`, which means pi/(4
+        deg).
 
-        No dimension check could find that 45 deg was meant.
+        operator: the token before the present one. No dimension check could find that 45 deg was meant.
         """
         number = self.token.number
         if operator.text != "/" or number is None or not number.has_unit:
@@ -161,7 +181,7 @@ class _Parser:
             self.fail(f"a division by {self.token.text} can mean two things", self.token.offset, hint)
 
     def signed(self, level: int) -> Expr:
-        """Parse an operand with its signs and an optional power."""
+        """Return the tree of an operand with its signs and an optional power, which binds tighter than a sign."""
         self.bound(level, self.token.offset)
         if self.token.kind == "operator" and self.token.text in ("-", "+"):
             sign = self.advance()
@@ -175,7 +195,9 @@ class _Parser:
         return base
 
     def atom(self, level: int) -> Expr:
-        """Parse a number, a name, a call or an expression in brackets."""
+        """Return the tree of a number, a name, a call or an expression in brackets. Raises ExpressionError for
+        anything else.
+        """
         token = self.token
         if token.number is not None:
             self.advance()
@@ -194,26 +216,29 @@ class _Parser:
         return inner
 
     def close(self, opened: int) -> None:
-        """Consume the ")" of the bracket that was opened at an offset. Raise ExpressionError without one."""
+        """Consume the ")" that closes the bracket at offset `opened`. Raises ExpressionError if it is missing."""
         if self.token.text != ")":
             hint = f"the '(' at column {self.where.column + opened} is open"
-            self.fail(f"expected ')', got {self.token}", self.token.offset, self.compared() or hint)
+            self.fail(f"expected ')', got {self.token}", self.token.offset, self.suggest_comparison() or hint)
         self.advance()
 
-    def compared(self) -> str:
-        """Return a hint if the present token is a comparison outside of where; else ""."""
+    def suggest_comparison(self) -> str:
+        """Return a hint if the present token is a comparison operator, which only `where` allows; else ""."""
         return COMPARED if self.token.text in _COMPARISONS else ""
 
     def name(self, token: Token, level: int) -> Expr:
-        """Parse a name, or the call of a function or curve."""
-        called, known = self.token.text == "(", (*self.curves, *FUNCTIONS)
-        if token.text not in known:
-            if called:
-                guess = nearest(token.text, known)
-                hint = (f"did you mean {guess!r}? " if guess else "") + f"expected one of: {', '.join(known)}"
+        """Return the tree of a name, or of the call of a function or curve; `token` is the name.
+
+        Raises ExpressionError for an unknown function, or a function without brackets.
+        """
+        is_call, callables = self.token.text == "(", (*self.curves, *FUNCTIONS)
+        if token.text not in callables:
+            if is_call:
+                guess = nearest(token.text, callables)
+                hint = (f"did you mean {guess!r}? " if guess else "") + f"expected one of: {', '.join(callables)}"
                 self.fail(f"unknown function {token.text!r}", token.offset, hint)
             return self.make(Name(token.text, token.offset))
-        if not called:
+        if not is_call:
             what = "curve" if token.text in self.curves else "function"
             self.fail(f"{token.text!r} is a {what}", token.offset, f"expected {token.text}(…)")
         arguments = self.arguments(token, level + 1)
@@ -223,32 +248,38 @@ class _Parser:
         return self.make(call, *arguments)
 
     def arguments(self, function: Token, level: int) -> tuple[Expr, ...]:
-        """Parse the arguments in brackets and check their number; for where, the compared values come first."""
-        opened, compares = self.advance().offset, function.text == "where"
+        """Return the trees of the arguments in brackets after checking their number.
+
+        function: token of the function or curve. The arguments of `where` are ordered as if `<` had been written.
+        """
+        opened, is_where = self.advance().offset, function.text == "where"
         left = self.sum(level)
         operator = self.token.text
-        found: list[Expr] = []
-        if compares:
+        others: list[Expr] = []
+        if is_where:
             if operator not in _COMPARISONS:
                 self.fail(f"expected a comparison, got {self.token}", self.token.offset, FUNCTIONS["where"].usage)
             self.advance()
-            found.append(self.sum(level))
+            others.append(self.sum(level))
             if self.token.text in _COMPARISONS:
                 self.fail(f"expected ',', got {self.token}", self.token.offset, NESTED)
         while self.token.text == ",":
             self.advance()
-            found.append(self.sum(level))
+            others.append(self.sum(level))
         self.close(opened)
         known = None if function.text in self.curves else FUNCTIONS[function.text]
         expected = len(known.arguments) if known else 1
-        if len(found) + 1 != expected:
-            expected, got = expected - compares, len(found) + 1 - compares
+        if len(others) + 1 != expected:
+            expected, got = expected - is_where, len(others) + 1 - is_where
             message = f"{function.text} takes {expected} argument{'s' * (expected > 1)}, got {got}"
             self.fail(message, function.offset, known.usage if known else "")
-        return _ordered_arguments(left, operator, *found) if compares else (left, *found)
+        return _order_arguments(left, operator, *others) if is_where else (left, *others)
 
 
-def _ordered_arguments(left: Expr, operator: str, right: Expr, then: Expr, otherwise: Expr) -> tuple[Expr, ...]:
-    """Return the arguments of where as if `<` had been written."""
-    compared = (left, right) if operator in ("<", ">=") else (right, left)
-    return (*compared, then, otherwise) if operator in ("<", ">") else (*compared, otherwise, then)
+def _order_arguments(left: Expr, operator: str, right: Expr, then: Expr, otherwise: Expr) -> tuple[Expr, ...]:
+    """Return the arguments of `where` in the order that the operator `<` requires.
+
+    left, right: compared values. then, otherwise: values if the comparison holds or not.
+    """
+    suggest_comparison = (left, right) if operator in ("<", ">=") else (right, left)
+    return (*suggest_comparison, then, otherwise) if operator in ("<", ">") else (*suggest_comparison, otherwise, then)

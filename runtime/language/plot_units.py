@@ -10,27 +10,27 @@ _PREFIXABLE = re.compile(r"(m|N|J|W|Pa|s|rad|Hz)(?![\w^])")  # kg has its prefix
 _SUPERSCRIPTS = str.maketrans("0123456789-./", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻·ᐟ")
 
 
-def scale(size: float, unit: str) -> tuple[float, str]:
-    """Return (factor, text): a number of this size times factor is readable in the unit `text`.
+def scale(magnitude: float, unit: str) -> tuple[float, str]:
+    """Return factor and unit text with an SI prefix such that a number of this size times the factor is easy to read.
 
-    Between 0.1 and 3000 a unit stays as it is; also for zero, NaN and infinity.
+    Between 0.1 and 3000 the unit stays as it is; also for zero, NaN, infinity and units without prefixes.
     """
-    if not math.isfinite(size) or size == 0 or 0.1 <= abs(size) < 3000 or not _PREFIXABLE.match(unit):
+    if not math.isfinite(magnitude) or magnitude == 0 or 0.1 <= abs(magnitude) < 3000 or not _PREFIXABLE.match(unit):
         return 1.0, pretty(unit)
-    exponent = 3 * math.floor((math.log10(abs(size)) + 1) / 3)
+    exponent = 3 * math.floor((math.log10(abs(magnitude)) + 1) / 3)
     exponent = min(max(exponent, min(PREFIXES)), max(PREFIXES))
     return 10.0**-exponent, PREFIXES[exponent] + pretty(unit)
 
 
-def drawn(size: float, unit: str) -> tuple[float, str]:
-    """Return (factor, text) as `scale`, with angles in degrees, for plots and tables of runs."""
+def drawn(magnitude: float, unit: str) -> tuple[float, str]:
+    """Return factor and unit text for a plot as `scale` does, with angles in degrees."""
     if unit == "rad" or unit.startswith("rad/"):
         return 180.0 / math.pi, "°" + pretty(unit.removeprefix("rad"))
-    return scale(size, unit)
+    return scale(magnitude, unit)
 
 
 def pretty(unit: str) -> str:
-    """Return a unit with raised powers: "kg·m²" for "kg*m^2"."""
+    """Return a unit in typographic form: "kg·m²" for "kg*m^2"."""
     return re.sub(r"\^(-?[\d.]+)", lambda power: raised(power.group(1)), unit).replace("*", "·")
 
 
@@ -40,12 +40,12 @@ def raised(power: str) -> str:
 
 
 def label(name: str, unit: str) -> str:
-    """Return an axis label: "S9.y [mm]"."""
+    """Return an axis label such as "S9.y [mm]"; only the name if the unit is empty."""
     return f"{name} [{unit}]".strip() if unit else name
 
 
 def quantity(value: float, unit: str, digits: int = 4) -> str:
-    """Return a number with its unit for a table: "0.3 mm", "175 N", "–" for NaN."""
+    """Return a number with its unit and a suitable prefix, such as "0.3 mm" or "175 N"; "–" for NaN."""
     if math.isnan(value):
         return "–"
     factor, text = scale(value, unit)
@@ -53,7 +53,9 @@ def quantity(value: float, unit: str, digits: int = 4) -> str:
 
 
 def distinct_texts(value: float, limit: float, digits: int = 4) -> tuple[str, str]:
-    """Return two numbers as text, with at least `digits` digits and enough of them to differ."""
+    """Return two numbers as texts with at least `digits` digits, and up to 17 so that different numbers have different
+    texts.
+    """
     while digits < 17 and value != limit and f"{value:.{digits}g}" == f"{limit:.{digits}g}":
         digits += 1
     return f"{value:.{digits}g}", f"{limit:.{digits}g}"

@@ -15,10 +15,10 @@ from gudgeon.language.units import dimension
 
 
 def number_of_text(text: str, address: str, exponents: Sequence[float]) -> float:
-    """Return the number (SI) that `text` writes for the parameter at `address`.
+    """Return the number (SI) that `text`, such as '0.5 mm' or '2*pi rad/s', specifies for the parameter at `address`.
 
-    exponents: of m, kg, s; a bare number fits any. An expression of numbers is allowed: '2*pi rad/s'. Raises the errors
-    of the same text in a file, at "value of <address>:1:column".
+    exponents: of m, kg, s; a bare number fits any. Raises BadValueError for names in the text, otherwise the errors of
+    the same text in a file with hints on units, at "value of <address>:1:column".
     """
     where, expected = Location(f"value of {address}", 1, 1), dimension(*exponents)
 
@@ -40,7 +40,7 @@ def number_of_text(text: str, address: str, exponents: Sequence[float]) -> float
 
 
 def holds_names(text: str) -> bool:
-    """Return whether a text is an expression that contains names."""
+    """Return whether a text is a valid expression that contains names; False if it cannot be parsed."""
     try:
         return next(names(parse(text.strip(), Location("", 1, 1))), None) is not None
     except InputError:
@@ -48,16 +48,17 @@ def holds_names(text: str) -> bool:
 
 
 def number_of_names(
-    text: str, what: str, exponents: Sequence[int], known: Mapping[str, tuple[float, Sequence[float]]]
+    text: str, item: str, exponents: Sequence[int], known_values: Mapping[str, tuple[float, Sequence[float]]]
 ) -> float:
-    """Return the number (SI) of an expression of `known` names, each with value and exponents: '2*pi/omega'.
+    """Return the number (SI) of an expression of `known_values` names, such as '2*pi/omega'.
 
-    Raises the errors of the same text in a file.
+    item: for messages. exponents: expected ones of m, kg, s. known_values: value and exponents by name. Raises
+    UnknownNameError and the errors of the same text in a file.
     """
-    where = Location(f"value of {what}", 1, 1)
-    expr = parse(text.strip(), where, known)
+    where = Location(f"value of {item}", 1, 1)
+    expr = parse(text.strip(), where, known_values)
     for name in names(expr):
-        if name.path not in known:
-            raise unknown_name("name", name.path, known, where)
-    check_dimension(expr, dimension(*exponents), lambda path: dimension(*known[path][1]), where)
-    return float(evaluate(expr, lambda path: np.float64(known[path][0])))
+        if name.path not in known_values:
+            raise unknown_name("name", name.path, known_values, where)
+    check_dimension(expr, dimension(*exponents), lambda path: dimension(*known_values[path][1]), where)
+    return float(evaluate(expr, lambda path: np.float64(known_values[path][0])))

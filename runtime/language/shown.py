@@ -19,42 +19,44 @@ JOINERS = "\u200c\u200d"  # joiners within letters and emoji: text, though invis
 
 
 def visible(text: object) -> str:
-    """Return text with control characters and writing directions escaped as Python writes them; lines are kept."""
+    """Return text in which control characters and writing directions are escaped as in Python; line breaks are kept."""
     return "\n".join(map(_escape_line, str(text).split("\n")))
 
 
 def _escape_line(text: str) -> str:
-    """Return one line of text with invisible characters escaped."""
+    """Return one line of text in which all characters that are not visible are escaped; it contains no line break."""
     if text.isprintable():
         return text
     return "".join(c if _is_shown(c) else c.encode("unicode_escape").decode("ascii") for c in text)
 
 
 def _is_shown(character: str) -> bool:
-    """Return whether a character is visible, a space or a joiner."""
+    """Return whether a character is visible, a space or a joiner within emoji and letters."""
     return character.isprintable() or character in JOINERS or unicodedata.category(character) == "Zs"
 
 
 def path_text(path: object) -> str:
-    """Return the name of a file as visible text on one line."""
+    """Return a path as visible text on one line."""
     return _escape_line(str(path))
 
 
 def one_line(text: str) -> str:
-    """Return a title as visible text on one line, shortened to LONGEST characters."""
+    """Return a title as visible text on one line, shortened to LONGEST characters with "…"."""
     text = _escape_line(text)
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
 
 
 def figure_title(text: str, width: int = LONGEST) -> str:
-    """Return a title for matplotlib, folded into lines of `width` characters; $ begins no formula."""
+    """Return a title for matplotlib, wrapped to lines of `width` characters; $ is escaped, so that it begins no
+    formula.
+    """
     return "\n".join(textwrap.wrap(one_line(text), width)).replace("$", r"\$")
 
 
 def in_spreadsheet(value: Any) -> Any:
-    """Return a value for a cell of a CSV file: a text visible, after an apostrophe if a spreadsheet would compute it.
+    """Return a value for a cell of a CSV file: a text that a spreadsheet would compute gets an apostrophe.
 
-    Numbers, and texts that are numbers, stay as they are.
+    Control characters of texts are escaped. Numbers, and texts that are numbers, stay as they are.
     """
     if not isinstance(value, str):
         return value
@@ -69,28 +71,32 @@ def in_spreadsheet(value: Any) -> Any:
 
 
 def plain_console(width: int | None = None, **options: Any) -> Console:
-    """Return a rich console that shows texts as they are, without markup and emoji."""
+    """Return a rich console that prints texts as they are, without markup, emoji and highlighting.
+
+    width: columns, None for that of the terminal. options: further arguments of rich's Console.
+    """
     from rich.console import Console
 
     return Console(width=width, markup=False, emoji=False, highlight=False, **options)
 
 
 def print_json(document: dict[str, Any]) -> None:
-    """Print a document as JSON; NaN and infinity become null, since JSON lacks them."""
+    """Print a document as indented JSON; NaN and infinity become null, since JSON lacks them."""
     import json  # here: no help text needs it
 
-    print(json.dumps(_without_nan(document), ensure_ascii=False, allow_nan=False, indent=1))
+    print(json.dumps(_replace_nan(document), ensure_ascii=False, allow_nan=False, indent=1))
 
 
-def _without_nan(value: Any) -> Any:
-    """Return JSON data in which NaN and infinity are None."""
+def _replace_nan(value: Any) -> Any:
+    """Return a copy of JSON data in which NaN and infinity are None."""
     if isinstance(value, dict):
-        return {key: _without_nan(item) for key, item in value.items()}
+        return {key: _replace_nan(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_without_nan(item) for item in value]
+        return [_replace_nan(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def counted(count: int, noun: str, plural: str = "") -> str:
-    """Return a count with its noun: 1 run, 2 runs, 2 bodies."""
+    """Return a count with its noun: "1 run", "2 runs", "2 bodies"; `plural` is needed if it is not the noun with an s.
+    """
     return f"{count} {noun if count == 1 else plural or f'{noun}s'}"

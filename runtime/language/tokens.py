@@ -69,9 +69,9 @@ _ADVICE = {
 }
 
 
-def at(where: Location, offset: int) -> Location:
-    """Return the location `offset` characters after `where`."""
-    return Location(where.file, where.line, where.column + offset)
+def at(location: Location, offset: int) -> Location:
+    """Return the location `offset` characters after `location` on the same line."""
+    return Location(location.file, location.line, location.column + offset)
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ class Token:
     number: Number | None = None
 
     def __str__(self) -> str:
-        """Return the token as messages show it."""
+        """Return the token as messages show it: quoted, or "the end"."""
         return repr(self.text) if self.text else "the end"
 
 
@@ -98,11 +98,15 @@ class Tokenizer:
         self.text, self.where, self.position, self.parameters = text, where, 0, parameters
 
     def fail(self, message: str, offset: int, hint: str = "", kind: type[InputError] = ExpressionError) -> NoReturn:
-        """Raise an error at an offset of the text."""
+        """Raise an error of the class `kind` at an offset of the text."""
         raise kind(message, at(self.where, offset), hint)
 
     def next(self) -> Token:
-        """Return the next token. Raise ExpressionError or UnitError."""
+        """Return the next token and advance; at the end a token of kind "end".
+
+        A number includes its unit. Raises ExpressionError for characters and words that expressions lack, UnitError
+        for unknown units.
+        """
         text = self.text
         while text.startswith(" ", self.position):
             self.position += 1
@@ -127,7 +131,10 @@ class Tokenizer:
         return not self.text[self.position :].strip(" ")
 
     def _check_name(self, name: str, start: int) -> None:
-        """Raise ExpressionError for reserved words and for parts of names with leading or double underscores."""
+        """Raise ExpressionError for reserved words, and for parts of a dotted name with leading or double underscores.
+
+        start: offset of the name in the text.
+        """
         if name in WORDS:
             hint = _ADVICE.get(name, "expected a number, a name or an expression")
             self.fail(f"{name!r} is no number", start, hint)
@@ -138,9 +145,13 @@ class Tokenizer:
             offset += len(part) + 1
 
     def _parse_number(self, literal: str, start: int) -> Token:
-        """Return the token of a number or pi, including the unit that follows it."""
+        """Return the token of a number or pi in SI, including the unit that follows it, and advance.
+
+        literal: its text at offset `start`. Raises ExpressionError for values out of range, UnitError for unknown
+        units.
+        """
         value = Fraction(math.pi) if literal == "pi" else self._parse_literal(literal, start)
-        found, end = self._parse_unit_after(start)
+        found, end = self._parse_following_unit(start)
         self.position = end
         word = re.sub(r" *([*/]) *", r"\1", self.text[start + len(literal) : end].removeprefix(" "))
         text = f"{literal} {word}" if found else literal
@@ -153,19 +164,23 @@ class Tokenizer:
         return Token("number", text, start, Number(si, text, found is not None, start))
 
     def _parse_literal(self, literal: str, start: int) -> Fraction:
-        """Return the exact value of a numeric literal. Raise ExpressionError for other notations."""
-        following = self.text[self.position : self.position + 1]
-        has_unit = following.isalpha() and parse_unit(self.text, self.position) is not None
-        based = literal == "0" and following in ("x", "o", "b", "X", "O", "B") and not has_unit
-        if re.match(r"0[0-9]", literal) or based:
+        """Return the exact value of a decimal literal at offset `start`.
+
+        Raises ExpressionError with a hint for other notations, a letter directly after it that is no unit, or too many
+        digits.
+        """
+        next_character = self.text[self.position : self.position + 1]
+        has_unit = next_character.isalpha() and parse_unit(self.text, self.position) is not None
+        has_base_prefix = literal == "0" and next_character in ("x", "o", "b", "X", "O", "B") and not has_unit
+        if re.match(r"0[0-9]", literal) or has_base_prefix:
             self.fail(
-                f"{literal + following!r} does not begin a number",
+                f"{literal + next_character!r} does not begin a number",
                 start,
                 "expected a decimal number, such as 12 or 1e-4",
             )
-        if following == "_":
+        if next_character == "_":
             self.fail("'_' in a number", self.position, "expected digits without separators")
-        if following.isalpha() and not has_unit:
+        if next_character.isalpha() and not has_unit:
             word = re.match(r"\w*", self.text[self.position :])
             other = OTHER_WORDS.get(word[0]) if word else None
             guess = nearest(word[0], UNITS, 0.6) if word and word[0] not in self.parameters else None
@@ -175,7 +190,7 @@ class Tokenizer:
             hint = f"write {literal}*pi" if word and word[0] == "pi" else hint
             if sign := re.match(r"[eE]([^\x00-\x7f])[0-9]", self.text[self.position :]):
                 hint = f"{character_text(sign[1])} is not a sign of an exponent: {advice_on(sign[1])}"
-            self.fail(f"{following!r} right behind the number {literal}", self.position, hint)
+            self.fail(f"{next_character!r} right behind the number {literal}", self.position, hint)
         _, _, exponent = literal.lower().partition("e")
         if exponent and (len(exponent) > 5 or abs(int(exponent)) > _MAX_EXPONENT):
             self.fail(f"{literal!r} is out of range", start, IN_RANGE)
@@ -183,14 +198,17 @@ class Tokenizer:
             self.fail(f"a number of {len(literal)} characters", start, f"expected at most {_MAX_LENGTH}")
         return Fraction(literal)
 
-    def _parse_unit_after(self, start: int) -> tuple[Unit | None, int]:
-        """Return the unit after a number, with one space or none before it, and where it ends; None without one."""
+    def _parse_following_unit(self, start: int) -> tuple[Unit | None, int]:
+        """Return the unit after the number at `start`, with one space or none before it, and the offset where it ends.
+
+        The unit is None if none follows. Raises UnitError for an unknown unit, ExpressionError for an ambiguous power.
+        """
         text, end = self.text, self.position
-        spaced = text[end : end + 1] == " "
-        self._check_powers(end + spaced)
-        if not spaced and not text[end : end + 1].isalpha():
+        has_space = text[end : end + 1] == " "
+        self._check_powers(end + has_space)
+        if not has_space and not text[end : end + 1].isalpha():
             return None, end
-        found = parse_unit(text, end + spaced, self.parameters)
+        found = parse_unit(text, end + has_space, self.parameters)
         if found:
             after = found[1]
             if re.match(r" *\*\*", text[after:]):
@@ -202,16 +220,18 @@ class Tokenizer:
                 written = text[:after]
                 hint = f"write {written}^{power[1]} for the power, {written} - {power[1][1:]} for the difference"
                 self.fail(f"{text[: after + 2]!r} can mean two things", after, hint)
-            self._refuse_ambiguous_unit(start, end + spaced, after)
+            self._refuse_ambiguous_unit(start, end + has_space, after)
             return found
         spaces = len(text) - end - len(text[end:].lstrip(" "))
         word = re.match(r"[A-Za-z\u00b5\u03bc_][\w*/^.-]*", text[end + spaces :])
-        if word and spaced:
+        if word and has_space:
             self._fail_unknown_unit(word[0], end + spaces, spaces)
         return None, end
 
     def _check_powers(self, begin: int) -> None:
-        """Raise UnitError for a unit in brackets, and for a power of a unit that is not a number in the range."""
+        """Raise UnitError for a unit in brackets, or a power of a unit that is not a listed number, from offset
+        `begin` on.
+        """
         if (bracketed := _BRACKETED.match(self.text, begin)) and unit(bracketed[1]):
             hint = "each unit has its own power: m^2/s^2 for (m/s)^2"
             self.fail(f"brackets around the unit {bracketed[1]}", begin, hint, UnitError)
@@ -235,7 +255,10 @@ class Tokenizer:
         self.fail(message, found.start("symbol"), hint, UnitError)
 
     def _refuse_ambiguous_unit(self, start: int, begin: int, after: int) -> None:
-        """Raise ExpressionError for `2m` and `3 N m` where m is a name of the file: m may be meant as a factor."""
+        """Raise ExpressionError for `2m` and `3 N m` if m is a name of the file, since a factor may be meant.
+
+        start, begin, after: offsets of the number, of its unit, and after both.
+        """
         written, spaced = self.text[start:after], self.text[begin - 1] == " "
         for before, symbol in factors(self.text[begin:after]):
             doubtful = before == " " if before else not spaced
@@ -247,7 +270,10 @@ class Tokenizer:
                 self.fail(f"{written!r} can mean two things: {symbol} is a unit, and a parameter here", begin, hint)
 
     def _fail_unknown_unit(self, word: str, offset: int, spaces: int) -> NoReturn:
-        """Raise UnitError for a word after a number that is not a unit, with the most likely remedy."""
+        """Raise UnitError for a word after a number that is not a unit, with the most likely remedy.
+
+        offset: of the word. spaces: number of spaces before it.
+        """
         if parse_unit(word):
             self.fail(f"{spaces} spaces before the unit {word!r}", offset, "expected exactly one")
         guess, powers = nearest(word, UNITS, 0.6), re.sub(r"(?<=[A-Za-z])([2-9])(?!\w)", r"^\1", word)

@@ -87,7 +87,10 @@ _CURVE = "curve"  # first item of a curve in a stored tree: no function has this
 
 
 def evaluate(expr: Expr, value_of: Callable[[str], Any]) -> Any:
-    """Return the value of `expr`, a number or an array; `value_of(path)` returns the value of a name."""
+    """Return the value of an expression, a number or an array; `value_of(path)` returns the value of a name.
+
+    Undefined operations give NaN or infinity without a warning. Raises TypeError for another object.
+    """
     match expr:
         case Number(value=value):
             return np.float64(value)
@@ -107,7 +110,7 @@ def evaluate(expr: Expr, value_of: Callable[[str], Any]) -> Any:
 
 
 def names(expr: Expr) -> Iterator[Name]:
-    """Yield every Name in `expr`, left to right."""
+    """Yield every Name in an expression, left to right, with repetitions."""
     match expr:
         case Name():
             yield expr
@@ -122,7 +125,7 @@ def names(expr: Expr) -> Iterator[Name]:
 
 
 def units(expr: Expr) -> Iterator[str]:
-    """Yield the unit of every number in `expr` that has one, as it is written."""
+    """Yield the unit of every number in an expression that has one, as it is written."""
     match expr:
         case Number(text=text, has_unit=True):
             yield text.partition(" ")[2]
@@ -136,22 +139,25 @@ def units(expr: Expr) -> Iterator[str]:
                 yield from units(argument)
 
 
-def replaced(expr: Expr, by: Mapping[str, Expr]) -> Expr:
-    """Return `expr` with trees in place of names; the same object is used wherever a name occurs."""
+def replaced(expr: Expr, trees: Mapping[str, Expr]) -> Expr:
+    """Return a copy of an expression with trees in place of names; `trees` has the tree of each name.
+
+    Names without a tree stay. The same object is used wherever a name occurs.
+    """
     match expr:
         case Name():
-            return by.get(expr.path, expr)
+            return trees.get(expr.path, expr)
         case Unary(operand=operand):
-            return replace(expr, operand=replaced(operand, by))
+            return replace(expr, operand=replaced(operand, trees))
         case Binary(left=left, right=right):
-            return replace(expr, left=replaced(left, by), right=replaced(right, by))
+            return replace(expr, left=replaced(left, trees), right=replaced(right, trees))
         case Call(arguments=arguments):
-            return replace(expr, arguments=tuple(replaced(argument, by) for argument in arguments))
+            return replace(expr, arguments=tuple(replaced(argument, trees) for argument in arguments))
     return expr
 
 
 def calls(expr: Expr, function: str = "") -> Iterator[Call]:
-    """Yield every call in `expr`, or the calls of one function."""
+    """Yield every call in an expression, or only the calls of one function."""
     match expr:
         case Unary(operand=operand):
             yield from calls(operand, function)
@@ -166,7 +172,10 @@ def calls(expr: Expr, function: str = "") -> Iterator[Call]:
 
 
 def reached(expr: Expr, function: str, value_of: Callable[[str], Any]) -> Iterator[Call]:
-    """Yield the calls of one function on which the value of `expr` depends: only in active branches of where."""
+    """Yield the calls of one function on which the present value of an expression depends.
+
+    Only active branches of `where` are searched, both at equality. value_of(path): value of a name.
+    """
     match expr:
         case Unary(operand=operand):
             yield from reached(operand, function, value_of)
@@ -185,12 +194,12 @@ def reached(expr: Expr, function: str, value_of: Callable[[str], Any]) -> Iterat
 
 
 def curve_calls(expr: Expr) -> Iterator[CurveCall]:
-    """Return an iterator over the curve calls in `expr`."""
+    """Return an iterator over the curve calls in an expression."""
     return (call for call in calls(expr) if isinstance(call, CurveCall))
 
 
 def functions(expr: Expr) -> set[str]:
-    """Return the names of the functions that `expr` calls; extrapolated curves call min and max."""
+    """Return the set of names of the functions that an expression calls; extrapolated curves call min and max."""
     match expr:
         case Unary(operand=operand):
             return functions(operand)
@@ -205,7 +214,7 @@ def functions(expr: Expr) -> set[str]:
 
 
 def to_json(expr: Expr) -> Any:
-    """Return the expression as nested lists that `from_json` reads."""
+    """Return an expression as nested lists, texts and numbers, which `from_json` reads."""
     match expr:
         case Number(value=value):
             return float(value)
@@ -222,7 +231,7 @@ def to_json(expr: Expr) -> Any:
 
 
 def from_json(data: Any) -> Expr:
-    """Return the expression that `to_json` wrote."""
+    """Return the expression from the nested lists that `to_json` wrote."""
     if isinstance(data, (int, float)):
         return Number(float(data))
     if isinstance(data, str):

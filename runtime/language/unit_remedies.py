@@ -120,15 +120,15 @@ class _Quantity:
 @contextmanager
 def unit_remedies(
     text: str,
-    where: Location,
+    location: Location,
     accept: Callable[[str], object],
     expected: Dimension | None,
     names: Container[str] = (),
 ) -> Iterator[None]:
-    """Add a hint to errors raised inside the with block, which names what to write in place of a wrong unit.
+    """Add a hint to errors raised inside the context: what to write in place of a wrong unit.
 
-    text: the whole value, whose first character is at `where`; accept(other) raises InputError unless `other` may
-    replace it; expected: the dimension of the value, None if any; names: parameters and expressions of the file. Errors
+    text: the whole value, whose first character is at `location`. accept(other): raises InputError unless `other` may
+    replace it. expected: dimension of the value, None if any. names: parameters and expressions of the file. Errors
     that are not about a unit stay as they are.
     """
     try:
@@ -136,37 +136,41 @@ def unit_remedies(
     except (UnitError, ExpressionError, UnknownNameError, InputErrors) as caught:
         mended = dict[str, InputError]()  # by the hint, which may be one for several names
         for error in caught.errors if isinstance(caught, InputErrors) else [caught]:
-            hint = _remedy(error, text, where, accept, expected, names)
+            hint = _find_remedy(error, text, location, accept, expected, names)
             mended.setdefault(hint or str(error), type(error)(error.message, error.where, hint) if hint else error)
         raise together(mended.values()) from None
 
 
-def _remedy(
+def _find_remedy(
     error: InputError,
     text: str,
-    where: Location,
+    location: Location,
     accept: Callable[[str], object],
     expected: Dimension | None,
     names: Container[str],
 ) -> str:
-    """Return the hint for one error; "" if there is no unit at its location, or no proposal fits."""
+    """Return the hint for one error; "" if there is no unit at its location, or no proposal is accepted.
+
+    Other arguments are those of `unit_remedies`. Without a proposal, the hint may list units that fit the expected
+    dimension.
+    """
     place = error.where
-    if place is None or (place.file, place.line) != (where.file, where.line) or len(text) > _MAX_LENGTH:
+    if place is None or (place.file, place.line) != (location.file, location.line) or len(text) > _MAX_LENGTH:
         return ""
-    found = _quantity_at(text, place.column - where.column, names)
+    found = _find_quantity(text, place.column - location.column, names)
     if found is None:
         return ""
 
-    def accepted(proposals: Iterable[str], most: int) -> list[str]:
-        """Return the first `most` proposals that are accepted in place of the quantity."""
+    def accepted(proposals: Iterable[str], max_count: int) -> list[str]:
+        """Return the first `max_count` proposals that are accepted in place of the quantity, without repetitions."""
         before, after = text[: found.begin], text[found.end :]
         divides = before.rstrip().endswith(("/", "**"))
         bracketed = (f"({one})" if divides and re.search(r"[*(]", one) else one for one in proposals)
-        fitting = (one for one in bracketed if one != written and _fits(accept, before, one, after, where))
-        return list(itertools.islice(dict.fromkeys(fitting), most))
+        fitting = (one for one in bracketed if one != written and _is_accepted(accept, before, one, after, location))
+        return list(itertools.islice(dict.fromkeys(fitting), max_count))
 
     written = text[found.begin : found.end]
-    for proposals, most in _proposals(text, found, names, expected):
+    for proposals, most in _iterate_proposals(text, found, names, expected):
         if shown := accepted(proposals, most):
             differ = ": they differ by 2*pi" if any("rev" in one for one in shown) and shown[1:] else ""
             return f"write {' or '.join(shown)}{differ}"
@@ -182,27 +186,33 @@ def _remedy(
     return ""
 
 
-def _fits(accept: Callable[[str], object], before: str, proposal: str, after: str, where: Location) -> bool:
-    """Return whether a value with `proposal` in it is accepted, or is wrong only in the unit of a later number."""
+def _is_accepted(accept: Callable[[str], object], before: str, proposal: str, after: str, location: Location) -> bool:
+    """Return whether the value with this proposal is accepted, or is wrong only in the unit of a later number.
+
+    before, after: text around the proposal. location: of the value.
+    """
     try:
         accept(before + proposal + after)
     except InputError as error:
         place, begin = error.where, len(before + proposal)
         blanked = " " * begin + after
-        later = _quantity_at(blanked, place.column - where.column, ()) if place else None
+        later = _find_quantity(blanked, place.column - location.column, ()) if place else None
         return later is not None and later.begin > begin and blanked[later.begin - 1] in " (,"
     return True
 
 
-def _quantity_at(text: str, offset: int, names: Container[str]) -> _Quantity | None:
-    """Return the number whose unit text holds the character at `offset`, None if there is none."""
+def _find_quantity(text: str, offset: int, names: Container[str]) -> _Quantity | None:
+    """Return the number with its unit text that contains the character at `offset`; None if there is none.
+
+    names: of the file, which are not units after an operator.
+    """
     for match in _NUMBER.finditer(text, 0, offset + 1):
         begin = match.end()
         position = begin + 2 if text.startswith("1/", begin) and match[0] != match["number"] else begin
         divided = position > begin
         if per := re.compile(r"(?:/|per ) *").match(text, begin):
             position, divided = per.end(), True
-        factors, end = _factors(text, position, divided, names)
+        factors, end = _parse_factors(text, position, divided, names)
         word = _WORD.match(text, begin)
         end = end if factors else word.end() if word else begin
         if begin <= offset < end:
@@ -210,25 +220,29 @@ def _quantity_at(text: str, offset: int, names: Container[str]) -> _Quantity | N
     return None
 
 
-def _factors(text: str, position: int, divided: bool, names: Container[str]) -> tuple[list[_Factor], int]:
-    """Read factors from `position` on, and return them with the place where they end."""
+def _parse_factors(text: str, position: int, divided: bool, names: Container[str]) -> tuple[list[_Factor], int]:
+    """Return the factors of a unit text from `position` on, and the offset where they end.
+
+    divided: whether a division precedes the first. names: of the file, which end the unit after an operator. Reading
+    stops at the first symbol without a meaning.
+    """
     found, end, below, between = list[_Factor](), position, divided, ""
     while True:
         sign = -1 if divided else 1
         group, factor = _GROUP.match(text, position), _FACTOR.match(text, position)
         if group:
-            inner, inner_end = _factors(group["inside"], 0, False, names)
-            power = _power_of(group["power"])
+            inner, inner_end = _parse_factors(group["inside"], 0, False, names)
+            power = _parse_power(group["power"])
             if not inner or inner_end != len(group["inside"]) or power is None:
                 return found, end
             raised = [(one, None if one.power is None else one.power * power * sign) for one in inner]
             found += [_Factor(one.symbol, new) for one, new in raised]
         elif factor and not (found and between in ("*", "/") and _is_name(factor[0], names)):
-            power = _power_of(factor["power"])
+            power = _parse_power(factor["power"])
             power = None if power is None else sign * power
             if factor["symbol"] in _SPEEDS and power is not None:
                 found += [_Factor("km", power), _Factor("h", -power)]
-            elif _meanings_of(factor["symbol"]):
+            elif _list_meanings(factor["symbol"]):
                 found.append(_Factor(factor["symbol"], power, bool(found) and not between and below))
             else:
                 return found, end
@@ -247,8 +261,8 @@ def _is_name(symbol: str, names: Container[str]) -> bool:
     return symbol in names or symbol in ("t", "pi")
 
 
-def _power_of(text: str | None) -> Fraction | None:
-    """Return the power that is written as ^2, **1.5, -1, ^(1/2) or in raised digits; 1 for no text."""
+def _parse_power(text: str | None) -> Fraction | None:
+    """Return the power written as ^2, **1.5, -1, ^(1/2) or in superscripts; 1 for no text, None for another text."""
     if not text:
         return Fraction(1)
     try:
@@ -257,8 +271,11 @@ def _power_of(text: str | None) -> Fraction | None:
         return None
 
 
-def _meanings_of(symbol: str) -> list[tuple[Decimal, str]]:
-    """Return what a symbol may mean: a number times a unit of the list."""
+def _list_meanings(symbol: str) -> list[tuple[Decimal, str]]:
+    """Return the possible meanings of a unit symbol, each a number and a unit of the list; empty for an unknown one.
+
+    Tried in turn: the list, other unit systems, SI prefixes, and other capitals.
+    """
     if symbol_dimension(symbol):
         return [(Decimal(1), symbol)]
     if symbol in _OTHER_UNITS:
@@ -268,59 +285,70 @@ def _meanings_of(symbol: str) -> list[tuple[Decimal, str]]:
         if prefix in _PREFIXES and rest != symbol and rest in _PREFIXED:
             if symbol_dimension(plain := prefix.translate(_PLAIN) + rest):
                 return [(Decimal(1), plain)]
-            return [(Decimal(_PREFIXES[prefix]) * number, of) for number, of in _meanings_of(rest)]
-    alike = [one for one in (*UNITS, *_OTHER_UNITS) if one.lower() == symbol.lower() and len(symbol) > 1]
-    differ = {one: sum(a != b for a, b in zip(one, symbol, strict=True)) for one in alike}
-    return [meant for one in alike if differ[one] == min(differ.values()) for meant in _meanings_of(one)]
+            return [(Decimal(_PREFIXES[prefix]) * number, of) for number, of in _list_meanings(rest)]
+    candidates = [one for one in (*UNITS, *_OTHER_UNITS) if one.lower() == symbol.lower() and len(symbol) > 1]
+    differences = {one: sum(a != b for a, b in zip(one, symbol, strict=True)) for one in candidates}
+    return [
+        meant for one in candidates if differences[one] == min(differences.values()) for meant in _list_meanings(one)
+    ]
 
 
-def _proposals(
-    text: str, found: _Quantity, names: Container[str], expected: Dimension | None
+def _iterate_proposals(
+    text: str, quantity: _Quantity, names: Container[str], expected: Dimension | None
 ) -> Iterator[tuple[Iterator[str], int]]:
-    """Yield kinds of proposals, the likeliest first, each with how many of it are shown."""
-    word, written = _WORD.match(text, found.unit_at), text[found.begin : found.end]
-    product = f"{found.number}*{text[found.unit_at : found.end]}"
+    """Yield groups of proposals for a quantity, the likeliest first, each with the number of its proposals to show.
+
+    text: the value that contains the quantity. names: of the file. expected: dimension of the value, None if any.
+    """
+    word, written = _WORD.match(text, quantity.unit_at), text[quantity.begin : quantity.end]
+    product = f"{quantity.number}*{text[quantity.unit_at : quantity.end]}"
     raised = re.fullmatch(r"(.*\S) *\*\* *(\S+)", written)
     others = [f"({raised[1]})**{raised[2]}"] if raised else []
     others += [product] if word and word[0] in names else []
     others += [re.sub(rf"\^ *(?={_SYMBOL})", "*", written)]
     difference = re.sub(r"(?<=[a-z])-(?=[0-9])", " - ", written)
     others += [difference] if expected is None else []
-    yield itertools.chain(_in_listed_units(found), others), _MAX_SHOWN
+    yield itertools.chain(_iterate_listed_units(quantity), others), _MAX_SHOWN
     yield iter([difference]), 1
     if word:
         yield iter([product]), 1
-    wrong = [k for k, one in enumerate(found.factors) if one.power is None or not _is_power(one.power)]
+    wrong = [k for k, one in enumerate(quantity.factors) if one.power is None or not _is_power(one.power)]
     if expected is not None and len(wrong) == 1:
-        yield _with_powers(found, wrong[0]), 1
+        yield _iterate_powers(quantity, wrong[0]), 1
 
 
-def _in_listed_units(found: _Quantity) -> Iterator[str]:
-    """Yield the quantity in units of the list, in each of the meanings that its symbols may have."""
-    if not found.factors or any(one.power is None for one in found.factors):
+def _iterate_listed_units(quantity: _Quantity) -> Iterator[str]:
+    """Yield the quantity in units of the list, for each combination of the meanings of its symbols.
+
+    Nothing is yielded without factors or with an invalid power.
+    """
+    if not quantity.factors or any(one.power is None for one in quantity.factors):
         return
-    either = [
-        [(meant, one.power, k) for k in ((1, -1) if one.either else (1,)) for meant in _meanings_of(one.symbol)]
-        for one in found.factors
+    alternatives = [
+        [(meant, one.power, k) for k in ((1, -1) if one.either else (1,)) for meant in _list_meanings(one.symbol)]
+        for one in quantity.factors
     ]
-    for choice in itertools.islice(itertools.product(*either), _MAX_ALTERNATIVES):
-        yield _format_quantity(found.number, [(meant, Fraction(power or 1) * sign) for meant, power, sign in choice])
+    for choice in itertools.islice(itertools.product(*alternatives), _MAX_ALTERNATIVES):
+        yield _format_quantity(quantity.number, [(meant, Fraction(power or 1) * sign) for meant, power, sign in choice])
 
 
-def _with_powers(found: _Quantity, k: int) -> Iterator[str]:
-    """Yield the quantity with other powers of factor k."""
+def _iterate_powers(quantity: _Quantity, k: int) -> Iterator[str]:
+    """Yield the quantity in units of the list with other powers of its factor k, the likeliest first."""
     for power in _POWERS:
-        factors = (*found.factors[:k], _Factor(found.factors[k].symbol, power), *found.factors[k + 1 :])
-        yield from _in_listed_units(replace(found, factors=factors))
+        factors = (*quantity.factors[:k], _Factor(quantity.factors[k].symbol, power), *quantity.factors[k + 1 :])
+        yield from _iterate_listed_units(replace(quantity, factors=factors))
 
 
 def _is_power(power: Fraction) -> bool:
-    """Return whether a unit may have this power (units.py)."""
+    """Return whether a listed unit may have this power: a whole number up to 9 or a half below 10, but not 0."""
     return power != 0 and (abs(power) <= 9 and power.denominator == 1 or abs(power) < 10 and power.denominator == 2)
 
 
 def _format_quantity(number: str, factors: Sequence[tuple[tuple[Decimal, str], Fraction]]) -> str:
-    """Return a number times powers of (number, unit) as an expression."""
+    """Return a number times factors as an expression that the parser accepts.
+
+    factors: pairs of a meaning (number, listed unit) and its power.
+    """
     scale, above, below, rest = Decimal(1), list[str](), list[str](), ""
     for (times, symbol), power in factors:
         if times != 1 and power != 1:
@@ -349,5 +377,5 @@ def _format_quantity(number: str, factors: Sequence[tuple[tuple[Decimal, str], F
 
 
 def _format_power(power: Fraction) -> str:
-    """Return the power of a unit as text."""
+    """Return the power of a unit as text: "2", "0.5" or "(1/3)"."""
     return str(power) if power.denominator == 1 else str(float(power)) if power.denominator == 2 else f"({power})"

@@ -24,15 +24,15 @@ class Dimension:
     time: Fraction = Fraction(0)
 
     def __mul__(self, other: Dimension) -> Dimension:
-        """Return the dimension of a product."""
+        """Return the dimension of a product of two quantities."""
         return Dimension(self.length + other.length, self.mass + other.mass, self.time + other.time)
 
     def __truediv__(self, other: Dimension) -> Dimension:
-        """Return the dimension of a quotient."""
+        """Return the dimension of a quotient of two quantities."""
         return self * other**-1
 
     def __pow__(self, exponent: int | Fraction) -> Dimension:
-        """Return the dimension of a power."""
+        """Return the dimension of a power of a quantity; the exponent may be a fraction."""
         return Dimension(self.length * exponent, self.mass * exponent, self.time * exponent)
 
     @property
@@ -94,31 +94,31 @@ _WORDS: Mapping[Dimension, tuple[str, str]] = {
 }
 
 
-def si_unit(of: Dimension) -> str:
+def si_unit(dimension_: Dimension) -> str:
     """Return the SI unit of a dimension as files write it: "m", "kg*m^2", "1/s"; "" for a pure number."""
-    if of == DIMENSIONLESS:
+    if dimension_ == DIMENSIONLESS:
         return ""
-    if of == RATE:
+    if dimension_ == RATE:
         return "1/s"
-    if of in _WORDS:
-        return _WORDS[of][1]
-    exponents = {"kg": of.mass, "m": of.length, "s": of.time}
-    above = "*".join(_format_power(s, e) for s, e in exponents.items() if e > 0)
-    below = "".join("/" + _format_power(s, -e) for s, e in exponents.items() if e < 0)
-    return (above or "1") + below
+    if dimension_ in _WORDS:
+        return _WORDS[dimension_][1]
+    exponents = {"kg": dimension_.mass, "m": dimension_.length, "s": dimension_.time}
+    numerator = "*".join(_format_power(s, e) for s, e in exponents.items() if e > 0)
+    denominator = "".join("/" + _format_power(s, -e) for s, e in exponents.items() if e < 0)
+    return (numerator or "1") + denominator
 
 
 def _format_power(symbol: str, exponent: Fraction) -> str:
-    """Return a unit symbol with its exponent as text."""
+    """Return a unit symbol with its exponent as text: "m", "m^2", "m^(3/2)"."""
     if exponent == 1:
         return symbol
     return f"{symbol}^{exponent}" if exponent.denominator == 1 else f"{symbol}^({exponent})"
 
 
-def describe(of: Dimension) -> str:
-    """Return a dimension in words: "a length (m)"."""
-    word, unit = _WORDS.get(of, ("a quantity", si_unit(of)))
-    return f"{word} ({unit})"
+def describe(dimension_: Dimension) -> str:
+    """Return a dimension in words with its SI unit: "a length (m)"."""
+    description, unit = _WORDS.get(dimension_, ("a quantity", si_unit(dimension_)))
+    return f"{description} ({unit})"
 
 
 @dataclass(frozen=True)
@@ -130,62 +130,62 @@ class Unit:
     dimension: Dimension
 
     def to_si(self, number: Fraction) -> float:
-        """Return `number` of this unit in SI, rounded once."""
+        """Return `number` of this unit as a number in SI, rounded once from the exact product."""
         return float(number * self.factor * Fraction(math.pi) ** self.pi_power)
 
 
-def _unit(factor: str, of: Dimension, pi_power: int = 0) -> Unit:
-    """Return a unit from its factor as text, its dimension and its power of π."""
-    return Unit(Fraction(factor), pi_power, of)
+def _make_unit(factor: str, dimension_: Dimension, pi_power: int = 0) -> Unit:
+    """Return a unit from its factor to SI as text, its dimension, and its power of π."""
+    return Unit(Fraction(factor), pi_power, dimension_)
 
 
 # Hz is left out on purpose: read as 1/s it is 2π wrong for an angular velocity; rev/s and 1/s say which is meant.
 _SYMBOLS: Mapping[str, Unit] = {
-    "m": _unit("1", LENGTH),
-    "km": _unit("1000", LENGTH),
-    "cm": _unit("0.01", LENGTH),
-    "mm": _unit("1e-3", LENGTH),
-    "um": _unit("1e-6", LENGTH),
-    "\u00b5m": _unit("1e-6", LENGTH),
-    "\u03bcm": _unit("1e-6", LENGTH),
-    "nm": _unit("1e-9", LENGTH),
-    "in": _unit("0.0254", LENGTH),
-    "inch": _unit("0.0254", LENGTH),
-    "ft": _unit("0.3048", LENGTH),
-    "kg": _unit("1", MASS),
-    "g": _unit("1e-3", MASS),
-    "mg": _unit("1e-6", MASS),
-    "gram": _unit("1e-3", MASS),
-    "grams": _unit("1e-3", MASS),
-    "lb": _unit("0.45359237", MASS),
-    "s": _unit("1", TIME),
-    "ms": _unit("1e-3", TIME),
-    "us": _unit("1e-6", TIME),
-    "min": _unit("60", TIME),
-    "rad": _unit("1", DIMENSIONLESS),
-    "mrad": _unit("1e-3", DIMENSIONLESS),
-    "deg": _unit("1/180", DIMENSIONLESS, 1),
-    "rev": _unit("2", DIMENSIONLESS, 1),
-    "rpm": _unit("1/30", RATE, 1),
-    "N": _unit("1", FORCE),
-    "mN": _unit("1e-3", FORCE),
-    "kN": _unit("1000", FORCE),
-    "MN": _unit("1e6", FORCE),
-    "GN": _unit("1e9", FORCE),
-    "mPa": _unit("1e-3", PRESSURE),
-    "lbf": _unit("4.4482216152605", FORCE),
-    "Pa": _unit("1", PRESSURE),
-    "kPa": _unit("1e3", PRESSURE),
-    "MPa": _unit("1e6", PRESSURE),
-    "GPa": _unit("1e9", PRESSURE),
-    "bar": _unit("1e5", PRESSURE),
-    "P": _unit("0.1", VISCOSITY),
-    "cP": _unit("1e-3", VISCOSITY),
-    "J": _unit("1", TORQUE),
-    "mJ": _unit("1e-3", TORQUE),
-    "kJ": _unit("1e3", TORQUE),
-    "W": _unit("1", POWER),
-    "kW": _unit("1e3", POWER),
+    "m": _make_unit("1", LENGTH),
+    "km": _make_unit("1000", LENGTH),
+    "cm": _make_unit("0.01", LENGTH),
+    "mm": _make_unit("1e-3", LENGTH),
+    "um": _make_unit("1e-6", LENGTH),
+    "\u00b5m": _make_unit("1e-6", LENGTH),
+    "\u03bcm": _make_unit("1e-6", LENGTH),
+    "nm": _make_unit("1e-9", LENGTH),
+    "in": _make_unit("0.0254", LENGTH),
+    "inch": _make_unit("0.0254", LENGTH),
+    "ft": _make_unit("0.3048", LENGTH),
+    "kg": _make_unit("1", MASS),
+    "g": _make_unit("1e-3", MASS),
+    "mg": _make_unit("1e-6", MASS),
+    "gram": _make_unit("1e-3", MASS),
+    "grams": _make_unit("1e-3", MASS),
+    "lb": _make_unit("0.45359237", MASS),
+    "s": _make_unit("1", TIME),
+    "ms": _make_unit("1e-3", TIME),
+    "us": _make_unit("1e-6", TIME),
+    "min": _make_unit("60", TIME),
+    "rad": _make_unit("1", DIMENSIONLESS),
+    "mrad": _make_unit("1e-3", DIMENSIONLESS),
+    "deg": _make_unit("1/180", DIMENSIONLESS, 1),
+    "rev": _make_unit("2", DIMENSIONLESS, 1),
+    "rpm": _make_unit("1/30", RATE, 1),
+    "N": _make_unit("1", FORCE),
+    "mN": _make_unit("1e-3", FORCE),
+    "kN": _make_unit("1000", FORCE),
+    "MN": _make_unit("1e6", FORCE),
+    "GN": _make_unit("1e9", FORCE),
+    "mPa": _make_unit("1e-3", PRESSURE),
+    "lbf": _make_unit("4.4482216152605", FORCE),
+    "Pa": _make_unit("1", PRESSURE),
+    "kPa": _make_unit("1e3", PRESSURE),
+    "MPa": _make_unit("1e6", PRESSURE),
+    "GPa": _make_unit("1e9", PRESSURE),
+    "bar": _make_unit("1e5", PRESSURE),
+    "P": _make_unit("0.1", VISCOSITY),
+    "cP": _make_unit("1e-3", VISCOSITY),
+    "J": _make_unit("1", TORQUE),
+    "mJ": _make_unit("1e-3", TORQUE),
+    "kJ": _make_unit("1e3", TORQUE),
+    "W": _make_unit("1", POWER),
+    "kW": _make_unit("1e3", POWER),
 }
 
 # Other spellings of units, and the symbols of this list.
@@ -230,7 +230,7 @@ _MOST_FACTORS = 8
 
 
 def parse_unit(text: str, start: int = 0, names: Container[str] = ()) -> tuple[Unit, int] | None:
-    """Return the longest unit that begins at text[start], and where it ends; None if none begins there.
+    """Return the longest unit that begins at text[start], and the offset where it ends; None if none begins there.
 
     A unit is a listed symbol, or a product and quotient of such with powers from −9 to 9, halves too (`kg*m^2`, `kg
     m²`, `N*s/m`, `1/s`, `N/m^1.5`). After a `*` or `/`, unlisted symbols and functions belong to the expression: in `3
@@ -247,7 +247,7 @@ def parse_unit(text: str, start: int = 0, names: Container[str] = ()) -> tuple[U
             break
         is_name = bool(found) and match[0] in names and between in ("*", "/")
         power = Fraction((match["power"] or _RAISED.get(match["raised"]) or "1").strip("()"))
-        raised = _power_of_unit(_SYMBOLS[match[1]], -power if divide else power)
+        raised = _raise_unit(_SYMBOLS[match[1]], -power if divide else power)
         if raised is None:
             break
         total = Unit(total.factor * raised.factor, total.pi_power + raised.pi_power, total.dimension * raised.dimension)
@@ -261,36 +261,36 @@ def parse_unit(text: str, start: int = 0, names: Container[str] = ()) -> tuple[U
     return found
 
 
-def _power_of_unit(of: Unit, power: Fraction) -> Unit | None:
-    """Return a power of a unit; None for a root of π."""
+def _raise_unit(unit_: Unit, power: Fraction) -> Unit | None:
+    """Return a unit raised to a whole or half power; None for a root of a unit that contains π."""
     if power.denominator == 1:
-        return Unit(of.factor ** int(power), of.pi_power * int(power), of.dimension**power)
-    if of.pi_power:
+        return Unit(unit_.factor ** int(power), unit_.pi_power * int(power), unit_.dimension**power)
+    if unit_.pi_power:
         return None
-    square = of.factor**power.numerator
+    square = unit_.factor**power.numerator
     root = Fraction(math.isqrt(square.numerator * 10**120 // square.denominator), 10**60)
-    return Unit(root, 0, of.dimension**power)
+    return Unit(root, 0, unit_.dimension**power)
 
 
 def factors(token: str) -> list[tuple[str, str]]:
-    """Return the symbols without a power in a unit as it is written, each with the sign before it: "" of the first."""
+    """Return pairs (operator before it, symbol) for the symbols without a power in a unit text; the first has ""."""
     return re.findall(r"([*/ \u00b7\u22c5]|^)(?:1/)?([A-Za-z\u00b5\u03bc]+)(?![\w^])", token)
 
 
 def symbol_dimension(name: str) -> Dimension | None:
-    """Return the dimension of the unit that has the symbol `name`, None if no unit has it."""
+    """Return the dimension of the unit with the symbol `name`; None if no listed unit has it."""
     return _SYMBOLS[name].dimension if name in _SYMBOLS else None
 
 
 @lru_cache(maxsize=1024)
 def unit(token: str) -> Unit | None:
-    """Return the unit that the whole of `token` names; None if it is not in the list."""
+    """Return the unit that the whole of `token` names; None if it is not in the list. Results are cached."""
     found = parse_unit(token)
     return found[0] if found and found[1] == len(token) else None
 
 
 def _list_units() -> Iterator[tuple[str, tuple[float, Dimension]]]:
-    """Yield each published unit with its factor to SI and its dimension."""
+    """Yield each published unit as (text, (factor to SI, dimension))."""
     for token in (*_SYMBOLS, *_COMPOUNDS.split()):
         known = unit(token)
         assert known is not None, token

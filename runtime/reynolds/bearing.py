@@ -39,7 +39,7 @@ class Bearing:
     viscosity: float
 
     def __post_init__(self) -> None:
-        """Check and convert all values."""
+        """Convert all values to floats and raise BadValueError for values outside the ranges of the class."""
         for field in fields(self):
             object.__setattr__(self, field.name, positive(getattr(self, field.name), field.name))
         if self.clearance >= 0.1 * self.radius:
@@ -50,7 +50,7 @@ class Bearing:
 
     @property
     def l_over_d(self) -> float:
-        """Return the length over the diameter."""
+        """Return the length over the diameter of the journal."""
         return self.length / (2.0 * self.radius)
 
     @property
@@ -59,30 +59,31 @@ class Bearing:
         return 12.0 * self.viscosity * (self.radius / self.clearance) ** 2
 
 
-def pair(values: ArrayLike, name: str) -> tuple[float, float]:
-    """Return two finite components. Raises BadValueError."""
-    x, y = as_c_array(values, name, (2,), finite=True)
+def pair(vector: ArrayLike, name: str) -> tuple[float, float]:
+    """Return two finite components (x, y) of an array-like argument. Raises BadValueError with its `name`."""
+    x, y = as_c_array(vector, name, (2,), finite=True)
     return float(x), float(y)
 
 
 def check_eccentricity(ratio: float) -> None:
-    """Raise BadValueError unless the eccentricity ratio is below 1."""
+    """Raise BadValueError unless the eccentricity over the clearance is below 1, since beyond it there is no film."""
     if ratio >= 1.0:
         given = f"the eccentricity is {ratio:.6g} times the clearance: expected less than 1"
         raise BadValueError(given, hint="beyond it there is no film")
 
 
-def choice(value: object, name: str, known: Sequence[str]) -> str:
-    """Return the value if it is one of the known texts. Raises BadValueError."""
-    if not isinstance(value, str) or value not in known:
-        raise BadValueError(f"{name} is {message(value)}: expected {', '.join(known[:-1])} or {known[-1]}")
+def choice(value: object, name: str, allowed: Sequence[str]) -> str:
+    """Return the value if it is one of the allowed texts, else raise BadValueError with the `name` of the argument."""
+    if not isinstance(value, str) or value not in allowed:
+        raise BadValueError(f"{name} is {message(value)}: expected {', '.join(allowed[:-1])} or {allowed[-1]}")
     return value
 
 
 def cells_of(cells: object, sealed: bool) -> tuple[int, int]:
-    """Return the number of cells around and from the middle to an end (0 if sealed).
+    """Return the numbers of cells around the bearing and from the middle to an end; the second is 0 if it is sealed.
 
-    Both can be halved for the estimate of the error. Raises BadValueError.
+    Raises BadValueError unless `cells` has two integers that are large enough, multiples of 4, and at most MAX_CELLS
+    together. They can then be halved for the estimate of the error.
     """
     if not isinstance(cells, Sequence) or len(cells) != 2 or not all(map(is_whole, cells)):
         raise BadValueError(
@@ -146,27 +147,29 @@ class Film:
 
     @property
     def attitude(self) -> float:
-        """Return the angle from the line of centres to the load in rad; 0 without a load."""
+        """Return the attitude angle in rad, from the line of centres to the load; 0 without a load."""
         return math.atan2(self.tangential, -self.radial) if self.force.any() else 0.0
 
     @property
     def eccentricity_ratio(self) -> float:
-        """Return |e|/c."""
+        """Return the eccentricity |e| over the clearance c."""
         return math.hypot(*self.eccentricity) / self.bearing.clearance
 
     def __repr__(self) -> str:
-        """Return cavitation condition, ε, ω_s and force."""
+        """Return cavitation condition, ε, ω_s and force with attitude angle in one line."""
         force = f"{math.hypot(*self.force):.4g} N at {math.degrees(self.attitude):.4g}°"
         return f"<Film {self.cavitation}: ε = {self.eccentricity_ratio:.4g}, ω_s = {self.omega_s:.4g} rad/s, {force}>"
 
     def plot(self) -> Figure:
-        """Draw the pressure over the unrolled bearing, and around the journal in the middle plane; needs matplotlib."""
+        """Return a figure of the pressure over the unrolled bearing, and around the journal in the middle plane; needs
+        matplotlib.
+        """
         from gudgeon.reynolds.plot import picture
 
         return picture(self)
 
 
-def check_finite(*found: Array) -> None:
-    """Raise BadValueError if a value is not finite."""
-    if not all(np.isfinite(some).all() for some in found):
+def check_finite(*arrays: Array) -> None:
+    """Raise BadValueError if any value of the arrays is NaN or infinite."""
+    if not all(np.isfinite(array).all() for array in arrays):
         raise BadValueError("the film's forces are no numbers: bearing and motion are too far from 1 for doubles")

@@ -55,97 +55,109 @@ class Pressure:
 
 
 def solve_pressure(kind: str, equation: Equation, motion: Motion, free: Flags, start: Array | None = None) -> Pressure:
-    """Solve the film equation under the cavitation condition `kind`.
+    """Solve the film equation under a cavitation condition, and return pressure, filled fraction and gain of all
+    nodes.
 
-    free: nodes at which p is unknown, all except the groove. start: unknowns near the solution, from a coarser grid.
-    Raises BadValueError, GudgeonError if the active set does not converge.
+    kind: "half_sommerfeld", "reynolds" or "elrod_adams". free: nodes at which p is unknown, all except the groove.
+    start: unknowns near the solution, from a coarser grid; only their signs are used. Without it, elrod_adams starts
+    from the solution of reynolds. Raises BadValueError, GudgeonError if the active set does not converge.
     """
     closing = equation.closing(motion.w_n, motion.w_t)
     if kind == "half_sommerfeld":
-        p = _solve_rows(equation.matrix, closing, free)
+        p = _solve_subsystem(equation.matrix, closing, free)
         return Pressure(p, np.ones_like(p), equation.matrix @ p - closing)
-    carries = (closing > 0.0) if start is None else (start > 0.0)
+    has_pressure = (closing > 0.0) if start is None else (start > 0.0)
     if kind == "elrod_adams" and start is not None:
-        return _solve_elrod_adams(equation, motion, free, carries & free)
-    p, carries = _solve_reynolds(equation.matrix, closing, free, carries & free)
+        return _solve_elrod_adams(equation, motion, free, has_pressure & free)
+    p, has_pressure = _solve_reynolds(equation.matrix, closing, free, has_pressure & free)
     if kind == "elrod_adams":
-        return _solve_elrod_adams(equation, motion, free, carries)
+        return _solve_elrod_adams(equation, motion, free, has_pressure)
     return Pressure(p, np.ones_like(p), equation.matrix @ p - closing)
 
 
-def _solve_rows(matrix: sparse.csr_matrix, right: Array, where: Flags) -> Array:
-    """Return the solution of matrix p = right in the rows `where`, with p = 0 elsewhere."""
-    p = np.zeros(len(right))
-    if where.any():
-        p[where] = _factor(matrix[where][:, where]).solve(right[where])
+def _solve_subsystem(matrix: sparse.csr_matrix, right_side: Array, selected: Flags) -> Array:
+    """Return p that satisfies the selected equations of matrix p = right_side, with p = 0 at all other nodes."""
+    p = np.zeros(len(right_side))
+    if selected.any():
+        p[selected] = _factorize_m_matrix(matrix[selected][:, selected]).solve(right_side[selected])
     return p
 
 
-def _factor(matrix: sparse.csr_matrix) -> Any:
-    """Return the LU factors of an M-matrix with symmetric pattern; pivoting is not necessary."""
+def _factorize_m_matrix(matrix: sparse.csr_matrix) -> Any:
+    """Return the LU factors of an M-matrix with symmetric pattern, without pivoting; `solve` of the result solves."""
     options = {"SymmetricMode": True}
-    return _factor_lu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+    return _factorize(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
 
 
-def _factor_lu(matrix: sparse.csr_matrix, **how: Any) -> Any:
-    """Return SuperLU's factors L U. Raises GudgeonError if a pivot vanishes because the gap is almost closed."""
+def _factorize(matrix: sparse.csr_matrix, **options: Any) -> Any:
+    """Return SuperLU's factors L U of a sparse matrix; `options` are arguments of `splu`.
+
+    Large matrices are factorized in another thread, so that Ctrl-C is immediate. Raises GudgeonError if a pivot
+    vanishes because the gap is almost closed.
+    """
     columns = matrix.tocsc()
     try:
         if columns.shape[0] < MIN_THREADED_UNKNOWNS:
-            return splu(columns, **how)
-        return apart(lambda: splu(columns, **how))
+            return splu(columns, **options)
+        return apart(lambda: splu(columns, **options))
     except RuntimeError as error:  # SuperLU raises it for a pivot of 0
         message = "reynolds: the gap is too thin for doubles: less eccentricity may do, or other cells"
         raise GudgeonError(message) from error
 
 
-def _solve_reynolds(matrix: sparse.csr_matrix, closing: Array, free: Flags, carries: Flags) -> tuple[Array, Flags]:
-    """Return the pressure and the active set (nodes with p > 0) of the complementarity problem. Raises GudgeonError."""
+def _solve_reynolds(matrix: sparse.csr_matrix, closing: Array, free: Flags, active: Flags) -> tuple[Array, Flags]:
+    """Return pressure and active set (nodes with p > 0) of the complementarity problem, from a first active set.
+
+    Raises GudgeonError if the active set does not settle in MAX_MONOTONE_STEPS iterations.
+    """
     for _ in range(MAX_MONOTONE_STEPS):
-        p = _solve_rows(matrix, closing, carries)
-        new = np.where(carries, p > 0.0, matrix @ p < closing) & free
-        if np.array_equal(new, carries):
-            return p, carries
-        carries = new
+        p = _solve_subsystem(matrix, closing, active)
+        next_active = np.where(active, p > 0.0, matrix @ p < closing) & free
+        if np.array_equal(next_active, active):
+            return p, active
+        active = next_active
     raise GudgeonError("reynolds: where the film ends is not found: another number of cells may do")
 
 
 def _solve_elrod_adams(equation: Equation, motion: Motion, free: Flags, full: Flags) -> Pressure:
     """Solve for p in full nodes and for θ in cavitated nodes; the groove is full with p = 0.
 
-    full: first guess of the full nodes. Raises BadValueError, GudgeonError if the active set does not converge.
+    full: first guess of the full nodes; if it fails, the iteration starts from no full nodes. Raises BadValueError if
+    the gap closes faster than oil is convected, GudgeonError if the active set does not converge.
     """
-    matrix, carried = equation.matrix, equation.carried(motion.half_speed, motion.w_n)
-    if (carried.diagonal() <= 0.0).any():
+    matrix, convection = equation.matrix, equation.carried(motion.half_speed, motion.w_n)
+    if (convection.diagonal() <= 0.0).any():
         raise BadValueError(
             "elrod_adams: the gap closes faster than oil is carried along",
             hint="θ would hang on what was before; cavitation='reynolds' does not know θ",
         )
-    found = _iterate_full_nodes(matrix, carried, free, full) or _iterate_full_nodes(
-        matrix, carried, free, np.zeros_like(full)
+    pressure = _iterate_full_nodes(matrix, convection, free, full) or _iterate_full_nodes(
+        matrix, convection, free, np.zeros_like(full)
     )
-    if found is None:
+    if pressure is None:
         raise GudgeonError("elrod_adams: where the film ends is not found: another number of cells may do")
-    return found
+    return pressure
 
 
 def _iterate_full_nodes(
-    matrix: sparse.csr_matrix, carried: sparse.csr_matrix, free: Flags, full: Flags
+    matrix: sparse.csr_matrix, convection: sparse.csr_matrix, free: Flags, full: Flags
 ) -> Pressure | None:
-    """Iterate the active set of full nodes from the guess `full`; None if it does not converge.
+    """Iterate the active set of full nodes from the guess `full`; return None if it does not settle in MAX_STEPS
+    iterations.
 
-    Without supply of oil, a guess with a film may cycle; then the caller starts from an empty one.
+    matrix, convection: outflows by pressure and by filled fraction. free: all nodes but the groove. Without supply of
+    oil, a guess with a film may cycle; then the caller starts from an empty one.
     """
-    held = np.where(free, 0.0, 1.0)
+    groove = np.where(free, 0.0, 1.0)
     for _ in range(MAX_STEPS):
-        pick = full.astype(float)
-        columns = matrix @ sparse.diags(pick) + carried @ sparse.diags(1.0 - pick)
-        right = -(carried @ (pick + held))
+        is_full = full.astype(float)
+        columns = matrix @ sparse.diags(is_full) + convection @ sparse.diags(1.0 - is_full)
+        right = -(convection @ (is_full + groove))
         unknown = np.zeros(len(right))
-        unknown[free] = _factor_lu(columns[free][:, free]).solve(right[free])
+        unknown[free] = _factorize(columns[free][:, free]).solve(right[free])
         p, filled = np.where(full, unknown, 0.0), np.where(full | ~free, 1.0, unknown)
-        new = np.where(full, p > 0.0, filled > 1.0) & free
-        if np.array_equal(new, full):
-            return Pressure(p, filled, matrix @ p + carried @ filled)
-        full = new
+        next_full = np.where(full, p > 0.0, filled > 1.0) & free
+        if np.array_equal(next_full, full):
+            return Pressure(p, filled, matrix @ p + convection @ filled)
+        full = next_full
     return None

@@ -59,13 +59,13 @@ class Deviation:
         return f"<Deviation of {self.law} at L/D = {self.l_over_d:g}, {self.cavitation}: {worst}>"
 
     def of(self, law: str, **keys: float | str | bool) -> Deviation:
-        """Return the deviation of another law, with its other keys, at the same states; the solver's results are
+        """Return the deviation of another law, with its other keys, at the same states; the solver's forces are
         reused.
         """
         return replace(self, law=law, law_force=_evaluate_law(law, self.l_over_d, self.eps, self.motion, keys))
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw the deviation in percent as a map; needs matplotlib."""
+        """Draw the deviation in percent as a map on `ax`, None for new axes, and return the axes; needs matplotlib."""
         from gudgeon.reynolds.plot import deviation_map
 
         return deviation_map(self, ax)
@@ -82,79 +82,91 @@ def deviation(
     cells: tuple[int, int] = CELLS,
     **keys: float | str | bool,
 ) -> Deviation:
-    """Compare a film law (`gudgeon.generator.kinds.laws`, or a registered one) with the solver.
+    """Compare a film law (`gudgeon.generator.kinds.laws`, or a registered one) with the solver, and return the
+    deviation.
 
     l_over_d: length over diameter. eps: (n,) in (0, 1). motion: (m,) rad, see Deviation. cavitation, groove, cells: as
-    `table` takes them. keys: the law's other keys, numbers in SI; the viscosity is given.
+    `table` takes them. keys: the law's other keys, numbers in SI; the viscosity is given. Raises BadValueError and the
+    errors of `table` and of the law.
     """
     ratio = positive(l_over_d, "l_over_d")
-    own = _make_bearing(ratio)
-    at, alpha = as_c_array(eps, "eps", (None,), finite=True), as_c_array(motion, "motion", (None,), finite=True)
-    if not at.size or not alpha.size or at.min() <= 0.0 or at.max() >= 1.0:
+    bearing = _make_bearing(ratio)
+    ratios, alpha = as_c_array(eps, "eps", (None,), finite=True), as_c_array(motion, "motion", (None,), finite=True)
+    if not ratios.size or not alpha.size or ratios.min() <= 0.0 or ratios.max() >= 1.0:
         raise BadValueError("eps and motion: expected at least one each, eps above 0 and below 1")
-    by_law = _evaluate_law(law, ratio, at, alpha, keys)
-    eps, closing, turning = _make_states(at, alpha)
-    found = table(own, eps, closing, 2.0 * turning / eps, cavitation=cavitation, groove=groove, cells=cells)
-    unit = _force_unit(own)
-    return Deviation(law, ratio, cavitation, at, alpha, found.force / unit, by_law, found.error / unit)
+    law_forces = _evaluate_law(law, ratio, ratios, alpha, keys)
+    eps, closing, turning = _build_states(ratios, alpha)
+    solver_table = table(bearing, eps, closing, 2.0 * turning / eps, cavitation=cavitation, groove=groove, cells=cells)
+    unit = _compute_force_unit(bearing)
+    return Deviation(
+        law, ratio, cavitation, ratios, alpha, solver_table.force / unit, law_forces, solver_table.error / unit
+    )
 
 
 def _make_bearing(l_over_d: float) -> Bearing:
-    """Return the bearing in which forces are compared; ratios do not depend on its dimensions."""
+    """Return the bearing of this length over diameter in which forces are compared; relative forces do not depend on
+    its size.
+    """
     return Bearing(RADIUS, 2.0 * RADIUS * l_over_d, CLEARANCE, VISCOSITY)
 
 
-def _force_unit(own: Bearing) -> float:
-    """Return the unit of the forces, μ R³ L/c² times 1/s, in N."""
-    return VISCOSITY * RADIUS**3 * own.length / CLEARANCE**2
+def _compute_force_unit(bearing: Bearing) -> float:
+    """Return the unit of the forces in N, μ R³ L/c² times 1/s."""
+    return VISCOSITY * RADIUS**3 * bearing.length / CLEARANCE**2
 
 
-def _make_states(eps: Array, motion: Array) -> tuple[Array, Array, Array]:
-    """Return ε (n, 1), ε̇ (n, m) and ½ ε ω_s (n, m) at W = 1/s."""
+def _build_states(eps: Array, motion: Array) -> tuple[Array, Array, Array]:
+    """Return ε (n, 1), ε̇ (n, m) and ½ ε ω_s (n, m) for a rate W = 1/s.
+
+    eps (n,): eccentricity ratios. motion (m,): angles of motion in rad, see Deviation.
+    """
     return eps[:, None], np.cos(motion) + 0.0 * eps[:, None], np.sin(motion) + 0.0 * eps[:, None]
 
 
 def _evaluate_law(
     law: str, l_over_d: float, eps: Array, motion: Array, keys: Mapping[str, float | str | bool]
 ) -> Array:
-    """Return the force of the law (n, m, 2) over μ R³ L/c²."""
-    own, (at, closing, turning) = _make_bearing(l_over_d), _make_states(eps, motion)
+    """Return radial and tangential force of the law (n, m, 2) over μ R³ L/c² at W = 1/s. Raises BadValueError if not
+    finite.
+    """
+    bearing, (ratios, closing, turning) = _make_bearing(l_over_d), _build_states(eps, motion)
     with np.errstate(over="ignore", invalid="ignore"):
-        force = law_force(law, own, keys)(at + 0.0 * closing, closing, -turning) / _force_unit(own)
+        force = law_force(law, bearing, keys)(ratios + 0.0 * closing, closing, -turning) / _compute_force_unit(bearing)
     check_finite(force)
     return force
 
 
 def law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str | bool]) -> LawForce:
-    """Return a function of ε, w_n and w_t (1/s) that gives the law's forces F_r and F_t (…, 2) in N.
+    """Return a function of ε, w_n and w_t (1/s) that computes the law's forces F_r and F_t (…, 2) in N.
 
-    keys: the law's keys. Raises UnknownNameError, UnknownKeyError, MissingKeyError, BadValueError.
+    name: of a film law. keys: its keys, in SI; the viscosity is that of the bearing. Raises UnknownNameError,
+    UnknownKeyError, MissingKeyError or BadValueError for a wrong name, key or value.
     """
     from gudgeon.generator.kinds.laws.built import PAIR, alone
     from gudgeon.generator.kinds.laws.law import called
 
-    known, name = called("film"), text(name, "law")
-    if name not in known:
-        raise unknown_name("film law", name, known, None)
-    law, values = known[name], {"viscosity": bearing.viscosity, **keys}
-    if strange := set(values) - {own.name for own in law.fields} - {"viscosity"}:
-        raise UnknownKeyError(f"film law {name}: no key {sorted(strange)[0]!r}")
-    given = {own.name: values.get(own.name, own.default) for own in law.fields}
-    if lacking := [own.name for own in law.fields if own.required and given[own.name] is None]:
-        raise MissingKeyError(f"film law {name}: {lacking[0]} is missing")
-    numbers = {own.name: number_of(x, own.name) for own in law.parameters if (x := given[own.name]) is not None}
+    laws, name = called("film"), text(name, "law")
+    if name not in laws:
+        raise unknown_name("film law", name, laws, None)
+    law, values = laws[name], {"viscosity": bearing.viscosity, **keys}
+    if unknown_keys := set(values) - {own.name for own in law.fields} - {"viscosity"}:
+        raise UnknownKeyError(f"film law {name}: no key {sorted(unknown_keys)[0]!r}")
+    field_values = {own.name: values.get(own.name, own.default) for own in law.fields}
+    if missing := [own.name for own in law.fields if own.required and field_values[own.name] is None]:
+        raise MissingKeyError(f"film law {name}: {missing[0]} is missing")
+    numbers = {own.name: number_of(x, own.name) for own in law.parameters if (x := field_values[own.name]) is not None}
     law.check(numbers)
-    selected: dict[str, Any] = {own.name: given[own.name] for own in law.options} | dict(law.also.get(name, {}))
+    selected: dict[str, Any] = {own.name: field_values[own.name] for own in law.options} | dict(law.also.get(name, {}))
     for own in law.options:
         if not isinstance(selected[own.name], (str, bool)) or selected[own.name] not in own.values:
             expected = " or ".join(map(str, own.values))
             raise BadValueError(f"film law {name}: {own.name} is {selected[own.name]!r}: expected {expected}")
     r, c = bearing.radius, bearing.clearance
-    pair = dict(zip(PAIR, (r + c, r, c, bearing.length, 1e11, 0.3, 1e11, 0.3), strict=True))
-    function = alone(law, numbers, selected, pair)
+    dimensions = dict(zip(PAIR, (r + c, r, c, bearing.length, 1e11, 0.3, 1e11, 0.3), strict=True))
+    function = alone(law, numbers, selected, dimensions)
 
     def force(eps: Array, w_n: Array, w_t: Array) -> Array:
-        """Return F_r and F_t (…, 2) in N."""
+        """Return F_r and F_t (…, 2) in N at eccentricity ratio ε and effective velocities w_n, w_t over c (1/s)."""
         found = function(eps, w_n, w_t)
         return np.stack([found["F_r"], found["F_t"]], axis=-1)
 

@@ -36,45 +36,51 @@ class Equation:
 
     @property
     def rows(self) -> int:
-        """Return the number of unknowns at one angle."""
+        """Return the number of unknowns at one angle: nodes along the half bearing and, for an open end, its outflow.
+        """
         return len(self.grid.height)
 
     @cached_property
     def matrix(self) -> sparse.csr_matrix:
-        """Return the matrix of outflows of each cell by the unknowns.
+        """Return the matrix (n·rows, n·rows) of the outflow of each cell by the unknowns.
 
         It is an M-matrix; each column sums to 0, or to what leaves over the end.
         """
         grid, n, m = self.grid, len(self.grid.phi), len(self.grid.zeta)
         i = np.arange(n)
-        across = (1.0 + grid.eps * np.cos(grid.right)) ** 3 / grid.apart  # between i and i + 1
+        conductances = (1.0 + grid.eps * np.cos(grid.right)) ** 3 / grid.apart  # between i and i + 1
         around = sparse.coo_matrix(
             (
-                np.concatenate([across + np.roll(across, 1), -across, -across]),
+                np.concatenate([conductances + np.roll(conductances, 1), -conductances, -conductances]),
                 (np.concatenate([i, i, (i + 1) % n]), np.concatenate([i, (i + 1) % n, i])),
             ),
             shape=(n, n),
         )
-        inside = np.zeros(self.rows)
-        inside[:m] = grid.height[:m]  # at the end p = 0: nothing flows around
-        matrix = sparse.kron(around, sparse.diags(inside))
+        heights = np.zeros(self.rows)
+        heights[:m] = grid.height[:m]  # at the end p = 0: nothing flows around
+        matrix = sparse.kron(around, sparse.diags(heights))
         if not grid.sealed:
-            matrix += sparse.kron(sparse.diags(grid.h**3 * (grid.right - grid.left)), self._axial_matrix())
+            matrix += sparse.kron(sparse.diags(grid.h**3 * (grid.right - grid.left)), self._build_axial_matrix())
             matrix += sparse.kron(sparse.eye(n), sparse.diags(np.arange(self.rows) == m, dtype=float))
         return sparse.csr_matrix(matrix)
 
-    def _axial_matrix(self) -> sparse.csr_matrix:
-        """Return the axial part of the matrix at one angle, without the factor h³ Δφ."""
-        m, share = len(self.grid.zeta), 1.0 / self.grid.gaps
-        between = np.arange(m)
-        flows = sparse.coo_matrix((share, (between, between)), shape=(m + 1, m + 1))
-        flows += sparse.coo_matrix((-share, (between + 1, between)), shape=(m + 1, m + 1))
-        back, ahead = share[:-1], between[:-1]
-        flows += sparse.coo_matrix((back, (ahead + 1, ahead + 1)), shape=(m + 1, m + 1))
-        return sparse.csr_matrix(flows + sparse.coo_matrix((-back, (ahead, ahead + 1)), shape=(m + 1, m + 1)))
+    def _build_axial_matrix(self) -> sparse.csr_matrix:
+        """Return the axial part of the matrix at one angle, (m + 1, m + 1), without the factor h³ Δφ."""
+        m, conductances = len(self.grid.zeta), 1.0 / self.grid.gaps
+        nodes = np.arange(m)
+        flows = sparse.coo_matrix((conductances, (nodes, nodes)), shape=(m + 1, m + 1))
+        flows += sparse.coo_matrix((-conductances, (nodes + 1, nodes)), shape=(m + 1, m + 1))
+        inner_conductances, inner_nodes = conductances[:-1], nodes[:-1]
+        flows += sparse.coo_matrix((inner_conductances, (inner_nodes + 1, inner_nodes + 1)), shape=(m + 1, m + 1))
+        return sparse.csr_matrix(
+            flows + sparse.coo_matrix((-inner_conductances, (inner_nodes, inner_nodes + 1)), shape=(m + 1, m + 1))
+        )
 
     def closing(self, w_n: float, w_t: float) -> Array:
-        """Return −∫ ∂h/∂t over each cell (n·rows,): the flow that the cell must release."""
+        """Return −∫ ∂h/∂t over each cell, (n·rows,): the flow that the closing gap displaces.
+
+        w_n, w_t: effective squeeze velocities over c along and across the line of centres, 1/s.
+        """
         grid = self.grid
         squeeze = w_n * (np.sin(grid.right) - np.sin(grid.left)) - w_t * (np.cos(grid.right) - np.cos(grid.left))
         return np.asarray(-np.outer(squeeze, grid.height).ravel())
@@ -83,17 +89,17 @@ class Equation:
         """Return the matrix of outflows by the filled fraction θ of each cell.
 
         Oil is convected from upstream, ½ω_s θ h, and stored by the rate ε̇ = w_n of the gap, θ ∂h/∂t. With θ = 1
-        everywhere the outflow is −closing.
+        everywhere the outflow is −closing. half_speed: ½ω_s, 1/s.
         """
         grid, n = self.grid, len(self.grid.phi)
-        over = half_speed * (1.0 + grid.eps * np.cos(grid.right))  # through a cell's end, from i to i + 1
-        i, nothing = np.arange(n), np.zeros(n)
-        ahead, back = (over, nothing) if half_speed > 0.0 else (nothing, over)  # what leaves i by θ_i, by θ_{i+1}
+        flow = half_speed * (1.0 + grid.eps * np.cos(grid.right))  # through a cell's end, from i to i + 1
+        i, zeros = np.arange(n), np.zeros(n)
+        forward, backward = (flow, zeros) if half_speed > 0.0 else (zeros, flow)  # what leaves i by θ_i, by θ_{i+1}
         squeeze = w_n * (np.sin(grid.right) - np.sin(grid.left))
-        values = np.concatenate([ahead - np.roll(back, 1) + squeeze, back, -np.roll(ahead, 1)])
-        places = (np.concatenate([i, i, i]), np.concatenate([i, (i + 1) % n, (i - 1) % n]))
+        values = np.concatenate([forward - np.roll(backward, 1) + squeeze, backward, -np.roll(forward, 1)])
+        indices = (np.concatenate([i, i, i]), np.concatenate([i, (i + 1) % n, (i - 1) % n]))
         return sparse.csr_matrix(
-            sparse.kron(sparse.coo_matrix((values, places), shape=(n, n)), sparse.diags(grid.height))
+            sparse.kron(sparse.coo_matrix((values, indices), shape=(n, n)), sparse.diags(grid.height))
         )
 
 
@@ -117,7 +123,7 @@ class Grid:
 
     @property
     def sealed(self) -> bool:
-        """Return whether the bearing is sealed: it then has no axial gaps."""
+        """Return whether the bearing is sealed at its ends; it then has no axial gaps."""
         return not len(self.gaps)
 
     @property
@@ -127,19 +133,23 @@ class Grid:
 
 
 def make_grid(eps: float, l_over_d: float, around: int, along: int, start: float = 0.0) -> Grid:
-    """Return a grid with a node at φ = start; around, along: numbers of cells; along = 0 for a sealed bearing."""
+    """Return a grid with a node at φ = start, dense where the film is thin and towards open ends.
+
+    eps: eccentricity ratio. around: number of cells around. along: cells from the middle to an end, 0 for a sealed
+    bearing.
+    """
     spread = TURN / around
-    shift = float(_uniform_angle(np.array([start]), eps)[0])
-    both = _invert_uniform_angle(shift + 0.5 * spread * np.arange(2 * around, dtype=float), eps)
-    phi, right = both[::2], both[1::2]
+    shift = float(_compute_uniform_angle(np.array([start]), eps)[0])
+    half_nodes = _invert_uniform_angle(shift + 0.5 * spread * np.arange(2 * around, dtype=float), eps)
+    phi, right = half_nodes[::2], half_nodes[1::2]
     left = np.concatenate([[right[-1] - TURN], right[:-1]])
     apart = np.concatenate([phi[1:], [phi[0] + TURN]]) - phi
-    weight = spread / _density(phi, eps)
+    weight = spread / _compute_density(phi, eps)
     if not along:
-        whole = np.array([l_over_d])
-        return Grid(eps, phi, right, left, apart, weight, np.zeros(1), whole, np.zeros(0), whole)
+        half_length = np.array([l_over_d])
+        return Grid(eps, phi, right, left, apart, weight, np.zeros(1), half_length, np.zeros(0), half_length)
     layer = min(1.0, math.sqrt(1.0 - eps * eps) / l_over_d)  # axial and circumferential gradients are similar
-    zeta, slope = _axial_nodes(np.linspace(0.0, 1.0, 2 * along + 1), l_over_d, layer)
+    zeta, slope = _place_axial_nodes(np.linspace(0.0, 1.0, 2 * along + 1), l_over_d, layer)
     height = np.diff(np.concatenate([[0.0], zeta[1::2], [l_over_d]]))
     simpson = np.where(np.arange(along) % 2, 4.0, 2.0) / (3.0 * along)
     simpson[0] *= 0.5
@@ -147,13 +157,13 @@ def make_grid(eps: float, l_over_d: float, around: int, along: int, start: float
     return Grid(eps, phi, right, left, apart, weight, nodes[:-1], height, np.diff(nodes), simpson * slope[:-1:2])
 
 
-def _density(phi: Array, eps: float) -> Array:
-    """Return the derivative of `_uniform_angle` by φ, the density of the nodes."""
+def _compute_density(phi: Array, eps: float) -> Array:
+    """Return the derivative of `_compute_uniform_angle` with respect to φ, the relative density of the nodes."""
     return np.asarray(UNIFORM + (1.0 - UNIFORM) * math.sqrt(1.0 - eps * eps) / (1.0 + eps * np.cos(phi)))
 
 
-def _uniform_angle(phi: Array, eps: float) -> Array:
-    """Return the variable in which the nodes are equidistant.
+def _compute_uniform_angle(phi: Array, eps: float) -> Array:
+    """Return the variable in which the nodes are equidistant, for angles φ at eccentricity ratio ε.
 
     It is the mean of φ and of Sommerfeld's angle γ: (1 + ε cos φ)(1 − ε cos γ) = 1 − ε², dγ = √(1 − ε²)/h dφ.
     """
@@ -163,34 +173,34 @@ def _uniform_angle(phi: Array, eps: float) -> Array:
     return np.asarray(UNIFORM * phi + (1.0 - UNIFORM) * gamma)
 
 
-def _invert_uniform_angle(spread: Array, eps: float) -> Array:
-    """Return the φ at which `_uniform_angle` has the given values.
+def _invert_uniform_angle(values: Array, eps: float) -> Array:
+    """Return the angles φ at which `_compute_uniform_angle` has these values.
 
     Newton's method within bounds, which are bisected when a step is not half of the last one. Both variables differ by
     at most π. At ε → 1 the slope jumps, so that Newton's method alone may cycle.
     """
-    low, high, phi, last = spread - math.pi, spread + math.pi, spread.copy(), np.full_like(spread, TURN)
+    low, high, phi, last = values - math.pi, values + math.pi, values.copy(), np.full_like(values, TURN)
     for _ in range(200):
-        off = _uniform_angle(phi, eps) - spread
+        off = _compute_uniform_angle(phi, eps) - values
         low, high = np.where(off < 0.0, phi, low), np.where(off > 0.0, phi, high)
-        step = -off / _density(phi, eps)
+        step = -off / _compute_density(phi, eps)
         halved = (phi + step <= low) | (phi + step >= high) | (abs(step) > 0.5 * abs(last))
         last = np.where(halved & (off != 0.0), 0.5 * (low + high) - phi, step)
         phi = phi + last
-        if float(np.max(abs(last))) <= 1e-14 * float(np.max(abs(spread), initial=1.0)):
+        if float(np.max(abs(last))) <= 1e-14 * float(np.max(abs(values), initial=1.0)):
             break
     return phi
 
 
-def _axial_nodes(share: Array, reach: float, layer: float) -> tuple[Array, Array]:
-    """Return ζ from 0 to `reach`, and its slope, for uniform values from 0 to 1.
+def _place_axial_nodes(fraction: Array, length: float, layer: float) -> tuple[Array, Array]:
+    """Return ζ from 0 to `length`, dense towards the end, and its slope by `fraction`, for fractions from 0 to 1.
 
-    At the end the slope is `layer` times that of equidistant nodes.
+    layer: slope at the end over that of equidistant nodes; above 0.98 the nodes are equidistant.
     """
     if layer > 0.98:
-        return reach * share, np.full_like(share, reach)
+        return length * fraction, np.full_like(fraction, length)
     b = brentq(lambda b: b / math.sinh(b) - layer, 1e-3, 700.0)
     return (
-        np.asarray(reach * (1.0 - np.sinh(b * (1.0 - share)) / math.sinh(b))),
-        np.asarray(reach * b * np.cosh(b * (1.0 - share)) / math.sinh(b)),
+        np.asarray(length * (1.0 - np.sinh(b * (1.0 - fraction)) / math.sinh(b))),
+        np.asarray(length * b * np.cosh(b * (1.0 - fraction)) / math.sinh(b)),
     )

@@ -21,8 +21,8 @@ GAP, TALL = 0.25, 0.8  # clearance and largest pressure as drawn, over the radiu
 
 
 def picture(film: Film) -> Figure:
-    """Return a figure: left p(φ, z), right the middle plane with journal, pressure and force; the gap is not to
-    scale."""
+    """Return a figure: left p(φ, z), right the middle plane with journal, pressure and force; the gap is not to scale.
+    """
     import matplotlib
     from matplotlib.figure import Figure
 
@@ -32,11 +32,11 @@ def picture(film: Film) -> Figure:
         left, right = figure.subplots(1, 2, width_ratios=(1.7, 1.0))
         _draw_map(left, film, factor, unit)
         _draw_middle_plane(right, film)
-        figure.suptitle(_title(film), fontsize=11, x=0.012, ha="left")
+        figure.suptitle(_format_title(film), fontsize=11, x=0.012, ha="left")
     return figure
 
 
-def _title(film: Film) -> str:
+def _format_title(film: Film) -> str:
     """Return the title: cavitation condition, ratios, force with its error, attitude angle, leakage."""
     force, attitude = math.hypot(*film.force), math.degrees(film.attitude)
     return (
@@ -46,7 +46,10 @@ def _title(film: Film) -> str:
 
 
 def _draw_map(ax: Axes, film: Film, factor: float, unit: str) -> None:
-    """Draw the pressure over angle and axial position; the first angle is repeated after the last."""
+    """Draw the pressure over angle and axial position, with the edge of the film, the thinnest film and the groove.
+
+    factor, unit: from Pa to the unit that is shown. The first angle is repeated after the last.
+    """
     angle = np.degrees(np.append(film.angle, film.angle[0] + 2.0 * math.pi))
     p = np.concatenate([film.pressure, film.pressure[:1]]) * factor
     from matplotlib.ticker import MaxNLocator, MultipleLocator
@@ -59,7 +62,7 @@ def _draw_map(ax: Axes, film: Film, factor: float, unit: str) -> None:
         bar.set_label(f"p in {unit}")
         ax.contour(angle, z, np.where(p > 0.0, 1.0, 0.0).T, [0.5], colors="white", linewidths=0.9)
     if any(film.eccentricity):
-        _mark_thinnest(ax, film, angle[0])
+        _mark_thinnest_film(ax, film, angle[0])
     if film.groove is not None:
         ax.axvline(angle[0], color=COLOURS[5], lw=3.0, label="groove")
         ax.legend(loc="lower left", fontsize=8, frameon=True)
@@ -70,16 +73,17 @@ def _draw_map(ax: Axes, film: Film, factor: float, unit: str) -> None:
     ax.grid(False)
 
 
-def _mark_thinnest(ax: Axes, film: Film, first: float) -> None:
-    """Mark the direction of the thinnest film."""
+def _mark_thinnest_film(ax: Axes, film: Film, first_angle: float) -> None:
+    """Mark the direction of the thinnest film by a line, within one turn from the angle `first_angle` (degrees)."""
     thinnest = math.degrees(math.atan2(film.eccentricity[1], film.eccentricity[0]))
-    thinnest += 360.0 * math.ceil((first - thinnest) / 360.0)
+    thinnest += 360.0 * math.ceil((first_angle - thinnest) / 360.0)
     ax.axvline(thinnest, color=COLOURS[0], lw=1.0, ls="--", label="thinnest film")
     ax.legend(loc="lower left", fontsize=8, frameon=True)
 
 
 def _draw_middle_plane(ax: Axes, film: Film) -> None:
-    """Draw the middle plane: bearing, journal, pressure around it, force."""
+    """Draw bearing, journal, pressure around the bearing, and force on the journal in the middle plane, not to scale.
+    """
     turn = np.linspace(0.0, 2.0 * math.pi, 361)
     ax.plot(np.cos(turn), np.sin(turn), color="#777777", lw=1.2)
     x, y = np.array(film.eccentricity) / film.bearing.clearance * GAP
@@ -103,20 +107,24 @@ def _draw_middle_plane(ax: Axes, film: Film) -> None:
     ax.grid(False)
 
 
-def deviation_map(found: Deviation, ax: Axes | None) -> Axes:
-    """Draw a map of the deviation in percent over ε and the direction of motion; the darkest colour is open-ended."""
+def deviation_map(deviation: Deviation, ax: Axes | None) -> Axes:
+    """Draw a map of the deviation in percent over ε and the direction of motion on `ax`, None for new axes; return the
+    axes.
+
+    The darkest colour is open-ended.
+    """
     import matplotlib
     from matplotlib.figure import Figure
 
     with matplotlib.rc_context(STYLE):
-        own = Figure(figsize=(5.2, 3.8), dpi=120, layout="constrained").subplots() if ax is None else ax
+        axes = Figure(figsize=(5.2, 3.8), dpi=120, layout="constrained").subplots() if ax is None else ax
         levels = (0.0, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0)
-        share, up = 100.0 * found.share.T, np.degrees(found.motion)
+        percentages, angles = 100.0 * deviation.share.T, np.degrees(deviation.motion)
         norm = matplotlib.colors.BoundaryNorm(levels, 256, extend="max")
-        drawn = own.pcolormesh(found.eps, up, share, norm=norm, cmap="YlOrRd", shading="nearest")
-        bar = own.figure.colorbar(drawn, ax=own, extend="max")
+        drawn = axes.pcolormesh(deviation.eps, angles, percentages, norm=norm, cmap="YlOrRd", shading="nearest")
+        bar = axes.figure.colorbar(drawn, ax=axes, extend="max")
         bar.set_label("deviation in % of the largest force at ε")
-        own.set(xlabel="ε", title=f"{found.law} against {found.cavitation}, L/D = {found.l_over_d:g}")
-        own.set_yticks((0.0, 45.0, 90.0, 135.0, 180.0), ("closes", "45°", "turns", "135°", "opens"))
-        own.grid(False)
-    return own
+        axes.set(xlabel="ε", title=f"{deviation.law} against {deviation.cavitation}, L/D = {deviation.l_over_d:g}")
+        axes.set_yticks((0.0, 45.0, 90.0, 135.0, 180.0), ("closes", "45°", "turns", "135°", "opens"))
+        axes.grid(False)
+    return axes

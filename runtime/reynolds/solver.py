@@ -64,39 +64,43 @@ def solve(
     sealed = choice(ends, "ends", ENDS) == "sealed"
     around, along = cells_of(cells, sealed)
     e, v = np.array(pair(eccentricity, "eccentricity")), np.array(pair(rate, "rate"))
-    turning = number_of(omega_journal, "omega_journal"), number_of(omega_bearing, "omega_bearing")
-    size = math.hypot(*e)
-    check_eccentricity(size / bearing.clearance)
-    n = _centre_direction(e, v)
+    speeds = number_of(omega_journal, "omega_journal"), number_of(omega_bearing, "omega_bearing")
+    distance = math.hypot(*e)
+    check_eccentricity(distance / bearing.clearance)
+    n = _find_centre_direction(e, v)
     t = np.array([-n[1], n[0]])
-    omega_s = sum(turning) - (2.0 * float(v @ t) / size if size > 0.0 else 0.0)
-    eps, c = size / bearing.clearance, bearing.clearance
-    motion = Motion(float(v @ n) / c, (float(v @ t) - 0.5 * sum(turning) * size) / c, 0.5 * omega_s)
-    at = _groove_angle(groove, n, sealed, cavitation)
-    problem = Problem(eps, bearing.l_over_d, sealed, cavitation, at, motion)
+    omega_s = sum(speeds) - (2.0 * float(v @ t) / distance if distance > 0.0 else 0.0)
+    eps, c = distance / bearing.clearance, bearing.clearance
+    motion = Motion(float(v @ n) / c, (float(v @ t) - 0.5 * sum(speeds) * distance) / c, 0.5 * omega_s)
+    groove_angle = _find_groove_angle(groove, n, sealed, cavitation)
+    problem = Problem(eps, bearing.l_over_d, sealed, cavitation, groove_angle, motion)
     with np.errstate(over="ignore", invalid="ignore"):
         coarse, fine = solve_refined(problem, around, along)
-        film = _make_film(bearing, ends, e, n, omega_s, turning[0] - turning[1], fine, coarse)
+        film = _build_film(bearing, ends, e, n, omega_s, speeds[0] - speeds[1], fine, coarse)
     check_finite(film.force, film.pressure)
     return film
 
 
-def _centre_direction(e: Array, v: Array) -> Array:
-    """Return the unit vector of the line of centres, or of the motion if the centres coincide."""
-    for vector in (e, v, np.array([1.0, 0.0])):
+def _find_centre_direction(eccentricity: Array, velocity: Array) -> Array:
+    """Return the unit vector (2,) of the line of centres, else that of the motion, else (1, 0)."""
+    for vector in (eccentricity, velocity, np.array([1.0, 0.0])):
         if (size := math.hypot(*vector)) > 0.0:
             return np.asarray(vector / size)
     raise AssertionError
 
 
-def _groove_angle(groove: Groove, n: Array, sealed: bool, cavitation: str) -> float | None:
-    """Return the angle φ of the groove, counted from the widest gap, or None."""
+def _find_groove_angle(groove: Groove, direction: Array, sealed: bool, cavitation: str) -> float | None:
+    """Return the angle φ (rad) of the groove, counted from the widest gap; None without a groove.
+
+    direction: unit vector of the line of centres. A missing groove is at the widest gap if the bearing is sealed or
+    the condition is elrod_adams, which need a source of oil. Raises BadValueError.
+    """
     if groove is None:
         return 0.0 if sealed or cavitation == "elrod_adams" else None
     if isinstance(groove, str):
         choice(groove, "groove", ("a direction in rad", WIDEST))
         return 0.0
-    phi = number_of(groove, "groove") - math.atan2(-n[1], -n[0])
+    phi = number_of(groove, "groove") - math.atan2(-direction[1], -direction[0])
     return math.remainder(phi, TURN)
 
 
@@ -112,7 +116,7 @@ class Problem:
     motion: Motion
 
     def __post_init__(self) -> None:
-        """Raise BadValueError for elrod_adams without rotation."""
+        """Raise BadValueError for elrod_adams without rotation, since no oil is then convected."""
         if self.cavitation == "elrod_adams" and self.motion.half_speed == 0.0:
             raise BadValueError(
                 "elrod_adams: nothing carries the oil round, for omega_s = 0",
@@ -130,67 +134,72 @@ class Solution:
 
     @property
     def grid(self) -> Grid:
-        """Return the grid."""
+        """Return the grid on which the problem was solved."""
         return self.equation.grid
 
     @cached_property
     def p(self) -> Array:
-        """Return the pressure (n, m), signed."""
+        """Return the pressure at the nodes (n, m), without the end; with half_sommerfeld it may be negative."""
         return self._as_grid(self.pressure.unknown)[:, : len(self.grid.zeta)]
 
     @cached_property
     def over_the_end(self) -> Array:
-        """Return the flow over one end at each angle (n,), positive outwards."""
-        shown = self._as_grid(self.pressure.unknown)
-        return np.zeros(len(shown)) if self.grid.sealed else shown[:, -1]
+        """Return the flow over one end at each angle (n,), positive outwards; 0 for a sealed bearing."""
+        unknowns = self._as_grid(self.pressure.unknown)
+        return np.zeros(len(unknowns)) if self.grid.sealed else unknowns[:, -1]
 
     @cached_property
     def filled(self) -> Array:
-        """Return the filled fraction θ (n, rows)."""
+        """Return the filled fraction θ of the gap at the nodes (n, rows)."""
         return self._as_grid(self.pressure.filled)
 
     @cached_property
     def force(self) -> Array:
-        """Return (F_r, F_t) in units of 12 μ (R/c)² R².
+        """Return (F_r, F_t) on the journal of both halves, in units of 12 μ (R/c)² R².
 
         The trapezoidal rule counts a half of the interval in which p changes its sign. The correction takes the part
         with p > 0 instead.
         """
         p, grid = self.p, self.grid
-        share = np.maximum(p, 0.0)
+        carrying_pressure = np.maximum(p, 0.0)
         after, before = np.roll(p, -1, axis=0), np.roll(p, 1, axis=0)
-        for other in (after, before):
-            ends = (p > 0.0) & (other < 0.0)
-            share[ends] += 0.5 * p[ends] * (p[ends] / (p[ends] - other[ends]) - 1.0)
-        load = 2.0 * (share @ grid.weight_along) * grid.weight
+        for neighbour in (after, before):
+            is_end = (p > 0.0) & (neighbour < 0.0)
+            carrying_pressure[is_end] += 0.5 * p[is_end] * (p[is_end] / (p[is_end] - neighbour[is_end]) - 1.0)
+        load = 2.0 * (carrying_pressure @ grid.weight_along) * grid.weight
         return np.array([load @ np.cos(grid.phi), load @ np.sin(grid.phi)])
 
     @cached_property
     def flows(self) -> tuple[float, float, float]:
-        """Return leakage, supply and stored flow of both halves, in units of c R²."""
-        end, gain = self.over_the_end, self._as_grid(self.pressure.gain)
-        out, back = float(end[end > 0.0].sum()), -float(end[end < 0.0].sum())
+        """Return leakage, supply and stored flow of both halves, in units of c R².
+
+        A sealed bearing has no leakage. The supply is the gain of the groove and of nodes with p = 0, and the inflow
+        over the ends.
+        """
+        end_flow, gain = self.over_the_end, self._as_grid(self.pressure.gain)
+        outflow, inflow = float(end_flow[end_flow > 0.0].sum()), -float(end_flow[end_flow < 0.0].sum())
         grid = self.grid
         closing = self.equation.closing(self.problem.motion.w_n, 0.0).reshape(gain.shape)
-        used = -float((closing * self.filled).sum()) if self.problem.cavitation == "elrod_adams" else 0.0
-        held = self.pressure.unknown.reshape(gain.shape) == 0.0  # where the equation holds the gain is rounding
+        stored = -float((closing * self.filled).sum()) if self.problem.cavitation == "elrod_adams" else 0.0
+        has_source = self.pressure.unknown.reshape(gain.shape) == 0.0  # where the equation holds the gain is rounding
         if self.problem.cavitation == "elrod_adams":
-            held = np.zeros_like(held)
-            held[0] = True
-        source = float(gain[held].sum())
+            has_source = np.zeros_like(has_source)
+            has_source[0] = True
+        source = float(gain[has_source].sum())
         if grid.sealed:
-            return 0.0, 2.0 * source, 2.0 * used
-        return 2.0 * out, 2.0 * (source + back), 2.0 * used
+            return 0.0, 2.0 * source, 2.0 * stored
+        return 2.0 * outflow, 2.0 * (source + inflow), 2.0 * stored
 
     def _as_grid(self, values: Array) -> Array:
-        """Return the unknowns as an array (n, rows)."""
+        """Return values at all unknowns, (n·rows,), as an array (n, rows)."""
         return values.reshape(len(self.grid.phi), self.equation.rows)
 
 
 def solve_refined(
     problem: Problem, around: int, along: int, equations: dict[int, Equation] | None = None
 ) -> list[Solution]:
-    """Solve on half as many cells in both directions, and on all; return both solutions.
+    """Solve a problem on half as many cells in both directions, and on all; return both solutions, the coarse one
+    first.
 
     Each grid starts from the active set of the coarser one. equations: cached equations of this eccentricity by number
     of cells around; new ones are added.
@@ -198,28 +207,30 @@ def solve_refined(
     levels = [(around, along), (around // 2, along // 2)]
     while levels[-1][0] > COARSEST and not levels[-1][0] % 4 and not levels[-1][1] % 4:
         levels.append((levels[-1][0] // 2, levels[-1][1] // 2))
-    known = {} if equations is None else equations
-    found: list[Solution] = []
+    equations_by_size = {} if equations is None else equations
+    solutions: list[Solution] = []
     for n, m in reversed(levels):
-        if n not in known:
-            known[n] = Equation(make_grid(problem.eps, problem.l_over_d, n, m, problem.groove or 0.0))
-        equation = known[n]
+        if n not in equations_by_size:
+            equations_by_size[n] = Equation(make_grid(problem.eps, problem.l_over_d, n, m, problem.groove or 0.0))
+        equation = equations_by_size[n]
         free = np.ones((n, equation.rows), dtype=bool)
         if problem.groove is not None:
             free[0] = False
-        start = _interpolate_unknowns(found[-1]) if found else None
+        start = _interpolate_unknowns(solutions[-1]) if solutions else None
         pressure = solve_pressure(problem.cavitation, equation, problem.motion, _as_vector(free), start)
-        found.append(Solution(equation, problem, pressure))
-    return found[-2:]
+        solutions.append(Solution(equation, problem, pressure))
+    return solutions[-2:]
 
 
 def _as_vector(flags: Flags) -> Flags:
-    """Return the flags as a vector."""
+    """Return a flag for each unknown, (n·rows,), from an array (n, rows)."""
     return np.asarray(flags.ravel())
 
 
 def _interpolate_unknowns(coarse: Solution) -> Array:
-    """Return the unknowns, interpolated linearly to twice as many cells; only their signs are used."""
+    """Return the unknowns of a coarse solution, interpolated linearly to twice as many cells; only their signs are
+    used.
+    """
     p = coarse.p
     if not coarse.grid.sealed:
         p = np.concatenate([p, np.zeros((len(p), 1))], axis=1)
@@ -234,17 +245,25 @@ def _interpolate_unknowns(coarse: Solution) -> Array:
     return fine.ravel()
 
 
-def _make_film(
-    bearing: Bearing, ends: str, e: Array, n: Array, omega_s: float, slip: float, fine: Solution, coarse: Solution
+def _build_film(
+    bearing: Bearing,
+    ends: str,
+    e: Array,
+    direction: Array,
+    omega_s: float,
+    slip: float,
+    fine: Solution,
+    coarse: Solution,
 ) -> Film:
-    """Return the film in SI units from the solutions on both grids.
+    """Return the film in SI units and the caller's frame from the solutions on both grids.
 
-    e: eccentricity in m. n: direction of the line of centres. slip: ω_i − ω_j in rad/s.
+    e: eccentricity (2,) in m. direction: unit vector of the line of centres. omega_s, slip: ω_s and ω_i − ω_j in
+    rad/s. The error is the difference of the forces of both grids.
     """
     grid, problem = fine.grid, fine.problem
-    unit, c, widest = bearing.pressure_unit, bearing.clearance, math.atan2(-n[1], -n[0])
-    radial, tangential = (unit * bearing.radius**2 * fine.force).tolist()
-    p = unit * np.maximum(fine.p, 0.0)
+    pressure_unit, c, widest = bearing.pressure_unit, bearing.clearance, math.atan2(-direction[1], -direction[0])
+    radial, tangential = (pressure_unit * bearing.radius**2 * fine.force).tolist()
+    p = pressure_unit * np.maximum(fine.p, 0.0)
     filled = fine.filled
     if not grid.sealed:
         p = np.concatenate([p, np.zeros((len(p), 1))], axis=1)
@@ -253,8 +272,8 @@ def _make_film(
         p, filled = np.repeat(p, 2, axis=1), np.repeat(filled, 2, axis=1)
     drag = 2.0 * float(((fine.filled @ grid.height) / grid.h) @ grid.weight)
     drag *= bearing.viscosity * bearing.radius**4 / c * slip
-    turn = 0.5 * math.hypot(*e) * tangential
-    leakage, supply, used = (c * bearing.radius**2 * flow for flow in fine.flows)
+    eccentric_torque = 0.5 * math.hypot(*e) * tangential
+    leakage, supply, stored = (c * bearing.radius**2 * flow for flow in fine.flows)
     return Film(
         bearing,
         problem.cavitation,
@@ -267,33 +286,36 @@ def _make_film(
         c * grid.h,
         _mirror_half(p),
         _mirror_half(filled),
-        radial * n + tangential * np.array([-n[1], n[0]]),
+        radial * direction + tangential * np.array([-direction[1], direction[0]]),
         radial,
         tangential,
-        unit * bearing.radius**2 * float(np.hypot(*(fine.force - coarse.force))),
-        -drag - turn,
-        drag - turn,
+        pressure_unit * bearing.radius**2 * float(np.hypot(*(fine.force - coarse.force))),
+        -drag - eccentric_torque,
+        drag - eccentric_torque,
         leakage,
         supply,
-        used,
-        supply - leakage - used,
-        _pressure_extent(p[:, 0], grid.phi + widest),
+        stored,
+        supply - leakage - stored,
+        _find_pressure_extent(p[:, 0], grid.phi + widest),
     )
 
 
 def _mirror_half(half: Array) -> Array:
-    """Return the values of both halves of the bearing from those of one (n, m)."""
+    """Return the values along the whole bearing, (n, 2m − 1), from those of the half from the middle to an end, (n,
+    m).
+    """
     return np.concatenate([half[:, :0:-1], half], axis=1)
 
 
-def _pressure_extent(p: Array, angle: Array) -> tuple[float, float] | None:
-    """Return the angles of the first and last node of the pressure region with the maximum, rising; None if there is
-    none.
+def _find_pressure_extent(p: Array, angle: Array) -> tuple[float, float] | None:
+    """Return the angles (rad, rising) of the first and last node of the pressure region that contains the maximum.
+
+    None if all nodes or no nodes have pressure. p, angle: (n,) around the bearing.
     """
-    carries, most, n = p > 0.0, int(np.argmax(p)), len(p)
-    if carries.all() or not carries.any():
+    has_pressure, peak, n = p > 0.0, int(np.argmax(p)), len(p)
+    if has_pressure.all() or not has_pressure.any():
         return None
-    first = next(k for k in range(n) if not carries[most - k - 1])
-    last = next(k for k in range(n) if not carries[(most + k + 1) % n])
-    begins, ends = float(angle[most - first]), float(angle[(most + last) % n])
+    first = next(k for k in range(n) if not has_pressure[peak - k - 1])
+    last = next(k for k in range(n) if not has_pressure[(peak + k + 1) % n])
+    begins, ends = float(angle[peak - first]), float(angle[(peak + last) % n])
     return begins, ends + (TURN if ends < begins else 0.0)

@@ -34,7 +34,7 @@ class Table:
     error: Array
 
     def __repr__(self) -> str:
-        """Return the shape of the states."""
+        """Return the shape of the states in one line."""
         return f"<Table of the forces at {self.eps.shape} states>"
 
 
@@ -61,35 +61,38 @@ def table(
     if groove is not None:
         choice(groove, "groove", ("None", WIDEST))
     states = _broadcast_states(eps, eps_rate, omega_s)
-    at = 0.0 if sealed or groove or cavitation == "elrod_adams" else None
-    rows, back = np.unique(np.stack([x.ravel() for x in states], axis=1), axis=0, return_inverse=True)
-    back, unit = back.reshape(states[0].shape), bearing.pressure_unit * bearing.radius**2
-    force, error = np.zeros((len(rows), 2)), np.zeros(len(rows))
-    known: tuple[float, dict[int, Equation]] = (-1.0, {})
+    groove_angle = 0.0 if sealed or groove or cavitation == "elrod_adams" else None
+    unique_states, inverse = np.unique(np.stack([x.ravel() for x in states], axis=1), axis=0, return_inverse=True)
+    inverse, unit = inverse.reshape(states[0].shape), bearing.pressure_unit * bearing.radius**2
+    force, error = np.zeros((len(unique_states), 2)), np.zeros(len(unique_states))
+    cached: tuple[float, dict[int, Equation]] = (-1.0, {})
     with np.errstate(over="ignore", invalid="ignore"):
-        for k, (e, closing, speed) in enumerate(rows.tolist()):
-            known = known if known[0] == e else (e, {})
+        for k, (e, closing, speed) in enumerate(unique_states.tolist()):
+            cached = cached if cached[0] == e else (e, {})
             motion = Motion(closing, -0.5 * e * speed, 0.5 * speed)
-            problem = Problem(e, bearing.l_over_d, sealed, cavitation, at, motion)
-            coarse, fine = solve_refined(problem, around, along, known[1])
+            problem = Problem(e, bearing.l_over_d, sealed, cavitation, groove_angle, motion)
+            coarse, fine = solve_refined(problem, around, along, cached[1])
             force[k], error[k] = unit * fine.force, unit * np.hypot(*(fine.force - coarse.force))
     check_finite(force)
     e_all, closing_all, speed_all = (x.copy() for x in states)
-    return Table(e_all, closing_all, speed_all, force[back], error[back])
+    return Table(e_all, closing_all, speed_all, force[inverse], error[inverse])
 
 
 def _broadcast_states(eps: ArrayLike, eps_rate: ArrayLike, omega_s: ArrayLike) -> tuple[Array, ...]:
-    """Return the three arrays as views of one shape. Raises BadValueError."""
-    requested = ((eps, "eps"), (eps_rate, "eps_rate"), (omega_s, "omega_s"))
-    given = [as_c_array(x, name, finite=True, most=MAX_STATES) for x, name in requested]
+    """Return the three arrays as views of one shape, checked before they are broadcast.
+
+    Raises BadValueError for shapes that do not fit, more than MAX_STATES states, or ε outside [0, 1).
+    """
+    arguments = ((eps, "eps"), (eps_rate, "eps_rate"), (omega_s, "omega_s"))
+    arrays = [as_c_array(x, name, finite=True, most=MAX_STATES) for x, name in arguments]
     try:
-        size = math.prod(np.broadcast_shapes(*(x.shape for x in given)))
+        count = math.prod(np.broadcast_shapes(*(x.shape for x in arrays)))
     except ValueError:
-        shapes = ", ".join(str(x.shape) for x in given)
+        shapes = ", ".join(str(x.shape) for x in arrays)
         raise BadValueError(f"eps, eps_rate and omega_s have the shapes {shapes}: they do not go together") from None
-    if size > MAX_STATES:  # before any array of that size is made
-        raise BadValueError(f"eps, eps_rate and omega_s are {size} states together: expected {MAX_STATES} at most")
-    states = np.broadcast_arrays(*given)
+    if count > MAX_STATES:  # before any array of that size is made
+        raise BadValueError(f"eps, eps_rate and omega_s are {count} states together: expected {MAX_STATES} at most")
+    states = np.broadcast_arrays(*arrays)
     if (states[0] < 0.0).any():
         raise BadValueError(f"eps is {states[0].min():g}: expected no less than 0")
     check_eccentricity(float(states[0].max(initial=0.0)))

@@ -44,11 +44,17 @@ class Axis:
 
     @property
     def of_method(self) -> bool:
-        """Whether the axis is the step or the tolerance."""
+        """Return whether the axis varies a setting of the method, `step` or `rtol`, and not a parameter of the
+        mechanism.
+        """
         return self.name in SETTINGS
 
     def parameters(self, value: float) -> dict[str, float | str]:
-        """Return the parameters of `simulate` for a value; empty for an axis of the method or a scene without play."""
+        """Return the parameters, address to value, that `simulate` needs for one value of the axis.
+
+        Each address gets the value times its ratio. For a choice, the value is an index and each address gets the word
+        at that index. The result is empty for `step`, `rtol`, and the axis of clearances of a scene without play.
+        """
         if self.words:
             return {address: self.words[int(value)] for address, _ in self.ratios}
         return {address: value * ratio for address, ratio in self.ratios}
@@ -57,21 +63,22 @@ class Axis:
 def axis(
     simulation: Simulation, name: str, values: Sequence[float | str], parameters: Parameters | None = None
 ) -> Axis:
-    """Return an axis by name: step, rtol, clearance, stiffness, viscosity, gains, or the address of a run-time
-    parameter or choice.
+    """Return the axis with this name and these values, ascending.
 
-    values: numbers (SI), or names for a choice. Raises UnknownNameError for an unknown name, BadValueError for a name
-    without a parameter in the scene.
+    name: step, rtol, clearance, stiffness, viscosity, gains, or the address of a run-time parameter or choice. values:
+    numbers (SI), or words for a choice, which become indices. parameters: values as in `simulate`, from which a group
+    takes the ratios of its members to the first one. Raises UnknownNameError for an unknown name, BadValueError for
+    invalid values, a name without a parameter in the scene, or a group whose first member is 0.
     """
-    if (slot := _find_choice(simulation.source, text(name, "axis"))) is not None:
-        names = listed(values, f"axis {name}", str, f"a list of names, of {', '.join(slot.words)}")
-        places = sorted({index_of_word(one, slot) for one in names})
-        return Axis(name, tuple(places), "", ((name, 1.0),), slot.words)
+    if (choice := _find_choice_parameter(simulation.source, text(name, "axis"))) is not None:
+        names = listed(values, f"axis {name}", str, f"a list of names, of {', '.join(choice.words)}")
+        indices = sorted({index_of_word(word, choice) for word in names})
+        return Axis(name, tuple(indices), "", ((name, 1.0),), choice.words)
     values = numbers(values, f"axis {name}")
     if name in SETTINGS:
         return Axis(name, tuple(sorted(values)), SETTINGS[name])
     source, p = simulation.source, prepare(simulation.compiled, parameters)[0]
-    slots = _drop_unused_materials(source, p, _axis_parameters(source, name))
+    slots = _drop_unused_materials(source, p, _find_parameter_indices(source, name))
     first = float(p[slots[0]])
     if len(slots) > 1 and first == 0.0:
         raise BadValueError(f"axis {name}: {source.slots[slots[0]].address} is zero, there is no ratio to it")
@@ -79,45 +86,59 @@ def axis(
     return Axis(name, tuple(sorted(values)), source.slots[slots[0]].unit, ratios)
 
 
-def typed(simulation: Simulation, written: str, parameters: Parameters | None = None) -> Axis:
-    """Return the axis of a command-line text: "c=.05mm..1mm:5" (logarithmic), "omega=3,6,9", "rtol=1e-4..1e-10:4"."""
-    name, _, message = text(written, "axis").partition("=")
-    if not message:
-        raise BadValueError(f"axis {written!r}: expected name=low..high:count or name=a,b,c")
-    if (choice := _find_choice(simulation.source, name.strip())) is not None:
-        if ".." in message or ":" in message:
-            names = ",".join(choice.words)
-            raise BadValueError(f"axis {written!r}: its values are names, there is none between: {name}={names}")
-        return axis(simulation, name.strip(), message.split(","), parameters)
-    ends, colon, count = message.partition(":")
-    slot = _first_parameter(simulation.source, name.strip())
-    values = [number(_parse_value(part), slot) for part in (ends.split("..") if ".." in ends else ends.split(","))]
+def typed(simulation: Simulation, axis_text: str, parameters: Parameters | None = None) -> Axis:
+    """Return the axis that a command-line text describes: "c=.05mm..1mm:5", "omega=3,6,9", "rtol=1e-4..1e-10:4".
+
+    A range low..high:count gives geometrically spaced values, 5 without a count, at most 1000. The values of a choice
+    are words separated by commas. Numbers may have units and are rounded to six digits. Raises BadValueError for a text
+    of another form, and the errors of `axis`.
+    """
+    name, _, value_list = text(axis_text, "axis").partition("=")
+    if not value_list:
+        raise BadValueError(f"axis {axis_text!r}: expected name=low..high:count or name=a,b,c")
+    if (choice_slot := _find_choice_parameter(simulation.source, name.strip())) is not None:
+        if ".." in value_list or ":" in value_list:
+            names = ",".join(choice_slot.words)
+            raise BadValueError(f"axis {axis_text!r}: its values are names, there is none between: {name}={names}")
+        return axis(simulation, name.strip(), value_list.split(","), parameters)
+    ends, colon, count = value_list.partition(":")
+    slot = _find_leading_parameter(simulation.source, name.strip())
+    values = [number(_parse_quantity(part), slot) for part in (ends.split("..") if ".." in ends else ends.split(","))]
     if ".." in ends:
         if len(values) != 2 or not 0 < values[0] < values[1]:
-            raise BadValueError(f"axis {written!r}: expected 0 < low < high")
-        expected = COUNT if not colon else int(count) if _COUNT.fullmatch(count) else 0
-        if not 2 <= expected <= MOST:
-            raise BadValueError(f"axis {written!r}: expected a whole number of values after ':', from 2 to {MOST}")
-        values = np.geomspace(values[0], values[1], expected).tolist()
+            raise BadValueError(f"axis {axis_text!r}: expected 0 < low < high")
+        count_of_values = COUNT if not colon else int(count) if _COUNT.fullmatch(count) else 0
+        if not 2 <= count_of_values <= MOST:
+            raise BadValueError(f"axis {axis_text!r}: expected a whole number of values after ':', from 2 to {MOST}")
+        values = np.geomspace(values[0], values[1], count_of_values).tolist()
     elif colon:
-        raise BadValueError(f"axis {written!r}: only a range low..high takes a number of values after ':'")
+        raise BadValueError(f"axis {axis_text!r}: only a range low..high takes a number of values after ':'")
     return axis(simulation, name.strip(), [float(f"{x:.6g}") for x in values], parameters)
 
 
 def clearances(simulation: Simulation, values: Sequence[float], parameters: Parameters | None = None) -> Axis:
-    """Return the axis `clearance`; its only value is NaN in a scene without play."""
+    """Return the axis `clearance` with these values (m); the clearances of all joints keep their ratios.
+
+    In a scene without play, `values` are ignored and the only value is NaN.
+    """
     if not simulation.source.clearances:
         return Axis("clearance", (math.nan,), "m")
     return axis(simulation, "clearance", values, parameters)
 
 
-def _find_choice(source: KernelSource, name: str) -> Slot | None:
-    """Return the parameter of an address if it is a choice by name, else None."""
+def _find_choice_parameter(source: KernelSource, name: str) -> Slot | None:
+    """Return the run-time parameter with this address if its values are words (a choice, such as a material), else
+    None.
+    """
     return next((slot for slot in source.slots if slot.address == name and slot.words), None)
 
 
-def _axis_parameters(source: KernelSource, name: str) -> list[int]:
-    """Return the indices of the parameters that an axis sets; the first has the axis's values."""
+def _find_parameter_indices(source: KernelSource, name: str) -> list[int]:
+    """Return the indices of the scene's parameters that the axis `name` sets; the first one has the values of the axis.
+
+    `name` is "clearance", a group (stiffness, viscosity, gains) or an address. Raises BadValueError if the scene has no
+    parameter of the group, UnknownNameError for an unknown address.
+    """
     if name == "clearance":
         found = list(dict.fromkeys(j.clearance for j in source.clearances if j.clearance < len(source.slots)))
     elif name in GROUPS:
@@ -130,23 +151,33 @@ def _axis_parameters(source: KernelSource, name: str) -> list[int]:
 
 
 def _drop_unused_materials(source: KernelSource, p: Array, slots: list[int]) -> list[int]:
-    """Return the indices without stiffnesses of materials that runs may choose but do not with p."""
-    of = [(slot, specified(slot, float(x))) for slot, x in zip(source.slots, p, strict=False) if slot.words]
-    of = [(slot, name) for slot, name in of if slot.address.startswith(("bearings.", "guides."))]
-    offered = {f"materials.{word}.E" for slot, _ in of for word in slot.words}
-    selected = {f"materials.{name}.E" for _, name in of}
-    return slots if len(slots) < 2 else [k for k in slots if source.slots[k].address not in offered - selected]
+    """Return the parameter indices `slots` without the moduli of materials that could be chosen, but are not with p.
+
+    Choices of bearings and guides count. A list of fewer than two indices is returned unchanged.
+    """
+    choices = [
+        (slot, specified(slot, float(entry))) for slot, entry in zip(source.slots, p, strict=False) if slot.words
+    ]
+    choices = [(slot, name) for slot, name in choices if slot.address.startswith(("bearings.", "guides."))]
+    selectable = {f"materials.{word}.E" for slot, _ in choices for word in slot.words}
+    selected = {f"materials.{name}.E" for _, name in choices}
+    return slots if len(slots) < 2 else [k for k in slots if source.slots[k].address not in selectable - selected]
 
 
-def _first_parameter(source: KernelSource, name: str) -> Slot:
-    """Return the parameter whose values an axis has."""
+def _find_leading_parameter(source: KernelSource, name: str) -> Slot:
+    """Return the parameter whose unit and dimension the numbers of an axis have.
+
+    For `step` and `rtol` it is a new Slot (s, or without dimension), for a group its first member.
+    """
     if name in SETTINGS:
         return Slot(name, SETTINGS[name], 0.0, False, (0, 0, 1 if name == "step" else 0))
-    return source.slots[_axis_parameters(source, name)[0]]
+    return source.slots[_find_parameter_indices(source, name)[0]]
 
 
-def _parse_value(text: str) -> float | str:
-    """Return the number of a text with unit such as "1mm"."""
+def _parse_quantity(text: str) -> float | str:
+    """Return the number in SI of a text with or without unit, such as "1mm"; a text that is no quantity is returned as
+    text.
+    """
     from gudgeon.model.parameters import value
 
     return value(text)

@@ -68,48 +68,59 @@ class SceneBench:
 
     @property
     def interrupted(self) -> bool:
-        """Whether Ctrl-C left rows out."""
+        """Return whether Ctrl-C ended the measurement before all rows were measured."""
         return self.missing > 0
 
     @property
     def done(self) -> tuple[int, int]:
-        """Number of measured rows, and of requested rows."""
+        """Return the number of measured rows, and the number of requested rows."""
         return len(self.rows), len(self.rows) + self.missing
 
     @property
     def methods(self) -> tuple[str, ...]:
-        """Names of the measured methods in order."""
+        """Return the names of the measured methods without repetitions, in the order of the rows."""
         return tuple(dict.fromkeys(row.setting.method for row in self.rows))
 
     def of(self, method: str) -> list[Row]:
-        """Return the rows of a method."""
+        """Return all rows of a method, including failed ones, from the longest step or loosest tolerance on."""
         return [row for row in self.rows if row.setting.method == method]
 
     def order(self, measure: str, method: str = "rk4") -> float:
-        """Return the order of convergence: the slope of log(error) over log(step), over errors neither rounding nor
-        large.
+        """Return the order of convergence of a method: the slope of log(error) over log(step or tolerance).
 
-        NaN for fewer than three points, or points that are not on a line (a stiff scene at its stability limit).
+        measure: "motion", "path" or "force". Errors that the references do not resolve, or of SMALL or more, are left
+        out. NaN for fewer than three points, or points that are not on a line (a stiff scene at its stability limit).
         """
         points = [(row.setting.value, getattr(row.error, measure)) for row in self.of(method) if not row.failure]
-        kept = np.log([(h, e) for h, e in points if self.resolved(measure, e) and e < SMALL])
-        if len(kept) < 3:
+        log_points = np.log([(h, e) for h, e in points if self.resolved(measure, e) and e < SMALL])
+        if len(log_points) < 3:
             return NAN
-        line = np.polyfit(kept[:, 0], kept[:, 1], 1)
-        return float(line[0]) if np.std(np.polyval(line, kept[:, 0]) - kept[:, 1]) < STRAIGHT else NAN
+        polynomial = np.polyfit(log_points[:, 0], log_points[:, 1], 1)
+        return (
+            float(polynomial[0])
+            if np.std(np.polyval(polynomial, log_points[:, 0]) - log_points[:, 1]) < STRAIGHT
+            else NAN
+        )
 
     def resolved(self, measure: str, error: float) -> bool:
-        """Return whether an error exceeds the uncertainty of the references."""
+        """Return whether an error is large enough to be measured: more than TRUSTED times the difference of the two
+        references.
+
+        measure: "motion", "path" or "force".
+        """
         return error > TRUSTED * getattr(self.agreement, measure)
 
     def row(self, setting: Setting) -> Row | None:
-        """Return the row of a setting, None if it was not measured."""
+        """Return the row with the method and the step or tolerance of `setting`, equal to rounding; None if it was not
+        measured.
+        """
         return next((r for r in self.of(setting.method) if math.isclose(r.setting.value, setting.value)), None)
 
     def seconds_to(self, error: float, method: str) -> float:
-        """Return the least run time (s per simulated second) with every error at most `error`; NaN if no row has it.
+        """Return the least run time (s per simulated second) of the rows of a method whose largest error is at most
+        `error`.
 
-        NaN also if the uncertainty of the references exceeds the error.
+        NaN if no such row exists, or if the references differ so much that `error` is not resolved.
         """
         if any(TRUSTED * getattr(self.agreement, m) > error for m in ("motion", "path", "force")):
             return NAN
@@ -130,12 +141,13 @@ def bench(
     methods: Sequence[str] | None = None,
     progress: Report | None = None,
 ) -> SceneBench:
-    """Measure one scene. `steps` (s) of rk4 default to 1, 2, 5 · 10^k around the step of a plain run.
+    """Measure run time and error of one scene with every method and setting, against two references.
 
-    `methods`: as in `choice`, by default all that fit. `tolerances` default to 1e-3 … 1e-11. `t_end` (s) defaults to
-    the first few contacts or, without contact, to as many of the shortest steps as are affordable. `quick` measures
-    fewer of both over a tenth of the window, for a shorter time, without cross-checks. After Ctrl-C the rows so far are
-    returned.
+    steps (s) of rk4: by default 1, 2, 5 · 10^k around the step of a plain run. tolerances: by default 1e-3 … 1e-11.
+    methods: names or patterns as in `choice`, by default all that fit. t_end (s): by default the first few contacts or,
+    without contact, as many of the shortest steps as are affordable. quick: fewer settings over a tenth of the window,
+    without cross-checks. A scene without degrees of freedom is measured by its kinematic method alone. After Ctrl-C the
+    rows so far are returned. Raises BadValueError for invalid steps, tolerances or methods.
     """
     parameters, progress = dict(mapping(parameters, "parameters")), function(progress, "progress")
     t_end, quick = None if t_end is None else positive(t_end, "t_end"), flag(quick, "quick")
@@ -157,21 +169,25 @@ def bench(
     if checks:
         _ = simulation.full  # derived and compiled before any of them is timed
     settings += [Setting(method, x) for method in checks for x in tolerances[::2]]
-    expected = references(simulation, settings)
-    found = _measure(work, settings, expected, progress or (lambda fraction, text: None))
-    return replace(found, left_out=(*left_out, *found.left_out))
+    reference_settings = references(simulation, settings)
+    scene_bench = _measure_settings(work, settings, reference_settings, progress or (lambda fraction, text: None))
+    return replace(scene_bench, left_out=(*left_out, *scene_bench.left_out))
 
 
 def usual_steps(simulation: Simulation, parameters: Parameters | None = None, quick: bool = False) -> tuple[float, ...]:
-    """Return steps 1, 2, 5 · 10^k s around the step of a plain run."""
+    """Return the steps 1, 2, 5 · 10^k s, ascending, from a fifth to 200 times the step of a plain run.
+
+    With `quick` they begin at the step of a plain run itself.
+    """
     usual = natural_step(simulation, parameters)
     return measured.round_numbers(usual * (1 if quick else FINEST), usual * COARSEST)
 
 
 def references(simulation: Simulation, settings: Sequence[Setting]) -> tuple[Setting, Setting]:
-    """Return the settings of both references: two methods at much tighter tolerance, or one method at two tolerances.
+    """Return the settings of both reference runs: two methods at much tighter tolerances, or one method at two
+    tolerances.
 
-    In a scene that allows only fixed steps, they are the finest step divided by FINER.
+    In a scene that allows only fixed steps, they are the finest of the tested `settings` divided by 4 and by 8.
     """
     fitting = [setting for setting in REFERENCES if setting.method in simulation.source.methods]
     if fitting:
@@ -180,29 +196,38 @@ def references(simulation: Simulation, settings: Sequence[Setting]) -> tuple[Set
     return finest.finer(FINER[0]), finest.finer(FINER[1])
 
 
-def _measure(
-    work: Work, settings: Sequence[Setting], wanted_references: Sequence[Setting], progress: Report
+def _measure_settings(
+    work: Work, settings: Sequence[Setting], reference_settings: Sequence[Setting], progress: Report
 ) -> SceneBench:
-    """Run the references, then every setting: once to compare and several times to measure the time."""
-    count = len(settings) + len(wanted_references)
+    """Run the two references, then measure every setting against them, and return the bench of the scene.
 
-    def attempt(done: int, setting: Setting) -> Attempt:
-        """Run one setting, cross-checks with a time limit."""
+    The shortest contact is taken from the first successful reference. If a reference failed, the agreement is infinite,
+    so that no error counts as resolved. After Ctrl-C the times of the right-hand side are left out.
+    """
+    count = len(settings) + len(reference_settings)
+
+    def attempt_setting(index: int, setting: Setting) -> Attempt:
+        """Run one setting and report progress; `index` is its number among references and settings.
+
+        Cross-checks by solvers in Python are stopped after LIMIT seconds.
+        """
         text = f"{setting.method} {setting}"
         limited = replace(work, limit=LIMIT) if setting.method in python_driver.NAMES else work
-        return limited.run(setting, lambda fraction, _: progress((done + fraction) / count, text))
+        return limited.run(setting, lambda fraction, _: progress((index + fraction) / count, text))
 
-    found = [
-        attempt(done, setting) for done, setting in enumerate(wanted_references)
+    reference_attempts = [
+        attempt_setting(index, setting) for index, setting in enumerate(reference_settings)
     ]  # without them there is nothing to say
-    good = [a for a in found if a.run is not None and not a.failure]
+    successful = [a for a in reference_attempts if a.run is not None and not a.failure]
     agreement, contact = Error(math.inf, math.inf, math.inf), NAN
-    if good and good[0].run is not None:
-        lengths = good[0].run.impacts["t_off"] - good[0].run.impacts["t_on"]
+    if successful and successful[0].run is not None:
+        lengths = successful[0].run.impacts["t_off"] - successful[0].run.impacts["t_on"]
         contact = float(np.nanmin(lengths)) if np.isfinite(lengths).any() else NAN
-    if len(good) == 2 and good[0].run is not None and good[1].run is not None:
-        agreement = difference(good[0].run, good[1].run)
-    rows, left_out, missing = _make_rows(work, settings, good, lambda k, one: attempt(len(wanted_references) + k, one))
+    if len(successful) == 2 and successful[0].run is not None and successful[1].run is not None:
+        agreement = difference(successful[0].run, successful[1].run)
+    rows, left_out, missing = _measure_rows(
+        work, settings, successful, lambda k, one: attempt_setting(len(reference_settings) + k, one)
+    )
     rhs = () if missing else tuple(time_rhs(work.simulation, work.t_end))
     name = work.simulation.source.scene
     return SceneBench(
@@ -210,7 +235,7 @@ def _measure(
         work.t_end,
         work.why,
         tuple(rows),
-        tuple(wanted_references),
+        tuple(reference_settings),
         agreement,
         contact,
         rhs,
@@ -219,12 +244,14 @@ def _measure(
     )
 
 
-def _make_rows(
-    work: Work, settings: Sequence[Setting], good: Sequence[Attempt], attempt: Callable[[int, Setting], Attempt]
+def _measure_rows(
+    work: Work, settings: Sequence[Setting], references: Sequence[Attempt], attempt: Callable[[int, Setting], Attempt]
 ) -> tuple[list[Row], list[str], int]:
-    """Return the rows from loose to tight, the reasons for rows left out, and the number of rows that Ctrl-C left out.
+    """Measure the settings in order; return the rows, the reasons for settings left out, and the number that Ctrl-C
+    left out.
 
-    If a cross-check was slow, its tighter settings are left out.
+    `attempt` runs the k-th setting. If a cross-check is stopped, or takes longer than LONG seconds, its tighter
+    settings are left out.
     """
     rows: list[Row] = []
     slow: dict[str, str] = {}
@@ -232,62 +259,69 @@ def _make_rows(
         if setting.method in slow:
             continue
         try:
-            found = attempt(k, setting)
-            if found.slow:
-                slow[setting.method] = f"{setting.method}: {setting} and tighter left out: {found.failure}"
+            outcome = attempt(k, setting)
+            if outcome.slow:
+                slow[setting.method] = f"{setting.method}: {setting} and tighter left out: {outcome.failure}"
                 continue
-            rows.append(_make_row(work, found, good))
+            rows.append(_measure_row(work, outcome, references))
         except KeyboardInterrupt:
-            return rows, list(slow.values()), sum(other.method not in slow for other in settings[k:])
-        if setting.method in python_driver.NAMES and _run_time(found) > LONG and k + 1 < len(settings):
-            following = settings[k + 1]
-            if following.method == setting.method:
-                took = f"{setting} took {_run_time(found):.2g} s"
-                slow[setting.method] = f"{setting.method}: {following} and tighter left out: {took}"
+            return rows, list(slow.values()), sum(setting_left.method not in slow for setting_left in settings[k:])
+        if setting.method in python_driver.NAMES and _read_run_time(outcome) > LONG and k + 1 < len(settings):
+            next_setting = settings[k + 1]
+            if next_setting.method == setting.method:
+                reason = f"{setting} took {_read_run_time(outcome):.2g} s"
+                slow[setting.method] = f"{setting.method}: {next_setting} and tighter left out: {reason}"
     return rows, list(slow.values()), 0
 
 
-def _run_time(measured_run: Attempt) -> float:
-    """Return the run time of an attempt, s; 0 without a result."""
-    return measured_run.run.diagnostics.seconds if measured_run.run is not None else 0.0
+def _read_run_time(attempt: Attempt) -> float:
+    """Return the wall time (s) that the run of an attempt needed; 0 if the attempt has no result."""
+    return attempt.run.diagnostics.seconds if attempt.run is not None else 0.0
 
 
-def _make_row(work: Work, measured_run: Attempt, good: Sequence[Attempt]) -> Row:
-    """Return the row of an attempt, with error and timed runs."""
-    if measured_run.failure or measured_run.run is None:
+def _measure_row(work: Work, attempt: Attempt, references: Sequence[Attempt]) -> Row:
+    """Return the row of an attempt: its error against a reference by another method, and its run time by repeated runs.
+
+    A failed attempt gets a row with the failure, and is not timed. A cross-check that took longer than `work.enough` is
+    not repeated.
+    """
+    if attempt.failure or attempt.run is None:
         return Row(
-            measured_run.setting,
+            attempt.setting,
             NAN,
             0,
             Error(),
             0,
             0,
             None,
-            measured_run.failure or "no result",
-            measured_run.failed_at,
+            attempt.failure or "no result",
+            attempt.failed_at,
         )
-    diagnostics = measured_run.run.diagnostics
-    names = diagnostics.method.split("+")
-    other = reference_by_other_method(
-        [*names, names[0].rpartition(":")[2].lower()], good
+    diagnostics = attempt.run.diagnostics
+    method_names = diagnostics.method.split("+")
+    reference = reference_by_other_method(
+        [*method_names, method_names[0].rpartition(":")[2].lower()], references
     )  # nor by the same from elsewhere
-    error = difference(measured_run.run, other.run) if other is not None and other.run is not None else Error()
-    known = diagnostics.seconds if measured_run.setting.method in python_driver.NAMES else 0.0
-    seconds = known if known > work.enough else work.seconds(measured_run.setting)
+    error = difference(attempt.run, reference.run) if reference is not None and reference.run is not None else Error()
+    known_seconds = diagnostics.seconds if attempt.setting.method in python_driver.NAMES else 0.0
+    seconds = known_seconds if known_seconds > work.enough else work.seconds(attempt.setting)
     return Row(
-        measured_run.setting,
+        attempt.setting,
         seconds / work.t_end,
         diagnostics.right_hand_sides,
         error,
         diagnostics.jacobians,
         0,
-        None if other is None else other.setting,
+        None if reference is None else reference.setting,
     )
 
 
-def reference_by_other_method(methods: Iterable[str], good: Sequence[Attempt]) -> Attempt | None:
-    """Return the first reference by none of these methods, else the last (the finest step); None without references."""
-    return next((a for a in good if a.setting.method not in methods), good[-1] if good else None)
+def reference_by_other_method(methods: Iterable[str], references: Sequence[Attempt]) -> Attempt | None:
+    """Return the first reference run by none of these methods, else the last one; None without references."""
+    return next(
+        (attempt for attempt in references if attempt.setting.method not in methods),
+        references[-1] if references else None,
+    )
 
 
 def _measure_kinematic(
@@ -297,20 +331,24 @@ def _measure_kinematic(
     t_end: float | None,
     progress: Report | None,
 ) -> SceneBench:
-    """Measure the kinematic method; its error is the residual of the constraints after Newton's method."""
+    """Measure the kinematic method of a scene without degrees of freedom for each number of samples in `counts`.
+
+    The error is the residual of the constraint equations after Newton's method, divided by the size of the mechanism.
+    t_end (s): by default the end of a plain run; None or 0 mean the default. A failed run gets a row with the failure.
+    """
     work = Work(simulation, t_end or plain_end(simulation.compiled, parameters), parameters)
     rows = []
-    for done, count in enumerate(counts):
+    for index, count in enumerate(counts):
         if progress:
-            progress(done / len(counts), f"{count} samples")
+            progress(index / len(counts), f"{count} samples")
         setting = Setting("kinematic", work.t_end / count)
-        found = work.sampled(setting, np.linspace(0.0, work.t_end, count + 1))
-        if found.run is None or found.failure:
-            failed = found.failure or "no result"
-            rows.append(Row(setting, NAN, 0, Error(), 0, count, None, failed, found.failed_at))
+        attempt = work.sampled(setting, np.linspace(0.0, work.t_end, count + 1))
+        if attempt.run is None or attempt.failure:
+            failure = attempt.failure or "no result"
+            rows.append(Row(setting, NAN, 0, Error(), 0, count, None, failure, attempt.failed_at))
             continue
         seconds = work.seconds(setting, count) / work.t_end
-        error = Error(found.run.diagnostics.phi_max / size(found.run))
+        error = Error(attempt.run.diagnostics.phi_max / size(attempt.run))
         rows.append(Row(setting, seconds, 0, error, samples=count))
     rhs = tuple(time_rhs(simulation, work.t_end))
     return SceneBench(simulation.source.scene, work.t_end, "", tuple(rows), (), Error(), NAN, rhs)

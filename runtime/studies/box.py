@@ -42,35 +42,41 @@ class Range:
     unit: str = ""
 
     def __post_init__(self) -> None:
-        """Raise BadValueError unless 0 < low ≤ high."""
+        """Raise BadValueError unless both ends are numbers with 0 < low ≤ high."""
         if not 0.0 < number_of(self.low, f"range {self.name}") <= number_of(self.high, f"range {self.name}"):
             raise BadValueError(f"range {self.name}={self.low:g}..{self.high:g}: expected 0 < low ≤ high")
 
-    def at(self, share: float) -> float:
-        """Return the value at a fraction of the edge, exactly its ends at 0 and 1."""
-        if share in (0.0, 1.0):
-            return (self.low, self.high)[int(share)]
-        return self.low * (self.high / self.low) ** share
+    def at(self, fraction: float) -> float:
+        """Return the value at a fraction of the range on its logarithmic scale, exactly `low` at 0 and `high` at 1."""
+        if fraction in (0.0, 1.0):
+            return (self.low, self.high)[int(fraction)]
+        return self.low * (self.high / self.low) ** fraction
 
 
 def corners(ranges: Sequence[Range]) -> list[dict[str, float]]:
-    """Return all 2^n corners of the box, the last range fastest."""
-    return [_point_at(ranges, shares) for shares in itertools.product((0.0, 1.0), repeat=len(ranges))]
+    """Return the parameter values at all 2^n corners of the box, range name to value (SI); the last range varies
+    fastest.
+    """
+    return [_interpolate_point(ranges, fractions) for fractions in itertools.product((0.0, 1.0), repeat=len(ranges))]
 
 
 def sobol(ranges: Sequence[Range], count: int) -> list[dict[str, float]]:
-    """Return the first `count` scrambled Sobol points (A. B. Owen, J. Complexity 14, 1998), always the same."""
+    """Return the values at the first `count` scrambled Sobol points of the box, range name to value (SI).
+
+    The points are the same in every call, since the seed is fixed (A. B. Owen, J. Complexity 14, 1998). The list is
+    empty for a count below 1 or without ranges.
+    """
     from scipy.stats import qmc
 
     if count < 1 or not ranges:
         return []
-    shares = qmc.Sobol(len(ranges), seed=SEED).random_base2(max(0, math.ceil(math.log2(count))))
-    return [_point_at(ranges, row) for row in shares[:count].tolist()]
+    fractions = qmc.Sobol(len(ranges), seed=SEED).random_base2(max(0, math.ceil(math.log2(count))))
+    return [_interpolate_point(ranges, row) for row in fractions[:count].tolist()]
 
 
-def _point_at(ranges: Sequence[Range], shares: Sequence[float]) -> dict[str, float]:
-    """Return the values at the fractions of all edges."""
-    return {edge.name: edge.at(share) for edge, share in zip(ranges, shares, strict=True)}
+def _interpolate_point(ranges: Sequence[Range], fractions: Sequence[float]) -> dict[str, float]:
+    """Return the values at a point of the box, range name to value, from its fraction (0 to 1) along each range."""
+    return {range_.name: range_.at(fraction) for range_, fraction in zip(ranges, fractions, strict=True)}
 
 
 def judge_point(
@@ -82,51 +88,68 @@ def judge_point(
     limit: float = math.inf,
     progress: Progress | None = None,
 ) -> Cell:
-    """Return the verdict on one point of a box over [0, t_end] (s).
+    """Return the verdict on one point of a box: a long run over [0, t_end] (s), and two runs over the first contacts.
 
-    `limit` (s) bounds the processor time of its long run.
+    limits: by default those of the setting. limit (s): processor time of the long run; the other runs may take ten
+    times longer. A failed long run is judged alone. If the two runs differ by more than the limits, they are compared
+    again over the time in which runs can agree at all (`_count_predictable_samples`).
     """
     work, limits = Work(simulation, t_end, parameters, limit=limit), limits or limits_of(setting)
-    long = work.sampled(setting, np.linspace(0.0, t_end, DENSE + 1), progress)
-    if long.failure or long.run is None:
-        return judge(parameters, long, [], limits)
-    patient = replace(work, limit=PATIENCE * limit)
-    times = predictable_times(long.run)
-    pair = _run_pair(patient, setting, times)
-    cell = judge(parameters, long, [pair], limits)
+    long_run = work.sampled(setting, np.linspace(0.0, t_end, DENSE + 1), progress)
+    if long_run.failure or long_run.run is None:
+        return judge(parameters, long_run, [], limits)
+    refined_work = replace(work, limit=PATIENCE * limit)
+    times = predictable_times(long_run.run)
+    run_pair = _run_with_refinement(refined_work, setting, times)
+    cell = judge(parameters, long_run, [run_pair], limits)
     if cell.failed and cell.error.beyond(limits.motion, limits.path, limits.force):
-        kept = times[: _count_predictable_samples(patient, pair[1], limits)]
-        cell = judge(parameters, long, [_run_pair(patient, setting, kept)] if len(kept) > 1 else [], limits)
+        predictable_samples = times[: _count_predictable_samples(refined_work, run_pair[1], limits)]
+        cell = judge(
+            parameters,
+            long_run,
+            [_run_with_refinement(refined_work, setting, predictable_samples)] if len(predictable_samples) > 1 else [],
+            limits,
+        )
     return cell
 
 
 def predictable_times(run: Result) -> Array:
-    """Return the times (s) of a comparison: up to half-way between the fourth onset and the next, or over the whole
-    run.
+    """Return SAMPLES + 1 times (s) from 0 at which two runs are compared.
+
+    They end half-way between the fourth onset of contact and the next, or at the end of a run with four onsets or
+    fewer.
     """
     onsets = np.sort(run.impacts["t_on"])
     end = float(onsets[ONSETS - 1] + onsets[ONSETS]) / 2 if len(onsets) > ONSETS else float(run.t[-1])
     return np.linspace(0.0, end, SAMPLES + 1)
 
 
-def _run_pair(work: Work, setting: Setting, times: Array) -> Pair:
-    """Run a setting and a finer one at the same times."""
+def _run_with_refinement(work: Work, setting: Setting, times: Array) -> Pair:
+    """Return the outcomes of two runs at the same times (s): with the setting, and with a tolerance FINER times
+    tighter.
+    """
     return work.sampled(setting, times), work.sampled(setting.finer(FINER), times)
 
 
 def _count_predictable_samples(work: Work, fine: Attempt, limits: Limits) -> int:
-    """Return the number of samples up to which a run can agree with the finer run `fine`.
+    """Return the number of samples up to which any run can agree with the finer run `fine` within the limits.
 
-    Joints in lasting contact may amplify differences like impacts. The amplification is a property of the motion, not
-    of the tolerance. Two runs at very tight tolerances are compared. From the sample on at which they differ by more
-    than the limits over the ratio of their tolerances, no run can meet the limits.
+    Two runs at very tight tolerances are compared. From the sample on at which they differ by more than the limits over
+    the ratio of their tolerances, no run can meet the limits: lasting contact amplifies differences like impacts. The
+    result is SAMPLES + 1 if they never do, or if a run fails.
     """
     if fine.run is None:
         return SAMPLES + 1
-    first = replace(fine.setting, value=min(fine.setting.value, TIGHT))
-    a, b = (work.sampled(setting, fine.run.t) for setting in (first, first.finer(FINER)))
+    tightest = replace(fine.setting, value=min(fine.setting.value, TIGHT))
+    a, b = (work.sampled(setting, fine.run.t) for setting in (tightest, tightest.finer(FINER)))
     if a.run is None or b.run is None or a.failure or b.failure:
         return SAMPLES + 1
     bounds = (limits.motion, limits.path, limits.force)
-    over = np.any([gap > x / (MARGIN * FINER) for gap, x in zip(apart(a.run, b.run), bounds, strict=True)], axis=0)
-    return int(np.argmax(over)) if over.any() else SAMPLES + 1
+    exceeds = np.any(
+        [
+            differences > limit / (MARGIN * FINER)
+            for differences, limit in zip(apart(a.run, b.run), bounds, strict=True)
+        ],
+        axis=0,
+    )
+    return int(np.argmax(exceeds)) if exceeds.any() else SAMPLES + 1

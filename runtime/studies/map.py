@@ -49,12 +49,12 @@ class _Verdicts:
 
     @property
     def done(self) -> tuple[int, int]:
-        """Number of judged cells, and of all cells."""
+        """Return the number of judged cells, and the number of all cells."""
         return _count_judged(self.cells)
 
     @property
     def interrupted(self) -> bool:
-        """Whether Ctrl-C left cells that are not judged."""
+        """Return whether Ctrl-C left cells without a verdict."""
         return any(cell.status is Status.MISSING for cell in self.cells)
 
 
@@ -71,20 +71,28 @@ class VerdictMap(_Verdicts):
     full: bool = False  # whether the full formulation is used, in which Baumgarte's gains act
 
     def cell(self, row: float, column: float) -> Cell:
-        """Return the cell at values of both axes. Raises KeyError if the map does not have it."""
+        """Return the cell at a value of the row axis and a value of the column axis.
+
+        A column of NaN, as in a scene without play, means the first one. Raises KeyError if the map does not have the
+        values.
+        """
         if row not in self.rows.values or (column not in self.columns.values and column == column):
             raise KeyError((row, column))
-        place = self.columns.values.index(column) if column == column else 0
-        return self.cells[place * len(self.rows.values) + self.rows.values.index(row)]
+        column_index = self.columns.values.index(column) if column == column else 0
+        return self.cells[column_index * len(self.rows.values) + self.rows.values.index(row)]
 
     def largest_stable(self, column: float) -> float:
-        """Return the largest row value up to which every cell of the column is stable; NaN if there is none."""
-        best = NAN
+        """Return the largest row value of a column such that its cell and all those at smaller row values are stable.
+
+        NaN if the cell at the smallest row value is not stable. Raises KeyError for a column that the map does not
+        have.
+        """
+        largest = NAN
         for row in self.rows.values:
             if self.cell(row, column).status is not Status.STABLE:
                 break
-            best = row
-        return best
+            largest = row
+        return largest
 
 
 @dataclass(frozen=True)
@@ -113,8 +121,7 @@ def verdict_map(
     quick: bool = False,
     progress: Report | None = None,
 ) -> VerdictMap:
-    """Judge every pair of values of at most two axes (`gudgeon.measure.axes`), by default tolerance (rk4: step) ×
-    clearance.
+    """Judge every pair of values of at most two axes, by default tolerance (rk4: step) × clearance, and return the map.
 
     `value`: the step or tolerance if neither axis is one. `t_long` (s) is the run over which a cell must remain valid;
     `t_short` bounds the window in which a step is compared with a tenth of itself (see `window`). `parameters` as in
@@ -126,40 +133,57 @@ def verdict_map(
     limits, quick = optional(limits, "limits", Limits), flag(quick, "quick")
     t_long, t_short = optional_positive(t_long, "t_long"), optional_positive(t_short, "t_short")
     value, progress = optional_positive(value, "value"), function(progress, "progress")
-    given, full = dict(mapping(parameters, "parameters")), needs_full(axes, method)
+    parameter_values, full = dict(mapping(parameters, "parameters")), needs_full(axes, method)
     simulation = simulation.full if full else simulation
-    rows, columns = arrange(simulation, axes, method, given, quick)
-    usual = Setting(method, value or (natural_step(simulation, given) if method in FIXED else USUAL))
+    rows, columns = arrange(simulation, axes, method, parameter_values, quick)
+    default_setting = Setting(
+        method, value or (natural_step(simulation, parameter_values) if method in FIXED else USUAL)
+    )
     check_room(len(rows.values) * len(columns.values))
-    jobs = _make_jobs(simulation, rows, columns, usual, given)
-    least = min(setting.value for job in jobs for setting in job.settings) if usual.fixed else math.inf
-    t_long = t_long or min(plain_end(simulation.compiled, given), LONG * least) / (10 if quick else 1)
-    longest = t_short or SHORT * least / FINER / (10 if quick else 1)
-    with Pool[_Job, list[Cell]](progress or (lambda fraction, text: None), len(jobs)) as pool:
-        found = pool.map(lambda job, tick: _judge_job(simulation, job, t_long, longest, limits, tick), jobs)
+    jobs = _build_jobs(simulation, rows, columns, default_setting, parameter_values)
+    shortest_step = (
+        min(setting.value for job in jobs for setting in job.settings) if default_setting.fixed else math.inf
+    )
+    t_long = t_long or min(plain_end(simulation.compiled, parameter_values), LONG * shortest_step) / (
+        10 if quick else 1
+    )
+    max_window = t_short or SHORT * shortest_step / FINER / (10 if quick else 1)
+    with Pool[_MapJob, list[Cell]](progress or (lambda fraction, text: None), len(jobs)) as pool:
+        cell_lists = pool.map(lambda job, report: _judge_job(simulation, job, t_long, max_window, limits, report), jobs)
     missing = ([not_judged(job.parameters, setting) for setting in job.settings] for job in jobs)
-    cells = tuple(cell for own, none in zip(found, missing, strict=True) for cell in own or none)
-    return VerdictMap(simulation.source.scene, usual, rows, columns, cells, t_long, full)
+    cells = tuple(
+        cell
+        for judged_cells, missing_cells in zip(cell_lists, missing, strict=True)
+        for cell in judged_cells or missing_cells
+    )
+    return VerdictMap(simulation.source.scene, default_setting, rows, columns, cells, t_long, full)
 
 
 def arrange(
     simulation: Simulation, axes: Sequence[Axis], method: str, parameters: Parameters, quick: bool = False
 ) -> tuple[Axis, Axis]:
-    """Return rows and columns of the map: the method's own axis is the rows; missing axes have defaults."""
-    own, others = [a for a in axes if a.of_method], [a for a in axes if not a.of_method]
+    """Return the axes of rows and of columns of a map from at most two axes; missing ones get default values.
+
+    The axis of the method (step of rk4, else rtol) is always the rows; of two parameter axes, the second one is.
+    `quick`: fewer default values. Raises BadValueError for more than two or equal axes, one that does not fit the
+    method, or values that are not positive.
+    """
+    method_axes, parameter_axes = [a for a in axes if a.of_method], [a for a in axes if not a.of_method]
     expected = "step" if method in FIXED else "rtol"
-    if len(axes) > 2 or len(own) > 1 or len({a.name for a in axes}) < len(axes):
+    if len(axes) > 2 or len(method_axes) > 1 or len({a.name for a in axes}) < len(axes):
         raise BadValueError(f"axes {', '.join(a.name for a in axes)}: expected two different ones, step or rtol once")
-    if own and own[0].name != expected:
-        raise BadValueError(f"axis {own[0].name} does not fit: method {method} takes a {expected}")
-    if any(not value > 0 for a in own for value in a.values):
+    if method_axes and method_axes[0].name != expected:
+        raise BadValueError(f"axis {method_axes[0].name} does not fit: method {method} takes a {expected}")
+    if any(not value > 0 for a in method_axes for value in a.values):
         raise BadValueError(f"axis {expected}: expected positive values")
-    if len(others) == 2:
-        return others[1], others[0]
-    if not own:
+    if len(parameter_axes) == 2:
+        return parameter_axes[1], parameter_axes[0]
+    if not method_axes:
         tolerances = TOLERANCES[1:3] if quick else TOLERANCES
-        own = [axis(simulation, expected, default_steps([simulation], quick) if method in FIXED else tolerances)]
-    return own[0], others[0] if others else _usual_clearances(simulation, parameters, quick)
+        method_axes = [
+            axis(simulation, expected, default_steps([simulation], quick) if method in FIXED else tolerances)
+        ]
+    return method_axes[0], parameter_axes[0] if parameter_axes else _build_clearance_axis(simulation, parameters, quick)
 
 
 def verdict_box(
@@ -175,10 +199,12 @@ def verdict_box(
     quick: bool = False,
     progress: Report | None = None,
 ) -> VerdictBox:
-    """Judge all corners of the box and `count` Sobol points.
+    """Judge all corners of the box of parameters `ranges` and `count` Sobol points in it, and return the verdicts.
 
-    `addresses`: axes for names that are groups; `quick`: over a tenth of the time. Other arguments are as in
-    `verdict_map`.
+    `setting`: by default method auto at tolerance USUAL. `addresses`: axes for names of ranges that are groups.
+    `quick`: over a tenth of the time. Other arguments are as in `verdict_map`. After Ctrl-C the cells so far are
+    returned. Raises BadValueError for invalid arguments or a point outside the valid parameters, MemoryError for too
+    many points.
     """
     _check_dynamic(simulation)
     ranges, count = listed(ranges, "ranges", Range, "a list of Range"), whole(count, "count", 0, MOST_POINTS)
@@ -188,69 +214,86 @@ def verdict_box(
     if not ranges:
         raise BadValueError("a box wants ranges: --range name=low..high")
     t_long = t_long or plain_end(simulation.compiled, parameters) / (10 if quick else 1)
-    known = {name: instance(edge, f"addresses: {name}", Axis) for name, edge in mapping(addresses, "addresses").items()}
-    full = needs_full([known.get(edge.name) or axis(simulation, edge.name, ()) for edge in ranges], setting.method)
+    group_axes = {
+        name: instance(range_, f"addresses: {name}", Axis) for name, range_ in mapping(addresses, "addresses").items()
+    }
+    full = needs_full(
+        [group_axes.get(range_.name) or axis(simulation, range_.name, ()) for range_ in ranges], setting.method
+    )
     simulation = simulation.full if full else simulation
 
-    def moved(point: Mapping[str, float]) -> dict[str, float | str]:
-        """Return the parameters of `simulate` at a point."""
-        own = (known[name].parameters(x) if name in known else {name: x} for name, x in point.items())
-        return dict(parameters) | {address: x for part in own for address, x in part.items()}
+    def parameters_at(point: Mapping[str, float]) -> dict[str, float | str]:
+        """Return the parameters of `simulate` at a point of the box; a group sets all its addresses."""
+        own = (
+            group_axes[name].parameters(value) if name in group_axes else {name: value} for name, value in point.items()
+        )
+        return dict(parameters) | {
+            address: value for parameter_values in own for address, value in parameter_values.items()
+        }
 
-    def one(point: Mapping[str, float], tick: Report) -> Cell:
-        """Judge one point."""
-        return judge_point(simulation, moved(point), t_long, setting, limits, LIMIT, tick)
+    def judge_one(point: Mapping[str, float], report: Report) -> Cell:
+        """Return the verdict on one point, and report the progress of its runs."""
+        return judge_point(simulation, parameters_at(point), t_long, setting, limits, LIMIT, report)
 
     check_room(2.0 ** len(ranges) + count)
     points = [*corners(ranges), *sobol(ranges, count)]
     for point in points:
-        prepare(simulation.compiled, moved(point))
+        prepare(simulation.compiled, parameters_at(point))
     with Pool[Mapping[str, float], Cell](progress or (lambda fraction, text: None), len(points)) as pool:
-        found = pool.map(one, points)
-    cells = tuple(cell or not_judged(moved(point), setting) for cell, point in zip(found, points, strict=True))
+        cells_or_none = pool.map(judge_one, points)
+    cells = tuple(
+        cell or not_judged(parameters_at(point), setting) for cell, point in zip(cells_or_none, points, strict=True)
+    )
     return VerdictBox(simulation.source.scene, setting, tuple(ranges), tuple(points), cells, t_long, full)
 
 
 def needs_full(axes: Sequence[Axis], method: str) -> bool:
-    """Return whether an axis sets Baumgarte's gains, which act in the full formulation with rk4 only.
+    """Return whether an axis sets Baumgarte's gains, so that the scene must be run in the full formulation.
 
-    Raises BadValueError for gains with another method, since those project onto the constraints.
+    Raises BadValueError for gains with a method other than rk4, since those methods project onto the constraints.
     """
-    moved = next((a.name for a in axes if any(address in GAINS for address, _ in a.ratios)), "")
-    if moved and method != "rk4":
-        raise BadValueError(f"axis {moved}: method {method!r} projects and has no gains", hint="take --method rk4")
-    return bool(moved)
+    gains_axis = next((a.name for a in axes if any(address in GAINS for address, _ in a.ratios)), "")
+    if gains_axis and method != "rk4":
+        raise BadValueError(f"axis {gains_axis}: method {method!r} projects and has no gains", hint="take --method rk4")
+    return bool(gains_axis)
 
 
 def _count_judged(cells: Sequence[Cell]) -> tuple[int, int]:
-    """Return the number of judged cells, and of all cells."""
+    """Return the number of cells with a verdict, and the number of all cells."""
     return sum(cell.status is not Status.MISSING for cell in cells), len(cells)
 
 
 def default_steps(simulations: Sequence[Simulation], quick: bool = False) -> tuple[float, ...]:
-    """Return steps 1, 2, 5 · 10^k from the shortest step of a plain run of any of the scenes."""
-    usual = min(natural_step(simulation) for simulation in simulations)
-    steps = round_numbers(usual, COARSEST * usual)
+    """Return the steps 1, 2, 5 · 10^k s, ascending, from the shortest step of a plain run of any scene to 200 times
+    that.
+
+    With `quick` it is every second of them from the fourth on.
+    """
+    plain_step = min(natural_step(simulation) for simulation in simulations)
+    steps = round_numbers(plain_step, COARSEST * plain_step)
     return steps[3::2] if quick else steps
 
 
 def default_clearances(c: float, quick: bool = False) -> tuple[float, ...]:
-    """Return clearances 1, 2, 5 · 10^k m around the clearance c of the file, and c itself."""
+    """Return clearances 1, 2, 5 · 10^k m from c/6 to 10/3 c, and c itself, ascending; with `quick` only c.
+
+    c is the clearance in the file, m.
+    """
     if quick:
         return (c,)
     return tuple(sorted({*round_numbers(CLEARANCES[0] * c, CLEARANCES[1] * c), float(f"{c:.6g}")}))
 
 
-def _usual_clearances(simulation: Simulation, parameters: Parameters, quick: bool) -> Axis:
-    """Return the default axis of clearances, without those that violate conditions of the file.
+def _build_clearance_axis(simulation: Simulation, parameters: Parameters, quick: bool) -> Axis:
+    """Return the default axis of clearances, without values that violate conditions of the file.
 
-    A clearance must stay below its bearing's radius.
+    For example, a clearance must stay below the radius of its bearing. In a scene without play the only value is NaN.
     """
     if not simulation.source.clearances:
         return clearances(simulation, ())
     p = prepare(simulation.compiled, parameters)[0]
-    usual = float(p[simulation.source.clearances[0].clearance])
-    found = clearances(simulation, default_clearances(usual, quick), parameters)
+    file_clearance = float(p[simulation.source.clearances[0].clearance])
+    found = clearances(simulation, default_clearances(file_clearance, quick), parameters)
     allowed = []
     for c in found.values:
         try:
@@ -262,76 +305,102 @@ def _usual_clearances(simulation: Simulation, parameters: Parameters, quick: boo
 
 
 @dataclass(frozen=True)
-class _Job:
-    """One set of parameters with all settings to judge."""
+class _MapJob:
+    """Parameters of runs with all settings that are judged for them."""
 
     parameters: dict[str, float | str]
     settings: tuple[Setting, ...]
 
 
 def _check_dynamic(simulation: Simulation) -> None:
-    """Raise BadValueError for a scene without degrees of freedom."""
+    """Raise BadValueError if the scene has no degree of freedom, so that there is no step or tolerance to judge."""
     if simulation.source.degrees_of_freedom == 0:
         raise BadValueError(f"scene {simulation.source.scene!r} has no degree of freedom: there is no step to choose")
 
 
-def _make_jobs(
-    simulation: Simulation, rows: Axis, columns: Axis, usual: Setting, given: dict[str, float | str]
-) -> list[_Job]:
-    """Return the jobs column by column; their cells in order are those of the map. Raises BadValueError for a bad
-    value.
+def _build_jobs(
+    simulation: Simulation,
+    rows: Axis,
+    columns: Axis,
+    default_setting: Setting,
+    fixed_parameters: dict[str, float | str],
+) -> list[_MapJob]:
+    """Return the jobs of a map column by column; their cells in order are those of the map.
+
+    If the rows are steps, a job has all steps of a column, which serve as references for each other; otherwise each job
+    has one cell. All parameters are checked here: raises BadValueError for an invalid value.
     """
-    found = []
-    for x in columns.values:
+    jobs = []
+    for column_value in columns.values:
         if rows.of_method:
-            settings = tuple(Setting(usual.method, y) for y in rows.values)
-            moved = {**given, **columns.parameters(x)}
+            settings = tuple(Setting(default_setting.method, row_value) for row_value in rows.values)
+            parameters = {**fixed_parameters, **columns.parameters(column_value)}
             # fixed steps are references for each other, tolerances are judged alone
-            found += [_Job(moved, settings)] if usual.fixed else [_Job(moved, (setting,)) for setting in settings]
+            jobs += (
+                [_MapJob(parameters, settings)]
+                if default_setting.fixed
+                else [_MapJob(parameters, (setting,)) for setting in settings]
+            )
             continue
-        for y in rows.values:
-            found.append(_Job({**given, **columns.parameters(x), **rows.parameters(y)}, (usual,)))
-    for job in found:
+        for row_value in rows.values:
+            jobs.append(
+                _MapJob(
+                    {**fixed_parameters, **columns.parameters(column_value), **rows.parameters(row_value)},
+                    (default_setting,),
+                )
+            )
+    for job in jobs:
         prepare(simulation.compiled, job.parameters)
-    return found
+    return jobs
 
 
 def _judge_job(
-    simulation: Simulation, job: _Job, t_long: float, longest: float, limits: Limits | None, tick: Report
+    simulation: Simulation, job: _MapJob, t_long: float, longest: float, limits: Limits | None, report: Report
 ) -> list[Cell]:
-    """Return the cells of a job; a tolerance is judged like a point of a box."""
+    """Return the cells of a job: fixed steps are judged together, a tolerance is judged like a point of a box.
+
+    t_long (s): end of the long runs. longest (s): bound of the window of comparison, for fixed steps only. Progress
+    goes to `report`.
+    """
     if job.settings[0].fixed:
-        return _judge_steps(simulation, job, t_long, longest, limits, tick)
-    return [judge_point(simulation, job.parameters, t_long, job.settings[0], limits, LIMIT, tick)]
+        return _judge_steps(simulation, job, t_long, longest, limits, report)
+    return [judge_point(simulation, job.parameters, t_long, job.settings[0], limits, LIMIT, report)]
 
 
 def _judge_steps(
-    simulation: Simulation, job: _Job, t_long: float, longest: float, limits: Limits | None, tick: Report
+    simulation: Simulation, job: _MapJob, t_long: float, longest: float, limits: Limits | None, report: Report
 ) -> list[Cell]:
-    """Return the cells of a job with fixed steps, from long runs and short ones over the first contacts."""
+    """Return the cells of a job with fixed steps, each from a long run and a comparison with a tenth of the step.
+
+    The comparison is over the first contacts, or over at most `longest` (s). If the finer run is also a long one
+    without contact, the long runs are compared, too. The progress is weighted by the number of steps of each run.
+    """
     steps = [setting.finer(1) for setting in job.settings]
-    usual = min(natural_step(simulation), *(setting.value for setting in steps))
-    short = window(simulation, longest, Setting("rk4", usual), job.parameters)
-    long = Work(simulation, t_long, job.parameters)
-    every = sorted({x for step in steps for x in (step, step.finer(FINER))}, key=lambda x: -x.value)
-    pieces = [(work, step) for work, expected in ((short, every), (long, steps)) for step in expected]
-    cost, done = sum(work.t_end / step.value for work, step in pieces), 0.0
-    found: dict[tuple[Work, Setting], Attempt] = {}
-    for work, step in pieces:
-        share = work.t_end / step.value / cost
-        found[work, step] = work.run(step, _partial_progress(tick, done, share))
-        done += share
+    shortest = min(natural_step(simulation), *(setting.value for setting in steps))
+    short_work = window(simulation, longest, Setting("rk4", shortest), job.parameters)
+    long_work = Work(simulation, t_long, job.parameters)
+    all_steps = sorted({x for step in steps for x in (step, step.finer(FINER))}, key=lambda x: -x.value)
+    runs = [(work, step) for work, expected in ((short_work, all_steps), (long_work, steps)) for step in expected]
+    total_cost, completed = sum(work.t_end / step.value for work, step in runs), 0.0
+    attempts: dict[tuple[Work, Setting], Attempt] = {}
+    for work, step in runs:
+        fraction = work.t_end / step.value / total_cost
+        attempts[work, step] = work.run(step, _scale_progress(report, completed, fraction))
+        completed += fraction
     cells = []
     for step in steps:
-        tenth = step.finer(FINER)
-        pairs = [(found[short, step], found[short, tenth])]
-        fine = found.get((long, tenth))
+        reference = step.finer(FINER)
+        pairs = [(attempts[short_work, step], attempts[short_work, reference])]
+        fine = attempts.get((long_work, reference))
         if fine is not None and fine.run is not None and not len(fine.run.impacts):
-            pairs.append((found[long, step], fine))  # without contact errors mean something for longer
-        cells.append(judge(job.parameters, found[long, step], pairs, limits))
+            pairs.append((attempts[long_work, step], fine))  # without contact errors mean something for longer
+        cells.append(judge(job.parameters, attempts[long_work, step], pairs, limits))
     return cells
 
 
-def _partial_progress(tick: Report, done: float, share: float) -> Report:
-    """Return a progress function for a run that is a fraction `share` of its job, after `done`."""
-    return lambda fraction, text: tick(done + share * fraction, text)
+def _scale_progress(report: Report, done: float, fraction_of_job: float) -> Report:
+    """Return a progress function for one run of a job, which maps its progress to [done, done + fraction_of_job].
+
+    Results go to `report`, the progress function of the whole job.
+    """
+    return lambda fraction, text: report(done + fraction_of_job * fraction, text)

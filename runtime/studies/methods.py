@@ -29,31 +29,33 @@ BATCH, REPEATS = 20_000, 9
 
 
 def has_adaptive_method(simulation: Simulation) -> bool:
-    """Return whether any method with step-size control fits a scene."""
+    """Return whether the scene supports any method with step-size control."""
     return bool(set(CHOOSING) & set(simulation.source.methods))
 
 
 def choice(simulation: Simulation, expected: Sequence[str] | None, quick: bool) -> tuple[list[str], list[str]]:
-    """Return the methods that fit a scene, of `expected` (names, or patterns such as "scipy:*"), and reasons for those
-    left out.
+    """Return the methods that are measured in a scene, and sentences with the reasons for those left out.
 
-    The default is all; with `quick` all but the cross-checks, which are slow. Raises BadValueError for an unknown name.
+    expected: names, or patterns such as "scipy:*"; None means all that fit, with `quick` without the cross-checks,
+    which are slow. Raises BadValueError for a name or pattern that no method has, or if none of the methods fits.
     """
-    own = (*(name for name in INTEGRATORS if name not in CHOOSING), *ADAPTIVE)
-    every = (*own, *python_driver.NAMES)
-    usual = own if quick else every
-    expected = usual if expected is None else listed(expected, "methods", str, "a list of names of methods")
-    named = [m for m in every if any(fnmatchcase(m, text) for text in expected)]
+    own_methods = (*(name for name in INTEGRATORS if name not in CHOOSING), *ADAPTIVE)
+    all_methods = (*own_methods, *python_driver.NAMES)
+    default_methods = own_methods if quick else all_methods
+    expected = default_methods if expected is None else listed(expected, "methods", str, "a list of names of methods")
+    selected = [m for m in all_methods if any(fnmatchcase(m, text) for text in expected)]
     for text in expected:
-        if not any(fnmatchcase(method, text) for method in every):
-            raise BadValueError(f"method {text!r}: expected some of {', '.join(every)}, or a pattern such as 'scipy:*'")
+        if not any(fnmatchcase(method, text) for method in all_methods):
+            raise BadValueError(
+                f"method {text!r}: expected some of {', '.join(all_methods)}, or a pattern such as 'scipy:*'"
+            )
     reason = python_driver.unfit(simulation.source)
-    found, left_out = [], []
-    for method in named:
+    fitting, left_out = [], []
+    for method in selected:
         package = method.partition(":")[0]
-        source, requested = simulation.source, method in STAGED and expected is not usual
-        there = (*source.methods, *(STAGED if requested and not source.no_slopes else ()))
-        fits = method in there if method in CHOOSING else has_adaptive_method(simulation)
+        source, is_requested = simulation.source, method in STAGED and expected is not default_methods
+        supported = (*source.methods, *(STAGED if is_requested and not source.no_slopes else ()))
+        fits = method in supported if method in CHOOSING else has_adaptive_method(simulation)
         if method in ADAPTIVE and not fits:
             continue
         if method in python_driver.NAMES and reason:
@@ -61,11 +63,11 @@ def choice(simulation: Simulation, expected: Sequence[str] | None, quick: bool) 
         elif method in python_driver.SUNDIALS and find_spec("sksundae") is None:
             left_out.append(f"sundials:* left out: scikit-sundae is not installed ({INSTALL})")
         else:
-            found.append(method)
-    if not found:
+            fitting.append(method)
+    if not fitting:
         message = list(dict.fromkeys(left_out)) or [f"scene {simulation.source.scene!r} takes a fixed step only: rk4"]
         raise BadValueError("none of the methods fits", hint="; ".join(message))
-    return found, list(dict.fromkeys(left_out))
+    return fitting, list(dict.fromkeys(left_out))
 
 
 @dataclass(frozen=True)
@@ -81,25 +83,31 @@ class RhsTime:
 
 
 def time_rhs(simulation: Simulation, longest: float, batch: int = BATCH, repeats: int = REPEATS) -> list[RhsTime]:
-    """Return the times of a right-hand side at the start and, if a joint touches within `longest` (s), at its first
+    """Measure the time of one right-hand side at the start and, if a joint touches within `longest` (s), at its first
     peak force.
+
+    Return one or two RhsTime in this order. Each time is the least of `repeats` batches of `batch` calls.
     """
     start = simulation.start()
-    free = simulation.compiled.memory_array(None)
-    found = [_time_state(simulation, "start", 0.0, start.q, start.v, free, batch, repeats)]
+    open_contacts = simulation.compiled.memory_array(None)
+    times = [_time_state(simulation, "start", 0.0, start.q, start.v, open_contacts, batch, repeats)]
     if (run := _run_to_contact(simulation, longest)) is not None:
-        closed = [j.name for j, code in zip(simulation.source.clearances, run.state[-1], strict=True) if code]
-        state = f"{', '.join(closed)} in contact"
-        found.append(
+        closed_joints = [j.name for j, code in zip(simulation.source.clearances, run.state[-1], strict=True) if code]
+        state = f"{', '.join(closed_joints)} in contact"
+        times.append(
             _time_state(
-                simulation, state, float(run.t[-1]), run.q[-1], run.v[-1], run.memory[-1], batch, repeats, closed
+                simulation, state, float(run.t[-1]), run.q[-1], run.v[-1], run.memory[-1], batch, repeats, closed_joints
             )
         )
-    return found
+    return times
 
 
 def operations(simulation: Simulation, closed: list[str] | None = None) -> int:
-    """Count the operations of the equations of motion, of every film, and of the dry forces of the closed joints."""
+    """Return the number of operations of one right-hand side: equations of motion, all films, dry forces of the closed
+    joints.
+
+    closed: names of the joints in contact; None means none.
+    """
     total = 0
     for kernel, count in simulation.source.operations.items():
         names = [j.name for j in simulation.source.clearances if kernel.endswith(f"_{j.name}_force")]
@@ -109,7 +117,10 @@ def operations(simulation: Simulation, closed: list[str] | None = None) -> int:
 
 
 def _run_to_contact(simulation: Simulation, longest: float) -> Result | None:
-    """Return a run that ends at the peak force of the first contact; None if there is none."""
+    """Return a run (rk4) that ends at the peak force of the first contact within `longest` (s).
+
+    None for a scene without play, without a contact, if the run fails, or if no joint is in contact at its end.
+    """
     if not simulation.source.clearances:
         return None
     step = natural_step(simulation)
@@ -135,13 +146,17 @@ def _time_state(
     repeats: int,
     closed: list[str] | None = None,
 ) -> RhsTime:
-    """Measure the time of the right-hand side at a state, as the minimum of `repeats` batches of `batch` calls."""
+    """Measure the time of the right-hand side at a state, as the minimum of `repeats` batches of `batch` calls in C.
+
+    state: text that describes it. q, v, memory: coordinates, velocities, and discrete states. closed: names of the
+    joints in contact, for the number of operations.
+    """
     model = simulation.compiled
-    y, latched = np.concatenate([q, v, np.zeros(N_WORK)]), model.memory_array(memory)
-    arguments = (batch, t, model.pointer(y), model.pointer(latched), model.pointer(simulation.p))
-    best = np.inf
+    y, contact_states = np.concatenate([q, v, np.zeros(N_WORK)]), model.memory_array(memory)
+    arguments = (batch, t, model.pointer(y), model.pointer(contact_states), model.pointer(simulation.p))
+    shortest = np.inf
     for _ in range(repeats):
         before = time.perf_counter()
         model.lib.gudgeon_time_rhs(*arguments)
-        best = min(best, (time.perf_counter() - before) / batch)
-    return RhsTime(state, best, operations(simulation, closed), t, q.copy(), v.copy())
+        shortest = min(shortest, (time.perf_counter() - before) / batch)
+    return RhsTime(state, shortest, operations(simulation, closed), t, q.copy(), v.copy())

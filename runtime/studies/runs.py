@@ -42,11 +42,11 @@ class Error:
 
     @property
     def largest(self) -> float:
-        """The largest of the three measures that are known."""
+        """Return the largest of the three measures that are not NaN; NaN if all are."""
         return max((x for x in (self.motion, self.path, self.force) if not math.isnan(x)), default=NAN)
 
     def beyond(self, motion: float, path: float, force: float) -> bool:
-        """Return whether any measure exceeds its limit."""
+        """Return whether any of the three measures exceeds its limit; NaN never does."""
         return self.motion > motion or self.path > path or self.force > force
 
 
@@ -59,18 +59,20 @@ class Setting:
 
     @property
     def fixed(self) -> bool:
-        """Whether the value is a step."""
+        """Return whether the value is a fixed step (s), and not a tolerance."""
         return self.method in FIXED
 
     def finer(self, factor: float) -> Setting:
-        """Return the same method with step or tolerance divided by `factor`, rounded so that equal settings compare
-        equal.
+        """Return the same method with step or tolerance divided by `factor`, rounded to six digits so that equal
+        settings compare equal.
+
+        A tolerance does not fall below the smallest one that the integrator accepts.
         """
         least = 0.0 if self.fixed else SMALLEST
         return Setting(self.method, max(float(f"{self.value / factor:.6g}"), least))
 
     def __str__(self) -> str:
-        """Return step with unit, or tolerance, as text."""
+        """Return the step with its unit, such as "10 µs", or the tolerance, such as "1e-8"."""
         return seconds(self.value) if self.fixed else f"{self.value:.0e}".replace("e-0", "e-")
 
 
@@ -100,30 +102,43 @@ class Work:
 
     @property
     def spacing(self) -> float:
-        """Interval of samples, s: a power of ten, so that steps 1, 2, 5 · 10^k divide it or are multiples of it."""
+        """Return the interval of samples (s): a power of ten, so that steps 1, 2, 5 · 10^k divide it or are multiples
+        of it.
+
+        The window contains at least SAMPLES intervals.
+        """
         return 10.0 ** math.floor(math.log10(self.t_end / SAMPLES) + 1e-9)
 
     def run(self, setting: Setting, progress: Progress | None = None) -> Attempt:
-        """Run a setting with samples at multiples of the spacing, for comparison."""
+        """Run a setting over the window with samples at multiples of the spacing, and return the outcome for
+        comparison.
+
+        If a fixed step is longer than the spacing, the samples are at multiples of it that are on the same grid. The
+        last sample may lie before the end of the window.
+        """
         stride = max(1, math.floor(setting.value / self.spacing * (1 + 1e-9))) if setting.fixed else 1
         count = max(1, math.floor(self.t_end / (stride * self.spacing) * (1 + 1e-9)))
         return self.sampled(setting, np.arange(count + 1, dtype=np.float64) * (stride * self.spacing), progress)
 
     def seconds(self, setting: Setting, output: int = 1, progress: Progress | None = None) -> float:
-        """Return the wall time of the integration (s), the minimum of several runs that store as little as possible."""
-        best, spent = math.inf, 0.0
+        """Return the wall time of the integration (s): the minimum of up to REPEATS runs that store only `output` + 1
+        samples.
+
+        Repetition ends after `enough` seconds in total. NaN if a run fails.
+        """
+        shortest, total = math.inf, 0.0
         for _ in range(REPEATS):
             attempt = self.sampled(setting, np.linspace(0.0, self.t_end, output + 1), progress)
             if attempt.run is None or attempt.failure:
                 return NAN
-            best = min(best, attempt.run.diagnostics.seconds)
-            spent += attempt.run.diagnostics.seconds
-            if spent > self.enough:
+            shortest = min(shortest, attempt.run.diagnostics.seconds)
+            total += attempt.run.diagnostics.seconds
+            if total > self.enough:
                 break
-        return best
+        return shortest
 
     def sampled(self, setting: Setting, times: Array, progress: Progress | None = None) -> Attempt:
-        """Run a setting with samples at these times (s)."""
+        """Run a setting with samples at these times (s), and return the outcome; a failed run does not raise."""
         return attempt(self.simulation, times, setting, self.parameters, progress, self.limit)
 
 
@@ -139,72 +154,79 @@ def attempt(
     progress: Progress | None = None,
     limit: float = math.inf,
 ) -> Attempt:
-    """Run a scene and return the outcome; it may fail, or be stopped after `limit` seconds of processor time.
+    """Run a scene with one setting and return the outcome; a failed run is returned with its reason and does not raise.
 
-    Raises KeyboardInterrupt after Ctrl-C, unlike `simulate`, since half a comparison is of no use.
+    times (s): samples. The run is stopped after `limit` seconds of processor time of this thread, and is then marked as
+    slow. Raises KeyboardInterrupt after Ctrl-C, unlike `simulate`, since half a comparison is of no use.
     """
-    before = time.thread_time()
-    reached = 0.0
+    start_time = time.thread_time()
+    reached_fraction = 0.0
 
-    def watch(fraction: float, text: str) -> None:
-        """Report progress and stop the run after the limit of processor time."""
-        nonlocal reached
-        reached = fraction
-        if time.thread_time() - before > limit:
+    def report_and_limit(fraction: float, text: str) -> None:
+        """Report the progress of the run, and stop it by an exception after the limit of processor time."""
+        nonlocal reached_fraction
+        reached_fraction = fraction
+        if time.thread_time() - start_time > limit:
             raise _TooSlowError
         if progress:
             progress(fraction, text)
 
-    selected: dict[str, Any] = {"rtol": setting.value}
+    options: dict[str, Any] = {"rtol": setting.value}
     if setting.fixed:
-        selected = {} if setting.method == "kinematic" else {"step": setting.value}
+        options = {} if setting.method == "kinematic" else {"step": setting.value}
     try:
         run = simulation.simulate(
             output=times,
             method=setting.method,
             parameters=parameters,
-            progress=watch,
+            progress=report_and_limit,
             stop=False,
             peaks=(),
-            **selected,
+            **options,
         )
     except _TooSlowError:
-        message, at = f"more than {limit:.3g} s of processor time", float(times[0] + reached * (times[-1] - times[0]))
-        return Attempt(setting, None, message, at, slow=True, cpu=limit)
+        message, stop_time = (
+            f"more than {limit:.3g} s of processor time",
+            float(times[0] + reached_fraction * (times[-1] - times[0])),
+        )
+        return Attempt(setting, None, message, stop_time, slow=True, cpu=limit)
     except SolverError as error:
-        outside = bool(getattr(error, "outside_model", False))
-        first = str(error).partition("\n")[0]
-        return Attempt(setting, error.partial, first, error.time, False, outside, time.thread_time() - before)
+        outside_model = bool(getattr(error, "outside_model", False))
+        first_line = str(error).partition("\n")[0]
+        return Attempt(
+            setting, error.partial, first_line, error.time, False, outside_model, time.thread_time() - start_time
+        )
     if run.diagnostics.interrupted:
         raise KeyboardInterrupt
-    return Attempt(setting, run, cpu=time.thread_time() - before)
+    return Attempt(setting, run, cpu=time.thread_time() - start_time)
 
 
 def round_numbers(low: float, high: float) -> tuple[float, ...]:
-    """Return the numbers 1, 2, 5 · 10^k from low to high, both included, ascending."""
-    first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
-    every = (float(f"{mantissa}e{k}") for k in range(first, last + 1) for mantissa in (1, 2, 5))
-    return tuple(x for x in every if low * (1 - 1e-9) <= x <= high * (1 + 1e-9))
+    """Return the numbers 1, 2, 5 · 10^k from low to high (both positive, included to rounding), ascending."""
+    min_exponent, max_exponent = math.floor(math.log10(low)), math.ceil(math.log10(high))
+    candidates = (float(f"{mantissa}e{k}") for k in range(min_exponent, max_exponent + 1) for mantissa in (1, 2, 5))
+    return tuple(candidate for candidate in candidates if low * (1 - 1e-9) <= candidate <= high * (1 + 1e-9))
 
 
 def natural_step(simulation: Simulation, parameters: Parameters | None = None) -> float:
-    """Return the step (s) of a plain run: the scene's, or the default."""
+    """Return the step (s) of a plain run with these parameters: the one that the scene sets, or the default."""
     p = prepare(simulation.compiled, parameters)[0]
     return scene_step(simulation.compiled, p, scene_end(simulation.source, p))
 
 
 def window(simulation: Simulation, longest: float, setting: Setting, parameters: Parameters | None = None) -> Work:
-    """Return the work over the first few contacts, or over `longest` (s) if there are not so many.
+    """Return the scene with the time window over the first few contacts, or over `longest` (s) if there are not so
+    many.
 
-    Two runs of a scene with dry contacts differ by any amount once an error has passed through many contacts, however
-    small the step: errors are meaningful only over the first few. The window ends half-way between the fourth onset and
-    the next.
+    The window ends half-way between the fourth onset and the next, which pilot runs with `setting` over growing windows
+    find. After many contacts two runs of a scene with dry contacts differ by any amount, however small the step, so
+    that errors mean nothing there. A window never exceeds a plain run.
     """
     parameters = dict(parameters or {})
     longest = min(longest, plain_end(simulation.compiled, parameters))
-    for halvings in range(PILOTS, -1, -1) if simulation.source.clearances else ():
-        span = longest / 2**halvings
-        pilot = attempt(simulation, np.linspace(0.0, span, 3), setting, parameters)
+    for power in range(PILOTS, -1, -1) if simulation.source.clearances else ():
+        duration = longest / 2**power
+        pilot = attempt(simulation, np.linspace(0.0, duration, 3), setting, parameters)
         onsets = np.zeros(0) if pilot.run is None else np.sort(pilot.run.impacts["t_on"])
         if len(onsets) > ONSETS:
             end = float(onsets[ONSETS - 1] + onsets[ONSETS]) / 2
@@ -215,54 +237,74 @@ def window(simulation: Simulation, longest: float, setting: Setting, parameters:
 
 
 def difference(run: Result, reference: Result) -> Error:
-    """Return the largest differences of two runs.
+    """Return the largest differences of two runs in motion, journal path and joint force.
 
-    `reference` is sampled as often as `run`, or a whole number of times as often.
+    `reference` is sampled as often as `run`, or a whole number of times as often. If both end at the same time, peak
+    forces between samples count, too. All measures are NaN if a run has fewer than two samples; the path is NaN without
+    play, the force NaN without any force.
     """
     if len(run.t) < 2 or len(reference.t) < 2:
         return Error()
     motion, path, force = apart(run, reference)
-    highest = _peak_force(reference)
-    largest = float(force.max()) if highest > 0 else NAN
+    peak_force = _peak_force(reference)
+    largest_force = float(force.max()) if peak_force > 0 else NAN
     if abs(run.t[-1] - reference.t[-1]) < 0.5 * (run.t[1] - run.t[0]):  # the same window: peaks between samples too
-        for a, b in zip(run.diagnostics.peaks, reference.diagnostics.peaks, strict=True):
-            largest = max(largest, abs(a.F - b.F) / highest) if highest > 0 else largest
-    return Error(float(motion.max()), float(path.max()) if run.source.clearances else NAN, largest)
+        for peak, reference_peak in zip(run.diagnostics.peaks, reference.diagnostics.peaks, strict=True):
+            largest_force = (
+                max(largest_force, abs(peak.F - reference_peak.F) / peak_force) if peak_force > 0 else largest_force
+            )
+    return Error(float(motion.max()), float(path.max()) if run.source.clearances else NAN, largest_force)
 
 
 def apart(run: Result, reference: Result) -> tuple[Array, Array, Array]:
-    """Return the three measures of `Error` at every common sample, (N,) each, for the worst coordinate and joint; zero
-    where there is none.
+    """Return motion, path and force differences of `Error` at every common sample, (N,) each, for the worst coordinate
+    and joint.
+
+    `reference` may be sampled a whole number of times as often. Path is zero without play, force is zero without any
+    force.
     """
     stride = round((run.t[1] - run.t[0]) / (reference.t[1] - reference.t[0]))
     count = min(len(run.t), (len(reference.t) - 1) // stride + 1)
-    ours, theirs = slice(0, count), slice(0, (count - 1) * stride + 1, stride)
-    source, highest = run.source, _peak_force(reference)
+    run_slice, reference_slice = slice(0, count), slice(0, (count - 1) * stride + 1, stride)
+    source, peak_force = run.source, _peak_force(reference)
     scale = np.array([1.0 if name.endswith(".theta") else size(reference) for name in source.coordinates])
-    motion: Array = np.abs((run.q[ours] - reference.q[theirs]) / scale).max(axis=1)
+    motion: Array = np.abs((run.q[run_slice] - reference.q[reference_slice]) / scale).max(axis=1)
     path, force = np.zeros(count), np.zeros(count)
     for joint in source.clearances or source.joints:
-        force = np.maximum(force, _vector_difference(run, reference, f"{joint.name}.F", ours, theirs))
+        force = np.maximum(force, _vector_difference(run, reference, f"{joint.name}.F", run_slice, reference_slice))
     for clearance in source.clearances:
-        gap = _vector_difference(run, reference, f"{clearance.name}.e", ours, theirs)
-        path = np.maximum(path, gap / float(reference.p[clearance.clearance]))
-    return motion, path, force / highest if highest > 0 else np.zeros(count)
+        distance = _vector_difference(run, reference, f"{clearance.name}.e", run_slice, reference_slice)
+        path = np.maximum(path, distance / float(reference.p[clearance.clearance]))
+    return motion, path, force / peak_force if peak_force > 0 else np.zeros(count)
 
 
-def _vector_difference(run: Result, reference: Result, name: str, ours: slice, theirs: slice) -> Array:
-    """Return the distance of a joint's vector series in two runs, (N,)."""
-    return np.hypot(*(run[f"{name}{axis}"][ours] - reference[f"{name}{axis}"][theirs] for axis in "xy"))
+def _vector_difference(
+    run: Result, reference: Result, name: str, run_samples: slice, reference_samples: slice
+) -> Array:
+    """Return the length of the difference of a joint's vector series `name`x, `name`y in two runs, (N,).
+
+    run_samples, reference_samples: the samples of each run that are compared.
+    """
+    return np.hypot(
+        *(run[f"{name}{axis}"][run_samples] - reference[f"{name}{axis}"][reference_samples] for axis in "xy")
+    )
 
 
 def _peak_force(run: Result) -> float:
-    """Return the largest force of any joint, over samples and steps, N."""
+    """Return the largest force (N) of any joint in a run, over its samples and its recorded peaks; 0 without joints.
+
+    Joints with play are used if there are any, else all joints.
+    """
     joints = run.source.clearances or run.source.joints
-    samples = max((float(np.abs(run[f"{joint.name}.F"]).max()) for joint in joints), default=0.0)
-    return max([samples, *(peak.F for peak in run.diagnostics.peaks)])
+    sampled_peak = max((float(np.abs(run[f"{joint.name}.F"]).max()) for joint in joints), default=0.0)
+    return max([sampled_peak, *(peak.F for peak in run.diagnostics.peaks)])
 
 
 def size(run: Result) -> float:
-    """Return the mechanism's size, m, by which lengths and residuals are divided."""
+    """Return the size of the mechanism of a run, m, by which lengths and residuals are divided.
+
+    Raises GudgeonError for a result that was read from a file, which has no compiled scene.
+    """
     if run.compiled is None:
         raise GudgeonError("a result that was read from a file cannot be compared: run the scene again")
     return mechanism_size(run.compiled, run.p)

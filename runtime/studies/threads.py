@@ -17,24 +17,26 @@ class Pool(Generic[Piece, Found]):
     """Threads that process pieces of work; Ctrl-C ends all pieces at their next report and keeps finished ones."""
 
     def __init__(self, report: Report, count: int) -> None:
-        """Prepare for `count` pieces; `report` receives the mean progress."""
+        """Prepare a pool for `count` pieces of work; `report` receives the mean of their progress."""
         self.report, self.fractions, self.stop = report, [0.0] * count, threading.Event()
         self.lock = threading.Lock()
 
     def __enter__(self) -> Pool[Piece, Found]:
-        """Start the threads."""
+        """Start as many threads as there are cores, at most one for each piece."""
         self.executor = ThreadPoolExecutor(max(1, min(len(self.fractions), os.cpu_count() or 1)))
         return self
 
     def __exit__(self, *_: object) -> None:
-        """Stop all pieces and wait for the threads."""
+        """Request all running pieces to stop at their next report, cancel the waiting ones, and wait for them."""
         self.stop.set()
         self.executor.shutdown(wait=True, cancel_futures=True)
 
     def map(self, function: Callable[[Piece, Report], Found], pieces: Sequence[Piece]) -> list[Found | None]:
-        """Return `function(piece, tick)` of all pieces in order.
+        """Call `function(piece, report_progress)` for all pieces in threads, and return the results in the order of the
+        pieces.
 
-        After Ctrl-C the result of an unfinished piece is None. Raises KeyboardInterrupt if none is finished.
+        After Ctrl-C the result of an unfinished piece is None. Raises KeyboardInterrupt if none is finished, and any
+        error of a piece.
         """
         futures = [self.executor.submit(self._process_piece, function, piece, i) for i, piece in enumerate(pieces)]
         try:
@@ -43,35 +45,40 @@ class Pool(Generic[Piece, Found]):
         except KeyboardInterrupt:
             self.stop.set()
             self.executor.shutdown(wait=True, cancel_futures=True)
-            found = [_finished_result(future) for future in futures]
-            if all(piece is None for piece in found):
+            results = [_result_or_none(future) for future in futures]
+            if all(piece is None for piece in results):
                 raise
-            return found
+            return results
         return [future.result() for future in futures]
 
     def _process_piece(self, function: Callable[[Piece, Report], Found], piece: Piece, i: int) -> Found:
-        """Process piece i and report it as finished."""
-        tick = self._progress_of(i)
-        found = function(piece, tick)
-        tick(1.0, "")
-        return found
+        """Return the result of piece i in a worker thread, and report the piece as finished."""
+        report_progress = self._make_progress(i)
+        result = function(piece, report_progress)
+        report_progress(1.0, "")
+        return result
 
-    def _progress_of(self, i: int) -> Report:
-        """Return the progress function of piece i, which raises KeyboardInterrupt after Ctrl-C."""
+    def _make_progress(self, i: int) -> Report:
+        """Return the progress function of piece i, which raises KeyboardInterrupt in the piece after Ctrl-C."""
 
-        def tick(fraction: float, text: str) -> None:
-            """Report the mean progress of all pieces. Raises KeyboardInterrupt after Ctrl-C."""
+        def report_progress(fraction: float, text: str) -> None:
+            """Set the fraction of piece i and report the mean over all pieces; the text is not used.
+
+            Raises KeyboardInterrupt after Ctrl-C. Threads may call it at the same time.
+            """
             if self.stop.is_set():
                 raise KeyboardInterrupt
             with self.lock:
                 self.fractions[i] = fraction
                 self.report(sum(self.fractions) / len(self.fractions), "")
 
-        return tick
+        return report_progress
 
 
-def _finished_result(future: Future[Found]) -> Found | None:
-    """Return the result of an interrupted piece, None if it is not finished. Raises its error."""
+def _result_or_none(future: Future[Found]) -> Found | None:
+    """Return the result of a piece after Ctrl-C; None if it was cancelled or interrupted. Raises any other error of the
+    piece.
+    """
     if future.cancelled() or isinstance(future.exception(), KeyboardInterrupt):
         return None
     return future.result()

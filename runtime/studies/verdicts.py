@@ -57,7 +57,7 @@ STRICT = Limits(closed=1e-10, energy=1e-4, motion=1e-6, path=1e-3, force=1e-2)
 
 
 def limits_of(setting: Setting) -> Limits:
-    """Return the limits for a setting: those of fixed steps, or the stricter ones of a tolerance."""
+    """Return the default limits for a setting: those of fixed steps, or the stricter ones of a tolerance."""
     return Limits() if setting.fixed else STRICT
 
 
@@ -78,29 +78,32 @@ class Cell:
 
     @property
     def failed(self) -> bool:
-        """Whether the method caused the verdict."""
+        """Return whether the method, and not the model, caused a bad verdict: inaccurate or diverged."""
         return self.status in (Status.INACCURATE, Status.DIVERGED)
 
 
 def check_room(cells: float) -> None:
-    """Raise MemoryError if so many cells do not fit into memory."""
+    """Raise MemoryError if this number of cells does not fit into the free memory."""
     check_memory(OF_A_CELL * cells, f"{cells:.0f} cells")
 
 
 def not_judged(parameters: Parameters, setting: Setting) -> Cell:
-    """Return the cell of a run that Ctrl-C cut short or left out."""
+    """Return a cell with the status MISSING, for a run that Ctrl-C cut short or left out."""
     return Cell(setting, parameters, Status.MISSING, "interrupted", "–", Error())
 
 
 def judge(parameters: Parameters, long: Attempt, pairs: Sequence[Pair], limits: Limits | None = None) -> Cell:
-    """Return the verdict on a setting.
+    """Return the verdict on a setting: diverged, inaccurate, outside the model or stable, with the reason for the first
+    fault found.
 
-    `long`: the run over the long window. `pairs`: over short windows, a run with the same setting and one with a finer.
+    long: the run over the long window. pairs: over short windows, a run with the same setting and a finer one; failed
+    ones do not count for the error. limits: by default those of the setting. If the long run failed, the verdict is
+    "outside the model" if it says so with a tolerance, else "diverged".
     """
     limits = limits or limits_of(long.setting)
-    both = [(a.run, b.run) for a, b in pairs if a.run and b.run and not (a.failure or b.failure)]
-    error = largest_errors([difference(a, b) for a, b in both])
-    compared = max((float(min(a.t[-1], b.t[-1])) for a, b in both), default=NAN)
+    compared_runs = [(a.run, b.run) for a, b in pairs if a.run and b.run and not (a.failure or b.failure)]
+    error = largest_errors([difference(a, b) for a, b in compared_runs])
+    compared = max((float(min(a.t[-1], b.t[-1])) for a, b in compared_runs), default=NAN)
     cell = partial(Cell, long.setting, parameters, seconds=long.cpu, compared=compared)
     if long.failure or long.run is None:
         at = f"at {seconds(long.failed_at)}" if math.isfinite(long.failed_at) else "fails"
@@ -109,7 +112,7 @@ def judge(parameters: Parameters, long: Attempt, pairs: Sequence[Pair], limits: 
         return cell(status, long.failure or "no result", at, error)
     diagnostics = long.run.diagnostics
     energy = diagnostics.energy_residual / max(diagnostics.energy_turned_over, 1e-300)
-    deepest = max((d for d, _ in _penetrations(long.run)), default=NAN)
+    deepest = max((d for d, _ in _compute_penetrations(long.run)), default=NAN)
     for status, reason, label in _find_faults(long.run, energy, error, pairs, limits):
         return cell(status, reason, label, error, energy, deepest)
     return cell(Status.STABLE, "", rough_share(error.largest), error, energy, deepest)
@@ -118,8 +121,13 @@ def judge(parameters: Parameters, long: Attempt, pairs: Sequence[Pair], limits: 
 def _find_faults(
     run: Result, energy: float, error: Error, pairs: Sequence[Pair], limits: Limits
 ) -> Iterator[tuple[Status, str, str]]:
-    """Yield status, reason and label of each fault, the worst first."""
-    for depth, radius in _penetrations(run):
+    """Yield status, reason and label of each fault of a run, the worst first; a stable run yields nothing.
+
+    energy: residual over energy throughput. error: largest differences from the finer runs. pairs: runs over short
+    windows with the same and a finer setting. Of several errors beyond their limits, only the largest relative to its
+    limit is yielded.
+    """
+    for depth, radius in _compute_penetrations(run):
         if depth > limits.through * radius:
             yield Status.DIVERGED, f"a journal flew through its bearing: δ = {quantity(depth, 'm')}", "through"
     if not math.isfinite(energy) or energy > limits.lost:
@@ -129,10 +137,10 @@ def _find_faults(
     for coarse, _ in pairs:
         if coarse.failure:
             yield Status.DIVERGED, coarse.failure, f"at {seconds(coarse.failed_at)}"
-    if outside := _model_violation(run, limits):
+    if violation := _describe_model_violation(run, limits):
         if any(_is_outside_by_step(coarse, fine, limits) for coarse, fine in pairs):
-            yield Status.INACCURATE, f"too deep for the method's sake: {outside}, not so in the finer run", "δ"
-        yield Status.OUTSIDE, f"the contact law does not hold: {outside}", "δ"
+            yield Status.INACCURATE, f"too deep for the method's sake: {violation}, not so in the finer run", "δ"
+        yield Status.OUTSIDE, f"the contact law does not hold: {violation}", "δ"
     phi = run.diagnostics.phi_max
     if not phi <= min(limits.phi * size(run), limits.closed):
         yield Status.INACCURATE, f"the linkage comes apart: max |Φ| is {phi:.1e} m or rad", "|Φ|"
@@ -140,9 +148,9 @@ def _find_faults(
         if fine.failure:
             message = f"the finer run ({fine.setting}) fails, so nothing vouches for this one: {fine.failure}"
             yield Status.INACCURATE, message, "?"
-    beyond = [
-        (value / limit, f"{name} {share(value)} of {of}", f"{short} {share(value)}")
-        for short, name, value, limit, of in (
+    exceeded = [
+        (value / limit, f"{name} {share(value)} of {reference}", f"{short} {share(value)}")
+        for short, name, value, limit, reference in (
             ("energy", "energy residual", energy, limits.energy, "the energy turned over"),
             ("motion", "coordinates off by", error.motion, limits.motion, "the mechanism's size"),
             ("force", "joint force off by", error.force, limits.force, "its peak"),
@@ -150,29 +158,36 @@ def _find_faults(
         )
         if value > limit
     ]
-    if beyond:
-        yield Status.INACCURATE, *max(beyond)[1:]
+    if exceeded:
+        yield Status.INACCURATE, *max(exceeded)[1:]
 
 
 def largest_errors(errors: Sequence[Error]) -> Error:
-    """Return the largest of each measure of the errors; NaN for a measure that none has."""
+    """Return the largest motion, path and force error of several; NaN for a measure that is finite in none."""
     measures = ("motion", "path", "force")
-    found = ([getattr(e, m) for e in errors if math.isfinite(getattr(e, m))] for m in measures)
-    return Error(*(max(values, default=NAN) for values in found))
+    finite_values = ([getattr(e, m) for e in errors if math.isfinite(getattr(e, m))] for m in measures)
+    return Error(*(max(values, default=NAN) for values in finite_values))
 
 
-def _penetrations(run: Result) -> list[tuple[float, float]]:
-    """Return the largest δ (m; negative: never in contact) and the bearing radius of every joint with play."""
-    found = []
+def _compute_penetrations(run: Result) -> list[tuple[float, float]]:
+    """Return for each joint with play the largest penetration δ (m; negative: never in contact) and the bearing radius
+    (m).
+
+    The radius is infinite for a joint without one.
+    """
+    depths = []
     for joint, peak in zip(run.source.clearances, run.diagnostics.peaks, strict=True):
         radius = float(run.p[joint.constants["R_i"]]) if "R_i" in joint.constants else math.inf
-        found.append((peak.e_max - widest(run.source, run.p, joint), radius))
-    return found
+        depths.append((peak.e_max - widest(run.source, run.p, joint), radius))
+    return depths
 
 
-def _model_violation(run: Result, limits: Limits) -> str:
-    """Return why the contact law does not hold in a run; "" if it does."""
-    for joint, (depth, radius) in zip(run.source.clearances, _penetrations(run), strict=True):
+def _describe_model_violation(run: Result, limits: Limits) -> str:
+    """Return a text on the first joint whose penetration exceeds the validity of the contact law; "" if none does.
+
+    Limits are the fractions `half` of the clearance and `thin` of the bearing radius.
+    """
+    for joint, (depth, radius) in zip(run.source.clearances, _compute_penetrations(run), strict=True):
         c = float(run.p[joint.clearance])
         if depth > limits.half * c:
             return f"δ = {quantity(depth, 'm')} at {joint.name} is {share(depth / c)} of the clearance"
@@ -182,17 +197,19 @@ def _model_violation(run: Result, limits: Limits) -> str:
 
 
 def _is_outside_by_step(coarse: Attempt, fine: Attempt, limits: Limits) -> bool:
-    """Return whether only the coarse run of a pair leaves the model.
+    """Return whether only the coarse run of a pair leaves the validity of the contact law, so that the method is the
+    cause.
 
-    A fixed step that leaves it is always attributed to the method.
+    It is False if either run has no result or the finer run leaves the model, too. With a fixed step it is True
+    whenever the finer run stays within.
     """
-    if coarse.run is None or fine.run is None or _model_violation(fine.run, limits):
+    if coarse.run is None or fine.run is None or _describe_model_violation(fine.run, limits):
         return False
-    return coarse.setting.fixed or bool(_model_violation(coarse.run, limits))
+    return coarse.setting.fixed or bool(_describe_model_violation(coarse.run, limits))
 
 
 def _has_lost_contact(run: Result) -> bool:
-    """Return whether any sample overlaps by more than rounding while the joint counts as free."""
+    """Return whether any sample of a run has a penetration beyond rounding while the joint counts as open."""
     for i, joint in enumerate(run.source.clearances):
         c = float(run.p[joint.clearance])
         if bool(np.any((run[f"{joint.name}.delta"] > c * 1e-9) & (run.state[:, i] == 0))):

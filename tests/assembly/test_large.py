@@ -42,8 +42,10 @@ def squares(angle: float, n: int = N) -> Array:
 def test_rank_and_tied_rows_are_those_of_a_dense_decomposition(angle: float, least: float) -> None:
     matrix = squares(angle)
     assert matrix.shape[1] >= large.LARGE
-    assert rank.rank(matrix, least) == rank._rank(matrix, least) == len(matrix) - (N if angle == 0.0 else 0)
-    dense = rank._tied(matrix, least) > 1e-6
+    assert (
+        rank.rank(matrix, least) == rank._compute_rank_by_svd(matrix, least) == len(matrix) - (N if angle == 0.0 else 0)
+    )
+    dense = rank._compute_shares_by_svd(matrix, least) > 1e-6
     assert (rank.tied(matrix, least) > 1e-6).tolist() == dense.tolist()
     assert dense.any() == (angle == 0.0)
 

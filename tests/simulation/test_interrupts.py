@@ -177,7 +177,7 @@ def test_a_map_keeps_its_shape(one_thread: None, monkeypatch: pytest.MonkeyPatch
 
 def test_bench_keeps_its_rows(monkeypatch: pytest.MonkeyPatch) -> None:
     """The references, then two rows, then Ctrl-C."""
-    monkeypatch.setattr(benches, "_make_row", ctrl_c_at(3, benches._make_row))
+    monkeypatch.setattr(benches, "_measure_row", ctrl_c_at(3, benches._measure_row))
     pendulum = gudgeon.load(PENDULUM, scene="ideal")
     found = bench(pendulum, [1e-3, 2e-3, 5e-3], [1e-6], t_end=0.1, quick=True)
     assert [row.setting.value for row in found.rows] == [5e-3, 2e-3]
@@ -185,7 +185,7 @@ def test_bench_keeps_its_rows(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_bench_says_that_it_is_a_part(call: Gudgeon, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(benches, "_make_row", ctrl_c_at(3, benches._make_row))
+    monkeypatch.setattr(benches, "_measure_row", ctrl_c_at(3, benches._measure_row))
     done = call("bench", PENDULUM, "--scene", "ideal", "--quick")
     assert done.exit_code == 130, done.output
     assert "interrupted: what is shown and written is partial (ideal: 2 of" in done.stderr

@@ -327,7 +327,7 @@ BENCH = ("steps", "tolerances", "t_end", "parameters", "quick", "methods", "prog
 def test_bench(pendulum: Simulation, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """As far as the measuring itself, which takes its time."""
     found = bench.SceneBench("", 1.0, "", (), (), Error(), 0.0, ())
-    monkeypatch.setattr(bench, "_measure", lambda *_: found)
+    monkeypatch.setattr(bench, "_measure_settings", lambda *_: found)
     good: dict[str, Any] = {"t_end": 0.01, "quick": True}
     refused_or_used(lambda value: bench.bench(pendulum, **(good | {name: value})))
 

@@ -201,14 +201,14 @@ def test_what_has_no_number_stands_in_no_legend_and_zeros_have_no_map(crank: gud
     """The ideal scene has no force in a pin with play, and deviates from itself by nothing."""
     pytest.importorskip("matplotlib")
     from gudgeon.studies.show.study_data import StudyData
-    from gudgeon.studies.show.study_page import _measure_figures
+    from gudgeon.studies.show.study_page import _iterate_measure_figures
 
     plot: Any = crank.plot
     for ax, message in ((plot.measure("force", "c"), ["loose"]), (plot.measure("x", "c"), ["ideal", "loose"])):
         assert [word.get_text() for word in ax.get_legend().get_texts()] == message
     maps = [
         message
-        for message, _ in _measure_figures(StudyData(crank))
+        for message, _ in _iterate_measure_figures(StudyData(crank))
         if message.startswith(("x:", "least:")) and "quart" not in message
     ]
     assert sorted(maps) == ["least: median, loose", "x: median, loose"]

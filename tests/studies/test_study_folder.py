@@ -107,7 +107,7 @@ def test_a_kill_as_the_dataset_is_written(tmp_path: Path, quiet: xr.Dataset, mon
         os.kill(os.getpid(), signal.SIGKILL)
 
     with monkeypatch.context() as patch:
-        patch.setattr("gudgeon.studies.ensemble.final._fill_variables", kill)
+        patch.setattr("gudgeon.studies.ensemble.final._write_values", kill)
         assert killed(lambda: gudgeon.study(STUDY, tmp_path)) == -signal.SIGKILL
     assert list(tmp_path.glob(".gudgeon-*.part"))
     xr.testing.assert_identical(gudgeon.study(STUDY, tmp_path).dataset, quiet)

@@ -94,33 +94,35 @@ class Block:
 
     @property
     def nbytes(self) -> int:
-        """Memory of the arrays, bytes."""
+        """Return the memory of all arrays of the block, bytes."""
         return sum(array.nbytes for array in (self.t_last, self.t, *self.measures.values(), *self.series.values()))
 
 
 def run_block(job: Job, progress: Progress | None = None, simulation: Simulation | None = None) -> Block:
-    """Run the runs of a job, measure them and return the results; without a simulation load it.
+    """Run all runs of a job, measure them, and return the results as a Block.
 
+    simulation: the loaded scene; None loads its library, as worker processes do. Runs with invalid parameters get their
+    reason and no results. If the whole batch is refused, the runs are simulated one by one to find the invalid one.
     Raises KeyboardInterrupt if Ctrl-C ended a run.
     """
     simulation = simulation or load_library(job.mechanism, job.scene, job.overrides, job.sha256)
     table = Table(simulation, job)
     failures = [table.bad.get(i, "") for i in range(job.n)]
-    good = np.array([i for i in range(job.n) if i not in table.bad], dtype=int)
-    found = _Collector(job, table)
-    with collect_guess_notes(simulation.source, job.first) as off, followed_by(job.later):
+    valid_runs = np.array([i for i in range(job.n) if i not in table.bad], dtype=int)
+    collector = _Collector(job, table)
+    with collect_guess_notes(simulation.source, job.first) as guess_notes, followed_by(job.later):
         try:
-            if len(good):
-                found.take(good, _run_batch(simulation, job, table, good, progress), failures)
+            if len(valid_runs):
+                collector.take(valid_runs, _run_batch(simulation, job, table, valid_runs, progress), failures)
         except InputError:  # usually of one run; run by run it is found
-            for i in good:
+            for i in valid_runs:
                 try:
-                    found.take(np.array([i]), _run_batch(simulation, job, table, np.array([i]), None), failures)
+                    collector.take(np.array([i]), _run_batch(simulation, job, table, np.array([i]), None), failures)
                 except InputError as error:
                     failures[i] = str(error)
-    found.notes.append(off)
-    found.add(follow(simulation, job, table, found.t_last, failures, progress), failures)
-    return found.block(failures)
+    collector.notes.append(guess_notes)
+    collector.add(follow(simulation, job, table, collector.t_last, failures, progress), failures)
+    return collector.block(failures)
 
 
 class Table:
@@ -129,18 +131,21 @@ class Table:
     """
 
     def __init__(self, simulation: Simulation, job: Job) -> None:
-        """Evaluate the parameters and settings of all runs of a job."""
+        """Evaluate parameters, end time, output, step and windows of all runs of a job.
+
+        Invalid values do not raise: `bad` maps the index of such a run to the reason.
+        """
         self.source, self.compiled, expected = simulation.source, simulation.compiled, job.expected
         self.bad: dict[int, str] = {}
-        self.columns = {key: own for name, own in job.columns.items() if (key := key_of(self.source, name))}
-        self.p, errors = self._prepare_parameters(job.n)
-        if off := self._perturbed_parameters(job):
-            self.columns |= off
-            self.p, errors = self._prepare_parameters(job.n)
+        self.columns = {key: values for name, values in job.columns.items() if (key := key_of(self.source, name))}
+        self.p, errors = self._fill_parameter_table(job.n)
+        if perturbed_columns := self._perturbed_parameters(job):
+            self.columns |= perturbed_columns
+            self.p, errors = self._fill_parameter_table(job.n)
         self.bad |= {i: str(error) for i, error in errors.items() if i not in self.bad}
-        self.t_end = self._end_times(expected.t_end)
+        self.t_end = self._evaluate_end_times(expected.t_end)
         known = {"t_end": self.t_end}
-        self.output = self._output_counts(expected.output, known)
+        self.output = self._evaluate_output_counts(expected.output, known)
         self.step: Array | None = None
         if expected.step is not None and self.source.degrees_of_freedom:
             self.step = evaluate_for_runs(self.source, expected.step, self.p, known)
@@ -148,21 +153,27 @@ class Table:
         self.spans = self._evaluate_windows(expected.windows, known)
 
     def _perturbed_parameters(self, job: Job) -> dict[str, Array]:
-        """Return the parameters of perturbed starts by address: p (1 + relative) + absolute, (n,) each."""
-        place, found = {slot.address: k for k, slot in enumerate(self.source.slots)}, dict[str, Array]()
+        """Return the parameters of perturbed starts by address: p (1 + relative) + absolute, (n,) each.
+
+        Parameters that the scene lacks are left out; the result is empty for a job without deviations.
+        """
+        index_of_address, parameters = {slot.address: k for k, slot in enumerate(self.source.slots)}, dict[str, Array]()
         for name in dict.fromkeys((*job.relative, *job.absolute)):
             if (slot := slot_of(self.source, name)) is None:
                 continue
-            base, key, zero = self.p[:, place[slot.address]], key_of(self.source, name), np.zeros(job.n)
+            base, key, zero = self.p[:, index_of_address[slot.address]], key_of(self.source, name), np.zeros(job.n)
             deviation = base * job.relative.get(name, zero) + job.absolute.get(name, zero)
-            found[key] = found.get(key, base) + deviation  # another ensemble may spell it otherwise
-        return found
+            parameters[key] = parameters.get(key, base) + deviation  # another ensemble may spell it otherwise
+        return parameters
 
-    def _prepare_parameters(self, n: int) -> tuple[Array, Mapping[int, GudgeonError]]:
-        """Return p of all runs and the errors by run; a value that is not finite is left out, and its run is bad."""
+    def _fill_parameter_table(self, n: int) -> tuple[Array, Mapping[int, GudgeonError]]:
+        """Return the parameter vectors p of all runs, (n, n_p), and the errors of invalid ones by run.
+
+        A value that is not finite is replaced by the default, and its run is entered in `bad`.
+        """
         rows: list[dict[str, float | str]] = [{} for _ in range(n)]
-        for name, own in self.columns.items():
-            for i, value in enumerate(map(_as_python_value, own)):
+        for name, column in self.columns.items():
+            for i, value in enumerate(map(_to_python_value, column)):
                 if isinstance(value, str) or math.isfinite(value):
                     rows[i][name] = value
                 else:
@@ -171,74 +182,102 @@ class Table:
         p, _, errors = prepare_sets(self.compiled, given, is_given, False)
         return p, errors
 
-    def _evaluate_windows(self, windows: Mapping[str, tuple[Expr | None, ...]], known: Mapping[str, Array]) -> Spans:
-        """Return begin and end of each run's windows; a window outside its run makes the run bad."""
+    def _evaluate_windows(
+        self, windows: Mapping[str, tuple[Expr | None, ...]], known_values: Mapping[str, Array]
+    ) -> Spans:
+        """Return begin and end of each window, (n,) s each; None for an end that the study leaves open.
+
+        known_values: names besides parameters in the expressions, such as t_end. A run that does not contain its window
+        is entered in `bad`.
+        """
         found: dict[str, tuple[Array | None, ...]] = {}
         for name, ends in windows.items():
-            own = [None if expr is None else evaluate_for_runs(self.source, expr, self.p, known) for expr in ends]
-            limits = zip(own, (np.zeros_like(self.t_end), self.t_end), strict=True)
+            ends_of_runs = [
+                None if expr is None else evaluate_for_runs(self.source, expr, self.p, known_values) for expr in ends
+            ]
+            limits = zip(ends_of_runs, (np.zeros_like(self.t_end), self.t_end), strict=True)
             begin, end = (limit if x is None else x for x, limit in limits)
             is_valid = (begin <= end) & (begin <= self.t_end * (1 + ROUNDING)) & (end >= 0.0)
             for i in np.flatnonzero(~is_valid).tolist():
                 message = f"window {name} goes from {begin[i]:g} s to {end[i]:g} s with this run's numbers"
                 self.bad.setdefault(i, f"{message}: expected a part of the run, to {self.t_end[i]:g} s")
-            found[name] = tuple(own)
+            found[name] = tuple(ends_of_runs)
         return found
 
     def _mark_impossible(self, name: str, values: Array) -> None:
-        """Mark the runs whose values are not possible as bad."""
-        wrong, expected = find_impossible(name, values)
-        for i in np.flatnonzero(wrong).tolist():
+        """Enter the runs with an impossible value of `name` (t_end, output or step) in `bad`, with value and
+        expectation.
+
+        Runs that are entered already keep their first reason.
+        """
+        is_impossible, expected = find_impossible(name, values)
+        for i in np.flatnonzero(is_impossible).tolist():
             self.bad.setdefault(i, f"{name} is {values[i]:g} with this run's numbers: expected {expected}")
 
-    def _end_times(self, expr: Expr | None) -> Array:
-        """Return the end time of each run, (n,), s."""
+    def _evaluate_end_times(self, expr: Expr | None) -> Array:
+        """Return the end time of each run, (n,) s, from the study's expression, or from the scene if `expr` is None.
+
+        Runs with an impossible end are entered in `bad`.
+        """
         if expr is not None:
             found = evaluate_for_runs(self.source, expr, self.p, {})
             self._mark_impossible("t_end", found)
             return found
-        return self._from_scene(lambda p: scene_end(self.source, p))
+        return self._evaluate_for_each_run(lambda p: scene_end(self.source, p))
 
-    def _output_counts(self, expr: Expr | None, more: Mapping[str, Array]) -> Array:
-        """Return the number of output intervals of each run, (n,); an expression is rounded to a whole number."""
+    def _evaluate_output_counts(self, expr: Expr | None, known_values: Mapping[str, Array]) -> Array:
+        """Return the number of output intervals of each run, (n,), as floats with integer values.
+
+        expr: expression of the study, rounded; None takes the scene's number. known_values: names besides parameters.
+        Runs with an impossible number are entered in `bad`.
+        """
         if expr is None:
-            return self._from_scene(lambda p: scene_number(self.source, "output", p, DEFAULT_OUTPUT))
-        found = np.rint(evaluate_for_runs(self.source, expr, self.p, more))
-        self._mark_impossible("output", found)
-        return found
+            return self._evaluate_for_each_run(lambda p: scene_number(self.source, "output", p, DEFAULT_OUTPUT))
+        counts = np.rint(evaluate_for_runs(self.source, expr, self.p, known_values))
+        self._mark_impossible("output", counts)
+        return counts
 
-    def _from_scene(self, value: Any) -> Array:
-        """Return a value that the scene determines from p for each run, (n,); an error makes the run bad."""
-        found = np.full(len(self.p), np.nan)
+    def _evaluate_for_each_run(self, compute: Any) -> Array:
+        """Return `compute(p)` for the parameter vector of each run, (n,); NaN for runs in `bad`.
+
+        A BadValueError of a run enters it in `bad`.
+        """
+        values = np.full(len(self.p), np.nan)
         for i in range(len(self.p)):
             try:
                 if i not in self.bad:
-                    found[i] = value(self.p[i])
+                    values[i] = compute(self.p[i])
             except BadValueError as error:
                 self.bad[i] = str(error)
-        return found
+        return values
 
 
-def _as_python_value(value: Any) -> float | str:
-    """Return a Python float or text from an entry of an array."""
+def _to_python_value(value: Any) -> float | str:
+    """Return an entry of an array as a Python float, or unchanged if it is a text."""
     return value if isinstance(value, str) else float(value)
 
 
 def _run_batch(simulation: Simulation, job: Job, table: Table, runs: Array, progress: Progress | None) -> Batch:
-    """Run some runs of a job and return their batch."""
+    """Simulate some runs of a job as one batch, after its rounds of wear, and return the batch.
+
+    runs: indices within the job. If no measure needs whole runs, only samples within the windows are stored. Raises
+    KeyboardInterrupt if Ctrl-C ended a run, InputError for invalid parameters.
+    """
     expected, ends, counts = job.expected, table.t_end[runs], table.output[runs].astype(int)
     spans = None if expected.keep else sampled_interval(expected.measures, table.spans, runs)
     same_times = spans is None and len(set(counts.tolist())) == 1
     output: Any = int(counts[0])
     if not same_times:
         output = [np.linspace(0.0, end, k + 1) for end, k in zip(ends, counts, strict=True)]
-        output = output if spans is None else [_times_to_store(t, *own) for t, *own in zip(output, *spans, strict=True)]
+        output = (
+            output if spans is None else [_select_stored_times(t, *own) for t, *own in zip(output, *spans, strict=True)]
+        )
     same_end = len(set(ends.tolist())) == 1
     t_end: Any = None if not same_times else float(ends[0]) if same_end else ends
-    parameters: Any = {name: list(map(_as_python_value, values[runs])) for name, values in table.columns.items()}
+    parameters: Any = {name: list(map(_to_python_value, values[runs])) for name, values in table.columns.items()}
     source, step = simulation.source, None if table.step is None else table.step[runs]
     origin, sliding = origin_over_steps(expected.measures, source), sliding_requests_of(expected.measures, source)
-    common: dict[str, Any] = {
+    options: dict[str, Any] = {
         "method": method_in(source, expected.method),
         "rtol": expected.rtol if source.degrees_of_freedom else None,
         "step": step,
@@ -246,12 +285,12 @@ def _run_batch(simulation: Simulation, job: Job, table: Table, runs: Array, prog
         "stop": expected.stop,
     }
     parameters = parameters or [{}] * len(runs)
-    contour, progress = run_wear_rounds(simulation, expected.wear, expected.rounds, parameters, ends, common, progress)
+    contour, progress = run_wear_rounds(simulation, expected.wear, expected.rounds, parameters, ends, options, progress)
     batch = simulation.simulate_many(
         parameters,
         t_end,
         output=output,
-        **common,
+        **options,
         progress=progress,
         contour=contour,
         keep=series_of(expected.measures, expected.keep, source),
@@ -263,16 +302,16 @@ def _run_batch(simulation: Simulation, job: Job, table: Table, runs: Array, prog
     return batch
 
 
-def _times_to_store(t: Array, begin: float, end: float) -> Array:
-    """Return the sample times within [begin, end], and the start and end of the run."""
+def _select_stored_times(t: Array, begin: float, end: float) -> Array:
+    """Return the sample times t (s) that are stored: those within [begin, end], and the start and end of the run."""
     return t[(t == 0.0) | (t == t[-1]) | is_within(t, begin, end)]
 
 
 class _Collector:
-    """Collector of measures and series of the runs of a job; NaN for runs without results so far."""
+    """Collector of measures and series of the runs of a job; runs without results have NaN."""
 
     def __init__(self, job: Job, table: Table) -> None:
-        """Create empty measures for all runs of a job."""
+        """Create NaN measures and end times for all runs of a job."""
         self.job, self.table, n = job, table, job.n
         self.measures = {one.name: np.full(n, np.nan) for one in job.expected.measures}
         self.t_last = np.full(n, np.nan)
@@ -280,7 +319,11 @@ class _Collector:
         self.notes: list[Mapping[str, Note]] = []
 
     def take(self, runs: Array, batch: Batch, failures: list[str]) -> None:
-        """Add the measures and series of a batch of these runs; of a failed run only its end."""
+        """Add the measures, end times, notes and series of a batch.
+
+        runs: indices of the batch's runs within the job. Reasons of failed runs are entered in `failures`; their
+        measures stay NaN, their end times are added.
+        """
         spans: Spans = {
             name: tuple(None if end is None else end[runs] for end in ends) for name, ends in self.table.spans.items()
         }
@@ -288,23 +331,26 @@ class _Collector:
         for i, message in failed.items():
             failures[runs[i]] = message
         origins = origin_series(self.job, self.table, runs, batch, failures)
-        good = np.array([not failures[i] for i in runs])
+        is_valid = np.array([not failures[i] for i in runs])
         for one in self.job.expected.measures:
-            self.measures[one.name][runs] = np.where(good, measure_runs(batch, one, spans, origins), np.nan)
-        begun = np.asarray(batch.samples) > 0
-        self.t_last[runs] = np.where(begun, batch.t_last, np.nan)
-        noted = batch.result.notes()
-        self.notes.append(gathered((self.job.first + int(runs[i]), noted[i]) for i in sorted(noted)))
+            self.measures[one.name][runs] = np.where(is_valid, measure_runs(batch, one, spans, origins), np.nan)
+        has_begun = np.asarray(batch.samples) > 0
+        self.t_last[runs] = np.where(has_begun, batch.t_last, np.nan)
+        notes_by_run = batch.result.notes()
+        self.notes.append(gathered((self.job.first + int(runs[i]), notes_by_run[i]) for i in sorted(notes_by_run)))
         if self.job.expected.keep:
             self.kept.append((runs, batch.t, batch.kept))  # the batch itself holds what C has stored
 
     def add(self, values: Mapping[str, Array], failures: list[str]) -> None:
-        """Add further measures of all runs, and set those of failed runs to NaN."""
+        """Add further measures of all runs, (n,) by name, and set all measures of failed runs to NaN."""
         for name, own in (self.measures | dict(values)).items():
             self.measures[name] = np.where([not message for message in failures], own, np.nan)
 
     def block(self, failures: list[str]) -> Block:
-        """Return the collected results as a Block."""
+        """Return the collected results as a Block, with one axis of times if all runs that began share it.
+
+        Series of shorter runs are padded with NaN.
+        """
         job, keep = self.job, self.job.expected.keep
         N = max((requested.shape[-1] for _, requested, _ in self.kept), default=0)
         t = np.full((job.n, N), np.nan)
@@ -324,13 +370,19 @@ class _Collector:
 
 
 def resolve_wear(wear: WearRounds, sources: Sequence[KernelSource]) -> Wearing:
-    """Return the wear model of a study. Raises InputError for bad values, and for a joint without a contour in any
-    scene.
+    """Return the wear model of a study, with the wear rate from k and hardness in SI.
+
+    sources: all scenes of the study. Raises UnknownNameError for a joint without a contour in any scene, InputError for
+    invalid values, each at its location.
     """
-    able = {one.joint for source in sources for one in source.contours}
+    joints_with_contour = {one.joint for source in sources for one in source.contours}
     for joint in wear.joints:
-        if joint not in able:
-            hint = f"joints with one: {', '.join(sorted(able))}" if able else "contour: 128 in the play of a scene"
+        if joint not in joints_with_contour:
+            hint = (
+                f"joints with one: {', '.join(sorted(joints_with_contour))}"
+                if joints_with_contour
+                else "contour: 128 in the play of a scene"
+            )
             raise UnknownNameError(f"wear.joints: no scene has a contour at {joint}", joint.where, hint)
     try:
         rate = rate_of(wear.k, wear.hardness, "wear.k", "wear.hardness")
@@ -344,21 +396,24 @@ def resolve_wear(wear: WearRounds, sources: Sequence[KernelSource]) -> Wearing:
 
 def run_wear_rounds(
     simulation: Simulation,
-    wearing: Wearing | None,
+    wear: Wearing | None,
     rounds: int,
     parameters: Any,
     ends: Array,
-    common: dict[str, Any],
+    options: dict[str, Any],
     progress: Progress | None,
 ) -> tuple[dict[str, Array], Progress | None]:
-    """Run the rounds of wear; return the contours by joint, and the progress function for the measured runs.
+    """Run the rounds of wear; return the worn contours by joint, and the progress function for the measured runs.
 
-    There are no contours if no joint of the scene wears. Each round takes an equal part of the progress.
+    wear: None, or no joint of the scene with a contour, returns no contours and `progress` itself. parameters, ends
+    (s): of each run. options: further arguments of `simulate_many`. Each round takes an equal part of the progress.
     """
-    able = {one.joint for one in simulation.source.contours}
-    if wearing is None or not able.intersection(wearing.joints):
+    joints_with_contour = {one.joint for one in simulation.source.contours}
+    if wear is None or not joints_with_contour.intersection(wear.joints):
         return {}, progress
-    loop = Loop(simulation, replace(wearing, joints=tuple(joint for joint in wearing.joints if joint in able)), {})
+    loop = Loop(
+        simulation, replace(wear, joints=tuple(joint for joint in wear.joints if joint in joints_with_contour)), {}
+    )
     for k in range(rounds):
-        loop.round(parameters, ends, progress=share(progress, k, rounds + 1), **common)
+        loop.round(parameters, ends, progress=share(progress, k, rounds + 1), **options)
     return loop.given, share(progress, rounds, rounds + 1)

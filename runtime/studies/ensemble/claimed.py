@@ -49,27 +49,33 @@ class Claimed(NamedTuple):
     source: str
 
     def totals(self) -> list[str]:
-        """Return lines with the number of trends by verdict, for each heading, and with the deviation of printed
+        """Return lines of text: the numbers of trends by verdict for each heading, then the deviation from printed
         numbers.
+
+        A claim counts once, whatever the number of its ensembles. Without printed numbers the last line is left out.
         """
-        message = []
-        each = self.trends.drop_duplicates("claim") if len(self.trends) else self.trends
-        headings = list(each["heading"]) if "heading" in each else [UNNAMED] * len(each)
+        text_lines = []
+        trends_by_claim = self.trends.drop_duplicates("claim") if len(self.trends) else self.trends
+        headings = (
+            list(trends_by_claim["heading"]) if "heading" in trends_by_claim else [UNNAMED] * len(trends_by_claim)
+        )
         for heading in dict.fromkeys(headings):
-            counts = Counter(each["verdict"][[one == heading for one in headings]])
+            counts = Counter(trends_by_claim["verdict"][[one == heading for one in headings]])
             found = ((counts[one], one, many) for one, many in VERDICTS.items() if counts[one])
             words = (f"{count} {many if count > 1 else one}" for count, one, many in found)
             of = f" of “{heading}”" if heading else ""
-            message.append(f"{counted(counts.total(), 'trend')}{of}: {', '.join(words)}")
+            text_lines.append(f"{counted(counts.total(), 'trend')}{of}: {', '.join(words)}")
         printed = self.numbers[self.numbers["printed"].notna()] if len(self.numbers) else self.numbers
         if len(printed):
-            message.append(_deviation_text(printed))
-        return message
+            text_lines.append(_describe_deviations(printed))
+        return text_lines
 
 
-def _deviation_text(printed: pandas.DataFrame) -> str:
-    """Return a sentence on the deviation from printed numbers, of those that were computed; a printed 0 has no relative
-    deviation.
+def _describe_deviations(printed: pandas.DataFrame) -> str:
+    """Return a sentence on how far the computed medians deviate from the printed numbers.
+
+    printed: rows of the table of numbers that have a printed value. A printed 0 has no relative deviation; a claim with
+    several ensembles counts by the median of theirs.
     """
     each = printed.groupby("claim")
     off = printed["deviation"].abs().groupby(printed["claim"]).median().dropna()
@@ -85,36 +91,40 @@ def _deviation_text(printed: pandas.DataFrame) -> str:
     return f"{of}: {sentence}"
 
 
-def write_claims(folder: Path, plans: Plans, known: Known, study: Study) -> None:
-    """Judge all claims by the finished runs and write the tables; without claims remove them. Raises OutputError."""
-    if not (known.numbers or known.trends):
+def write_claims(folder: Path, plans: Plans, claims: Known, study: Study) -> None:
+    """Judge all claims by the finished runs, and write them as claims.json and as two CSV files into the study's
+    folder.
+
+    A study without claims has such files of an earlier version removed. Raises OutputError.
+    """
+    if not (claims.numbers or claims.trends):
         for name in (FILE, *(f"claims_{table}.csv" for table in TABLES)):
             (folder / name).unlink(missing_ok=True)
         return
     runs = _FinishedRuns(plans, study, names_of(plans).values)
-    cells = {str(one.claim.name): one.cell for one in known.numbers}
+    cells = {str(one.claim.name): one.cell for one in claims.numbers}
     rows = {
-        "numbers": [row for one in known.numbers for row in _number_rows(one, runs, cells)],
-        "trends": [row for one in known.trends for row in _trend_rows(one, runs)],
+        "numbers": [row for one in claims.numbers for row in _judge_number(one, runs, cells)],
+        "trends": [row for one in claims.trends for row in _judge_trend(one, runs)],
     }
     with written(folder / FILE) as file:
         file.write(json.dumps({"source": plans.file.claims.source} | rows, indent=1).encode())
-    for name, table in zip(TABLES, _tables(rows), strict=True):
+    for name, table in zip(TABLES, _build_tables(rows), strict=True):
         with written(folder / f"claims_{name}.csv") as file:
             file.write(table.map(in_spreadsheet).to_csv(index=False).encode())
 
 
 def read_claims_of(folder: Path) -> Claimed:
-    """Return the tables that write_claims wrote. Raises GudgeonError if there are none."""
+    """Return the judged claims from the folder of a study. Raises GudgeonError if the study makes no claims."""
     document = claims_json(folder)
     if document is None:
         raise GudgeonError("the file of this study makes no claims")
-    numbers, trends = _tables(document)
+    numbers, trends = _build_tables(document)
     return Claimed(numbers, trends, str(document.get("source", "")))
 
 
 def claims_json(folder: Path) -> dict[str, Any] | None:
-    """Return the JSON document of a folder; None if its study makes no claims."""
+    """Return the contents of claims.json in a folder; None if the file is missing, damaged, or without both tables."""
     try:
         data = read_regular(folder / FILE)
         found = None if data is None else json.loads(data)
@@ -123,8 +133,11 @@ def claims_json(folder: Path) -> dict[str, Any] | None:
     return found if isinstance(found, dict) and all(isinstance(found.get(name), list) for name in TABLES) else None
 
 
-def _tables(rows: Mapping[str, Any]) -> list[pandas.DataFrame]:
-    """Return the two tables from rows of JSON."""
+def _build_tables(rows: Mapping[str, Any]) -> list[pandas.DataFrame]:
+    """Return the tables of numbers and of trends from their rows, with null as NaN in columns of floats.
+
+    rows: {"numbers": [...], "trends": [...]}.
+    """
     import pandas
 
     found = [pandas.DataFrame(rows[name]) for name in TABLES]
@@ -140,92 +153,113 @@ def _tables(rows: Mapping[str, Any]) -> list[pandas.DataFrame]:
 class _FinishedRuns:
     """Measures of a study's runs by cell and ensemble."""
 
-    def __init__(self, plans: Plans, study: Study, written: Mapping[str, Mapping[str, tuple[str, ...]]]) -> None:
-        """Store plans, finished study and values as written in the file."""
-        self.plans, self.study, self.written = plans, study, written
-        self.held: dict[tuple[str, str], Array] = {}
+    def __init__(self, plans: Plans, study: Study, value_texts: Mapping[str, Mapping[str, tuple[str, ...]]]) -> None:
+        """Store plans, finished study, and the texts of coordinate values as the file writes them, {part: {name:
+        texts}}.
+        """
+        self.plans, self.study, self.written = plans, study, value_texts
+        self.cached_values: dict[tuple[str, str], Array] = {}
 
     def ensembles(self, cells: list[Cell]) -> list[str]:
-        """Return the names of the ensembles that any of these cells has, or [UNNAMED]."""
-        names = [name for part in dict.fromkeys(cell.part for cell in cells) for name in self._named(part)]
+        """Return the names of the ensembles of the parts of these cells, without repetitions; [UNNAMED] if there are
+        none.
+        """
+        names = [name for part in dict.fromkeys(cell.part for cell in cells) for name in self._ensemble_names(part)]
         return list(dict.fromkeys(names)) or [UNNAMED]
 
-    def own(self, cell: Cell, ensembles: list[str]) -> bool:
-        """Return whether a cell has separate runs for each of these ensembles."""
-        return len(ensembles) < 2 or set(ensembles) <= set(self._named(cell.part))
+    def has_separate_runs(self, cell: Cell, ensembles: list[str]) -> bool:
+        """Return whether a cell has runs of its own in each of these ensembles, or there is only one ensemble."""
+        return len(ensembles) < 2 or set(ensembles) <= set(self._ensemble_names(cell.part))
 
-    def _named(self, part: str) -> list[str]:
-        """Return the names of the ensembles of a part."""
+    def _ensemble_names(self, part: str) -> list[str]:
+        """Return the names of the ensembles along the dimension `ensemble` of a part; empty if it has none."""
         plan = self.plans.each[part]
         return [str(name) for one in plan.coordinates if one.name == "ensemble" for name in one.values]
 
     def values(self, cell: Cell, measure: str, ensemble: str) -> Array:
-        """Return a measure of the runs of a cell in an ensemble, (n,); without this ensemble, of all its runs."""
+        """Return a measure of the runs of a cell in an ensemble, (n,).
+
+        If the cell does not have this ensemble, all its runs are returned. The array of the part is read once and
+        cached.
+        """
         plan, key = self.plans.each[cell.part], (cell.part, measure)
-        if key not in self.held:
+        if key not in self.cached_values:
             own = self.study.parts[cell.part] if self.plans.named else self.study
-            self.held[key] = np.asarray(own.dataset[measure].transpose(*plan.dims).values, dtype=float)
-        found = self.held[key][cell.index]
-        named = self._named(cell.part)
+            self.cached_values[key] = np.asarray(own.dataset[measure].transpose(*plan.dims).values, dtype=float)
+        found = self.cached_values[key][cell.index]
+        named = self._ensemble_names(cell.part)
         if named and ensemble in named:
             return np.asarray(found[named.index(ensemble)])
         return np.asarray(found).ravel()
 
 
-def _number_rows(known: KnownNumber, runs: _FinishedRuns, cells: Mapping[str, Cell]) -> Iterator[dict[str, Any]]:
-    """Yield the row of a published number for each ensemble."""
-    claim = known.claim
-    for ensemble in runs.ensembles([known.cell]):
-        values = runs.values(known.cell, str(claim.measure), ensemble)
+def _judge_number(number: KnownNumber, runs: _FinishedRuns, cells: Mapping[str, Cell]) -> Iterator[dict[str, Any]]:
+    """Yield the table row of a published number for each ensemble: quartiles of its runs, and the deviation in %.
+
+    cells: cells of all numbers by the name of their claim. The deviation is from the printed value, or from the median
+    of the number in `beside`; null without runs or for a base of 0.
+    """
+    claim = number.claim
+    for ensemble in runs.ensembles([number.cell]):
+        values = runs.values(number.cell, str(claim.measure), ensemble)
         own = values[np.isfinite(values)]
         quartiles = np.quantile(own, [0.25, 0.5, 0.75]) if len(own) else np.full(3, np.nan)
-        base = known.printed
+        base = number.printed
         if claim.beside is not None:
             others = runs.values(cells[claim.beside], str(claim.measure), ensemble)
             base = float(np.median(others[np.isfinite(others)])) if np.isfinite(others).any() else math.nan
-        off = 100.0 * (quartiles[1] / base - 1.0) if base else math.nan
-        plan = runs.plans.each[known.cell.part]
+        deviation = 100.0 * (quartiles[1] / base - 1.0) if base else math.nan
+        plan = runs.plans.each[number.cell.part]
         yield {
             "claim": str(claim.name),
             "figure": claim.figure,
             "says": claim.says,
-            "part": known.cell.part,
-            "at": _describe_cell(plan, known, runs.written[known.cell.part]),
-            "place": json.dumps(dict(zip(_cell_dimensions(plan), known.cell.index, strict=True))),
+            "part": number.cell.part,
+            "at": _describe_cell(plan, number, runs.written[number.cell.part]),
+            "place": json.dumps(dict(zip(_list_cell_dimensions(plan), number.cell.index, strict=True))),
             "measure": str(claim.measure),
-            "unit": known.unit,
-            "printed": _finite_or_none(known.printed),
+            "unit": number.unit,
+            "printed": _finite_or_none(number.printed),
             "ensemble": ensemble,
             "n": len(own),
             "q25": _finite_or_none(quartiles[0]),
             "median": _finite_or_none(quartiles[1]),
             "q75": _finite_or_none(quartiles[2]),
-            "deviation": _finite_or_none(off),
+            "deviation": _finite_or_none(deviation),
             "beside": str(claim.beside or ""),
             "note": claim.note,
             "heading": claim.heading,
         }
 
 
-def _describe_cell(plan: Plan, known: KnownNumber, written: Mapping[str, tuple[str, ...]]) -> str:
-    """Return the cell of a number in words, as the claim or the file writes it: "scene dry, c 0.3 mm"."""
-    texts, own = [], {str(name): as_people_write(str(text)) for name, text in known.claim.selection.at.items()}
-    for name, k in zip(_cell_dimensions(plan), known.cell.index, strict=True):
+def _describe_cell(plan: Plan, number: KnownNumber, value_texts: Mapping[str, tuple[str, ...]]) -> str:
+    """Return the coordinates of a number's cell in words: "scene dry, c 0.3 mm".
+
+    Texts of the claim take precedence over those of the file (`value_texts`), and these over formatted values.
+    """
+    texts, own = (
+        [],
+        {str(name): as_people_write(str(text)) for name, text in number.claim.selection.at.items()},
+    )
+    for name, k in zip(_list_cell_dimensions(plan), number.cell.index, strict=True):
         for one in (one for one in plan.coordinates if one.over == (name,)):
             value = one.values[k]
             specified = value if isinstance(value, str) else quantity(float(value), one.unit, 6)
-            texts.append(f"{one.name} {own.get(one.name) or written.get(one.name, {k: specified})[k]}")
+            texts.append(f"{one.name} {own.get(one.name) or value_texts.get(one.name, {k: specified})[k]}")
     return ", ".join(texts)
 
 
-def _cell_dimensions(plan: Plan) -> list[str]:
-    """Return the dimensions of a plan along which cells lie: all but ensemble and start."""
+def _list_cell_dimensions(plan: Plan) -> list[str]:
+    """Return the dimensions of a plan that distinguish cells: all but ensemble and start."""
     return [name for name in plan.dims if name not in ("ensemble", "start")]
 
 
-def _trend_rows(known: KnownTrend, runs: _FinishedRuns) -> Iterator[dict[str, Any]]:
-    """Yield the row of a trend for each ensemble."""
-    claim = known.claim
+def _judge_trend(trend: KnownTrend, runs: _FinishedRuns) -> Iterator[dict[str, Any]]:
+    """Yield the table row of a trend for each ensemble: the verdict of all ensembles, its own, and probabilities.
+
+    A trend that the study does not compute has one row with the verdict "not computed".
+    """
+    claim = trend.claim
     common = {"claim": str(claim.name), "figure": claim.figure, "says": claim.says, "heading": claim.heading}
     if claim.not_computed:
         message = " ".join(filter(None, (claim.not_computed, claim.note)))
@@ -238,35 +272,35 @@ def _trend_rows(known: KnownTrend, runs: _FinishedRuns) -> Iterator[dict[str, An
             "note": message,
         }
         return
-    cells = list(dict.fromkeys(cell for check in known.checks for cell in check.cells))
-    measures = list(dict.fromkeys(name for check in known.checks for name in check.measures))
-    certain = [cell for cell in cells if "start" not in runs.plans.each[cell.part].dims]
-    each, ensembles = {}, runs.ensembles(cells)
-    again = [cell for cell in cells if not runs.own(cell, ensembles)]
+    cells = list(dict.fromkeys(cell for check in trend.checks for cell in check.cells))
+    measures = list(dict.fromkeys(name for check in trend.checks for name in check.measures))
+    certain_cells = [cell for cell in cells if "start" not in runs.plans.each[cell.part].dims]
+    judged_by_ensemble, ensembles = {}, runs.ensembles(cells)
+    shared_cells = [cell for cell in cells if not runs.has_separate_runs(cell, ensembles)]
     for ensemble in ensembles:
         own = {
             cell: {name: runs.values(cell, name, ensemble) for name in measures if _has_measure(runs, cell, name)}
             for cell in cells
         }
-        each[ensemble] = judged(known.checks, own, certain, again)
-    whole, agreed = together(list(each.values()))
-    for ensemble, one in each.items():
-        odds = {name: _finite_or_none(getattr(one, name)) for name in ODDS}
+        judged_by_ensemble[ensemble] = judged(trend.checks, own, certain_cells, shared_cells)
+    overall, agreed = together(list(judged_by_ensemble.values()))
+    for ensemble, one in judged_by_ensemble.items():
+        probabilities = {name: _finite_or_none(getattr(one, name)) for name in ODDS}
         yield common | {
             "ensemble": ensemble,
-            "verdict": whole.verdict,
+            "verdict": overall.verdict,
             "alone": one.verdict,
-            **odds,
+            **probabilities,
             "agreed": agreed,
             "note": claim.note,
         }
 
 
 def _has_measure(runs: _FinishedRuns, cell: Cell, measure: str) -> bool:
-    """Return whether the part of a cell has a measure."""
+    """Return whether the part that a cell belongs to has a measure of this name."""
     return any(one.name == measure for one in runs.plans.each[cell.part].expected.measures)
 
 
 def _finite_or_none(value: float | None) -> float | None:
-    """Return a finite number as a float, anything else as None, for JSON."""
+    """Return a finite number as a float; None for None, NaN and infinity, which JSON lacks."""
     return None if value is None or not math.isfinite(value) else float(value)

@@ -35,7 +35,10 @@ MOST_LISTED = 8
 
 
 def limit_checks(checks: Iterable[Check], name: Text) -> tuple[Check, ...]:
-    """Return all checks of a claim. Raises BadValueError at its name if there are too many."""
+    """Return the checks of a claim as a tuple, at most MOST_COMPARED.
+
+    Raises BadValueError at the name of the claim if there are more.
+    """
     found = tuple(itertools.islice(checks, MOST_COMPARED + 1))
     if len(found) > MOST_COMPARED:
         raise BadValueError(f"{name} compares more than {MOST_COMPARED} pairs of runs", name.where, FEWER)
@@ -48,26 +51,35 @@ class Selected:
 
     part: str
     plan: Plan
-    places: Mapping[str, tuple[int, ...]]
+    indices_by_dimension: Mapping[str, tuple[int, ...]]
     where: Text
 
     def cells(self, fixed: Mapping[str, int]) -> Iterator[tuple[tuple[Any, ...], Cell]]:
-        """Yield all selected cells, with the values of the dimensions that vary and are not fixed.
+        """Yield all selected cells, each after its key: pairs (dimension, value) of the dimensions that vary and are
+        not fixed.
 
-        Raises BadValueError for too many cells.
+        fixed: dimension → index. Raises BadValueError for more than MOST_COMPARED cells.
         """
-        if (count := math.prod(len(own) for own in self.places.values())) > MOST_COMPARED:
+        if (count := math.prod(len(indices) for indices in self.indices_by_dimension.values())) > MOST_COMPARED:
             raise BadValueError(f"the claim is about {count} values of coordinates", self.where.where, FEWER)
-        for index in itertools.product(*([fixed[name]] if name in fixed else own for name, own in self.places.items())):
-            free = [(name, k) for name, k in zip(self.places, index, strict=True) if self._is_free(name, fixed)]
+        for index in itertools.product(
+            *([fixed[name]] if name in fixed else indices for name, indices in self.indices_by_dimension.items())
+        ):
+            free = [
+                (name, k)
+                for name, k in zip(self.indices_by_dimension, index, strict=True)
+                if self._is_free(name, fixed)
+            ]
             yield tuple((name, self._value(name, k)) for name, k in free), Cell(self.part, index)
 
     def _is_free(self, name: str, fixed: Mapping[str, int]) -> bool:
-        """Return whether a dimension varies and is not fixed."""
-        return name not in fixed and len(self.places[name]) > 1
+        """Return whether a dimension has several selected values and is not fixed."""
+        return name not in fixed and len(self.indices_by_dimension[name]) > 1
 
     def _value(self, name: str, k: int) -> Any:
-        """Return the value of a dimension at an index, or the index if it has no coordinate."""
+        """Return the value of the coordinate along a dimension at index k, as a Python value; k itself without a
+        coordinate.
+        """
         found = next((one for one in self.plan.coordinates if one.name == name and one.over == (name,)), None)
         return k if found is None else found.values[k].item() if hasattr(found.values[k], "item") else found.values[k]
 
@@ -99,7 +111,10 @@ class Known:
 
 
 def known_claims(plans: Plans) -> Known:
-    """Return the claims of a file with their checks. Raises InputErrors with all that do not fit the runs."""
+    """Return all claims of a file with their cells and checks.
+
+    Raises InputErrors with the errors of all claims that do not fit the runs, each at its location.
+    """
     claims, errors = plans.file.claims, list[InputError]()
     numbers, trends = list[KnownNumber](), list[KnownTrend]()
     for number in claims.numbers:
@@ -109,7 +124,7 @@ def known_claims(plans: Plans) -> Known:
             errors.append(error)
     for trend in claims.trends:
         try:
-            every = (check for one in trend.trials for check in _make_checks(plans, one))
+            every = (check for one in trend.trials for check in _build_checks(plans, one))
             trends.append(KnownTrend(trend, limit_checks(every, trend.name)))
         except InputError as error:
             errors.append(error)
@@ -119,36 +134,50 @@ def known_claims(plans: Plans) -> Known:
 
 
 def _resolve_number(plans: Plans, claim: NumberClaim) -> KnownNumber:
-    """Return a published number with its cell and unit."""
+    """Return a published number with its cell, its unit, and its printed value in SI (None if it has none).
+
+    Raises BadValueError if the claim selects several cells, an InputError for unknown names or units.
+    """
     selected = _select(plans, claim.selection)
     cells = [cell for _, cell in selected.cells({})]
     if len(cells) > 1:
-        left = [f"{name} ({len(own)})" for name, own in selected.places.items() if len(own) > 1]
-        hint = f"say in at: which value of {', '.join(left)}"
+        varying = [f"{name} ({len(own)})" for name, own in selected.indices_by_dimension.items() if len(own) > 1]
+        hint = f"say in at: which value of {', '.join(varying)}"
         raise BadValueError(f"{claim.name} is about {len(cells)} scenes", claim.name.where, hint)
-    message = _unit_of(selected.plan, claim.measure)
-    return KnownNumber(claim, cells[0], message, None if claim.value is None else _value_in(claim.value, message))
+    unit_text = _find_unit(selected.plan, claim.measure)
+    return KnownNumber(
+        claim, cells[0], unit_text, None if claim.value is None else _parse_value_in(claim.value, unit_text)
+    )
 
 
-def _unit_of(plan: Plan, measure: Text) -> str:
-    """Return the unit of a measure. Raises an InputError for an unknown measure."""
+def _find_unit(plan: Plan, measure: Text) -> str:
+    """Return the SI unit of a measure in a plan. Raises UnknownNameError at the measure if the plan lacks it."""
     known = [one.name for one in plan.expected.measures]
     if measure not in known:
         raise unknown_name("measure", measure, known, measure.where)
     return plan.units[str(measure)]
 
 
-def _value_in(text: Text, unit_text: str) -> float:
-    """Return the value of a text in an SI unit."""
-    known_unit = unit(unit_text).dimension if unit_text and unit(unit_text) else None  # type: ignore[union-attr]
+def _parse_value_in(text: Text, unit_text: str) -> float:
+    """Return the value in SI of a text with the dimension of `unit_text`, an SI unit or "" for a pure number.
+
+    Raises an InputError at the text for another dimension or no number.
+    """
+    known_dimension = unit(unit_text).dimension if unit_text and unit(unit_text) else None  # type: ignore[union-attr]
     exponents = (
-        (float(known_unit.length), float(known_unit.mass), float(known_unit.time)) if known_unit else (0.0, 0.0, 0.0)
+        (float(known_dimension.length), float(known_dimension.mass), float(known_dimension.time))
+        if known_dimension
+        else (0.0, 0.0, 0.0)
     )
     return real_value(text, Slot("value", unit_text, 0.0, False, exponents))
 
 
 def _select(plans: Plans, selection: Selection) -> Selected:
-    """Return the cells of a selection. Raises an InputError at its location."""
+    """Return the part of a selection and the indices that it allows along each dimension other than those of starts.
+
+    Raises an InputError at its location for an unknown or missing part, an unknown coordinate, or a value that no run
+    has.
+    """
     part, where = "", selection.where.where
     if plans.named:
         if selection.part is None:
@@ -159,19 +188,27 @@ def _select(plans: Plans, selection: Selection) -> Selected:
     elif selection.part is not None:
         raise BadValueError("the file has no parts", selection.part.where, "leave part: out")
     plan = plans.each[part]
-    places = {name: tuple(range(length)) for name, length in zip(plan.dims, plan.shape, strict=True)}
+    indices_by_dimension = {name: tuple(range(length)) for name, length in zip(plan.dims, plan.shape, strict=True)}
     for name, value in selection.at.items():
         one = _find_coordinate(plan, name)
-        own = _indices_of(one, value)
+        matching = _find_indices(one, value)
         if one.over:
-            places[one.over[0]] = tuple(k for k in places[one.over[0]] if k in own)
-        if not own or one.over and not places[one.over[0]]:
+            indices_by_dimension[one.over[0]] = tuple(k for k in indices_by_dimension[one.over[0]] if k in matching)
+        if not matching or one.over and not indices_by_dimension[one.over[0]]:
             raise BadValueError(f"no run has {name} {str(value)[:60]!r}", value.where, _list_values(one))
-    return Selected(part, plan, {name: own for name, own in places.items() if name not in STARTS}, selection.where)
+    return Selected(
+        part,
+        plan,
+        {name: matching for name, matching in indices_by_dimension.items() if name not in STARTS},
+        selection.where,
+    )
 
 
 def _find_coordinate(plan: Plan, name: Text) -> Coordinate:
-    """Return a coordinate over at most one dimension, other than those of starts."""
+    """Return the coordinate of a name, with or without "parameters.", that varies along at most one dimension.
+
+    Coordinates along the dimensions of starts are not found. Raises UnknownNameError at the name.
+    """
     known = {one.name: one for one in plan.coordinates if len(one.over) < 2 and not set(one.over) & set(STARTS)}
     found = known.get(str(name)) or known.get(str(name).removeprefix("parameters."))
     if found is None:
@@ -179,125 +216,153 @@ def _find_coordinate(plan: Plan, name: Text) -> Coordinate:
     return found
 
 
-def _indices_of(one: Coordinate, value: Text) -> set[int]:
-    """Return the indices at which a coordinate has a value."""
-    values = np.atleast_1d(np.asarray(one.values))
+def _find_indices(coordinate: Coordinate, value: Text) -> set[int]:
+    """Return the indices at which a coordinate has a value, equal as text or to the relative tolerance SAME.
+
+    Raises an InputError at the value for a text that is no number with the coordinate's unit.
+    """
+    values = np.atleast_1d(np.asarray(coordinate.values))
     if values.dtype.kind in "OU":
-        return {k for k, own in enumerate(values.tolist()) if str(own) == value.strip()}
-    expected = _value_in(value, one.unit)
+        return {k for k, own_text in enumerate(values.tolist()) if str(own_text) == value.strip()}
+    expected = _parse_value_in(value, coordinate.unit)
     return set(np.flatnonzero(np.abs(values - expected) <= SAME * np.abs(values)).tolist())
 
 
-def _list_values(one: Coordinate) -> str:
-    """Return a hint that lists the values of a coordinate."""
-    values = [str(value) if isinstance(value, str) else f"{value:.6g}" for value in np.atleast_1d(one.values).tolist()]
+def _list_values(coordinate: Coordinate) -> str:
+    """Return a hint that lists the first values of a coordinate with its unit: "expected one of: 1, 2, …"."""
+    values = [
+        str(value) if isinstance(value, str) else f"{value:.6g}" for value in np.atleast_1d(coordinate.values).tolist()
+    ]
     more = ", …" if len(values) > MOST_LISTED else ""
-    return f"expected one of: {', '.join(values[:MOST_LISTED])}{more}{f' ({one.unit})' if one.unit else ''}"
+    shown = f" ({coordinate.unit})" if coordinate.unit else ""
+    return f"expected one of: {', '.join(values[:MOST_LISTED])}{more}{shown}"
 
 
-def _make_checks(plans: Plans, trial: Trial) -> Iterator[Check]:
-    """Yield the checks of one statement of a trend."""
+def _build_checks(plans: Plans, trial: Trial) -> Iterator[Check]:
+    """Yield the checks of one statement of a trend.
+
+    The kind of the statement decides: counts of components, a course along a dimension, a comparison of two selections,
+    or cells alone. Raises an InputError at its location for unknown names.
+    """
     selected = _select(plans, trial.selection)
     if trial.kind == COUNTS:
-        yield _check_counts(selected, trial)
+        yield _build_count_check(selected, trial)
         return
     for measure in (*trial.measures, *trial.others):
-        _unit_of(selected.plan, measure)
+        _find_unit(selected.plan, measure)
     if trial.kind in ALONG:
-        yield from _checks_along(selected, trial)
+        yield from _build_checks_along(selected, trial)
     elif trial.than is not None:
-        yield from _checks_between(selected, _select(plans, trial.than), trial)
+        yield from _build_checks_between(selected, _select(plans, trial.than), trial)
     else:
-        yield from _checks_of_cells(selected, trial)
+        yield from _build_checks_of_cells(selected, trial)
 
 
-def _fraction_of(trial: Trial, otherwise: float) -> float:
-    """Return the fraction in `by` of a statement, or a default."""
-    return otherwise if trial.by is None else _value_in(trial.by, "")
+def _parse_fraction(trial: Trial, otherwise: float) -> float:
+    """Return the value of `by` of a statement, a fraction or factor, or the default `otherwise` if it has none."""
+    return otherwise if trial.by is None else _parse_value_in(trial.by, "")
 
 
-def _checks_along(selected: Selected, trial: Trial) -> Iterator[Check]:
-    """Yield the checks of a statement along a dimension."""
-    one = _find_coordinate(selected.plan, trial.text)
-    if not one.over or len(selected.places[one.over[0]]) < 2:
+def _build_checks_along(selected: Selected, trial: Trial) -> Iterator[Check]:
+    """Yield the checks of a statement along a dimension, for each combination of the other dimensions.
+
+    Cells are sorted by the coordinate if its values are numbers. Raises BadValueError if only one value is selected.
+    """
+    coordinate = _find_coordinate(selected.plan, trial.text)
+    if not coordinate.over or len(selected.indices_by_dimension[coordinate.over[0]]) < 2:
         message = f"nothing to compare along {str(trial.text)[:60]!r}: it has one value here"
         raise BadValueError(message, trial.text.where, "leave it out of at:, or take another dimension")
-    (dimension,) = one.over
-    order = selected.places[dimension]
-    if np.asarray(one.values).dtype.kind not in "OU":
-        order = tuple(sorted(order, key=lambda k: float(one.values[k])))
-    rows = [dict(selected.cells({dimension: k})) for k in order]
-    for key in rows[0]:
-        yield from _checks_of_row([row[key] for row in rows], trial)
+    (dimension,) = coordinate.over
+    order = selected.indices_by_dimension[dimension]
+    if np.asarray(coordinate.values).dtype.kind not in "OU":
+        order = tuple(sorted(order, key=lambda k: float(coordinate.values[k])))
+    cells_by_index = [dict(selected.cells({dimension: k})) for k in order]
+    for key in cells_by_index[0]:
+        yield from _build_checks_of_row([row[key] for row in cells_by_index], trial)
 
 
-def _checks_of_row(cells: list[Cell], trial: Trial) -> Iterator[Check]:
-    """Yield the checks of neighbouring or all pairs of cells along a dimension."""
+def _build_checks_of_row(cells: list[Cell], trial: Trial) -> Iterator[Check]:
+    """Yield the checks of cells in order along a dimension: neighbours, all pairs, or all cells at once.
+
+    `grows_along` compares neighbours, `alike_along` all pairs, and the remaining kind the ranges of two measures.
+    """
     for k, measure in enumerate(map(str, trial.measures)):
         if trial.kind == "grows_along":
             for pair in itertools.pairwise(cells):
-                yield Check(pair, (measure,), _is_larger(measure, _fraction_of(trial, 1.0)))
+                yield Check(pair, (measure,), _make_larger_condition(measure, _parse_fraction(trial, 1.0)))
         elif trial.kind == "alike_along":
             for two in itertools.combinations(cells, 2):
-                yield Check(two, (measure,), _is_alike(measure, _fraction_of(trial, 0.0)))
+                yield Check(two, (measure,), _make_alike_condition(measure, _parse_fraction(trial, 0.0)))
         else:
             other = str(trial.others[k])
-            yield Check(tuple(cells), (measure, other), _has_larger_range(measure, other, len(cells)))
+            yield Check(tuple(cells), (measure, other), _make_range_condition(measure, other, len(cells)))
 
 
-def _is_larger(measure: str, by: float) -> Callable[[Look], Array]:
-    """Return the condition that a measure of the second cell exceeds `by` times that of the first."""
-    return lambda x: x(1, measure) > by * x(0, measure)
+def _make_larger_condition(measure: str, factor: float) -> Callable[[Look], Array]:
+    """Return the condition that a measure of the second cell exceeds `factor` times that of the first.
+
+    It is a function of `Look` that returns whether each combination of runs meets it.
+    """
+    return lambda x: x(1, measure) > factor * x(0, measure)
 
 
-def _is_alike(measure: str, within: float) -> Callable[[Look], Array]:
-    """Return the condition that a measure differs between two cells by at most the fraction `within`."""
+def _make_alike_condition(measure: str, tolerance: float) -> Callable[[Look], Array]:
+    """Return the condition that a measure differs between two cells by at most the fraction `tolerance` of the larger
+    value.
+    """
 
     def shows(x: Look) -> Array:
-        """Return for each combination of runs whether it meets the condition."""
+        """Return for each combination of runs whether both values are alike."""
         a, b = x(0, measure), x(1, measure)
-        return np.asarray(np.abs(a - b) <= within * np.maximum(np.abs(a), np.abs(b)))
+        return np.asarray(np.abs(a - b) <= tolerance * np.maximum(np.abs(a), np.abs(b)))
 
     return shows
 
 
-def _has_larger_range(measure: str, other: str, n: int) -> Callable[[Look], Array]:
-    """Return the condition that a measure has a larger range over n cells than another measure."""
+def _make_range_condition(measure: str, other_measure: str, n: int) -> Callable[[Look], Array]:
+    """Return the condition that the range of a measure over n cells exceeds the range of another measure."""
 
     def spread(x: Look, name: str) -> Array:
-        """Return the range of a measure over the cells."""
+        """Return the largest less the smallest value of a measure over the cells, for each combination of runs."""
         values = [x(k, name) for k in range(n)]
         return np.asarray(reduce(np.maximum, values) - reduce(np.minimum, values))
 
-    return lambda x: spread(x, measure) > spread(x, other)
+    return lambda x: spread(x, measure) > spread(x, other_measure)
 
 
-def _checks_between(first: Selected, second: Selected, trial: Trial) -> Iterator[Check]:
-    """Yield the checks that compare two selections cell by cell."""
+def _build_checks_between(first: Selected, second: Selected, trial: Trial) -> Iterator[Check]:
+    """Yield the checks that compare two selections cell by cell, for each measure of the statement.
+
+    Raises BadValueError if both do not vary in the same values, UnknownNameError for a measure that the second lacks.
+    """
     for name in (*trial.measures, *trial.others):
-        _unit_of(second.plan, name)
-    here, there = dict(first.cells({})), dict(second.cells({}))
-    if here.keys() != there.keys():
+        _find_unit(second.plan, name)
+    first_cells, second_cells = dict(first.cells({})), dict(second.cells({}))
+    if first_cells.keys() != second_cells.keys():
         message = f"{trial.text} and what it is compared with are not about the same runs"
         hint = "what neither selects must have the same values in both"
         raise BadValueError(message, trial.text.where, hint)
-    for key, cell in here.items():
+    for key, cell in first_cells.items():
         for measure in [str(name) for name in trial.measures]:
             if trial.kind == "larger":
-                yield Check((there[key], cell), (measure,), _is_larger(measure, _fraction_of(trial, 1.0)))
+                yield Check(
+                    (second_cells[key], cell), (measure,), _make_larger_condition(measure, _parse_fraction(trial, 1.0))
+                )
             for other in [str(name) for name in trial.others]:
-                yield Check((cell, there[key]), (measure, other), _falls_further(measure, other))
+                yield Check((cell, second_cells[key]), (measure, other), _make_fall_condition(measure, other))
 
 
-def _falls_further(measure: str, other: str) -> Callable[[Look], Array]:
-    """Return the condition that a measure falls by a larger factor than another one from the first cell to the
-    second.
+def _make_fall_condition(measure: str, other_measure: str) -> Callable[[Look], Array]:
+    """Return the condition that a measure falls by a larger factor than another one from the first cell to the second.
     """
-    return lambda x: np.abs(x(1, measure) * x(0, other)) < np.abs(x(1, other) * x(0, measure))
+    return lambda x: np.abs(x(1, measure) * x(0, other_measure)) < np.abs(x(1, other_measure) * x(0, measure))
 
 
-def _checks_of_cells(selected: Selected, trial: Trial) -> Iterator[Check]:
-    """Yield the checks of each cell alone, against another measure of the same run or a number."""
+def _build_checks_of_cells(selected: Selected, trial: Trial) -> Iterator[Check]:
+    """Yield the checks of each cell alone, against another measure of the same run or against a number.
+
+    The kind of the statement is "above", "below" or "near" a number; `by` is the relative tolerance of "near".
+    """
     for _, cell in selected.cells({}):
         for name in trial.measures:
             measure = str(name)
@@ -305,45 +370,49 @@ def _checks_of_cells(selected: Selected, trial: Trial) -> Iterator[Check]:
                 yield Check(
                     (cell,),
                     (measure, str(trial.others[0])),
-                    _exceeds_measure(measure, str(trial.others[0]), _fraction_of(trial, 1.0)),
+                    _make_excess_condition(measure, str(trial.others[0]), _parse_fraction(trial, 1.0)),
                 )
                 continue
-            number, within = _value_in(trial.text, _unit_of(selected.plan, name)), _fraction_of(trial, 0.0)
+            number, within = _parse_value_in(trial.text, _find_unit(selected.plan, name)), _parse_fraction(trial, 0.0)
             low = {"above": number, "near": number - within * abs(number)}.get(trial.kind, -np.inf)
             high = {"below": number, "near": number + within * abs(number)}.get(trial.kind, np.inf)
-            yield Check((cell,), (measure,), _is_inside(measure, low, high, trial.kind == "near"))
+            yield Check((cell,), (measure,), _make_interval_condition(measure, low, high, trial.kind == "near"))
 
 
-def _exceeds_measure(measure: str, other: str, by: float) -> Callable[[Look], Array]:
-    """Return the condition that a measure exceeds `by` times another one of the same run."""
-    return lambda x: x(0, measure) > by * x(0, other)
+def _make_excess_condition(measure: str, other_measure: str, factor: float) -> Callable[[Look], Array]:
+    """Return the condition that a measure exceeds `factor` times another one of the same run."""
+    return lambda x: x(0, measure) > factor * x(0, other_measure)
 
 
-def _is_inside(measure: str, low: float, high: float, ends: bool) -> Callable[[Look], Array]:
-    """Return the condition that a measure lies between two values; `ends`: bounds included."""
+def _make_interval_condition(measure: str, low: float, high: float, includes_ends: bool) -> Callable[[Look], Array]:
+    """Return the condition that a measure lies between `low` and `high`; bounds are included if `includes_ends` is
+    True.
+    """
 
     def shows(x: Look) -> Array:
-        """Return for each run whether it meets the condition."""
+        """Return for each run whether its value lies in the interval."""
         own = x(0, measure)
-        return np.asarray((own >= low) & (own <= high) if ends else (own > low) & (own < high))
+        return np.asarray((own >= low) & (own <= high) if includes_ends else (own > low) & (own < high))
 
     return shows
 
 
-def _check_counts(selected: Selected, trial: Trial) -> Check:
-    """Return the check of the numbers of components of a scene, the same in every run."""
+def _build_count_check(selected: Selected, trial: Trial) -> Check:
+    """Return the check that scenes have the claimed numbers of components, which is the same in every run."""
     structure = [one.length for one in selected.plan.structure]
-    places = [cell.index[: len(structure)] for _, cell in selected.cells({})]
-    parts = {int(np.ravel_multi_index(place, structure)) if structure else 0 for place in places}
+    indices_by_dimension = [cell.index[: len(structure)] for _, cell in selected.cells({})]
+    parts = {int(np.ravel_multi_index(place, structure)) if structure else 0 for place in indices_by_dimension}
     sources = [selected.plan.parts[k].simulation.source for k in sorted(parts)]
-    right = all(
+    is_true = all(
         _count_components(source)[str(name)] == count for source in sources for name, count in trial.counts.items()
     )
-    return Check((), (), lambda x: np.array(right))
+    return Check((), (), lambda x: np.array(is_true))
 
 
 def _count_components(source: KernelSource) -> dict[str, int]:
-    """Return the numbers of components of a scene by their name in claims."""
+    """Return the numbers of components of a scene by the words of claims, such as "bodies" or "rows" (constraint
+    equations).
+    """
     return {
         "bodies": len(source.bodies),
         "joints": len(source.joints) + len(source.clearances),

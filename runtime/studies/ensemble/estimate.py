@@ -28,28 +28,32 @@ TRIALS = 4  # runs a thread of each part, evenly over the part
 FIRST = 1.0  # s; a shorter trial is repeated, since most of a first time is start-up
 
 
-def check_needs(plans: Plans, folder: Path, threads: int | None, here: bool) -> None:
-    """Raise OutputError if blocks and datasets do not fit on the disk in addition to existing ones.
+def check_needs(plans: Plans, folder: Path, threads: int | None, in_process: bool) -> None:
+    """Check disk and memory before a study begins: blocks and datasets of all parts.
 
-    Raises MemoryError if notes of all blocks, or samples of runs in this process (`here`), do not fit into memory.
+    threads: None means the number of cores. here: whether runs are simulated in this process, whose memory is then
+    checked, too. Raises OutputError if blocks and datasets do not fit on the disk besides existing ones, MemoryError if
+    notes or samples do not fit into memory.
     """
     cores = threads or available_threads()
     for plan in plans.each.values():
         check_memory(OF_A_BLOCK * plan.count_of_blocks, f"a study of {plan.runs} runs in {plan.count_of_blocks} blocks")
-        for part in plan.parts if here else ():
-            _check_blocks(plan, part, cores)
+        for part in plan.parts if in_process else ():
+            _check_block_memory(plan, part, cores)
     size = sum(disk_bytes(plan) for plan in plans.each.values())
-    check_disk(folder, size - _existing_bytes(folder), f"the study, {plans.runs} runs,")
+    check_disk(folder, size - _sum_existing_bytes(folder), f"the study, {plans.runs} runs,")
 
 
 def disk_bytes(plan: Plan) -> float:
-    """Return the least size of all blocks and the dataset, bytes: measures, ends of runs and stored series."""
+    """Return the least size of all blocks and of the dataset of a plan, bytes: measures, ends of runs and stored
+    series.
+    """
     numbers, kept = len(plan.expected.measures) + 2, len(plan.expected.keep)
     return sum(8.0 * plan.each * (2 * numbers + kept * (part.samples + part.most)) for part in plan.parts)
 
 
-def _check_blocks(plan: Plan, part: Part, cores: int) -> None:
-    """Raise MemoryError if the states and series of the blocks that run at the same time do not fit."""
+def _check_block_memory(plan: Plan, part: Part, cores: int) -> None:
+    """Raise MemoryError if states and series of the blocks of a part that run at the same time do not fit."""
     compiled, most = part.simulation.compiled, min(cores, SIDE_BY_SIDE, plan.count_of_blocks)
     names = series_of(plan.expected.measures, plan.expected.keep, compiled.source)
     state = sample_bytes(compiled) + evaluated_bytes(compiled, evaluation_parts_of(compiled.source, names))
@@ -58,8 +62,8 @@ def _check_blocks(plan: Plan, part: Part, cores: int) -> None:
     check_memory(size * part.samples, f"{runs} of {part.samples:.0f} samples, under way at once,")
 
 
-def _existing_bytes(folder: Path) -> int:
-    """Return the bytes of existing blocks and datasets in a folder, which are kept or replaced."""
+def _sum_existing_bytes(folder: Path) -> int:
+    """Return the bytes of all files in a folder and its subfolders; 0 if it does not exist."""
     found = 0
     for place, _, names in os.walk(folder):
         for name in names:
@@ -82,7 +86,11 @@ class Estimate:
 
 
 def estimate(plan: Plan, threads: int | None) -> Estimate:
-    """Return the estimate of a study from a few runs of each part, which are not stored."""
+    """Return size and run time of a study, extrapolated from a few runs of each part, which are not stored.
+
+    threads: None means the number of cores. A trial shorter than FIRST seconds is repeated, since the first time
+    includes the start-up.
+    """
     count = min(plan.each, TRIALS * (threads or available_threads()))
     runs = np.unique(np.linspace(0, plan.each - 1, count).astype(int))
     seconds, size, failures = 0.0, 0, list[str]()
@@ -101,6 +109,6 @@ def estimate(plan: Plan, threads: int | None) -> Estimate:
 
 
 def _time_block(job: Job, simulation: Simulation) -> tuple[Block, float]:
-    """Run a job and return its block and the seconds that it took."""
+    """Run a job and return its block and the wall time, s."""
     before = time.perf_counter()
     return run_block(job, simulation=simulation), time.perf_counter() - before

@@ -43,7 +43,11 @@ KINDS_TOLD = "its period in returns, 0: quasi-periodic, -1: chaotic, NaN: undeci
 
 
 def check_followed(study: StudyFile, source: KernelSource) -> None:
-    """Raise an InputError for a section that a scene cannot have, or for a measure that a study cannot provide."""
+    """Check the measures of neighbouring trajectories (Lyapunov exponent, predictability, kind of motion) of a study.
+
+    Raises BadValueError at the measure for a study with wear, a predictability with fixed steps, or a statistic of
+    returns without a section; an InputError for a section that is neither an event nor a period.
+    """
     for one in (one for one in study.measures if one.statistic in FOLLOWED):
         where, owner = one.of.where, f"measures.{one.name}"
         if study.wear is not None:
@@ -55,17 +59,17 @@ def check_followed(study: StudyFile, source: KernelSource) -> None:
         if one.of == WHOLE and one.statistic in OF_SECTION:
             message = f"{owner}: {one.statistic.replace('_', ' ')} is of returns to a section"
             raise BadValueError(message, where, "expected an event of the file, or a period: 2*pi/omega")
-        if one.of != WHOLE and not _is_event(one, source):
+        if one.of != WHOLE and not _is_event_section(one, source):
             _check_period(one, source)
 
 
-def _is_event(measure: Measure, source: KernelSource) -> bool:
-    """Return whether the section of a measure is an event of the scene."""
+def _is_event_section(measure: Measure, source: KernelSource) -> bool:
+    """Return whether the section of a measure is the name of an event of the scene."""
     return measure.of in [event.name for event in source.events]
 
 
 def _check_period(measure: Measure, source: KernelSource) -> None:
-    """Raise an InputError unless the section of a measure is a period: an expression of time."""
+    """Raise an InputError unless the section of a measure is an expression with the dimension of time."""
     from gudgeon.generator.study.spec import Written
 
     written = Written(parse(measure.of, measure.of.where), measure.of)
@@ -80,23 +84,24 @@ def _check_period(measure: Measure, source: KernelSource) -> None:
 def follow(
     simulation: Simulation, job: Job, table: Table, t_last: Array, failures: list[str], progress: Progress | None
 ) -> dict[str, Array]:
-    """Return the measures of neighbouring trajectories of all runs that have not failed, (n,) by name.
+    """Compute the measures of neighbouring trajectories of all runs that have not failed, (n,) by name.
 
-    `t_last` (n,) s: the end of each run, at an event or as requested. The failure of a neighbour is entered in
-    `failures`.
+    t_last (n,) s: end of each run, at an event or as requested. The reason of a failure is entered in `failures`. Runs
+    are spread over threads. All values are NaN in a scene without degrees of freedom; the result is empty without such
+    measures.
     """
     measures = [one for one in job.expected.measures if one.statistic in FOLLOWED]
     found = {one.name: np.full(job.n, np.nan) for one in measures}
     if not measures or simulation.source.degrees_of_freedom <= 0:
         return found
     runs = [i for i in range(job.n) if not failures[i]]
-    each = _NeighbourComputation(simulation, job, table, t_last, progress)
+    computation = _NeighbourComputation(simulation, job, table, t_last, progress)
     with ThreadPoolExecutor(job.threads or available_threads(), thread_name_prefix="gudgeon") as pool:
-        for i, own in zip(runs, pool.map(lambda i: each(i, measures), runs), strict=True):
-            if isinstance(own, str):
-                failures[i] = own
+        for i, values_or_reason in zip(runs, pool.map(lambda i: computation(i, measures), runs), strict=True):
+            if isinstance(values_or_reason, str):
+                failures[i] = values_or_reason
             else:
-                for name, value in own.items():
+                for name, value in values_or_reason.items():
                     found[name][i] = value
     return found
 
@@ -107,7 +112,7 @@ class _NeighbourComputation:
     def __init__(
         self, simulation: Simulation, job: Job, table: Table, t_last: Array, progress: Progress | None
     ) -> None:
-        """Store the job, its parameters and the ends of the runs."""
+        """Store the job, its parameters, and the end of each run, t_last or the requested end."""
         self.simulation, self.job, self.table, self.progress = simulation, job, table, progress
         self.error = RTOL if job.expected.rtol is None else job.expected.rtol
         self.rtol = neighbours_rtol(simulation.source, job.expected.rtol)
@@ -115,7 +120,10 @@ class _NeighbourComputation:
         self.t_last = np.where(is_cut, t_last, table.t_end)
 
     def __call__(self, i: int, measures: Sequence[Measure]) -> dict[str, float] | str:
-        """Return the measures of run i by name, or the reason why there are none."""
+        """Return the measures of run i by name, or the reason (a text) why they cannot be computed.
+
+        Measures of the same section and window share one computation.
+        """
         followed: dict[tuple[str, str], Lyapunov | None] = {}
         values = {}
         with collect_guess_notes(
@@ -125,19 +133,20 @@ class _NeighbourComputation:
                 for one in measures:
                     key = (str(one.of), one.window)
                     if key not in followed:
-                        followed[key] = self._lyapunov(i, one)
-                    values[one.name] = _statistic_value(one.statistic, followed[key], self.error)
+                        followed[key] = self._compute_lyapunov(i, one)
+                    values[one.name] = _read_statistic(one.statistic, followed[key], self.error)
             except GudgeonError as error:
                 return f"{one.name}: {error}"
         return values
 
-    def _lyapunov(self, i: int, measure: Measure) -> Lyapunov | None:
-        """Return the exponent of run i for the section of a measure; None if the run ended before the window or a
-        return.
+    def _compute_lyapunov(self, i: int, measure: Measure) -> Lyapunov | None:
+        """Return the Lyapunov exponent of run i for the section and window of a measure.
+
+        None if an event ended the run before the window or before one period of the section. Raises GudgeonError.
         """
         table, expected, source = self.table, self.job.expected, self.simulation.source
         begin, end = (None if one is None else float(one[i]) for one in table.spans.get(measure.window, (None, None)))
-        last, section = float(self.t_last[i]), self._section(i, measure)
+        last, section = float(self.t_last[i]), self._resolve_section(i, measure)
         shortest = section if isinstance(section, float) else 0.0
         if last < table.t_end[i] and last - max(begin or 0.0, 0.0) <= shortest:
             return None
@@ -156,34 +165,40 @@ class _NeighbourComputation:
             progress=self._report_progress,
         )
 
-    def _section(self, i: int, measure: Measure) -> str | float | None:
-        """Return the section of a measure for run i: None for the whole run, an event, or a period (s)."""
+    def _resolve_section(self, i: int, measure: Measure) -> str | float | None:
+        """Return the section of a measure for run i: None for the whole motion, the name of an event, or a period (s).
+        """
         if measure.of == WHOLE:
             return None
-        if _is_event(measure, self.simulation.source):
+        if _is_event_section(measure, self.simulation.source):
             return str(measure.of)
         expr, known = parse(measure.of, measure.of.where), {"t_end": self.table.t_end}
         return float(evaluate_for_runs(self.simulation.source, expr, self.table.p, known)[i])
 
     def _report_progress(self, fraction: float, text: str) -> None:
-        """Report progress, so that the caller may cancel; the runs themselves are finished."""
+        """Call the progress function with fraction 1, so that the caller may cancel; the runs themselves are finished.
+        """
         if self.progress:
             self.progress(1.0, text)
 
 
-def _statistic_value(statistic: str, found: Lyapunov | None, error: float) -> float:
-    """Return the value of a statistic from an exponent; NaN for None."""
-    if found is None:
+def _read_statistic(statistic: str, lyapunov: Lyapunov | None, error: float) -> float:
+    """Return the value of a statistic from a computed Lyapunov exponent; NaN for None.
+
+    error: relative error of the initial state for the predictability horizon. A periodic motion is its period in
+    returns, other kinds of motion are codes (KINDS).
+    """
+    if lyapunov is None:
         return math.nan
     if statistic == "believable":
-        return found.believable(error)
+        return lyapunov.believable(error)
     if statistic == "motion":
-        motion = found.motion
+        motion = lyapunov.motion
         return float(motion.period) if motion.kind == PERIODIC else KINDS[motion.kind]
     values: dict[str, Any] = {
-        "lyapunov": lambda: found.exponent,
-        "lyapunov_error": lambda: found.uncertainty,
-        "lyapunov_per_return": lambda: found.per_return,
-        "motion_confidence": lambda: found.motion.confidence,
+        "lyapunov": lambda: lyapunov.exponent,
+        "lyapunov_error": lambda: lyapunov.uncertainty,
+        "lyapunov_per_return": lambda: lyapunov.per_return,
+        "motion_confidence": lambda: lyapunov.motion.confidence,
     }
     return float(values[statistic]())

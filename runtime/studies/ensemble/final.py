@@ -24,36 +24,46 @@ MOST_KINDS, MOST_TEXT = 50, 50_000  # kinds of failures, characters of an attrib
 
 
 def write_dataset(folder: StudyFolder) -> None:
-    """Write all blocks as `study.nc`. Raises OutputError, or LookupError for a missing block."""
-    t, common = _common_times(folder)
+    """Write all blocks of a study as `study.nc` in its folder, replacing the file only when it is complete.
+
+    Raises OutputError, or LookupError for a missing block.
+    """
+    t, common = _find_common_times(folder)
     with written(folder.path / DATASET, sync=True) as file:
         _write_blocks(file, folder, t, common)
 
 
-def _blocks(folder: StudyFolder) -> Iterator[Block]:
-    """Yield all blocks in order. Raises LookupError for a missing one."""
-    for of in folder.plan.blocks:
-        block = folder.read(of.number)
+def _read_blocks(folder: StudyFolder) -> Iterator[Block]:
+    """Yield all blocks of a study in order, read from its folder. Raises LookupError for a missing or damaged one."""
+    for description in folder.plan.blocks:
+        block = folder.read(description.number)
         if block is None:
-            raise LookupError(f"block {of.number} is gone")
+            raise LookupError(f"block {description.number} is gone")
         yield block
 
 
 def _join_small_blocks(blocks: Iterable[Block]) -> Iterator[Block]:
-    """Yield neighbouring small blocks joined to one, since a write costs about the same for any size."""
-    waiting, held = list[Block](), 0
+    """Yield the blocks, neighbouring ones joined up to about TOGETHER bytes, since a write costs about the same for any
+    size.
+
+    Blocks with different numbers of samples are not joined.
+    """
+    pending, pending_bytes = list[Block](), 0
     for block in blocks:
-        if waiting and (held > TOGETHER or block.t.shape[-1] != waiting[0].t.shape[-1]):
-            yield _concatenate_blocks(waiting)
-            waiting, held = [], 0
-        waiting.append(block)
-        held += block.nbytes
-    if waiting:
-        yield _concatenate_blocks(waiting)
+        if pending and (pending_bytes > TOGETHER or block.t.shape[-1] != pending[0].t.shape[-1]):
+            yield _concatenate_blocks(pending)
+            pending, pending_bytes = [], 0
+        pending.append(block)
+        pending_bytes += block.nbytes
+    if pending:
+        yield _concatenate_blocks(pending)
 
 
 def _concatenate_blocks(blocks: Sequence[Block]) -> Block:
-    """Return several blocks as one."""
+    """Return consecutive blocks as one; a single block is returned unchanged.
+
+    Times stay one axis if all blocks share it, else they become (n, N).
+    """
     first = blocks[0]
     if len(blocks) == 1:
         return first
@@ -69,26 +79,32 @@ def _concatenate_blocks(blocks: Sequence[Block]) -> Block:
     return Block(first.number, first.first, measures, failures, t_last, t, series, notes)
 
 
-def _common_times(folder: StudyFolder) -> tuple[Array, bool]:
-    """Return the sample times (N,) and True if all runs have the same; else NaN for the longest run and False."""
+def _find_common_times(folder: StudyFolder) -> tuple[Array, bool]:
+    """Return the sample times (N,) and True if all runs share them, else N values of NaN for the longest run and False.
+
+    All blocks are read if the study stores series.
+    """
     common: Array | None = None
-    alike, most = True, 0
-    for block in _blocks(folder) if folder.plan.expected.keep else ():
-        most = max(most, block.t.shape[-1])
+    is_common, max_samples = True, 0
+    for block in _read_blocks(folder) if folder.plan.expected.keep else ():
+        max_samples = max(max_samples, block.t.shape[-1])
         if not block.t.size:  # no run began
             continue
-        alike = alike and block.t.ndim == 1 and (common is None or np.array_equal(common, block.t))
+        is_common = is_common and block.t.ndim == 1 and (common is None or np.array_equal(common, block.t))
         common = block.t if common is None else common
-    return (common, True) if alike and common is not None else (np.full(most, np.nan), False)
+    return (common, True) if is_common and common is not None else (np.full(max_samples, np.nan), False)
 
 
-def _write_blocks(target: BinaryIO, folder: StudyFolder, t: Array, common: bool) -> None:
-    """Write the dataset to an open file."""
+def _write_blocks(binary_file: BinaryIO, folder: StudyFolder, t: Array, common: bool) -> None:
+    """Write coordinates, variables, notes and counts of failures of all blocks to an open file, block by block.
+
+    t (N,): common sample times, or NaN if `common` is False; then the samples are numbered and each run has its times.
+    """
     h5py, plan = h5py_module(), folder.plan
     kinds: Counter[str] = Counter()
     first: dict[str, int] = {}
     notes: dict[str, Note] = {}
-    with h5py.File(target, "w", libver=("earliest", "v110")) as file:
+    with h5py.File(binary_file, "w", libver=("earliest", "v110")) as file:
         _write_attributes(file, plan)
         scales = {one.name: one for one in plan.coordinates if one.over == (one.name,)}
         for one in [*scales.values(), *(one for one in plan.coordinates if one.name not in scales)]:
@@ -98,8 +114,8 @@ def _write_blocks(target: BinaryIO, folder: StudyFolder, t: Array, common: bool)
             message = ("time", "s", "time of the sample") if common else ("sample", "", "number of the sample")
             _write_coordinate(h5py, file, Coordinate(message[0], (message[0],), time, *message[1:]))
         variables = _create_variables(h5py, file, plan, len(t), common)
-        for block in _join_small_blocks(_blocks(folder)):
-            _fill_variables(variables, plan, block, common)
+        for block in _join_small_blocks(_read_blocks(folder)):
+            _write_values(variables, plan, block, common)
             notes = merge_notes((notes, block.notes))
             for run, why in enumerate(block.failures, block.first):
                 if why:
@@ -114,7 +130,7 @@ def _write_blocks(target: BinaryIO, folder: StudyFolder, t: Array, common: bool)
 
 
 def _format_note(plan: Plan, note: Note) -> str:
-    """Return a note as a line: number of runs that have it, and one of them by its coordinates."""
+    """Return a note as a line: the number of runs that have it, and the first of them with its coordinates."""
     at = dict(zip(plan.dims, np.unravel_index(note.run, plan.shape) if plan.shape else (), strict=True))
     own = (one for one in plan.coordinates if one.over and set(one.over) <= {*at} and one.over == one.over[:1])
     values = [f"{one.name}={_format_value(one.values[at[one.over[0]]])}" for one in own][:MOST_COORDINATES]
@@ -123,12 +139,15 @@ def _format_note(plan: Plan, note: Note) -> str:
 
 
 def _format_value(value: Any) -> str:
-    """Return a value of a coordinate as text."""
+    """Return a value of a coordinate as text: a word, or a number with six digits."""
     return str(value) if isinstance(value, str) else f"{value:.6g}"
 
 
 def _write_attributes(file: Any, plan: Plan) -> None:
-    """Write the attributes of the dataset."""
+    """Write title, mechanism, version, digests and the study itself as attributes of the dataset.
+
+    A study of more than MOST_TEXT characters is left out.
+    """
     import gudgeon
 
     source = plan.parts[0].simulation.source
@@ -146,82 +165,92 @@ def _write_attributes(file: Any, plan: Plan) -> None:
         file.attrs[name] = value
 
 
-def _write_coordinate(h5py: Any, file: Any, one: Coordinate) -> None:
-    """Write a coordinate of the dataset."""
-    values = np.asarray(one.values)
+def _write_coordinate(h5py: Any, file: Any, coordinate: Coordinate) -> None:
+    """Write a coordinate with unit and meaning to an open dataset.
+
+    A coordinate of its own dimension becomes a dimension scale, any other refers to the scales of its dimensions.
+    """
+    values = np.asarray(coordinate.values)
     kind = h5py.string_dtype() if values.dtype.kind in "OU" else values.dtype
-    found = file.create_dataset(one.name, data=values.astype(object) if kind != values.dtype else values, dtype=kind)
-    _set_attributes(found, one.unit, one.meaning)
-    if one.over == (one.name,):
-        found.make_scale(one.name)
+    found = file.create_dataset(
+        coordinate.name, data=values.astype(object) if kind != values.dtype else values, dtype=kind
+    )
+    _set_attributes(found, coordinate.unit, coordinate.meaning)
+    if coordinate.over == (coordinate.name,):
+        found.make_scale(coordinate.name)
     else:
-        for k, name in enumerate(one.over):
+        for k, name in enumerate(coordinate.over):
             found.dims[k].attach_scale(file[name])
 
 
 def _set_attributes(variable: Any, unit: str, meaning: str) -> None:
-    """Set unit and meaning of a variable."""
+    """Set `units` and `long_name` of a variable; empty texts are left out."""
     if unit:
         variable.attrs["units"] = unit
     if meaning:
         variable.attrs["long_name"] = meaning
 
 
-def _create_variables(h5py: Any, file: Any, plan: Plan, samples: int, common: bool) -> dict[str, Any]:
-    """Create the empty variables over all dimensions and return them by name."""
+def _create_variables(h5py: Any, file: Any, plan: Plan, n_samples: int, has_common_times: bool) -> dict[str, Any]:
+    """Create the empty variables of measures, ends, failures and series over all dimensions, and return them by name.
+
+    has_common_times: whether series are over `time`; otherwise over `sample`, with a variable `t`.
+    """
     found: dict[str, Any] = {}
 
-    def add(name: str, over: tuple[str, ...], kind: Any, unit: str, message: str) -> None:
-        """Create one variable."""
-        shape = tuple(len(file[dimension]) for dimension in over)
+    def add(name: str, dimensions: tuple[str, ...], kind: Any, unit: str, message: str) -> None:
+        """Create one variable over these dimensions, filled with NaN if it is a float."""
+        shape = tuple(len(file[dimension]) for dimension in dimensions)
         more = {} if kind is not float else {"fillvalue": np.nan}
         found[name] = file.create_dataset(name, shape, dtype=kind, **more)
         _set_attributes(found[name], unit, message)
-        for k, dimension in enumerate(over):
+        for k, dimension in enumerate(dimensions):
             found[name].dims[k].attach_scale(file[dimension])
 
     for one in plan.expected.measures:
         add(one.name, plan.dims, float, plan.units[one.name], meaning(one))
     add("t_last", plan.dims, float, "s", "where the run ended")
     add("failure", plan.dims, h5py.string_dtype(), "", "why the run failed, empty where it did not")
-    beside = " ".join(one.name for one in plan.coordinates if one.over != (one.name,))
-    over = (*plan.dims, "time" if common else "sample")
+    auxiliary = " ".join(one.name for one in plan.coordinates if one.over != (one.name,))
+    over = (*plan.dims, "time" if has_common_times else "sample")
     for name in plan.expected.keep:
         add(name, over, float, plan.units[name], f"series {name}")
-    if plan.expected.keep and not common:
+    if plan.expected.keep and not has_common_times:
         add("t", over, float, "s", "time of the sample")
-    for variable in found.values() if beside else ():
-        variable.attrs["coordinates"] = beside  # as CF has it
+    for variable in found.values() if auxiliary else ():
+        variable.attrs["coordinates"] = auxiliary  # as CF has it
     return found
 
 
-def _fill_variables(variables: dict[str, Any], plan: Plan, block: Block, common: bool) -> None:
-    """Write the values of a block into the variables."""
+def _write_values(variables: dict[str, Any], plan: Plan, block: Block, has_common_times: bool) -> None:
+    """Write measures, ends, failures and series of a block into the variables at the positions of its runs."""
     n = len(block.t_last)
     values: dict[str, Any] = {**block.measures, "t_last": block.t_last, "failure": np.array(block.failures, object)}
     values |= block.series
-    if plan.expected.keep and not common:
+    if plan.expected.keep and not has_common_times:
         began = ~np.isnan(block.t_last)[:, None]
         values["t"] = np.where(began, np.broadcast_to(block.t, (n, block.t.shape[-1])), np.nan)
     for name, column in values.items():
         for at, rows in slabs(plan.shape, block.first, block.first + n):
             own = column[rows.start - block.first : rows.stop - block.first]
-            shape = _slice_shape(plan.shape, at)
+            shape = _compute_slice_shape(plan.shape, at)
             if column.ndim == 2:
                 variables[name][(*at, slice(0, column.shape[1]))] = own.reshape(*shape, column.shape[1])
             else:
                 variables[name][at] = own.reshape(shape) if shape or name == "failure" else own[0]
 
 
-def _slice_shape(shape: tuple[int, ...], at: tuple[Any, ...]) -> tuple[int, ...]:
-    """Return the lengths of the slices of an index into an array of this shape."""
-    slices = (range(length)[one] for one, length in zip(at, shape, strict=True) if isinstance(one, slice))
+def _compute_slice_shape(shape: tuple[int, ...], index: tuple[Any, ...]) -> tuple[int, ...]:
+    """Return the lengths of the slices of an index into an array of this shape; integers in it have no length."""
+    slices = (range(length)[one] for one, length in zip(index, shape, strict=True) if isinstance(one, slice))
     return tuple(len(one) for one in slices)
 
 
 def slabs(shape: tuple[int, ...], first: int, last: int) -> Iterable[tuple[tuple[Any, ...], slice]]:
-    """Yield boxes of an array of this shape that contain its elements first … last − 1 in C order, each with its
-    elements.
+    """Yield boxes of an array of this shape that together hold its elements first … last − 1 in C order.
+
+    Each is an index (integers and slices) and the slice of flat element numbers that it contains. An array of shape ()
+    has one empty index.
     """
     if not shape:
         yield (), slice(first, last)

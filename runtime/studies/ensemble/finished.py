@@ -33,15 +33,16 @@ class Study:
     """A finished study in its folder, from which datasets and tables are read on request."""
 
     def __init__(
-        self, folder: Path, keeps: tempfile.TemporaryDirectory[str] | None = None, whole: Study | None = None
+        self, folder: Path, keeps: tempfile.TemporaryDirectory[str] | None = None, parent_study: Study | None = None
     ) -> None:
-        """Open a study in a folder; `keeps` is a temporary folder to preserve, `whole` the study of which this is a
-        part.
+        """Open a study in a folder, without access to the disk.
+
+        keeps: temporary folder that lives as long as the study. parent_study: the study of which this is a part.
         """
-        self.folder, self._keeps, self._whole = folder, keeps, whole
+        self.folder, self._keeps, self._whole = folder, keeps, parent_study
 
     def __repr__(self) -> str:
-        """Return mechanism, runs, dimensions and failures in one line."""
+        """Return mechanism, number of runs, dimensions and number of failures in one line."""
         own = self.dataset["t_last"].sizes
         sizes = " × ".join(f"{name} {size}" for name, size in own.items())
         failed = f", {self.failed} failed" if self.failed else ""
@@ -49,9 +50,10 @@ class Study:
 
     @cached_property
     def dataset(self) -> xarray.Dataset:
-        """Measures, stored series and `failure` over the dimensions of the study; read from the file on access.
+        """Return measures, stored series and `failure` over the dimensions of the study, read from the file on access.
 
-        Coordinates are the varied parameters, SI, with `units`. NaN: a failed run has no value.
+        Coordinates are the varied parameters, SI, with `units`. NaN: a failed run has no value. A study in a temporary
+        folder is read whole. Raises InputError for a damaged file.
         """
         import xarray
 
@@ -64,12 +66,12 @@ class Study:
 
     @property
     def parts(self) -> Mapping[str, Study]:
-        """Studies by the names of the file's parts; empty for a file without parts."""
+        """Return the studies by the names of the file's parts; empty for a file without parts."""
         return {}
 
     @cached_property
     def claims(self) -> Claimed:
-        """Claims of the file, judged by the runs: `claims.numbers` and `claims.trends`, two tables.
+        """Return the claims of the file, judged by the runs: `claims.numbers` and `claims.trends`, two tables.
 
         A part has the numbers about it. Raises GudgeonError for a file without claims.
         """
@@ -80,52 +82,61 @@ class Study:
 
     @cached_property
     def names(self) -> Names:
-        """Titles and values to display in place of names and numbers."""
+        """Return titles and texts of values, which reports display in place of names and numbers; a part has those of
+        its file.
+        """
         return read_names(self.folder) if self._whole is None else self._whole.names
 
     @property
     def tree(self) -> xarray.DataTree:
-        """The dataset as a tree of one node, or with a node for each part."""
+        """Return the dataset as an xarray tree of one node."""
         import xarray
 
         return xarray.DataTree(self.dataset)
 
     @property
     def runs(self) -> int:
-        """Number of runs."""
+        """Return the number of runs."""
         return int(self.dataset.attrs["runs"])
 
     @property
     def failed(self) -> int:
-        """Number of runs that did not reach their end; `dataset["failure"]` has the reasons."""
+        """Return the number of runs that did not reach their end; `dataset["failure"]` has the reasons."""
         return int(self.dataset.attrs["failed"])
 
     @property
     def failures(self) -> dict[str, int]:
-        """Kinds of failures, without the values of single runs, with the number of runs; the most frequent first."""
+        """Return the number of runs by kind of failure (a reason without the values of single runs), the most frequent
+        first.
+        """
         return dict(json.loads(self.dataset.attrs["failure_kinds"]))
 
     @property
     def first_failures(self) -> dict[str, int]:
-        """Number of the first failed run of each kind, in the order of `dataset["failure"].values.flat`."""
+        """Return the number of the first failed run of each kind, in the order of `dataset["failure"].values.flat`.
+
+        Empty for a file of an earlier version.
+        """
         return dict(zip(self.failures, json.loads(self.dataset.attrs.get("failure_first", "[]")), strict=False))
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Notes on the study, without repetitions."""
+        """Return the notes on the study, one text each."""
         return tuple(filter(None, str(self.dataset.attrs["notes"]).split("\n")))
 
     @property
     def measures(self) -> tuple[str, ...]:
-        """Names of the measures."""
+        """Return the names of the measures: variables over all dimensions of the runs, except `t_last` and `failure`.
+        """
         found, others = self.dataset, ("t_last", "failure")
         own = (name for name, one in found.data_vars.items() if one.dims == found["t_last"].dims)
         return tuple(str(name) for name in own if name not in others)
 
     def to_dataframe(self, series: Iterable[str] | str = ()) -> pandas.DataFrame:
-        """Return a table with a row for each run: varied parameters, all measures, `failure`; SI.
+        """Return a table with a row for each run: varied parameters, all measures, `t_last`, `failure`; SI.
 
-        With names of stored series it has a row for each sample.
+        With names of stored series it has a row for each sample instead. Raises UnknownNameError for a series that the
+        study did not store.
         """
         requested = names(series, "series", "a list of names of kept series")
         for name in requested:
@@ -142,9 +153,7 @@ class Study:
 
     @property
     def plot(self) -> StudyPlot:
-        """Figures of the study: `study.plot.measure("peak", "c")`, `.bands("S9.y")`, `.heat_map("peak", "c", "omega")`
-        …
-        """
+        """Return the figures of the study, such as `study.plot.measure("peak", "c")` or `study.plot.bands("S9.y")`."""
         from gudgeon.studies.show.study_plots import StudyPlot
 
         return StudyPlot(self)
@@ -156,7 +165,9 @@ class Study:
         return StudyReport(self)
 
     def save(self, target: str | os.PathLike[str]) -> None:
-        """Write the dataset as one NetCDF file. Raises OutputError."""
+        """Write the dataset as one NetCDF file to the path `target`, a copy of the study's own file. Raises
+        OutputError.
+        """
         with open(self.folder / DATASET, "rb") as source, written(path(target, "path")) as file:
             while data := source.read(_CHUNK):
                 file.write(data)
@@ -168,45 +179,48 @@ class StudyOfParts(Study):
     def __init__(
         self, folder: Path, parts: Sequence[str], keeps: tempfile.TemporaryDirectory[str] | None = None
     ) -> None:
-        """Open the studies of all parts in a folder; `keeps` is a temporary folder to preserve."""
+        """Open the studies of all parts in the subfolders of a folder.
+
+        parts: names of the subfolders. keeps: temporary folder that lives as long as the study.
+        """
         super().__init__(folder, keeps)
         self._parts = {name: Study(folder / name, keeps, self) for name in parts}
 
     def __repr__(self) -> str:
-        """Return parts, runs and failures in one line."""
+        """Return the parts with their numbers of runs, and the number of failures, in one line."""
         message = ", ".join(f"{name} {part.runs}" for name, part in self._parts.items())
         return f"<Study of {len(self._parts)} parts: {message} runs{f', {self.failed} failed' if self.failed else ''}>"
 
     @property
     def parts(self) -> Mapping[str, Study]:
-        """Studies by the names of the file's parts."""
+        """Return the studies by the names of the file's parts."""
         return dict(self._parts)
 
     @property
     def dataset(self) -> xarray.Dataset:
-        """Not available: each part has its own dataset. Raises GudgeonError."""
-        raise self._part_required("dataset")
+        """Raise GudgeonError: each part has its own dataset."""
+        raise self._make_part_error("dataset")
 
     @property
     def tree(self) -> xarray.DataTree:
-        """Tree with a node for each part, whose dataset is that of the part."""
+        """Return an xarray tree with a node for each part, which holds its dataset."""
         import xarray
 
         return xarray.DataTree.from_dict({name: part.dataset for name, part in self._parts.items()})
 
     @property
     def runs(self) -> int:
-        """Number of runs of all parts."""
+        """Return the number of runs of all parts."""
         return sum(part.runs for part in self._parts.values())
 
     @property
     def failed(self) -> int:
-        """Number of failed runs of all parts."""
+        """Return the number of failed runs of all parts."""
         return sum(part.failed for part in self._parts.values())
 
     @property
     def failures(self) -> dict[str, int]:
-        """Kinds of failures in all parts, with the number of runs; the most frequent first."""
+        """Return the number of runs by kind of failure over all parts, the most frequent first."""
         every: Counter[str] = Counter()
         for part in self._parts.values():
             every.update(part.failures)
@@ -214,29 +228,34 @@ class StudyOfParts(Study):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Notes on all parts, each after the part's name."""
+        """Return the notes on all parts, each after the name of its part."""
         return tuple(f"{name}: {note}" for name, part in self._parts.items() for note in part.notes)
 
     @property
     def measures(self) -> tuple[str, ...]:
-        """Names of the measures of any part."""
+        """Return the names of the measures of any part, without repetitions."""
         return tuple(dict.fromkeys(name for part in self._parts.values() for name in part.measures))
 
     @property
     def plot(self) -> StudyPlot:
-        """Not available: each part has its own figures. Raises GudgeonError."""
-        raise self._part_required("plot")
+        """Raise GudgeonError: each part has its own figures."""
+        raise self._make_part_error("plot")
 
     def to_dataframe(self, series: Iterable[str] | str = ()) -> pandas.DataFrame:
         """Raise GudgeonError: each part has its own table."""
-        raise self._part_required("to_dataframe()")
+        raise self._make_part_error("to_dataframe()")
 
     def save(self, target: str | os.PathLike[str]) -> None:
-        """Write all datasets as one NetCDF file with a group for each part, for xarray.open_datatree."""
+        """Write the datasets of all parts as one NetCDF file with a group for each, for `xarray.open_datatree`.
+
+        Raises OutputError.
+        """
         with written(path(target, "path")) as file:
             file.write(bytes(self.tree.to_netcdf(engine="h5netcdf")))
 
-    def _part_required(self, what: str) -> GudgeonError:
-        """Return the error for a request that must be made to a part."""
+    def _make_part_error(self, request: str) -> GudgeonError:
+        """Return the error for a request, such as "dataset", that must be made to a part; it names the parts."""
         name = next(iter(self._parts))
-        return GudgeonError(f"this study has parts: {', '.join(self._parts)}\n  ask one: study.parts[{name!r}].{what}")
+        return GudgeonError(
+            f"this study has parts: {', '.join(self._parts)}\n  ask one: study.parts[{name!r}].{request}"
+        )

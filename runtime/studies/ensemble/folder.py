@@ -45,7 +45,12 @@ class StudyFolder:
 
     @contextmanager
     def opened(self, restart: bool) -> Iterator[StudyFolder]:
-        """Create and lock the folder for a plan. Raises InputError for a folder of another plan."""
+        """Create and lock the folder, check that it belongs to the plan, and yield it; the lock is released at the
+        end.
+
+        restart: remove the blocks of any earlier study. Raises InputError if another process holds the lock, or for a
+        folder with other contents or another study; OutputError.
+        """
         from filelock import FileLock, Timeout
 
         lock = FileLock(self.path / LOCK)
@@ -57,31 +62,36 @@ class StudyFolder:
                 message = f"another process is at work in {shortened(self.path)}"
                 raise InputError(message, hint="wait for it, or name another folder") from None
         try:
-            self._prepare(restart)
+            self._prepare_contents(restart)
             yield self
         finally:
             lock.release()
 
-    def _prepare(self, restart: bool) -> None:
-        """Check the contents of the folder, remove remains and, for a new study, write the manifest."""
-        there = sorted(name for name in os.listdir(self.path) if name != LOCK)
-        before = manifest(self.path)
-        foreign = [name for name in there if not (_BLOCK.fullmatch(name) or PART.fullmatch(name))]
-        if before is None and foreign:
+    def _prepare_contents(self, restart: bool) -> None:
+        """Check the contents of the folder, remove temporary files of killed processes, and write the manifest of a
+        new study.
+
+        Existing blocks are kept if the manifest is equal, and removed with `restart` or for other block sizes. Raises
+        InputError for foreign files or another study.
+        """
+        file_names = sorted(name for name in os.listdir(self.path) if name != LOCK)
+        old_manifest = manifest(self.path)
+        foreign = [name for name in file_names if not (_BLOCK.fullmatch(name) or PART.fullmatch(name))]
+        if old_manifest is None and foreign:
             message = f"{shortened(self.path)} is no folder of a study: it holds {foreign[0]}"
             raise InputError(message, hint="name another folder")
-        for name in there:
+        for name in file_names:
             if PART.fullmatch(name):  # of a process that was killed
                 (self.path / name).unlink(missing_ok=True)
         blocks = [part.block for part in self.plan.parts]
-        if before is not None and not restart:
-            if before.get("said") != self.plan.specified:
-                what = "\n  ".join(_differences(before.get("said"), self.plan.specified))
+        if old_manifest is not None and not restart:
+            if old_manifest.get("said") != self.plan.specified:
+                what = "\n  ".join(_describe_differences(old_manifest.get("said"), self.plan.specified))
                 hint = "begin anew with --restart (restart=True), or name another folder"
                 raise InputError(f"{shortened(self.path)} holds another study:\n  {what}", hint=hint)
-            if before.get("blocks") == blocks:
+            if old_manifest.get("blocks") == blocks:
                 return
-        for name in [name for name in there if name in (MANIFEST, DATASET) or _BLOCK.fullmatch(name)]:
+        for name in [name for name in file_names if name in (MANIFEST, DATASET) or _BLOCK.fullmatch(name)]:
             with telling(self.path / name):
                 (self.path / name).unlink(missing_ok=True)
         text = json.dumps({"said": self.plan.specified, "blocks": blocks, "plan": self.plan.identity}, indent=1)
@@ -89,18 +99,21 @@ class StudyFolder:
             file.write(text.encode())
 
     def has(self, number: int) -> bool:
-        """Return whether a block exists, is undamaged, and belongs to this plan."""
+        """Return whether a block exists, is undamaged, and belongs to this plan; the block is read for that."""
         return self.read(number) is not None
 
     def there(self) -> int:
-        """Return the number of block files, unread, for the message of an interrupted study."""
+        """Return the number of block files without reading them, for messages; 0 if the folder cannot be listed."""
         try:
             return sum(bool(_BLOCK.fullmatch(name)) for name in os.listdir(self.path))
         except OSError:
             return 0
 
     def write(self, block: Block) -> None:
-        """Write a block as one file, complete on the disk on return. Raises OutputError."""
+        """Write a block as one file, complete on the disk on return. Raises OutputError.
+
+        Small blocks also stay in memory, up to RECENT bytes in total.
+        """
         data = block_to_bytes(block, self.plan.digest)
         with written(self._block_path(block.number), sync=True) as file:
             file.write(data)
@@ -109,7 +122,9 @@ class StudyFolder:
             self.held += block.nbytes
 
     def read(self, number: int) -> Block | None:
-        """Return a block as written; None if it is missing or damaged, so that it is run again."""
+        """Return a block, from memory or its file; None if it is missing, damaged or of another plan, so that it is
+        run again.
+        """
         path = self._block_path(number)
         if number in self.recent and path.exists():
             return self.recent[number]
@@ -119,12 +134,12 @@ class StudyFolder:
         return None
 
     def _block_path(self, number: int) -> Path:
-        """Return the path of a block's file."""
+        """Return the path of the file of a block: block-000012.nc."""
         return self.path / f"block-{number:06d}.nc"
 
 
 def manifest(folder: Path) -> dict[str, Any] | None:
-    """Return the manifest of a folder; None if it is not a study's."""
+    """Return the manifest study.json of a folder; None if it is missing or is not a JSON mapping."""
     try:
         data = read_regular(folder / MANIFEST)
         found = None if data is None else json.loads(data)
@@ -134,29 +149,37 @@ def manifest(folder: Path) -> dict[str, Any] | None:
 
 
 def open_parts(path: Path, parts: Sequence[str], restart: bool) -> None:
-    """Create a folder of studies, each in a folder of its own. Raises InputError for a folder with other contents."""
+    """Create the folder of a study with parts and write its manifest; each part gets a subfolder later.
+
+    restart: replace a study without parts. Raises InputError for a folder with other contents, OutputError.
+    """
     with telling(path):
         path.mkdir(parents=True, exist_ok=True)
-        there = [name for name in sorted(os.listdir(path)) if not PART.fullmatch(name)]
-    before = manifest(path)
-    if there and before is None:
-        raise InputError(f"{shortened(path)} is no folder of a study: it holds {there[0]}", hint="name another folder")
-    if before is not None and "parts" not in before and not restart:
+        file_names = [name for name in sorted(os.listdir(path)) if not PART.fullmatch(name)]
+    old_manifest = manifest(path)
+    if file_names and old_manifest is None:
+        raise InputError(
+            f"{shortened(path)} is no folder of a study: it holds {file_names[0]}", hint="name another folder"
+        )
+    if old_manifest is not None and "parts" not in old_manifest and not restart:
         hint = "begin anew with --restart (restart=True), or name another folder"
         raise InputError(f"{shortened(path)} holds a study without parts", hint=hint)
     with written(path / MANIFEST, sync=True) as file:
         file.write(json.dumps({"format": FOLDER_FORMAT, "parts": list(parts)}, indent=1).encode())
 
 
-def part_names(found: Mapping[str, Any]) -> list[str]:
-    """Return the names of the parts in a manifest; invalid names are left out."""
-    named = found.get("parts")
-    known = named if isinstance(named, list) else []
+def part_names(manifest_: Mapping[str, Any]) -> list[str]:
+    """Return the names of the parts in a manifest; invalid names are left out, and without parts the list is empty."""
+    names = manifest_.get("parts")
+    known = names if isinstance(names, list) else []
     return [name for name in known if isinstance(name, str) and re.fullmatch(LABEL, name)]
 
 
 def check_dataset(folder: Path, plan: Any) -> None:
-    """Raise InputError for a dataset that cannot be opened, or has another digest than this plan."""
+    """Raise InputError if the dataset study.nc of a folder cannot be opened or was written for another plan.
+
+    plan: digest of the plan, as the manifest has it.
+    """
     path = folder / DATASET
     with convert_read_errors(path), h5py_module().File(path, "r") as file:
         own = file.attrs["plan"] == plan and len(file["failure"].shape) >= 0
@@ -166,7 +189,7 @@ def check_dataset(folder: Path, plan: Any) -> None:
 
 @contextmanager
 def convert_read_errors(path: Path) -> Iterator[None]:
-    """Convert errors of HDF5 on a damaged file to InputError within this context."""
+    """Convert errors of HDF5 within this context, as a damaged file causes them, to InputError with the path."""
     try:
         yield
     except (OSError, KeyError, ValueError, RuntimeError) as error:
@@ -174,33 +197,33 @@ def convert_read_errors(path: Path) -> Iterator[None]:
         raise InputError(message, hint="remove it: gudgeon study FILE --out FOLDER writes it anew") from error
 
 
-def _differences(before: Any, now: Any) -> list[str]:
-    """Return the differences of two studies as lines."""
-    old, new = dict(_flatten(before)), dict(_flatten(now))
+def _describe_differences(old_inputs: Any, new_inputs: Any) -> list[str]:
+    """Return a line for each input that differs between two studies: "name was …, is …", at most _MOST_TOLD of them."""
+    old, new = dict(_iterate_leaves(old_inputs)), dict(_iterate_leaves(new_inputs))
     lines = []
     for key in dict.fromkeys([*old, *new]):
         if old.get(key) != new.get(key):
-            then, own = (message(one[key]) if key in one else "not said" for one in (old, new))
-            lines.append(f"{key.removeprefix('study.')} was {then}, is {own}")
-    more = [f"and {len(lines) - _MOST_TOLD} more"] if len(lines) > _MOST_TOLD else []
-    return lines[:_MOST_TOLD] + more
+            old_text, new_text = (message(one[key]) if key in one else "not said" for one in (old, new))
+            lines.append(f"{key.removeprefix('study.')} was {old_text}, is {new_text}")
+    rest = [f"and {len(lines) - _MOST_TOLD} more"] if len(lines) > _MOST_TOLD else []
+    return lines[:_MOST_TOLD] + rest
 
 
-def _flatten(node: Any, key: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield path and value of all leaves of nested mappings and lists."""
+def _iterate_leaves(node: Any, key: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield key path ("a.b[2]") and value of all leaves of nested mappings and lists; `key` is the path of the node."""
     if isinstance(node, Mapping):
         for name, below in node.items():
-            yield from _flatten(below, f"{key}.{name}" if key else str(name))
+            yield from _iterate_leaves(below, f"{key}.{name}" if key else str(name))
     elif isinstance(node, list):
         for k, below in enumerate(node):
-            yield from _flatten(below, f"{key}[{k}]")
+            yield from _iterate_leaves(below, f"{key}[{k}]")
     else:
         yield key, node
 
 
 @cache
 def h5py_module() -> Any:
-    """Return the module h5py. Raises GudgeonError if packages are missing."""
+    """Return the module h5py, imported once. Raises GudgeonError if h5py, xarray or h5netcdf is not installed."""
     if not all(map(find_spec, ("h5py", "xarray", "h5netcdf"))):
         raise GudgeonError("studies need xarray and h5py: pip install 'gudgeon[xarray]'")
     import h5py
@@ -209,42 +232,60 @@ def h5py_module() -> Any:
 
 
 def block_to_bytes(block: Block, digest: str) -> bytes:
-    """Return a block as the bytes of an HDF5 file with checksums; few arrays, since each costs time."""
-    h5py, memory = h5py_module(), io.BytesIO()
-    with h5py.File(memory, "w") as file:
+    """Return a block as the bytes of an HDF5 file with checksums and the plan's digest.
+
+    Measures and end times are one array, failures and notes one array of JSON, since each array costs time.
+    """
+    h5py, buffer = h5py_module(), io.BytesIO()
+    with h5py.File(buffer, "w") as file:
         file.attrs["digest"], file.attrs["number"] = digest, block.number
         notes = {kind: (note.runs, note.run, note.text) for kind, note in block.notes.items()}
-        words = np.frombuffer(json.dumps((block.failures, notes)).encode(), np.uint8)
-        arrays = {"runs": np.array([block.t_last, *block.measures.values()]), "words": words}
+        text_bytes = np.frombuffer(json.dumps((block.failures, notes)).encode(), np.uint8)
+        arrays = {"runs": np.array([block.t_last, *block.measures.values()]), "words": text_bytes}
         if block.series:
             arrays |= {"t": block.t, "series": np.array([*block.series.values()])}
         for name, values in arrays.items():
             file.create_dataset(name, data=values, **({"fletcher32": True} if values.size else {}))
-    return memory.getvalue()
+    return buffer.getvalue()
 
 
 def block_from_bytes(data: bytes, plan: Plan, number: int) -> Block | None:
-    """Return the block of these bytes; None for another plan. Raises OSError, ValueError, KeyError for damage."""
+    """Return the block that `block_to_bytes` wrote; None if digest or number are of another plan.
+
+    Raises OSError, ValueError, KeyError or TypeError for damaged bytes.
+    """
     h5py = h5py_module()
-    of = plan.blocks[number]
+    description = plan.blocks[number]
     with h5py.File(io.BytesIO(data), "r") as file:
         if file.attrs["digest"] != plan.digest or file.attrs["number"] != number:
             return None
         names, keep = [one.name for one in plan.expected.measures], plan.expected.keep
-        t_last, *measures = _read_array(file, "runs", (1 + len(names), of.runs))
-        t, series = np.zeros(0), np.zeros((0, of.runs, 0))
+        t_last, *measures = _read_array(file, "runs", (1 + len(names), description.runs))
+        t, series = np.zeros(0), np.zeros((0, description.runs, 0))
         if keep:
-            t, series = np.asarray(file["t"], dtype=float), _read_array(file, "series", (len(keep), of.runs, None))
-        failures, message = json.loads(bytes(np.asarray(file["words"], np.uint8)))
-    notes = {kind: Note(*note) for kind, note in message.items()}
-    if len(failures) != of.runs or not all(isinstance(message, str) for message in failures):
-        raise ValueError(f"block {number}: expected {of.runs} runs")
-    used = dict(zip(names, measures, strict=True)), dict(zip(keep, series, strict=True))
-    return Block(number, of.part * plan.each + of.first, used[0], tuple(failures), t_last, t, used[1], notes)
+            t, series = (
+                np.asarray(file["t"], dtype=float),
+                _read_array(file, "series", (len(keep), description.runs, None)),
+            )
+        failures, notes_json = json.loads(bytes(np.asarray(file["words"], np.uint8)))
+    notes = {kind: Note(*note) for kind, note in notes_json.items()}
+    if len(failures) != description.runs or not all(isinstance(notes_json, str) for notes_json in failures):
+        raise ValueError(f"block {number}: expected {description.runs} runs")
+    by_name = dict(zip(names, measures, strict=True)), dict(zip(keep, series, strict=True))
+    return Block(
+        number,
+        description.part * plan.each + description.first,
+        by_name[0],
+        tuple(failures),
+        t_last,
+        t,
+        by_name[1],
+        notes,
+    )
 
 
 def _read_array(file: Any, name: str, shape: tuple[int | None, ...]) -> Any:
-    """Return an array of the file as floats. Raises ValueError unless it has the given shape; None: any length."""
+    """Return an array of an open file as floats. Raises ValueError unless it has this shape; None: any length."""
     found = np.asarray(file[name], dtype=float)
     if len(found.shape) != len(shape) or any(n not in (None, own) for n, own in zip(shape, found.shape, strict=True)):
         raise ValueError(f"{name} has shape {found.shape}")

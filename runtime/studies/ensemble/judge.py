@@ -77,170 +77,210 @@ class Estimate:
     again: float = math.inf
     again_runs: float = math.inf
 
-    def bound(self, side: float, doubt: float = DOUBT) -> float:
-        """Return the end of the interval below (side −1) or above (1) that is exceeded with probability `doubt`.
+    def bound(self, sign: float, doubt: float = DOUBT) -> float:
+        """Return the lower (sign −1) or upper (1) end of the confidence interval; each is missed with probability
+        `doubt`.
 
-        E. B. Wilson, J. Am. Stat. Assoc. 22, 1927. The interval is at least that of runs that all, or none, meet the
-        condition.
+        E. B. Wilson, J. Am. Stat. Assoc. 22, 1927. The interval is at least as wide as that of runs that all, or none,
+        meet the condition. Without scatter (infinite trials) or for NaN it is p itself.
         """
         if not math.isfinite(self.trials) or math.isnan(self.p):
             return self.p
-        ends = _wilson_bound(self.p, self.trials, side, doubt), _wilson_bound(0.5 - 0.5 * side, self.runs, side, doubt)
-        return max(ends) if side > 0 else min(ends)
+        ends = (
+            _compute_wilson_bound(self.p, self.trials, sign, doubt),
+            _compute_wilson_bound(0.5 - 0.5 * sign, self.runs, sign, doubt),
+        )
+        return max(ends) if sign > 0 else min(ends)
 
 
-def _wilson_bound(p: float, n: float, side: float, doubt: float) -> float:
-    """Return an end of Wilson's interval for a probability p from n trials."""
-    z = NormalDist().inv_cdf(1.0 - doubt)
-    middle, reach = p + z * z / (2.0 * n), z * math.sqrt(p * (1.0 - p) / n + (z / (2.0 * n)) ** 2)
-    return min(max((middle + side * reach) / (1.0 + z * z / n), 0.0), 1.0)
+def _compute_wilson_bound(p: float, n: float, sign: float, tail_probability: float) -> float:
+    """Return the lower (sign −1) or upper (1) end of Wilson's interval for a probability p from n trials, in [0, 1].
+
+    tail_probability: one-sided probability that the true value lies beyond the end.
+    """
+    z = NormalDist().inv_cdf(1.0 - tail_probability)
+    middle, half_width = p + z * z / (2.0 * n), z * math.sqrt(p * (1.0 - p) / n + (z / (2.0 * n)) ** 2)
+    return min(max((middle + sign * half_width) / (1.0 + z * z / n), 0.0), 1.0)
 
 
 def judged(checks: Sequence[Check], runs: Runs, certain: Container[Cell] = (), again: Container[Cell] = ()) -> Judged:
-    """Return the verdict on a claim: it holds if each check is likely, fails if one is unlikely, as far as is known.
+    """Return the verdict on a claim: it holds if each of its checks is likely, and fails if one is unlikely.
 
     A probability is that of independent runs, one of each cell, estimated from all combinations of runs: for two cells
     from all pairs (H. B. Mann, D. R. Whitney, Ann. Math. Stat. 18, 1947); ties count as not larger. It is NaN, and the
     verdict undecided, if a cell has no run with all measures. certain: cells whose runs do not scatter; again: cells
     whose runs other ensembles share.
     """
-    whole = _complete_runs(checks, runs)
-    chance = math.prod(_evaluate_combinations(group, whole)[0] for group in _group_checks(checks))
-    return _verdict_of([_estimate_check(check, whole, certain, again) for check in checks], chance)
+    complete_runs = _select_complete_runs(checks, runs)
+    chance = math.prod(_evaluate_combinations(group, complete_runs)[0] for group in _group_checks(checks))
+    return _combine_estimates([_estimate_check(check, complete_runs, certain, again) for check in checks], chance)
 
 
-def together(each: Sequence[Judged]) -> tuple[Judged, bool]:
-    """Return the verdict of several ensembles on one claim, and whether no ensemble rules out the verdict of another.
+def together(verdicts: Sequence[Judged]) -> tuple[Judged, bool]:
+    """Return the common verdict of several ensembles on one claim, and whether no ensemble rules out the verdict of
+    another.
 
     Probabilities are means over the ensembles. Their trials add up, except for shared runs. Without agreement the
     verdict is undecided.
     """
-    mean = math.fsum(one.chance for one in each) / len(each)
-    both = _verdict_of(
-        [_mean_estimate(several) for several in zip(*(one.estimates for one in each), strict=True)], mean
+    mean_chance = math.fsum(one.chance for one in verdicts) / len(verdicts)
+    common = _combine_estimates(
+        [_average_estimates(estimates) for estimates in zip(*(one.estimates for one in verdicts), strict=True)],
+        mean_chance,
     )
-    agreed = not any(one.verdict in other.denied for one in each for other in each)
-    return (both if agreed else replace(both, verdict="undecided")), agreed
+    agreed = not any(one.verdict in other.denied for one in verdicts for other in verdicts)
+    return (common if agreed else replace(common, verdict="undecided")), agreed
 
 
-def _mean_estimate(several: Sequence[Estimate]) -> Estimate:
-    """Return the mean of the estimates of several ensembles.
+def _average_estimates(estimates: Sequence[Estimate]) -> Estimate:
+    """Return the mean of the estimates of one check in several ensembles.
 
-    Variances of the ensembles' separate runs, 1/trials − 1/again, decrease with their number; those of shared runs do
-    not.
+    The variances of the ensembles' separate runs, 1/trials − 1/again, decrease with their number; those of shared runs
+    do not.
     """
-    p, again = (math.fsum(values) / len(several) for values in zip(*((x.p, x.again) for x in several), strict=True))
-    rests = [1.0 / one.trials - 1.0 / one.again for one in several]
-    alone = math.inf if min(rests) <= 0.0 else math.fsum(1.0 / rest for rest in rests)
-    trials = math.inf if alone == again == math.inf else 1.0 / (1.0 / alone + 1.0 / again)
-    again_runs = min(one.again_runs for one in several)
-    return Estimate(p, trials, min(math.fsum(one.runs for one in several), again_runs), again, again_runs)
+    p, again = (math.fsum(values) / len(estimates) for values in zip(*((x.p, x.again) for x in estimates), strict=True))
+    separate_variances = [1.0 / one.trials - 1.0 / one.again for one in estimates]
+    separate_trials = (
+        math.inf if min(separate_variances) <= 0.0 else math.fsum(1.0 / rest for rest in separate_variances)
+    )
+    trials = math.inf if separate_trials == again == math.inf else 1.0 / (1.0 / separate_trials + 1.0 / again)
+    again_runs = min(one.again_runs for one in estimates)
+    return Estimate(p, trials, min(math.fsum(one.runs for one in estimates), again_runs), again, again_runs)
 
 
-def _verdict_of(each: Sequence[Estimate], chance: float) -> Judged:
-    """Return the verdict from the estimates of all checks.
+def _combine_estimates(estimates: Sequence[Estimate], chance: float) -> Judged:
+    """Return the verdict on a claim from the estimates of all its checks; `chance`: that single runs meet all.
 
-    It holds if each check is likely; to fail, the bound of each check is corrected for their number (Bonferroni).
+    The claim holds if each check is likely. To fail, the bound of each check is corrected for their number
+    (Bonferroni). It is undecided without checks or with a NaN.
     """
-    if not each or any(math.isnan(one.p) for one in each):
-        return Judged("undecided", math.nan, math.nan, math.nan, chance, frozenset(), tuple(each))
-    low = min(one.bound(-1.0) for one in each)
-    high = min(one.bound(1.0, DOUBT / len(each)) for one in each)
-    least = min(each, key=lambda one: one.p)
+    if not estimates or any(math.isnan(one.p) for one in estimates):
+        return Judged("undecided", math.nan, math.nan, math.nan, chance, frozenset(), tuple(estimates))
+    low = min(one.bound(-1.0) for one in estimates)
+    high = min(one.bound(1.0, DOUBT / len(estimates)) for one in estimates)
+    least_likely = min(estimates, key=lambda one: one.p)
     verdict = "fails" if high <= FAILS else "holds" if low >= HOLDS else "undecided"
     denied = frozenset(name for name, is_so in (("holds", high < HOLDS), ("fails", low > FAILS)) if is_so)
-    return Judged(verdict, least.p, least.bound(-1.0), least.bound(1.0), chance, denied, tuple(each))
+    return Judged(
+        verdict, least_likely.p, least_likely.bound(-1.0), least_likely.bound(1.0), chance, denied, tuple(estimates)
+    )
 
 
-def _complete_runs(checks: Sequence[Check], runs: Runs) -> Runs:
-    """Return the runs of each cell that have all measures of the checks."""
-    requested: dict[Cell, dict[str, None]] = {}
+def _select_complete_runs(checks: Sequence[Check], runs: Runs) -> Runs:
+    """Return for each cell of the checks the runs that have finite values of all measures that the checks need there.
+
+    The entry PLACES of a cell has the indices of these runs.
+    """
+    measures_by_cell: dict[Cell, dict[str, None]] = {}
     for check in checks:
         for cell in check.cells:
-            requested.setdefault(cell, {}).update(dict.fromkeys(check.measures))
+            measures_by_cell.setdefault(cell, {}).update(dict.fromkeys(check.measures))
     found = {}
-    for cell, measures in requested.items():
+    for cell, measures in measures_by_cell.items():
         own = {name: runs[cell][name] for name in measures}
-        good = np.logical_and.reduce([np.isfinite(values) for values in own.values()])
-        found[cell] = {name: values[good] for name, values in own.items()} | {PLACES: np.flatnonzero(good)}
+        is_complete = np.logical_and.reduce([np.isfinite(values) for values in own.values()])
+        found[cell] = {name: values[is_complete] for name, values in own.items()} | {
+            PLACES: np.flatnonzero(is_complete)
+        }
     return found
 
 
-def _estimate_check(check: Check, runs: Runs, certain: Container[Cell], again: Container[Cell]) -> Estimate:
-    """Return the estimate of a check.
+def _estimate_check(check: Check, runs: Runs, certain: Container[Cell], shared: Container[Cell]) -> Estimate:
+    """Return the probability of a check and the number of independent trials that it is worth.
 
-    The number of trials follows from the variance of the fractions of single runs of each cell (W. Hoeffding, Ann.
-    Math. Stat. 19, 1948).
+    The trials follow from the variance of the fractions of single runs of each cell (W. Hoeffding, Ann. Math. Stat.
+    19, 1948). They are infinite if no cell scatters or the probability is NaN.
     """
-    p, shown, selected = _evaluate_combinations([check], runs)
-    shares = {
-        cell: _fractions_by_run(own, shown, runs[cell][PLACES]) for cell, own in selected.items() if cell not in certain
+    p, is_met, selected = _evaluate_combinations([check], runs)
+    fractions = {
+        cell: _compute_fractions_by_run(own, is_met, runs[cell][PLACES])
+        for cell, own in selected.items()
+        if cell not in certain
     }
-    if not shares or math.isnan(p):
+    if not fractions or math.isnan(p):
         return Estimate(p, math.inf)
-    most = sum(int(np.isfinite(own).sum()) for own in shares.values())
-    several = [own for cell, own in shares.items() if cell in again]
-    return Estimate(p, *_effective_trials(p, list(shares.values()), most), *_effective_trials(p, several, most))
+    max_trials = sum(int(np.isfinite(own).sum()) for own in fractions.values())
+    shared_fractions = [own for cell, own in fractions.items() if cell in shared]
+    return Estimate(
+        p,
+        *_estimate_trials(p, list(fractions.values()), max_trials),
+        *_estimate_trials(p, shared_fractions, max_trials),
+    )
 
 
-def _fractions_by_run(selected: Array, shown: Array, places: Array) -> Array:
-    """Return for each run of a cell the fraction of its combinations that meets the check; NaN for a missing run."""
-    found, seen = np.full(int(places.max()) + 1, np.nan), np.bincount(selected, minlength=len(places))
-    with np.errstate(invalid="ignore"):
-        found[places] = np.bincount(selected, shown, len(places)) / seen
-    return found
+def _compute_fractions_by_run(selected: Array, is_met: Array, indices: Array) -> Array:
+    """Return for each run of a cell the fraction of its combinations that meets the check; NaN for a run left out.
 
-
-def _effective_trials(p: float, shares: Sequence[Array], most: int) -> tuple[float, float]:
-    """Return the independent trials, and the runs of the smallest cell, for a probability with these fractions of its
-    cells.
-
-    Runs of two cells may have the same deviations: if their fractions are correlated, the covariance adds to the
-    variance.
+    selected (n_combinations,): number of the cell's run in each combination. is_met (n_combinations,): whether it
+    meets the check. indices: index of each numbered run in the cell.
     """
-    if not shares:
+    fractions, counts = np.full(int(indices.max()) + 1, np.nan), np.bincount(selected, minlength=len(indices))
+    with np.errstate(invalid="ignore"):
+        fractions[indices] = np.bincount(selected, is_met, len(indices)) / counts
+    return fractions
+
+
+def _estimate_trials(p: float, fractions: Sequence[Array], max_trials: int) -> tuple[float, float]:
+    """Return the number of independent trials that a probability p is worth, and the runs of the smallest cell.
+
+    fractions: those of the runs of each cell that meet the check. If fractions of two cells are correlated, as with
+    equal deviations, their covariance adds to the variance. Both results are infinite without cells; trials are at
+    most `max_trials`.
+    """
+    if not fractions:
         return math.inf, math.inf
-    counts = [int(np.isfinite(own).sum()) for own in shares]
-    variance = math.fsum(_covariance(own, own) for own in shares)
+    counts = [int(np.isfinite(own).sum()) for own in fractions]
+    variance = math.fsum(_compute_mean_covariance(own, own) for own in fractions)
     if variance <= 0.0:
         return min(counts), min(counts)
-    variance += max(2.0 * math.fsum(_covariance(a, b) for a, b in itertools.combinations(shares, 2)), 0.0)
-    return min(p * (1.0 - p) / variance, most), min(counts)
+    variance += max(
+        2.0 * math.fsum(_compute_mean_covariance(a, b) for a, b in itertools.combinations(fractions, 2)), 0.0
+    )
+    return min(p * (1.0 - p) / variance, max_trials), min(counts)
 
 
-def _covariance(a: Array, b: Array) -> float:
-    """Return the covariance of the means of two arrays, from entries with the same index."""
+def _compute_mean_covariance(a: Array, b: Array) -> float:
+    """Return the covariance of the means of two arrays from entries with the same index, both finite.
+
+    It is 0 for fewer than two such entries.
+    """
     counts, length = (np.isfinite(a).sum(), np.isfinite(b).sum()), min(len(a), len(b))
-    both = np.isfinite(a[:length]) & np.isfinite(b[:length])
-    n = int(both.sum())
+    is_common = np.isfinite(a[:length]) & np.isfinite(b[:length])
+    n = int(is_common.sum())
     if n < 2:
         return 0.0
-    return float(np.cov(a[:length][both], b[:length][both])[0, 1]) * n / float(counts[0] * counts[1])
+    return float(np.cov(a[:length][is_common], b[:length][is_common])[0, 1]) * n / float(counts[0] * counts[1])
 
 
 def _evaluate_combinations(checks: Sequence[Check], runs: Runs) -> tuple[float, Array, dict[Cell, Array]]:
-    """Return the fraction of combinations of runs that meet all checks, which ones do, and the chosen runs of each
-    cell.
+    """Return the fraction of combinations of runs that meet all checks, a flag for each, and the run of each cell in
+    each.
+
+    A combination has one run of each cell. The fraction is NaN and the arrays are empty if a cell has no runs.
     """
     cells = list(dict.fromkeys(cell for check in checks for cell in check.cells))
     sizes = [len(next(iter(runs[cell].values()))) for cell in cells]
     if not all(sizes):
         return math.nan, np.zeros(0), {}
-    selected = dict(zip(cells, _combinations(sizes), strict=True))
-    shown = np.ones(len(selected[cells[0]]) if cells else 1, dtype=bool)
+    selected = dict(zip(cells, _draw_combinations(sizes), strict=True))
+    is_met = np.ones(len(selected[cells[0]]) if cells else 1, dtype=bool)
     for check in checks:
 
         def look(k: int, name: str, check: Check = check) -> Array:
-            """Return a measure of the runs of a check's cell k in all combinations."""
+            """Return a measure of cell k of the check for all combinations."""
             cell = check.cells[k]
             return runs[cell][name][selected[cell]]
 
-        shown = shown & check.shows(look)
-    return float(np.mean(shown)), shown, selected
+        is_met = is_met & check.shows(look)
+    return float(np.mean(is_met)), is_met, selected
 
 
-def _combinations(sizes: Sequence[int]) -> Sequence[Array]:
-    """Return for each cell the run in each combination: all combinations, or MOST random ones."""
+def _draw_combinations(sizes: Sequence[int]) -> Sequence[Array]:
+    """Return for each cell the number of its run in each combination: all combinations, or MOST random ones (fixed
+    seed).
+
+    sizes: number of runs of each cell.
+    """
     count = math.prod(sizes)
     if count <= MOST:
         return np.unravel_index(np.arange(count), tuple(sizes)) if sizes else ()
@@ -249,16 +289,16 @@ def _combinations(sizes: Sequence[int]) -> Sequence[Array]:
 
 
 def _group_checks(checks: Sequence[Check]) -> list[list[Check]]:
-    """Return groups of checks that share cells, directly or by others; different groups are independent."""
+    """Return groups of checks that share cells, directly or through other checks; different groups are independent."""
     groups: list[tuple[set[Cell], list[Check]]] = []
     for check in checks:
-        cells, own = set(check.cells), [check]
-        apart = []
+        cells, group_checks = set(check.cells), [check]
+        independent_groups = []
         for group in groups:
             if group[0] & cells:
                 cells |= group[0]
-                own = group[1] + own
+                group_checks = group[1] + group_checks
             else:
-                apart.append(group)
-        groups = [*apart, (cells, own)]
-    return [own for _, own in groups]
+                independent_groups.append(group)
+        groups = [*independent_groups, (cells, group_checks)]
+    return [group_checks for _, group_checks in groups]

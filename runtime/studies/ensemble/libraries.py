@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 FEWEST = 3  # libraries to make, from which on a second process pays: it begins with loading SymPy
 MOST = 64  # libraries that are left to it: more do not fit into its command line
-OTHER = f"from {__name__} import compile_from_command_line as run; run()"
+COMPILE_CODE = f"from {__name__} import compile_from_command_line as run; run()"
 
 
 class Structure(NamedTuple):
@@ -43,8 +43,10 @@ class Structure(NamedTuple):
 
 
 def mechanism_of(study: StudyFile) -> str:
-    """Return the shipped mechanism's name, or the path of a file, which must lie in the study file's folder or
-    below.
+    """Return the mechanism of a study: the name of a shipped one, or the absolute path of a file.
+
+    The file must lie in the folder of the study file or below. Raises an InputError at the mechanism's location in the
+    study file.
     """
     name = str(study.mechanism)
     is_file = "/" in name or name.endswith((".yaml", ".yml"))
@@ -63,7 +65,9 @@ def mechanism_of(study: StudyFile) -> str:
 
 
 def structures(study: StudyFile) -> Iterator[tuple[Text, dict[str, Text], tuple[tuple[str, str], ...]]]:
-    """Yield every scene with every combination of options: overrides as texts with locations, and as pairs."""
+    """Yield every scene with every combination of options: scene, overrides as texts with locations, and as sorted
+    pairs.
+    """
     choices = [list(choice.options.values()) for choice in study.choices]
     for scene, selected in itertools.product(study.scenes, itertools.product(*choices)):
         texts = {address: text for own in selected for address, text in own.items()}
@@ -71,12 +75,15 @@ def structures(study: StudyFile) -> Iterator[tuple[Text, dict[str, Text], tuple[
 
 
 def origins(study: StudyFile) -> list[Text]:
-    """Return the scenes that measures subtract, without repetitions."""
+    """Return the scenes whose series measures of a study subtract, without repetitions."""
     return list(dict.fromkeys(one.origin for one in study.measures if one.origin is not None))
 
 
 def structures_of(studies: Iterable[StudyFile]) -> list[Structure]:
-    """Return the libraries that `resolve` loads for these studies, in its order; none for an unknown mechanism."""
+    """Return the libraries that `resolve` loads for these studies, in its order, without repetitions.
+
+    A study with an unknown mechanism has none; its error is reported when it is resolved.
+    """
     found: dict[Structure, None] = {}
     for study in studies:
         try:
@@ -91,18 +98,19 @@ def structures_of(studies: Iterable[StudyFile]) -> list[Structure]:
 
 @contextmanager
 def compile_in_second_process(structures: Sequence[Structure]) -> Iterator[None]:
-    """Compile libraries in another process from the last on, while this one loads them from the first on.
+    """Compile libraries in another process, from the last on, while the code in the context loads them from the first
+    on.
 
-    A process that needs a library that the other is compiling waits for it. They share only the cache. Without a cache
-    or a second process, this one compiles all.
+    A process that needs a library that the other is compiling waits for it; they share only the cache. With few new
+    libraries, one core or no second process, nothing is started. The process is terminated at the end of the context.
     """
-    new = [one for one in structures if not is_known(one.mechanism, one.scene, dict(one.overrides))]
+    missing = [one for one in structures if not is_known(one.mechanism, one.scene, dict(one.overrides))]
     with Programs() as programs:
         process = None
-        if len(new) >= FEWEST and available_threads() > 1:
-            message = json.dumps([law_files(), new[: -MOST - 1 : -1]])
+        if len(missing) >= FEWEST and available_threads() > 1:
+            arguments = json.dumps([law_files(), missing[: -MOST - 1 : -1]])
             try:
-                process = programs.begin([sys.executable, "-c", OTHER, message], None, dict(os.environ))
+                process = programs.begin([sys.executable, "-c", COMPILE_CODE, arguments], None, dict(os.environ))
             except OSError:
                 process = None
         try:
@@ -114,8 +122,9 @@ def compile_in_second_process(structures: Sequence[Structure]) -> Iterator[None]
 
 
 def compile_from_command_line() -> None:
-    """Compile the libraries of the command line in the other process; the process that needs a library reports its
-    errors.
+    """Compile the libraries that the command line lists, as the second process of a study.
+
+    Errors are ignored, since the process that needs a library reports them. SIGTERM ends it.
     """
     signal.signal(signal.SIGTERM, lambda *_: sys.exit())  # compilers and folders of what is under way go with it
     laws, structures = json.loads(sys.argv[1])
@@ -130,8 +139,9 @@ def compile_from_command_line() -> None:
 
 @lru_cache(maxsize=16)
 def load_library(mechanism: str, scene: str, overrides: tuple[tuple[str, str], ...], sha256: str) -> Simulation:
-    """Return the library of a part in a worker's process. Raises InputError for a file that changed since the study
-    began.
+    """Return the loaded library of a part in a worker process; the last 16 are cached.
+
+    Raises InputError if the mechanism's file changed since the study began (sha256).
     """
     found = load(mechanism, scene, overrides=dict(overrides), quick=False)
     if found.source.whole_sha256 != sha256:
@@ -141,5 +151,5 @@ def load_library(mechanism: str, scene: str, overrides: tuple[tuple[str, str], .
 
 
 def method_in(source: KernelSource, method: str) -> str:
-    """Return the method for a scene: "auto" for a kinematically driven one, else the requested one."""
+    """Return the method for a scene: "auto" for a kinematically driven one (dof = 0), else the requested one."""
     return method if source.degrees_of_freedom else "auto"

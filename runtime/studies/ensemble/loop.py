@@ -28,18 +28,18 @@ FUTILE = 3  # times that workers die one after the other, and no block is done
 class _StudyProgress:
     """Progress of a study: runs of written blocks, and fractions of the running ones."""
 
-    def __init__(self, runs: int, done: int, progress: Progress | None) -> None:
-        """Begin at `done` of `runs` runs."""
-        self.runs, self.done, self.progress = runs, done, progress
+    def __init__(self, runs: int, n_done: int, progress: Progress | None) -> None:
+        """Begin with `n_done` of `runs` runs done; `progress` is None or the caller's progress function."""
+        self.runs, self.done, self.progress = runs, n_done, progress
         self.shares: dict[int, float] = {}  # of blocks by their number, in runs
 
     def add(self, block: BlockOf) -> None:
-        """Count a written block."""
+        """Count the runs of a written block as done."""
         self.shares.pop(block.number, None)
         self.done += block.runs
 
-    def tell(self) -> None:
-        """Report the progress in the calling thread."""
+    def report_progress(self) -> None:
+        """Call the progress function, if there is one, with done runs and fractions of running blocks."""
         if self.progress:
             under_way = sum(self.shares.copy().values())
             self.progress((self.done + under_way) / self.runs, f"{self.done} of {self.runs} runs")
@@ -48,28 +48,33 @@ class _StudyProgress:
 def finish_study(
     folder: StudyFolder, threads: int | None, executor: Executor | None, progress: Progress | None
 ) -> None:
-    """Run the missing blocks, then write the dataset. KeyboardInterrupt preserves the finished blocks."""
-    plan, futile = folder.plan, 0
+    """Run the missing blocks of a study, then write the dataset; nothing is done if a valid dataset exists.
+
+    executor: None runs the blocks in threads of this process. Local worker processes that end early are replaced, up
+    to FUTILE times without a new block; then GudgeonError is raised. KeyboardInterrupt leaves the finished blocks in
+    the folder.
+    """
+    plan, n_futile = folder.plan, 0
     while True:
         missing = [block for block in plan.blocks if not folder.has(block.number)]
         if not missing and (folder.path / DATASET).exists():
             with suppress(InputError):  # a damaged one is written anew
                 check_dataset(folder.path, plan.identity)
                 return
-        done = _StudyProgress(plan.runs, plan.runs - sum(block.runs for block in missing), progress)
-        if done.done:  # a bar measures its speed from here on
-            done.tell()
+        study_progress = _StudyProgress(plan.runs, plan.runs - sum(block.runs for block in missing), progress)
+        if study_progress.done:  # a bar measures its speed from here on
+            study_progress.report_progress()
         try:
             if executor is None:
-                _run_in_threads(folder, missing, done, threads)
+                _run_in_threads(folder, missing, study_progress, threads)
             else:
-                _run_by_executor(folder, missing, done, threads, executor)
+                _run_by_executor(folder, missing, study_progress, threads, executor)
         except Exception as error:
             if not is_lost(error):
                 raise
-            futile = 0 if any(folder.has(block.number) for block in missing) else futile + 1
-            if not isinstance(executor, Processes) or futile >= FUTILE:
-                raise _lost_worker_error(folder, error) from error
+            n_futile = 0 if any(folder.has(block.number) for block in missing) else n_futile + 1
+            if not isinstance(executor, Processes) or n_futile >= FUTILE:
+                raise _make_lost_worker_error(folder, error) from error
             executor.renew()
             continue
         with suppress(LookupError):  # a block that was taken away meanwhile
@@ -77,42 +82,45 @@ def finish_study(
             return
 
 
-def _run_in_threads(folder: StudyFolder, missing: list[BlockOf], done: _StudyProgress, threads: int | None) -> None:
-    """Run blocks in threads of this process; an exception while waiting stops all runs.
+def _run_in_threads(
+    folder: StudyFolder, missing: list[BlockOf], study_progress: _StudyProgress, threads: int | None
+) -> None:
+    """Run blocks in threads of this process and write each when it is finished; an exception stops all runs.
 
-    Lanes are empty at the end of a block, in each of its threads. A block therefore has few threads, except for the
-    last blocks, whose end no other block fills.
+    A block has few threads, since its lanes are partly empty at its end. Only the last blocks have all cores.
     """
     cores, ended = threads or available_threads(), Event()
-    most = min(cores, SIDE_BY_SIDE)  # more threads than cores cost more than they save: they change places
-    last = {block.number for block in missing[-most:]}
+    n_blocks = min(cores, SIDE_BY_SIDE)  # more threads than cores cost more than they save: they change places
+    last_blocks = {block.number for block in missing[-n_blocks:]}
 
     def run(block: BlockOf) -> Block:
-        """Run one block."""
-        own = cores if block.number in last else math.ceil(cores / most)
+        """Run one block in a thread of the pool and return its results."""
+        n_threads = cores if block.number in last_blocks else math.ceil(cores / n_blocks)
 
         def report(fraction: float, text: str) -> None:
-            """Note the progress of the block. Raises KeyboardInterrupt after the end."""
+            """Store the progress of the block for the calling thread. Raises KeyboardInterrupt after the end."""
             if ended.is_set():
                 raise KeyboardInterrupt
-            done.shares[block.number] = fraction * block.runs
+            study_progress.shares[block.number] = fraction * block.runs
 
-        return run_block(folder.plan.job(block, own), report, folder.plan.parts[block.part].simulation)
+        return run_block(folder.plan.job(block, n_threads), report, folder.plan.parts[block.part].simulation)
 
-    with ThreadPoolExecutor(most, thread_name_prefix="gudgeon") as pool:
+    with ThreadPoolExecutor(n_blocks, thread_name_prefix="gudgeon") as pool:
         try:
-            _run_all(folder, missing, done, lambda block: pool.submit(run, block), lambda: most)
+            _run_blocks(folder, missing, study_progress, lambda block: pool.submit(run, block), lambda: n_blocks)
         finally:
             ended.set()
 
 
 def _run_by_executor(
-    folder: StudyFolder, missing: list[BlockOf], done: _StudyProgress, threads: int | None, executor: Executor
+    folder: StudyFolder, missing: list[BlockOf], study_progress: _StudyProgress, threads: int | None, executor: Executor
 ) -> None:
-    """Run blocks by the workers of an executor."""
+    """Run blocks by the workers of an executor and write each when it is finished. Raises GudgeonError if it takes no
+    work.
+    """
 
     def submit(block: BlockOf) -> Future[Block]:
-        """Submit one block to the executor."""
+        """Submit one block to the executor and return its future."""
         try:
             return executor.submit(run_block, folder.plan.job(block, threads or 1))
         except RuntimeError as error:  # one that was shut down, or that cannot
@@ -120,48 +128,53 @@ def _run_by_executor(
                 raise
             raise GudgeonError(f"the executor takes no work: {error or type(error).__name__}") from error
 
-    _run_all(folder, missing, done, submit, lambda: max_submitted(executor))
+    _run_blocks(folder, missing, study_progress, submit, lambda: max_submitted(executor))
 
 
-def _run_all(
+def _run_blocks(
     folder: StudyFolder,
     missing: list[BlockOf],
-    done: _StudyProgress,
+    study_progress: _StudyProgress,
     submit: Callable[[BlockOf], Future[Block]],
-    most: Callable[[], int],
+    max_running: Callable[[], int],
 ) -> None:
-    """Submit blocks as workers become free, and write each as it is finished."""
-    left = iter(missing)
-    out: dict[Future[Block], BlockOf] = {}
-    with _cancel_at_end(out):
-        over: list[tuple[Future[Block], BlockOf]] = []
+    """Submit blocks as workers become free, write each when it is finished, and report the progress.
+
+    submit: starts a block and returns its future. max_running: returns the number of blocks to submit at once. Good
+    results are written before the error of another block is raised.
+    """
+    remaining = iter(missing)
+    running: dict[Future[Block], BlockOf] = {}
+    with _cancel_on_exit(running):
+        finished: list[tuple[Future[Block], BlockOf]] = []
         while True:
-            if over or not out:
-                for block in islice(left, max(0, most() - len(out))):
-                    out[submit(block)] = block
-            for future, block in sorted(over, key=lambda one: one[0].cancelled() or one[0].exception() is not None):
+            if finished or not running:
+                for block in islice(remaining, max(0, max_running() - len(running))):
+                    running[submit(block)] = block
+            for future, block in sorted(finished, key=lambda one: one[0].cancelled() or one[0].exception() is not None):
                 folder.write(future.result())  # what is good first: the others raise
-                done.add(block)
-            done.tell()
-            if not out:
+                study_progress.add(block)
+            study_progress.report_progress()
+            if not running:
                 return
-            over = [
-                (future, out.pop(future)) for future in wait(out, POLL_INTERVAL_S, return_when=FIRST_COMPLETED).done
+            finished = [
+                (future, running.pop(future))
+                for future in wait(running, POLL_INTERVAL_S, return_when=FIRST_COMPLETED).done
             ]
 
 
 @contextmanager
-def _cancel_at_end(out: dict[Future[Block], BlockOf]) -> Iterator[None]:
-    """Cancel the waiting blocks at the end of the context."""
+def _cancel_on_exit(running: dict[Future[Block], BlockOf]) -> Iterator[None]:
+    """Cancel the blocks of `running` that have not begun, at the end of the context, also after an exception."""
     try:
         yield
     finally:
-        for future in out:
+        for future in running:
             future.cancel()
 
 
-def _lost_worker_error(folder: StudyFolder, error: Exception) -> GudgeonError:
-    """Return the error for a worker that ended early, with the number of finished blocks."""
+def _make_lost_worker_error(folder: StudyFolder, error: Exception) -> GudgeonError:
+    """Return the error for a worker that ended early; it reports the number of finished blocks, which are kept."""
     finished = sum(folder.has(block.number) for block in folder.plan.blocks)
     message = f"a worker ended before its runs did ({type(error).__name__}): {finished} of {len(folder.plan.blocks)}"
     return GudgeonError(f"{message} blocks are there\n  the same call goes on from them")

@@ -47,7 +47,10 @@ UNITS = {
 
 
 def series_of(measures: tuple[Measure, ...], keep: tuple[str, ...], source: KernelSource) -> list[str]:
-    """Return the series whose samples the measures and stored series of a scene need."""
+    """Return the names of the series of a scene whose samples are needed, for measures and for stored series.
+
+    Names that the scene lacks are left out; measures of contacts, events, steps and neighbours need no samples.
+    """
     known = catalogue(source)
     others = (*OF_JOINTS, *CROSSINGS, *STEPS, *FOLLOWED)
     expected = [*(str(one.of) for one in measures if one.statistic not in others), *keep]
@@ -55,40 +58,47 @@ def series_of(measures: tuple[Measure, ...], keep: tuple[str, ...], source: Kern
 
 
 def peak_series_of(measures: tuple[Measure, ...], source: KernelSource) -> list[str]:
-    """Return the series whose peaks over all steps are measured; not the deviation of a scene from itself."""
+    """Return the names of the series of a scene whose peaks over all steps are measured.
+
+    Names that the scene lacks are left out, and deviations of the scene from itself, which are 0.
+    """
     known = catalogue(source)
     expected = (str(one.of) for one in measures if one.statistic in STEPS and one.origin != source.scene)
     return [name for name in dict.fromkeys(expected) if name in known]
 
 
 def sliding_requests_of(measures: tuple[Measure, ...], source: KernelSource) -> tuple[SlidingRequest, ...]:
-    """Return the requests for sliding loads of joints whose wear is measured."""
-    own = _joint_names(source, rubs=True)
+    """Return the requests for sliding loads of the joints of a scene whose wear is measured, without repetitions."""
+    own = _list_joints(source, with_wear=True)
     expected = (str(one.of) for one in measures if one.statistic in WEAR)
     return tuple(SlidingRequest(name) for name in dict.fromkeys(expected) if name in own)
 
 
 def unit_of(measure: Measure, source: KernelSource) -> str | None:
-    """Return the unit of a measure; None in a scene that does not have its object."""
+    """Return the SI unit of a measure in a scene; None if the scene lacks its joint, event or series.
+
+    Measures of neighbouring trajectories are lacking without degrees of freedom.
+    """
     if measure.statistic in OF_JOINTS:
-        return UNITS[measure.statistic] if measure.of in _joint_names(source, measure.statistic in WEAR) else None
+        return UNITS[measure.statistic] if measure.of in _list_joints(source, measure.statistic in WEAR) else None
     if measure.statistic in CROSSINGS:
-        return UNITS[measure.statistic] if measure.of in _event_names(source) else None
+        return UNITS[measure.statistic] if measure.of in _list_events(source) else None
     if measure.statistic in FOLLOWED:
         return FOLLOWED[measure.statistic] if source.degrees_of_freedom > 0 else None
     return catalogue(source)[measure.of].unit if measure.of in catalogue(source) else None
 
 
 def unknown_of(measure: Measure, source: KernelSource) -> InputError:
-    """Return the error for a measure of an object that no scene has."""
+    """Return the error for a measure whose joint, event or series no scene has, with the nearest names of this scene.
+    """
     from gudgeon.language.names import unknown_name
 
     if measure.statistic in OF_JOINTS:
         return unknown_name(
-            "joint with play", measure.of, _joint_names(source, measure.statistic in WEAR), measure.of.where
+            "joint with play", measure.of, _list_joints(source, measure.statistic in WEAR), measure.of.where
         )
     if measure.statistic in CROSSINGS:
-        return unknown_name("event", measure.of, _event_names(source), measure.of.where)
+        return unknown_name("event", measure.of, _list_events(source), measure.of.where)
     if measure.statistic in FOLLOWED:
         message = f"scene {source.scene} has no degree of freedom: no difference can grow"
         return BadValueError(message, measure.of.where, "expected a scene whose drives do not decide all of the motion")
@@ -100,7 +110,7 @@ def unknown_of(measure: Measure, source: KernelSource) -> InputError:
 
 
 def check_origin(measures: Iterable[Measure], source: KernelSource) -> None:
-    """Raise UnknownNameError at the measure for a series that the scene to subtract lacks."""
+    """Raise UnknownNameError at a measure whose series the scene to subtract lacks; `source` is that scene."""
     for one in measures:
         if one.origin == source.scene and one.of not in catalogue(source):
             try:
@@ -110,22 +120,22 @@ def check_origin(measures: Iterable[Measure], source: KernelSource) -> None:
                 raise UnknownNameError(message, one.of.where, error.hint) from None
 
 
-def _joint_names(source: KernelSource, rubs: bool = False) -> list[str]:
-    """Return the names of the joints with play; with `rubs` those whose wear can be measured."""
+def _list_joints(source: KernelSource, with_wear: bool = False) -> list[str]:
+    """Return the names of the joints with play of a scene; with `with_wear` only those whose wear can be measured."""
     return [
         joint.name
         for joint in source.clearances
-        if not rubs or has_known_contact_force(source, joint) and not joint.at_wall
+        if not with_wear or has_known_contact_force(source, joint) and not joint.at_wall
     ]
 
 
-def _event_names(source: KernelSource) -> list[str]:
-    """Return the names of the events of a scene."""
+def _list_events(source: KernelSource) -> list[str]:
+    """Return the names of the user-defined events of a scene."""
     return [event.name for event in source.events]
 
 
 def meaning(measure: Measure) -> str:
-    """Return a measure in words: "peak of slider.ax in window last"."""
+    """Return a description of a measure: "peak of slider.ax in window last"."""
     message = f"{measure.statistic.replace('_', ' ')} of {measure.of}"
     message = f"{message} ({KINDS_TOLD})" if measure.statistic == "motion" else message
     message = f"{message} from scene {measure.origin}" if measure.origin is not None else message
@@ -135,7 +145,8 @@ def meaning(measure: Measure) -> str:
 def measure_runs(batch: Batch, measure: Measure, spans: Spans, origins: Origins) -> Array:
     """Return the values of a measure for all runs of a batch, (n,); NaN for a run without one.
 
-    `origins`: series of other scenes to subtract.
+    spans: begin and end of each window. origins: series of other scenes to subtract. All values are NaN if the scene
+    lacks the measure's object, and for measures of neighbours, which are computed elsewhere.
     """
     source, none = batch.source, np.full(len(batch), np.nan)
     if unit_of(measure, source) is None or measure.statistic in FOLLOWED:  # which exponents.py has
@@ -144,31 +155,37 @@ def measure_runs(batch: Batch, measure: Measure, spans: Spans, origins: Origins)
     begin = np.full(len(batch), -np.inf) if begin is None else begin
     end = np.full(len(batch), np.inf) if end is None else end
     if measure.statistic in STEPS:
-        return _peaks_over_steps(batch, measure)
+        return _read_step_peaks(batch, measure)
     if measure.statistic in JOINT:
-        return np.asarray(batch.peaks[JOINT[measure.statistic]][:, _joint_names(source).index(measure.of)])
+        return np.asarray(batch.peaks[JOINT[measure.statistic]][:, _list_joints(source).index(measure.of)])
     if measure.statistic in WEAR:
-        return _bearing_wear(batch, measure)
+        return _compute_bearing_wear(batch, measure)
     if measure.statistic in CONTACTS:
-        return _contact_values(batch, measure, begin, end)
+        return _evaluate_contacts(batch, measure, begin, end)
     if measure.statistic in CROSSINGS:
-        return _event_values(batch, measure, begin, end)
+        return _evaluate_events(batch, measure, begin, end)
     values = batch.kept[str(measure.of)]
     if measure.origin is not None:
         values = values - (values if measure.origin == source.scene else origins[measure.origin][measure.of])
     return STATISTICS[measure.statistic](batch.kept["t"], values, begin, end)
 
 
-def _peaks_over_steps(batch: Batch, measure: Measure) -> Array:
-    """Return a peak over all steps, (n,)."""
+def _read_step_peaks(batch: Batch, measure: Measure) -> Array:
+    """Return the peak of a series, or of its deviation from another scene, over all steps, (n,).
+
+    The deviation of a scene from itself is 0; NaN for runs without samples.
+    """
     if measure.origin is not None and measure.origin == batch.source.scene:
         return np.where(np.asarray(batch.samples) > 0, 0.0, np.nan)
     found = batch.peak(str(measure.of)) if measure.origin is None else batch.peak_error(str(measure.of))
     return np.asarray(getattr(found, STEPS[measure.statistic]))
 
 
-def _bearing_wear(batch: Batch, measure: Measure) -> Array:
-    """Return the wear of the bearing for a unit wear coefficient, (n,): depth of the deepest cell, or worn arc."""
+def _compute_bearing_wear(batch: Batch, measure: Measure) -> Array:
+    """Return the wear of a bearing for a unit wear coefficient, (n,): depth of the deepest cell, or worn arc (rad).
+
+    NaN for a run without sliding loads of the joint.
+    """
     out = np.full(len(batch), np.nan)
     for i, found in enumerate(batch.rubbed):
         for rubbed in (one for one in found if one.requested.joint == measure.of):
@@ -176,44 +193,52 @@ def _bearing_wear(batch: Batch, measure: Measure) -> Array:
     return out
 
 
-def _contact_values(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
-    """Return number, first time or largest approach speed of the contacts of a joint in the window, (n,)."""
-    joint, counted = _joint_names(batch.source).index(measure.of), measure.statistic == "impacts"
-    out = _values_without_occurrence(batch, counted, begin)
+def _evaluate_contacts(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
+    """Return number, first time (s) or largest approach speed (m/s) of the contacts of a joint in each run's window,
+    (n,).
+
+    Runs without contact have 0 as number, else NaN.
+    """
+    joint, is_count = _list_joints(batch.source).index(measure.of), measure.statistic == "impacts"
+    out = _fill_without_occurrence(batch, is_count, begin)
     for i, impacts in ((i, impacts) for i, impacts in enumerate(batch.impacts) if len(impacts)):
         t_on = impacts["t_on"]
         own = impacts[(impacts["joint"] == joint) & (t_on >= begin[i]) & (t_on <= end[i])]
-        if counted:
+        if is_count:
             out[i] += len(own)
         elif len(own):
             out[i] = own["t_on"].min() if measure.statistic == "first_impact" else np.abs(own["deltadot"]).max()
     return out
 
 
-def _event_values(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
-    """Return number or first time of an event in the window, (n,)."""
-    number, counted = _event_names(batch.source).index(measure.of), measure.statistic == "crossings"
-    out = _values_without_occurrence(batch, counted, begin)
+def _evaluate_events(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
+    """Return number or first time (s) of an event in each run's window, (n,); without occurrence 0 or NaN."""
+    number, is_count = _list_events(batch.source).index(measure.of), measure.statistic == "crossings"
+    out = _fill_without_occurrence(batch, is_count, begin)
     for i, events in ((i, events) for i, events in enumerate(batch.events) if len(events)):
         t = events["t"][events["event"] == number]
         t = t[(t >= begin[i]) & (t <= end[i])]
-        if counted:
+        if is_count:
             out[i] += len(t)
         elif len(t):
             out[i] = t.min()
     return out
 
 
-def _values_without_occurrence(batch: Batch, counted: bool, begin: Array) -> Array:
-    """Return values for runs without an occurrence, (n,): 0 for counts, NaN for times and for runs that ended before
-    the window.
+def _fill_without_occurrence(batch: Batch, is_count: bool, begin: Array) -> Array:
+    """Return the values of runs without an occurrence, (n,): 0 for counts, NaN for times.
+
+    Runs that ended before the window have NaN, too.
     """
-    seen = np.asarray(batch.t_last) * (1.0 + ROUNDING) >= begin
-    return np.where(seen & counted, 0.0, np.nan)
+    reached_window = np.asarray(batch.t_last) * (1.0 + ROUNDING) >= begin
+    return np.where(reached_window & is_count, 0.0, np.nan)
 
 
 def sampled_interval(measures: Iterable[Measure], spans: Spans, runs: Array) -> tuple[Array, Array] | None:
-    """Return the interval in which samples of these runs are needed, (n,) each; None if a measure needs a whole run."""
+    """Return begin and end (s) of the interval in which samples of these runs are needed, (n,) each.
+
+    None if no measure needs samples, or one needs the whole run.
+    """
     windows = {one.window for one in measures if one.statistic in STATISTICS}
     if not (windows and all(windows)):
         return None
@@ -223,71 +248,78 @@ def sampled_interval(measures: Iterable[Measure], spans: Spans, runs: Array) -> 
 
 
 def is_within(t: Array, begin: Array | float, end: Array | float) -> Array:
-    """Return which samples lie in a window, with a tolerance for rounding."""
-    slack = ROUNDING * np.abs(t)
-    return np.asarray((t >= begin - slack) & (t <= end + slack))
+    """Return a flag for each sample time whether it lies in [begin, end], with a relative tolerance for rounding."""
+    tolerance = ROUNDING * np.abs(t)
+    return np.asarray((t >= begin - tolerance) & (t <= end + tolerance))
 
 
-def _in_window(t: Array, x: Array, begin: Array, end: Array) -> Array:
-    """Return which samples, (n, N), lie in each run's window and are not NaN."""
+def _is_in_window(t: Array, x: Array, begin: Array, end: Array) -> Array:
+    """Return for each sample, (n, N), whether it lies in its run's window and its value is not NaN."""
     with np.errstate(invalid="ignore"):
         return is_within(t, begin[:, None], end[:, None]) & ~np.isnan(x)
 
 
-def _make_extreme(
+def _make_extreme_statistic(
     reduce: Callable[..., Array], outside: float, change: Callable[[Array], Array]
 ) -> Callable[..., Array]:
-    """Return a statistic that reduces the samples in the window; `outside` replaces other samples."""
+    """Return a statistic that reduces the samples of each run in its window, such as a maximum.
+
+    reduce: reduction over an axis. outside: value in place of samples outside the window. change: applied to the
+    samples first. The statistic is NaN without samples.
+    """
 
     def statistic(t: Array, x: Array, begin: Array, end: Array) -> Array:
-        """Return the reduced value of each run, (n,)."""
-        inside = _in_window(t, x, begin, end)
+        """Return the reduced value of each run, (n,); NaN for a run without samples in its window."""
+        inside = _is_in_window(t, x, begin, end)
         found = reduce(np.where(inside, change(x), outside), axis=1)
         return np.asarray(np.where(inside.any(axis=1), found, np.nan))
 
     return statistic
 
 
-_largest = _make_extreme(np.max, -np.inf, lambda x: x)
-_smallest = _make_extreme(np.min, np.inf, lambda x: x)
-_peak = _make_extreme(np.max, -np.inf, np.abs)
+_compute_max = _make_extreme_statistic(np.max, -np.inf, lambda x: x)
+_compute_min = _make_extreme_statistic(np.min, np.inf, lambda x: x)
+_compute_peak = _make_extreme_statistic(np.max, -np.inf, np.abs)
 
 
-def _range(t: Array, x: Array, begin: Array, end: Array) -> Array:
-    """Return the largest less the smallest sample in the window, (n,)."""
-    return np.asarray(_largest(t, x, begin, end) - _smallest(t, x, begin, end))
+def _compute_range(t: Array, x: Array, begin: Array, end: Array) -> Array:
+    """Return the largest less the smallest sample of each run in its window, (n,); NaN without samples."""
+    return np.asarray(_compute_max(t, x, begin, end) - _compute_min(t, x, begin, end))
 
 
-def _mean(t: Array, x: Array, begin: Array, end: Array) -> Array:
-    """Return the mean over time in the window, (n,), by the trapezoidal rule; of one sample its value."""
-    inside = _in_window(t, x, begin, end)
+def _compute_mean(t: Array, x: Array, begin: Array, end: Array) -> Array:
+    """Return the mean over time of each run in its window, (n,), by the trapezoidal rule.
+
+    For a single sample it is its value, without samples NaN.
+    """
+    inside = _is_in_window(t, x, begin, end)
     both = inside[:, 1:] & inside[:, :-1]
     dt = np.where(both, np.diff(t, axis=1), 0.0)
     middle = np.where(both, (x[:, 1:] + x[:, :-1]) / 2, 0.0)
     span = dt.sum(axis=1)
     with np.errstate(invalid="ignore", divide="ignore"):
-        return np.asarray(np.where(span > 0.0, (dt * middle).sum(axis=1) / span, _final(t, x, begin, end)))
+        return np.asarray(np.where(span > 0.0, (dt * middle).sum(axis=1) / span, _find_final(t, x, begin, end)))
 
 
-def _rms(t: Array, x: Array, begin: Array, end: Array) -> Array:
-    """Return the root mean square over time in the window, (n,)."""
-    return np.asarray(np.sqrt(_mean(t, x * x, begin, end)))
+def _compute_rms(t: Array, x: Array, begin: Array, end: Array) -> Array:
+    """Return the root mean square over time of each run in its window, (n,); NaN without samples."""
+    return np.asarray(np.sqrt(_compute_mean(t, x * x, begin, end)))
 
 
-def _final(t: Array, x: Array, begin: Array, end: Array) -> Array:
-    """Return the last sample in the window, (n,)."""
-    inside = _in_window(t, x, begin, end)
+def _find_final(t: Array, x: Array, begin: Array, end: Array) -> Array:
+    """Return the last sample of each run in its window, (n,); NaN without samples."""
+    inside = _is_in_window(t, x, begin, end)
     last = inside.shape[1] - 1 - np.argmax(inside[:, ::-1], axis=1)
     return np.asarray(np.where(inside.any(axis=1), x[np.arange(len(x)), last], np.nan))
 
 
 STATISTICS: Mapping[str, Callable[[Array, Array, Array, Array], Array]] = {
-    "max": _largest,
-    "min": _smallest,
-    "peak": _peak,
-    "range": _range,
-    "mean": _mean,
-    "rms": _rms,
-    "final": _final,
-    "deviation": _peak,
+    "max": _compute_max,
+    "min": _compute_min,
+    "peak": _compute_peak,
+    "range": _compute_range,
+    "mean": _compute_mean,
+    "rms": _compute_rms,
+    "final": _find_final,
+    "deviation": _compute_peak,
 }

@@ -41,12 +41,15 @@ NONE = Names({}, {})
 
 
 def _match_quantity(text: str) -> re.Match[str] | None:
-    """Return the match of a number with unit: number, power of ten, π and unit; "pi rad/s" has the number 1."""
+    """Return the match of a number with unit (groups: number, power of ten, π, unit), or None for another text.
+
+    "pi rad/s" has the number 1.
+    """
     return _QUANTITY.fullmatch(_PI.sub(r"\g<1>1*pi", text.strip()))
 
 
 def as_people_write(text: str) -> str:
-    """Return a number with unit in typographic form: "3*pi rad/s" as "3π rad/s"; "" for other texts."""
+    """Return a number with unit in typographic form: "3*pi rad/s" as "3π rad/s"; "" for any other text."""
     found = _match_quantity(text)
     if found is None:
         return ""
@@ -58,13 +61,17 @@ def as_people_write(text: str) -> str:
     return f"{number.replace('-', '−')}{'π' if pi else ''} {shown}"
 
 
-def _format_range(numbers: Numbers) -> tuple[str, ...]:
-    """Return the texts of evenly spaced values between two texts, in their common unit; empty without one."""
+def _format_spaced_values(numbers: Numbers) -> tuple[str, ...]:
+    """Return the texts of evenly (or geometrically) spaced values between two texts, in their common unit.
+
+    The ends stay as written. Empty if the ends are no quantities in the same unit, or for more than MOST_IN_A_ROW
+    values.
+    """
     ends = [_match_quantity(text) for text in numbers.texts]
-    of = {(bool(end[3]), end[4]) for end in ends if end}
-    if None in ends or len(of) > 1 or numbers.count > MOST_IN_A_ROW:
+    units_of_ends = {(bool(end[3]), end[4]) for end in ends if end}
+    if None in ends or len(units_of_ends) > 1 or numbers.count > MOST_IN_A_ROW:
         return ()
-    ((pi, unit),) = of
+    ((pi, unit),) = units_of_ends
     first, last = (float(f"{end[1]}e{end[2] or 0}") for end in ends if end)
     row = (np.geomspace if numbers.spacing == GEOMETRIC else np.linspace)(first, last, numbers.count)
     row[np.abs(row) < NOTHING * np.abs(row).max()] = 0.0
@@ -73,13 +80,16 @@ def _format_range(numbers: Numbers) -> tuple[str, ...]:
 
 
 def names_of(plans: Plans) -> Names:
-    """Return the texts of a resolved study file."""
+    """Return the titles, value texts and paragraphs that reports of a study file display.
+
+    A coordinate has texts only if the file writes all its values as numbers with units.
+    """
     values: dict[str, dict[str, tuple[str, ...]]] = {}
     for part, plan in plans.each.items():
         every: dict[str, tuple[str, ...]] = {str(name): (str(text),) for name, text in plan.study.fixed.items()}
         for axis in plan.study.axes:
             every |= {
-                str(name): _format_range(own) if own.count else tuple(map(str, own.texts))
+                str(name): _format_spaced_values(own) if own.count else tuple(map(str, own.texts))
                 for name, own in axis.columns.items()
             }
         shown = {name: tuple(map(as_people_write, texts)) for name, texts in every.items()}
@@ -88,13 +98,16 @@ def names_of(plans: Plans) -> Names:
 
 
 def write_names(folder: Path, plans: Plans) -> None:
-    """Write the texts into the study's folder; they do not affect the runs. Raises OutputError."""
+    """Write titles and value texts as names.json into the folder of a study; they do not affect the runs.
+
+    Raises OutputError.
+    """
     with written(folder / FILE) as file:
         file.write(json.dumps(names_of(plans)._asdict(), indent=1, ensure_ascii=False).encode())
 
 
 def read_names(folder: Path) -> Names:
-    """Return the texts that write_names wrote; NONE if there are none."""
+    """Return the titles and value texts of a study's folder; NONE if names.json is missing or damaged."""
     try:
         data = read_regular(folder / FILE)
         found = {} if data is None else json.loads(data)

@@ -32,20 +32,27 @@ class Note:
 
 
 def kind_of(message: str) -> str:
-    """Return the first line of a note without numbers, by which equal notes of many runs are recognised."""
+    """Return the kind of a message: its first line without numbers, by which equal notes of many runs are recognised.
+    """
     return _NUMBER.sub("…", _WITH.sub("", message.partition("\n")[0]))[:200]
 
 
-def gathered(message: Iterable[tuple[int, Sequence[str]]]) -> dict[str, Note]:
-    """Return the notes of runs by kind, without those on choices, which coordinates show."""
-    own = ((run, text) for run, texts in message for text in texts if not is_choice_note(text))
-    return merge_notes({kind_of(text): Note(1, run, text)} for run, text in own)
+def gathered(texts_by_run: Iterable[tuple[int, Sequence[str]]]) -> dict[str, Note]:
+    """Return the notes of runs by kind, from pairs (run, texts); each kind with the number of its runs and the first
+    one.
+
+    Notes on choices are left out, since coordinates show them.
+    """
+    noted = ((run, text) for run, texts in texts_by_run for text in texts if not is_choice_note(text))
+    return merge_notes({kind_of(text): Note(1, run, text)} for run, text in noted)
 
 
-def merge_notes(several: Iterable[Mapping[str, Note]]) -> dict[str, Note]:
-    """Return the notes of different runs as one table by kind."""
+def merge_notes(note_tables: Iterable[Mapping[str, Note]]) -> dict[str, Note]:
+    """Return the notes of several groups of runs as one table by kind; counts add up, and the first run stays the
+    example.
+    """
     found: dict[str, Note] = {}
-    for kind, note in (item for one in several for item in one.items()):
+    for kind, note in (item for one in note_tables for item in one.items()):
         before = found.get(kind)
         first = note if before is None or note.run < before.run else before
         found[kind] = Note(note.runs + (before.runs if before else 0), first.run, first.text)
@@ -54,7 +61,10 @@ def merge_notes(several: Iterable[Mapping[str, Note]]) -> dict[str, Note]:
 
 @contextmanager
 def collect_guess_notes(source: KernelSource, run: int) -> Iterator[dict[str, Note]]:
-    """Collect notes on guesses that runs do not follow, instead of a warning for each block."""
+    """Yield a table that is filled at the end of the context with notes on runs that do not start near their guesses.
+
+    This replaces a warning for each block. run: number of the first run of the block, which notes give as example.
+    """
     noted: list[Mapping[str, float]] = []
     found: dict[str, Note] = {}
     token = NOTED.set(noted)

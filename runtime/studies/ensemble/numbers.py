@@ -29,20 +29,26 @@ ROUNDING = 1e-12  # relative tolerance of times at the ends of a window
 
 
 def slot_of(source: KernelSource, name: str) -> Slot | None:
-    """Return the parameter of a scene with an address, a short name or a group name; None if there is none."""
+    """Return the parameter of a scene with this address, short name or group name; None if the scene lacks it.
+
+    Of a group it is the first member.
+    """
     by_address = {slot.address: slot for slot in source.slots}
     called = (name, f"parameters.{name}", *TOGETHER.get(name, ()))
     return next((by_address[one] for one in called if one in by_address), None)
 
 
 def key_of(source: KernelSource, name: str) -> str:
-    """Return the name by which the runs of a scene are given a parameter; "" if the scene lacks it."""
+    """Return the name by which runs of a scene are given a parameter: a group name or an address; "" if the scene
+    lacks it.
+    """
     slot = slot_of(source, name)
     return "" if slot is None else name if name in TOGETHER and slot.address in TOGETHER[name] else slot.address
 
 
 def known_slot(sources: Sequence[KernelSource], name: Text) -> Slot:
-    """Return the parameter of the first of several scenes that has it. Raises UnknownNameError at the name."""
+    """Return the parameter of a name in the first of several scenes that has it. Raises UnknownNameError at the name.
+    """
     for source in sources:
         if (found := slot_of(source, name)) is not None:
             return found
@@ -56,7 +62,11 @@ def known_slot(sources: Sequence[KernelSource], name: Text) -> Slot:
 
 
 def in_si(text: Text, slot: Slot) -> float | str:
-    """Return the value of a text for a parameter, SI, or the name for a choice. Raises an InputError at the text."""
+    """Return the value of a text for a parameter in SI, or the stripped text for a choice.
+
+    Raises an InputError at the text for an unknown word, a wrong dimension, a name in the expression, or a value that
+    is not finite.
+    """
     if slot.words:
         try:
             index_of_word(str(text), slot)
@@ -75,7 +85,7 @@ def in_si(text: Text, slot: Slot) -> float | str:
 
 
 def real_value(text: Text, slot: Slot) -> float:
-    """Return the value of a text for a parameter that is not a choice. Raises BadValueError."""
+    """Return the value in SI of a text for a parameter. Raises BadValueError at the text if it is a choice."""
     value = in_si(text, slot)
     if isinstance(value, str):
         hint = "list the names that it takes, under parameters:"
@@ -83,17 +93,19 @@ def real_value(text: Text, slot: Slot) -> float:
     return value
 
 
-def values(numbers: Numbers, slot: Slot, again: bool) -> Array:
-    """Return all values of a dimension, (n,), SI or names; `again`: whether values may repeat.
+def values(numbers: Numbers, slot: Slot, may_repeat: bool) -> Array:
+    """Return all values of a dimension, (n,), in SI or as words: a list of texts, or a count of spaced values between
+    two.
 
-    Raises BadValueError for equal ends.
+    may_repeat: whether listed values may be equal. Raises an InputError at the text for equal ends, repeated values,
+    or ends of different sign with geometric spacing.
     """
     if not numbers.count:
         found = [in_si(text, slot) for text in numbers.texts]
         first_of = {value: k for k, value in reversed(list(enumerate(found)))}
-        twice = next((k for k, value in enumerate(found) if first_of[value] < k and not again), None)
-        if twice is not None:
-            text = numbers.texts[twice]
+        repeated = next((k for k, value in enumerate(found) if first_of[value] < k and not may_repeat), None)
+        if repeated is not None:
+            text = numbers.texts[repeated]
             raise BadValueError(f"{str(text)[:60]!r} stands there twice", text.where, "expected each value once")
         return np.array(found, dtype=object if slot.words else float)
     first, last = (real_value(text, slot) for text in numbers.texts)
@@ -102,57 +114,70 @@ def values(numbers: Numbers, slot: Slot, again: bool) -> Array:
         raise BadValueError(message, numbers.texts[0].where, "expected both ends positive, or both negative")
     if first == last:
         raise BadValueError(f"a row from {first:g} to {last:g}", numbers.texts[1].where, "expected two ends")
-    row = np.geomspace if numbers.spacing == GEOMETRIC else np.linspace
+    spaced_values = np.geomspace if numbers.spacing == GEOMETRIC else np.linspace
     with np.errstate(over="ignore", invalid="ignore"):
-        return check_finite(np.asarray(row(first, last, numbers.count)), numbers.texts[1])
+        return check_finite(np.asarray(spaced_values(first, last, numbers.count)), numbers.texts[1])
 
 
 def check_finite(values: Array, text: Text) -> Array:
-    """Return the values. Raises BadValueError at the second end unless all are finite."""
+    """Return the array `values` unchanged. Raises BadValueError at `text`, the second end, unless all are finite."""
     if not np.isfinite(values).all():
         raise BadValueError("the values between are beyond the largest double", text.where, "expected ends closer by")
     return values
 
 
 def check_expression(
-    source: KernelSource, written: Written, expected: Dimension, more: Mapping[str, Dimension]
+    source: KernelSource, written: Written, expected: Dimension, extra_dimensions: Mapping[str, Dimension]
 ) -> None:
-    """Raise an InputError at its location for an expression without the wanted dimension; `more` are further names."""
+    """Raise an InputError at its location for an expression of a study with another dimension than expected.
+
+    extra_dimensions: names besides parameters of the scene, such as t_end, with their dimensions. Unknown names,
+    choices and units that are also parameters are refused, too.
+    """
 
     def dimension_of(path: str) -> Dimension | None:
-        """Return the dimension of a name in the expression."""
-        if path in more:
-            return more[path]
+        """Return the dimension of a name in the expression; None for an unknown name."""
+        if path in extra_dimensions:
+            return extra_dimensions[path]
         slot = slot_of(source, path)
         return None if slot is None else dimension(*slot.dimension)
 
     for name in names(written.expr):
         slot = slot_of(source, name.path)
-        if name.path not in more and (slot is None or slot.words):
-            known = [*more, *addresses(source)]
+        if name.path not in extra_dimensions and (slot is None or slot.words):
+            known = [*extra_dimensions, *addresses(source)]
             place: Location = at(written.text.where, name.offset)
             raise unknown_name(f"name (in scene {source.scene})", name.path, known, place)
-    _check_units(written, [*more, *(one.removeprefix("parameters.") for one in addresses(source))])
+    _check_ambiguous_units(
+        written, [*extra_dimensions, *(one.removeprefix("parameters.") for one in addresses(source))]
+    )
     check_dimension(written.expr, expected, dimension_of, written.text.where)
 
 
-def _check_units(written: Written, known: Sequence[str]) -> None:
-    """Raise ExpressionError for a unit in a product that is also the name of a number: `2 rad/s` with a parameter s."""
-    text, by_name = written.text, parse(written.text, written.text.where, known)
+def _check_ambiguous_units(written: Written, known_names: Sequence[str]) -> None:
+    """Raise ExpressionError for a unit in a product that is also the name of a parameter: `2 rad/s` with a parameter
+    s.
+    """
+    text, by_name = written.text, parse(written.text, written.text.where, known_names)
     for name in names_over_units(by_name) if by_name != written.expr else ():
         message = f"{str(text)!r} can mean two things: {name} is a unit, and a number of the scene"
         raise ExpressionError(message, text.where, f"write {name}^1 for the unit, ({name}) for the number")
 
 
-def constant_value(written: Written | None, known: Mapping[str, float]) -> float | None:
-    """Return the value of an expression that is the same in all runs, from `known` names; else None."""
-    if written is None or any(name.path not in known for name in names(written.expr)):
+def constant_value(written: Written | None, known_values: Mapping[str, float]) -> float | None:
+    """Return the value of an expression that is the same in all runs; None for None or an unknown name in it.
+
+    known_values: values of names, such as t_end.
+    """
+    if written is None or any(name.path not in known_values for name in names(written.expr)):
         return None
-    return float(evaluate(written.expr, known.get))
+    return float(evaluate(written.expr, known_values.get))
 
 
 def find_impossible(name: str, values: Array) -> tuple[Array, str]:
-    """Return which values of t_end, step or (rounded) output are not possible, and a text of what is expected."""
+    """Return a flag for each value of t_end, step or (rounded) output that no run can have, and a text of what is
+    expected.
+    """
     if name == "output":
         expected = f"a number of intervals from 1 to {MOST_OUTPUT:.0e}"
         return ~((values >= 1.0) & (values <= MOST_OUTPUT)), expected
@@ -160,7 +185,10 @@ def find_impossible(name: str, values: Array) -> tuple[Array, str]:
 
 
 def check_constants(study: StudyFile) -> None:
-    """Raise BadValueError at its location for a constant end, output, step or window that no run can have."""
+    """Raise BadValueError at its location for an end, output, step or window of a study that no run can have.
+
+    Only expressions that are the same in all runs are checked here.
+    """
     known: dict[str, float] = {}
     for name, written in (("t_end", study.t_end), ("output", study.output), ("step", study.step)):
         if written is None or (value := constant_value(written, known)) is None:
@@ -179,18 +207,20 @@ def check_constants(study: StudyFile) -> None:
             raise BadValueError(message, of.text.where if of else None, f"expected a part of the run, to {last:g} s")
 
 
-def evaluate_for_runs(source: KernelSource, expr: Expr, p: Array, more: Mapping[str, Any]) -> Array:
-    """Return the values of an expression, (n,), from the parameters p (n, ...) of the runs; not finite where
+def evaluate_for_runs(source: KernelSource, expr: Expr, p: Array, extra_values: Mapping[str, Any]) -> Array:
+    """Return the values of an expression for all runs, (n,), from their parameter vectors p (n, n_p).
+
+    extra_values: values of further names, scalar or (n,). Values are NaN or infinite where the expression is
     undefined.
     """
-    place = {slot.address: k for k, slot in enumerate(source.slots)}
+    index_of_address = {slot.address: k for k, slot in enumerate(source.slots)}
 
     def value_of(path: str) -> Any:
-        """Return the values of a name in the expression."""
-        if path in more:
-            return more[path]
+        """Return the value or values of a name in the expression."""
+        if path in extra_values:
+            return extra_values[path]
         slot = slot_of(source, path)
         assert slot is not None, path
-        return p[:, place[slot.address]]
+        return p[:, index_of_address[slot.address]]
 
     return np.array(np.broadcast_to(np.asarray(evaluate(expr, value_of), dtype=float), (len(p),)))

@@ -36,25 +36,26 @@ KEPT = 1 << 26  # bytes of series in the cache, which next blocks of a process m
 
 
 def origins_of(measures: Iterable[Measure], scene: str = "") -> tuple[str, ...]:
-    """Return the scenes that measures subtract, without repetitions and without `scene` itself."""
+    """Return the scenes whose series measures subtract, without repetitions and without `scene` itself."""
     return tuple(dict.fromkeys(str(one.origin) for one in measures if one.origin is not None and one.origin != scene))
 
 
 def origin_over_steps(measures: Sequence[Measure], source: KernelSource) -> str:
-    """Return the scene that measures over all steps subtract; "" if there is none."""
+    """Return the scene that measures over all steps subtract in scene `source`; "" if there is none."""
     own = (one for one in measures if one.statistic in STEPS and one.of in catalogue(source))
     return next(iter(origins_of(own, source.scene)), "")
 
 
 def origin_of(job: Job, scene: str) -> Simulation:
-    """Return the library of another scene of a job's structure."""
+    """Return the loaded library of another scene with the mechanism and overrides of a job."""
     return load_library(job.mechanism, scene, job.overrides, job.sha256)
 
 
 def is_passive(source: KernelSource) -> Array:
-    """Return which entries of p do not affect a motion directly, (n,): parameters in no expression of t or motion.
+    """Return for each entry of p, (n_p,), whether it does not affect the motion: parameters in no expression of t or
+    motion.
 
-    Lengths or masses that follow them are entries of p themselves.
+    Lengths or masses that depend on them are entries of p themselves.
     """
     trees = [json.loads(one.tree) for one in source.written] + list(source.outputs.values())
     read = {f"parameters.{name.path.removeprefix('parameters.')}" for tree in trees for name in names(from_json(tree))}
@@ -73,7 +74,7 @@ class RunKeys:
     step: Array | None
 
     def key(self, i: int) -> tuple[bytes, bytes, float]:
-        """Return the key of run i; equal runs have equal keys."""
+        """Return the key of run i, from its parameters, sample times and step; equal runs have equal keys."""
         return self.p[i].tobytes(), self.t[i].tobytes(), 0.0 if self.step is None else float(self.step[i])
 
 
@@ -81,19 +82,21 @@ class Recent:
     """Cache of the most recently used series, with a limit of bytes."""
 
     def __init__(self) -> None:
-        """Create an empty cache."""
+        """Create an empty cache with its lock."""
         self._held: OrderedDict[Any, Mapping[str, Array]] = OrderedDict()
         self._bytes, self._lock = 0, Lock()
 
     def get(self, key: Any) -> Mapping[str, Array] | None:
-        """Return the series of a key; None if they are not in the cache."""
+        """Return the series of a key and mark them as most recently used; None if they are not in the cache."""
         with self._lock:
             if key in self._held:
                 self._held.move_to_end(key)
             return self._held.get(key)
 
     def put(self, key: Any, series: Mapping[str, Array]) -> None:
-        """Store series, and remove the oldest ones beyond the limit."""
+        """Store the series of a key, and remove the least recently used ones beyond KEPT bytes; an existing key is
+        left as it is.
+        """
         with self._lock:
             if key in self._held:
                 return
@@ -109,9 +112,10 @@ _recent, _making = Recent(), Lock()
 def origin_series(
     job: Job, table: Table, runs: Array, batch: Batch, failures: list[str]
 ) -> dict[str, dict[str, Array]]:
-    """Return for each scene to subtract its series at the samples of these runs, (n, N), NaN where missing.
+    """Return for each scene to subtract its series at the samples of these runs, (n, N) by name, NaN where missing.
 
-    A run whose parameters the other scene cannot use is entered in `failures`.
+    runs: indices of the batch's runs in the job. A run whose parameters the other scene cannot use is entered in
+    `failures`.
     """
     found: dict[str, dict[str, Array]] = {}
     expected = [one for one in job.expected.measures if one.statistic not in STEPS]
@@ -120,19 +124,23 @@ def origin_series(
         known = catalogue(simulation.source).keys() & catalogue(batch.source).keys()
         own = dict.fromkeys(str(one.of) for one in expected if one.origin == scene and one.of in known)
         if own:
-            found[scene] = _series_at_samples(job, simulation, table, runs, batch, list(own), failures)
+            found[scene] = _find_series_at_samples(job, simulation, table, runs, batch, list(own), failures)
     return found
 
 
-def _series_at_samples(
+def _find_series_at_samples(
     job: Job, simulation: Simulation, table: Table, runs: Array, batch: Batch, names: list[str], failures: list[str]
 ) -> dict[str, Array]:
-    """Return the wanted series of another scene at the samples of these runs, (n, N) each."""
+    """Return the series `names` of another scene at the samples of these runs, (n, N) each, NaN where missing.
+
+    Equal runs are computed once, and the most recent series come from a cache. Kinematically driven scenes are
+    computed from the motion alone, others are simulated. Failures of runs are entered in `failures`.
+    """
     times = batch.kept["t"]
     out = {name: np.full(times.shape, np.nan) for name in names}
-    good = [i for i in range(len(runs)) if not failures[runs[i]] and np.isfinite(times[i]).sum() > 1]
-    keyed = _make_runs(simulation, table, runs, [row[np.isfinite(row)] for row in times])
-    common = (
+    valid_runs = [i for i in range(len(runs)) if not failures[runs[i]] and np.isfinite(times[i]).sum() > 1]
+    run_keys = _build_run_keys(simulation, table, runs, [row[np.isfinite(row)] for row in times])
+    common_key = (
         job.mechanism,
         job.overrides,
         job.sha256,
@@ -141,60 +149,68 @@ def _series_at_samples(
         job.expected.rtol,
         tuple(names),
     )
-    keys = [(common, keyed.key(i)) for i in range(len(runs))]
+    keys = [(common_key, run_keys.key(i)) for i in range(len(runs))]
     with _making:  # another block in another thread may be about to need the same ones
-        held = {keys[i]: _recent.get(keys[i]) for i in good}
-        missing = [i for i in {keys[i]: i for i in reversed(good)}.values() if held[keys[i]] is None]
-        made = _compute_kinematic(job, simulation, keyed, sorted(missing), names)
-        for i, series in (made | _simulate_runs(job, simulation, keyed, sorted({*missing} - {*made}), names)).items():
+        cached = {keys[i]: _recent.get(keys[i]) for i in valid_runs}
+        missing = [i for i in {keys[i]: i for i in reversed(valid_runs)}.values() if cached[keys[i]] is None]
+        computed = _compute_kinematic(job, simulation, run_keys, sorted(missing), names)
+        for i, series in (
+            computed | _simulate_runs(job, simulation, run_keys, sorted({*missing} - {*computed}), names)
+        ).items():
             if isinstance(series, str):
-                for k in (k for k in good if keys[k] == keys[i]):
+                for k in (k for k in valid_runs if keys[k] == keys[i]):
                     failures[runs[k]] = f"scene {simulation.source.scene}: {series}"
             else:
-                held[keys[i]] = series
+                cached[keys[i]] = series
                 _recent.put(keys[i], series)
-    for i in good:
-        for name, values in (held[keys[i]] or {}).items():
+    for i in valid_runs:
+        for name, values in (cached[keys[i]] or {}).items():
             out[name][i, np.isfinite(times[i])] = values
     return out
 
 
-def _make_runs(simulation: Simulation, table: Table, runs: Array, times: list[Array]) -> RunKeys:
-    """Return the runs of another scene with the parameters and times of these runs."""
+def _build_run_keys(simulation: Simulation, table: Table, runs: Array, times: list[Array]) -> RunKeys:
+    """Return the runs of another scene with the parameters of these runs and the sample times `times`, one array each.
+    """
     source = simulation.source
     columns = {key: values[runs] for name, values in table.columns.items() if (key := key_of(source, name))}
-    rows = [{name: _as_python_value(values[i]) for name, values in columns.items()} for i in range(len(runs))]
+    rows = [{name: _to_python_value(values[i]) for name, values in columns.items()} for i in range(len(runs))]
     given, is_given = given_each(source, rows)
     p, _, _ = prepare_sets(simulation.compiled, given, is_given, False)
     step = table.step[runs] if table.step is not None and source.degrees_of_freedom else None
     return RunKeys(columns, p, np.where(is_passive(source), 0.0, p), tuple(times), step)
 
 
-def _as_python_value(value: Any) -> float | str:
+def _to_python_value(value: Any) -> float | str:
     """Return a Python float or text from an entry of an array."""
     return value if isinstance(value, str) else float(value)
 
 
 def _compute_kinematic(
-    job: Job, simulation: Simulation, keyed: RunKeys, runs: list[int], expected: list[str]
+    job: Job, simulation: Simulation, run_keys: RunKeys, runs: list[int], series_names: list[str]
 ) -> dict[int, Mapping[str, Array] | str]:
-    """Return the series of kinematically driven runs from their motion alone, without the runs that fail.
+    """Return the series of kinematically driven runs from their motion alone, by run; runs that fail are left out.
 
-    A whole run would spend two thirds of its time on works for an energy balance that is not used.
+    Empty for a scene with degrees of freedom. A whole run would spend two thirds of its time on works for an energy
+    balance that is not used.
     """
-    source, compiled, parts = simulation.source, simulation.compiled, evaluation_parts_of(simulation.source, expected)
+    source, compiled, parts = (
+        simulation.source,
+        simulation.compiled,
+        evaluation_parts_of(simulation.source, series_names),
+    )
     if source.degrees_of_freedom or not runs:
         return {}
 
     def follow(i: int) -> Mapping[str, Array] | None:
-        """Return the series of run i; None if they cannot be computed from the motion alone."""
-        t, p = keyed.t[i], keyed.whole[i]
+        """Return the series of run i; None if they cannot be computed from the motion alone or are not finite."""
+        t, p = run_keys.t[i], run_keys.whole[i]
         try:
             start = assemble(compiled, p)
             q, v = along(compiled, p, t, start.q, start.v)
             none = np.zeros((len(t), 0))
             run = bare(source, compiled, p, t, q, v, np.full((len(t), 3), np.nan), none, none.astype(np.int8), parts)
-            found = {name: np.array(run[name]) for name in expected} if np.isfinite(q).all() and t[0] == 0.0 else {}
+            found = {name: np.array(run[name]) for name in series_names} if np.isfinite(q).all() and t[0] == 0.0 else {}
         except GudgeonError:  # a simulation reports the reason
             return None
         return found if found and all(np.isfinite(values).all() for values in found.values()) else None
@@ -205,22 +221,25 @@ def _compute_kinematic(
 
 
 def _simulate_runs(
-    job: Job, simulation: Simulation, keyed: RunKeys, runs: list[int], names: list[str]
+    job: Job, simulation: Simulation, run_keys: RunKeys, runs: list[int], names: list[str]
 ) -> dict[int, Mapping[str, Array] | str]:
-    """Return the series of each run from a simulation, or the reason why there are none."""
+    """Return the series of each run from a simulation, by run, or the reason (a text) why there are none.
+
+    If the batch is refused, each run is simulated alone. Raises KeyboardInterrupt if Ctrl-C ended a run.
+    """
     if not runs:
         return {}
-    source, moves = simulation.source, bool(simulation.source.degrees_of_freedom)
-    t = [keyed.t[i] for i in runs]
-    same = all(np.array_equal(one, t[0]) for one in t)
+    source, is_dynamic = simulation.source, bool(simulation.source.degrees_of_freedom)
+    t = [run_keys.t[i] for i in runs]
+    has_common_times = all(np.array_equal(one, t[0]) for one in t)
     try:
         batch = simulation.simulate_many(
-            {name: [_as_python_value(values[i]) for i in runs] for name, values in keyed.columns.items()}
+            {name: [_to_python_value(values[i]) for i in runs] for name, values in run_keys.columns.items()}
             or [{}] * len(runs),
-            output=t[0] if same else t,
+            output=t[0] if has_common_times else t,
             method=method_in(source, job.expected.method),
-            rtol=job.expected.rtol if moves else None,
-            step=None if keyed.step is None else keyed.step[runs],
+            rtol=job.expected.rtol if is_dynamic else None,
+            step=None if run_keys.step is None else run_keys.step[runs],
             threads=job.threads,
             stop=False,
             keep=names,
@@ -229,7 +248,7 @@ def _simulate_runs(
     except InputError as error:
         if len(runs) == 1:
             return {runs[0]: str(error)}
-        each = [_simulate_runs(job, simulation, keyed, [i], names) for i in runs]
+        each = [_simulate_runs(job, simulation, run_keys, [i], names) for i in runs]
         return {i: series for own in each for i, series in own.items()}
     if batch.interrupted:
         raise KeyboardInterrupt

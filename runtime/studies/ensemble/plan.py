@@ -68,7 +68,7 @@ class Part:
 
     @property
     def sha256(self) -> str:
-        """Digest of everything that its library was made from."""
+        """Return the digest of all inputs from which the library of the part was generated."""
         return self.simulation.source.whole_sha256
 
 
@@ -98,54 +98,58 @@ class Plan:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Lengths of all dimensions."""
+        """Return the lengths of all dimensions, those of structure first."""
         return tuple(one.length for one in (*self.structure, *self.numbers))
 
     @property
     def dims(self) -> tuple[str, ...]:
-        """Names of all dimensions."""
+        """Return the names of all dimensions, those of structure first."""
         return tuple(one.name for one in (*self.structure, *self.numbers))
 
     @property
     def each(self) -> int:
-        """Number of runs of a part."""
+        """Return the number of runs of each part."""
         return math.prod(one.length for one in self.numbers)
 
     @property
     def runs(self) -> int:
-        """Number of runs of all parts."""
+        """Return the number of runs of all parts."""
         return self.each * len(self.parts)
 
     @property
     def count_of_blocks(self) -> int:
-        """Number of blocks, without a list of them."""
+        """Return the number of blocks of all parts, computed without a list of them."""
         return sum(-(-self.each // part.block) for part in self.parts)
 
     @cached_property
     def blocks(self) -> tuple[BlockOf, ...]:
-        """All blocks, part by part."""
+        """Return all blocks, part by part, each with its range of runs."""
         each = self.each
-        places = (
+        ranges = (
             (k, first, min(part.block, each - first))
             for k, part in enumerate(self.parts)
             for first in range(0, each, part.block)
         )
-        return tuple(BlockOf(number, *place) for number, place in enumerate(places))
+        return tuple(BlockOf(number, *range_) for number, range_ in enumerate(ranges))
 
     def job(self, block: BlockOf, threads: int | None) -> Job:
-        """Return the job of a block, which contains all that a process needs to run it."""
+        """Return the job of a block, which contains all that a process needs to run it; `threads` as in `study`."""
         runs = np.arange(block.first, block.first + block.runs)
         return self.job_of(block.number, block.part, runs, threads, self.each - block.first - block.runs)
 
     def job_of(self, number: int, k: int, runs: Array, threads: int | None, later: int = 0) -> Job:
-        """Return the job of any runs of part k; `later`: runs of the part in later blocks."""
+        """Return the job of any runs of part k with their parameters and deviations.
+
+        number: of the block. runs: indices in the part. threads: None for the number of cores. later: number of runs
+        of the part in later blocks.
+        """
         part, shape = self.parts[k], tuple(one.length for one in self.numbers)
         index = np.unravel_index(runs, shape) if shape else ()
         columns: dict[str, Array] = {name: np.array([value] * len(runs)) for name, value in self.fixed.items()}
         for one, at in zip(self.numbers, index, strict=True):
             columns |= {name: values[at] for name, values in one.columns.items()}
         by_name = {one.name: at for one, at in zip(self.numbers, index, strict=True)}
-        relative, absolute = self._deviations_of(by_name, len(runs))
+        relative, absolute = self._select_deviations(by_name, len(runs))
         return Job(
             part.mechanism,
             part.simulation.source.scene,
@@ -162,8 +166,11 @@ class Plan:
             later,
         )
 
-    def _deviations_of(self, index: Mapping[str, Array], n: int) -> tuple[dict[str, Array], dict[str, Array]]:
-        """Return the relative and absolute deviations of runs with these indices."""
+    def _select_deviations(self, index: Mapping[str, Array], n: int) -> tuple[dict[str, Array], dict[str, Array]]:
+        """Return relative and absolute deviations of runs by parameter, (n,) each; empty without perturbed starts.
+
+        index: indices of the n runs along each dimension.
+        """
         if self.deviations is None:
             return {}, {}
         at = index.get("ensemble", np.zeros(n, dtype=int)), index["start"]
@@ -173,7 +180,7 @@ class Plan:
 
     @cached_property
     def specified(self) -> dict[str, Any]:
-        """Description of all inputs of the results; two studies are the same if it is equal."""
+        """Return a description of all inputs of the results as JSON data; two studies are the same if it is equal."""
         import gudgeon
 
         parts = {
@@ -189,13 +196,13 @@ class Plan:
 
     @cached_property
     def identity(self) -> str:
-        """Digest of `specified`."""
-        return _sha256_of(self.specified)
+        """Return the SHA-256 of `specified`."""
+        return _compute_sha256(self.specified)
 
     @cached_property
     def digest(self) -> str:
-        """Digest of `specified` and of the sizes of blocks, to identify files of blocks."""
-        return _sha256_of([self.specified, [part.block for part in self.parts]])
+        """Return the SHA-256 of `specified` and of the block sizes, by which files of blocks are recognised."""
+        return _compute_sha256([self.specified, [part.block for part in self.parts]])
 
 
 @dataclass(frozen=True, eq=False)
@@ -208,17 +215,17 @@ class Plans:
 
     @property
     def named(self) -> bool:
-        """Whether the file has parts."""
+        """Return whether the study file has named parts."""
         return self.file.named
 
     @property
     def runs(self) -> int:
-        """Number of runs of all parts."""
+        """Return the number of runs of all parts."""
         return sum(plan.runs for plan in self.each.values())
 
 
 def check_size(study: StudyFile) -> None:
-    """Raise BadValueError at the longest dimension for too many runs or structures, before any is loaded."""
+    """Raise BadValueError at the longest dimension for too many runs or structures, before any mechanism is loaded."""
     structures = [(len(study.scenes), study.scenes[0].where)]
     structures += [(len(choice.options), choice.where) for choice in study.choices]
     numbers = [(axis.length, axis.where) for axis in study.axes]
@@ -236,6 +243,6 @@ def check_size(study: StudyFile) -> None:
             raise BadValueError(f"the study has {found} {what}", where, f"expected {most:.0e} at most")
 
 
-def _sha256_of(value: Any) -> str:
-    """Return the SHA-256 of a value as JSON."""
+def _compute_sha256(value: Any) -> str:
+    """Return the SHA-256 (hexadecimal) of a value as JSON with sorted keys."""
     return hashlib.sha256(json.dumps(value, sort_keys=True).encode()).hexdigest()

@@ -50,15 +50,18 @@ NORMAL, GEOMETRIC = "normal", "geometric"
 
 
 def resolve(study: StudyFile) -> Plan:
-    """Load every structure and check every name of a study file. Raises an InputError at its location in the file."""
+    """Load every structure of a study file and return its plan, with all names, units and values checked.
+
+    Raises an InputError at its location in the file.
+    """
     check_size(study)
     structure, coordinates = _resolve_structure(study)
     parts = tuple(_load_parts(study, structure))
     sources = [part.simulation.source for part in parts]
-    numbers, found = _resolve_numbers(study, sources)
-    off, of_starts, starts = _resolve_starts(study.starts, sources)
-    coordinates += found + of_starts
-    expected = _resolve_wanted(study, parts)
+    numbers, parameter_coordinates = _resolve_parameters(study, sources)
+    deviations, start_coordinates, start_dimensions = _resolve_starts(study.starts, sources)
+    coordinates += parameter_coordinates + start_coordinates
+    expected = _resolve_expected(study, parts)
     fixed = {str(name): in_si(text, known_slot(sources, name)) for name, text in study.fixed.items()}
     coordinates += [
         Coordinate(name, (), np.array(value), known_slot(sources, name).unit)
@@ -67,9 +70,9 @@ def resolve(study: StudyFile) -> Plan:
     plan = Plan(
         study,
         tuple(structure),
-        (*numbers, *starts),
+        (*numbers, *start_dimensions),
         fixed,
-        off,
+        deviations,
         tuple(coordinates),
         parts,
         expected,
@@ -80,7 +83,10 @@ def resolve(study: StudyFile) -> Plan:
 
 
 def _resolve_structure(study: StudyFile) -> tuple[list[Dimension], list[Coordinate]]:
-    """Return dimensions and coordinates of scenes and choices."""
+    """Return dimensions and coordinates of scenes and of choices of structure.
+
+    A single scene is a coordinate without a dimension.
+    """
     named = [("scene", [str(name) for name in study.scenes], "scene of the mechanism")] if not study.one_scene else []
     named += [(choice.name, list(choice.options), "choice of structure") for choice in study.choices]
     found = [Coordinate(name, (name,), np.array(words, object), "", message) for name, words, message in named]
@@ -90,7 +96,10 @@ def _resolve_structure(study: StudyFile) -> tuple[list[Dimension], list[Coordina
 
 
 def _load_parts(study: StudyFile, structure: Sequence[Dimension]) -> Iterator[Part]:
-    """Yield the part of every combination of scene and options, loaded."""
+    """Yield a part with its loaded library for every combination of scene and options.
+
+    Scenes that measures subtract are loaded and checked, too. Raises an InputError at its location.
+    """
     mechanism = mechanism_of(study)
     for scene, texts, overrides in structures(study):
         for origin in origins(study):
@@ -99,28 +108,35 @@ def _load_parts(study: StudyFile, structure: Sequence[Dimension]) -> Iterator[Pa
 
 
 def _load_scene(
-    mechanism: str, scene: Text, texts: Mapping[str, Text], overrides: tuple[tuple[str, str], ...]
+    mechanism: str, scene: Text, override_texts: Mapping[str, Text], overrides: tuple[tuple[str, str], ...]
 ) -> Simulation:
-    """Return the loaded scene. Raises errors of overrides at their location in the study file."""
+    """Return the loaded scene with these overrides, (address, text) pairs.
+
+    override_texts: the same by address with locations; an error of an override is raised at its location in the study
+    file, a mistake in the mechanism's file at its own.
+    """
     try:
         return load(mechanism, str(scene), overrides=dict(overrides), quick=False)
     except InputError as error:
         file = error.where.file if error.where else ""
         address = file.removeprefix("override of ")
-        text = texts.get(address) or next((own for name, own in texts.items() if repr(name) in error.message), None)
-        if file and address not in texts:  # a mistake of the mechanism's file
+        text = override_texts.get(address) or next(
+            (own for name, own in override_texts.items() if repr(name) in error.message), None
+        )
+        if file and address not in override_texts:  # a mistake of the mechanism's file
             raise
         raise type(error)(error.message, (text or scene).where, error.hint) from None
 
 
-def _resolve_numbers(study: StudyFile, sources: Sequence[KernelSource]) -> tuple[list[Dimension], list[Coordinate]]:
-    """Return dimensions and coordinates of `parameters:`, `zip:` and `draw:`."""
+def _resolve_parameters(study: StudyFile, sources: Sequence[KernelSource]) -> tuple[list[Dimension], list[Coordinate]]:
+    """Return dimensions and coordinates of the varied parameters: `parameters:`, `zip:` and `draw:` of the study file.
+    """
     dimensions, coordinates = [], []
     for axis in study.axes:
         columns = {}
         for name, numbers in axis.columns.items():
             slot = known_slot(sources, name)
-            columns[str(name)] = values(numbers, slot, again=axis.grouped)
+            columns[str(name)] = values(numbers, slot, may_repeat=axis.grouped)
             coordinates.append(Coordinate(str(name), (axis.name,), columns[str(name)], slot.unit, slot.address))
         length = len(next(iter(columns.values())))
         if axis.grouped:
@@ -138,7 +154,10 @@ def _resolve_numbers(study: StudyFile, sources: Sequence[KernelSource]) -> tuple
 
 
 def _draw_values(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
-    """Return the random or quasi-random values of each drawn parameter, (count,)."""
+    """Return the random or quasi-random values of each drawn parameter in SI, (count,) by name.
+
+    Raises BadValueError at its location for invalid ends or deviations, and for values that are not finite.
+    """
     points = sample_unit_cube(draw.method, draw.count, len(draw.names), draw.seed)
     found = {}
     for name, spread in draw.numbers.items():
@@ -160,13 +179,13 @@ def _draw_values(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
 def _resolve_starts(
     starts: Starts | None, sources: Sequence[KernelSource]
 ) -> tuple[Deviations | None, list[Coordinate], list[Dimension]]:
-    """Return deviations, coordinates and dimensions of perturbed starts."""
+    """Return deviations, coordinates and dimensions of perturbed starts; None and empty lists without them."""
     if starts is None:
         return None, [], []
     names = sorted({str(name): name for own in starts.ensembles.values() for name in own}.values())
     points, ensembles = draw_deviations(starts, list(map(str, names))), list(starts.ensembles.values())
-    over = ("ensemble",) if starts.named else ()
-    off = Deviations({}, {})
+    ensemble_dimension = ("ensemble",) if starts.named else ()
+    deviations_ = Deviations({}, {})
     coordinates = [
         Coordinate(
             "start",
@@ -178,44 +197,57 @@ def _resolve_starts(
     ]
     if starts.named:
         named = np.array(list(starts.ensembles), object)
-        coordinates.append(Coordinate("ensemble", over, named, "", "ensemble of starts"))
+        coordinates.append(Coordinate("ensemble", ensemble_dimension, named, "", "ensemble of starts"))
     for k, name in enumerate(names):
         slot = known_slot(sources, name)
-        for relative, column in ((True, off.relative), (False, off.absolute)):
-            sizes = _deviation_sizes(
+        for relative, column in ((True, deviations_.relative), (False, deviations_.absolute)):
+            sizes = _parse_deviation_sizes(
                 ensembles, name, replace(slot, unit="", dimension=(0, 0, 0)) if relative else slot, relative
             )
             if sizes is None:
                 continue
-            column[str(name)] = by = sizes[:, None] * points[:, :, k]
+            column[str(name)] = values = sizes[:, None] * points[:, :, k]
             kind, unit = ("relative", "") if relative else ("absolute", slot.unit)
-            size, by = (sizes, by) if starts.named else (sizes[0], by[0])
+            size, values = (sizes, values) if starts.named else (sizes[0], values[0])
             coordinates += [
-                Coordinate(f"{name}.{kind}_size", over, np.array(size), unit, f"{kind} size of what {name} is off"),
-                Coordinate(f"{name}.{kind}", (*over, "start"), by, unit, f"{kind} deviation of {name}"),
+                Coordinate(
+                    f"{name}.{kind}_size",
+                    ensemble_dimension,
+                    np.array(size),
+                    unit,
+                    f"{kind} size of what {name} is off",
+                ),
+                Coordinate(
+                    f"{name}.{kind}", (*ensemble_dimension, "start"), values, unit, f"{kind} deviation of {name}"
+                ),
             ]
     dimensions = [Dimension("ensemble", len(ensembles))] if starts.named else []
-    return off, coordinates, [*dimensions, Dimension("start", starts.count)]
+    return deviations_, coordinates, [*dimensions, Dimension("start", starts.count)]
 
 
-def _deviation_sizes(
+def _parse_deviation_sizes(
     ensembles: Sequence[Mapping[Text, Deviation]], name: Text, slot: Slot, relative: bool
 ) -> Array | None:
-    """Return the size of the deviation of a parameter in each ensemble, 0 where it has none; None if it has none of
-    this kind.
+    """Return the size of the deviation of a parameter in each ensemble (SI), 0 for an ensemble without it.
+
+    relative: which kind of deviation. None if no ensemble has this kind. Raises BadValueError for a size that is not
+    positive.
     """
-    sizes, found = np.zeros(len(ensembles)), False
+    sizes, is_found = np.zeros(len(ensembles)), False
     for k, own in enumerate(ensembles):
         if name in own and own[name].relative == relative:
-            text, found = own[name].size, True
+            text, is_found = own[name].size, True
             sizes[k] = real_value(text, slot)
             if not sizes[k] > 0.0:
                 raise BadValueError(f"a size of {str(text)!r}", text.where, "expected a positive one")
-    return sizes if found else None
+    return sizes if is_found else None
 
 
-def _resolve_wanted(study: StudyFile, parts: Sequence[Part]) -> Expected:
-    """Return the requested outputs of the runs, checked in every scene."""
+def _resolve_expected(study: StudyFile, parts: Sequence[Part]) -> Expected:
+    """Return the requested outputs and settings of the runs, with expressions and methods checked in every scene.
+
+    Raises an InputError at its location.
+    """
     ends = {"t_end": TIME}
     rtol = None if study.rtol is None else _parse_tolerance(study.rtol)
     for part in parts:
@@ -244,7 +276,10 @@ def _resolve_wanted(study: StudyFile, parts: Sequence[Part]) -> Expected:
 
 
 def _check_method(study: StudyFile, source: KernelSource, rtol: float | None) -> None:
-    """Raise an InputError at its location for a method or tolerance that a scene does not allow."""
+    """Raise an InputError at its location for a method or tolerance that a scene does not allow.
+
+    Settings of a kinematically driven scene are ignored.
+    """
     method, where = method_in(source, str(study.method)), study.method.where
     moves = bool(source.degrees_of_freedom)
     fixed, rtol = moves and study.step is not None, rtol if moves else None
@@ -257,12 +292,15 @@ def _check_method(study: StudyFile, source: KernelSource, rtol: float | None) ->
 
 
 def _parse_tolerance(text: Text) -> float:
-    """Return the value of rtol."""
+    """Return the value of the text of `rtol`. Raises an InputError at the text."""
     return real_value(text, Slot("rtol", "", 0.0, False, (0, 0, 0)))
 
 
 def _resolve_units(study: StudyFile, sources: Sequence[KernelSource]) -> dict[str, str]:
-    """Return the units of measures and stored series by name. Raises UnknownNameError for one that no scene has."""
+    """Return the SI units of measures and stored series by name.
+
+    Raises UnknownNameError at the name for a measure or series that no scene has.
+    """
     found = {}
     for measure in study.measures:
         units = [unit for source in sources if (unit := unit_of(measure, source)) is not None]
@@ -281,7 +319,7 @@ def _resolve_units(study: StudyFile, sources: Sequence[KernelSource]) -> dict[st
 
 
 def _find_notes(study: StudyFile, sources: Sequence[KernelSource]) -> Iterator[str]:
-    """Yield a sentence for each setting or measure that has no effect in some scenes."""
+    """Yield a sentence for each parameter, measure, series or setting of a study that has no effect in some scenes."""
     names = [*study.fixed, *(name for axis in study.axes for name in axis.columns)]
     names += [*study.draw.numbers] if study.draw else []
     names += [name for own in study.starts.ensembles.values() for name in own] if study.starts else []
@@ -304,48 +342,59 @@ def _find_notes(study: StudyFile, sources: Sequence[KernelSource]) -> Iterator[s
 
 
 def _size_blocks(plan: Plan, k: int) -> Part:
-    """Return part k with a block size whose samples fit into BYTES, estimated from some of its runs."""
+    """Return part k with a number of runs per block whose samples fit into BYTES, and the mean and largest number of
+    samples.
+
+    Both are estimated from at most LOOKED_AT of its runs.
+    """
     runs = np.unique(np.linspace(0, plan.each - 1, min(plan.each, LOOKED_AT)).astype(int))
     job: Job = plan.job_of(0, k, runs, None)
     counts = Table(plan.parts[k].simulation, job).output
-    known = counts[~np.isnan(counts)] + 1.0
-    most, mean = (float(known.max()), float(known.mean())) if known.size else (2.0, 2.0)
+    valid_counts = counts[~np.isnan(counts)] + 1.0
+    max_samples, mean_samples = (
+        (float(valid_counts.max()), float(valid_counts.mean())) if valid_counts.size else (2.0, 2.0)
+    )
     width = 2 + len(series_of(plan.expected.measures, plan.expected.keep, plan.parts[k].simulation.source))
-    block = int(max(1, min(BLOCK, BYTES // (8 * width * max(most, 2.0)))))
-    return replace(plan.parts[k], block=block, samples=mean, most=most)
+    block = int(max(1, min(BLOCK, BYTES // (8 * width * max(max_samples, 2.0)))))
+    return replace(plan.parts[k], block=block, samples=mean_samples, most=max_samples)
 
 
-def sample_unit_cube(method: str, count: int, width: int, seed: int) -> Array:
-    """Return points of the unit cube, (count, width): independent ones, or those of scipy.stats.qmc, scrambled if
-    possible.
+def sample_unit_cube(method: str, count: int, n_dimensions: int, seed: int) -> Array:
+    """Return points of the unit cube, (count, n_dimensions), for a method of `draw:` and a seed.
+
+    method: "random" (independent points), "latin_hypercube", "halton", or Sobol for any other; the last ones by
+    scipy.stats.qmc, scrambled if possible.
     """
     if method == RANDOM:
-        return np.random.default_rng(seed).random((count, width))
+        return np.random.default_rng(seed).random((count, n_dimensions))
     from scipy.stats import qmc
 
     if method == LATIN:
-        return np.asarray(qmc.LatinHypercube(width, seed=seed).random(count))
+        return np.asarray(qmc.LatinHypercube(n_dimensions, seed=seed).random(count))
     if method == HALTON:
-        return np.asarray(qmc.Halton(width, seed=seed).random(count))
-    return np.asarray(qmc.Sobol(width, seed=seed).random_base2(math.ceil(math.log2(count)))[:count])
+        return np.asarray(qmc.Halton(n_dimensions, seed=seed).random(count))
+    return np.asarray(qmc.Sobol(n_dimensions, seed=seed).random_base2(math.ceil(math.log2(count)))[:count])
 
 
-def map_to_distribution(spread: Spread, first: float, second: float, share: Array) -> Array:
-    """Return values at fractions (n,) of a distribution, from mean and standard deviation, or from two ends (SI)."""
+def map_to_distribution(spread: Spread, mean_or_low: float, deviation_or_high: float, fractions: Array) -> Array:
+    """Return the values (SI) at fractions (n,) in [0, 1] of a normal, geometric or uniform distribution.
+
+    mean_or_low, deviation_or_high: mean and standard deviation of a normal distribution, else the two ends.
+    """
     if spread.kind == NORMAL:
         from scipy.special import ndtri
 
-        return np.asarray(first + second * ndtri(share))
+        return np.asarray(mean_or_low + deviation_or_high * ndtri(fractions))
     if spread.kind == GEOMETRIC:
-        return np.asarray(first * (second / first) ** share)
-    return np.asarray(first + (second - first) * share)
+        return np.asarray(mean_or_low * (deviation_or_high / mean_or_low) ** fractions)
+    return np.asarray(mean_or_low + (deviation_or_high - mean_or_low) * fractions)
 
 
 def draw_deviations(starts: Starts, names: list[str]) -> Array:
-    """Return deviations of each ensemble, start and parameter, (n_ensembles, count, n_names): in [−1, 1], or normal
-    with σ = 1.
+    """Return random deviations of each ensemble, start and parameter, (n_ensembles, count, n_names).
 
-    They are the same at every other coordinate of the study, so that runs can be compared start by start.
+    They are uniform in [−1, 1], or normal with σ = 1. They are the same at every other coordinate of the study, so
+    that runs can be compared start by start.
     """
     each = [np.random.default_rng([starts.seed, k]) for k in range(len(starts.ensembles))]
     shape = (starts.count, len(names))

@@ -47,25 +47,33 @@ def plans_of(
     starts: int | None = None,
     seed: int | None = None,
 ) -> Plans:
-    """Return the plans of a study, with mechanisms loaded; arguments as in `study`. Raises InputError."""
+    """Return the plans of a study with its mechanisms loaded.
+
+    study: a file, the name of a shipped study, or a mapping. settings: values by address that override those of the
+    study. starts, seed: as in `study`. Raises InputError at the location of a mistake, GudgeonError without xarray and
+    h5py.
+    """
     from gudgeon.generator.study.parts import MAX_COUNT, MAX_SEED
     from gudgeon.generator.study.read import read_studies
 
     h5py_module()
-    given = {name: str(value) for name, value in mapping(settings, "settings").items()}
+    overrides = {name: str(value) for name, value in mapping(settings, "settings").items()}
     starts = None if starts is None else whole(starts, "starts", 1, MAX_COUNT)
     seed = None if seed is None else whole(seed, "seed", 0, MAX_SEED)
     if isinstance(study, Mapping):
-        return _resolve_parts(read_studies(study, "", given).begun(starts, seed))
+        return _resolve_parts(read_studies(study, "", overrides).begun(starts, seed))
     file = os.fspath(path(study, "study"))
     if not (os.path.splitext(file)[1] or os.path.dirname(file) or os.path.lexists(file)):
         file = str(shipped_study(file))
     data = read_named(file, MAX_BYTES, hint="name a YAML file that begins with format: gudgeon-study/1")
-    return _resolve_parts(read_studies(data, file, given).begun(starts, seed))
+    return _resolve_parts(read_studies(data, file, overrides).begun(starts, seed))
 
 
 def _resolve_parts(studies: StudySet) -> Plans:
-    """Return the resolved plans. Raises the errors of all parts together, without repetitions."""
+    """Return the plans of all parts of a study file with its claims; libraries are compiled by two processes.
+
+    Raises the errors of all parts together, without repetitions.
+    """
     from gudgeon.studies.ensemble.claims import known_claims
     from gudgeon.studies.ensemble.libraries import compile_in_second_process, structures_of
     from gudgeon.studies.ensemble.plan import Plans
@@ -131,7 +139,11 @@ def run_plans(
     restart: bool = False,
     keeps: tempfile.TemporaryDirectory[str] | None = None,
 ) -> Study:
-    """Run the plans of a study file in a folder, each part in a subfolder, and return the finished study."""
+    """Run the plans of a study file in a folder, write claims and names, and return the finished study.
+
+    Each part of a file with parts has a subfolder. keeps: temporary folder that lives as long as the study. Raises
+    OutputError or MemoryError before the first run if disk or memory do not suffice.
+    """
     check_needs(plans, folder, threads, executor is None)
     if plans.named:
         open_parts(folder, list(plans.each), restart)
@@ -154,16 +166,19 @@ def run_plans(
 
 
 def load_study(folder: str | os.PathLike[str]) -> Study:
-    """Return the finished study in a folder. Raises InputError for a folder without one, or with an unfinished one."""
-    place = Path(path(folder, "folder"))
-    if (found := manifest(place)) is None:
-        raise InputError(f"{shortened(place)} is no folder of a study: it has no {MANIFEST}")
-    if parts := part_names(found):
+    """Return the finished study in a folder, with or without parts.
+
+    Raises InputError for a folder without a study, or with an unfinished or damaged one.
+    """
+    folder_path = Path(path(folder, "folder"))
+    if (manifest_ := manifest(folder_path)) is None:
+        raise InputError(f"{shortened(folder_path)} is no folder of a study: it has no {MANIFEST}")
+    if parts := part_names(manifest_):
         for name in parts:
-            load_study(place / name)
-        return StudyOfParts(place, parts)
-    if not (place / DATASET).is_file():
-        message = f"the study in {shortened(place)} is not finished"
+            load_study(folder_path / name)
+        return StudyOfParts(folder_path, parts)
+    if not (folder_path / DATASET).is_file():
+        message = f"the study in {shortened(folder_path)} is not finished"
         raise InputError(message, hint="gudgeon study FILE --out FOLDER goes on with it")
-    check_dataset(place, found.get("plan"))
-    return Study(place)
+    check_dataset(folder_path, manifest_.get("plan"))
+    return Study(folder_path)

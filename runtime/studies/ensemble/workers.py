@@ -26,29 +26,29 @@ class Processes(Executor):
     """
 
     def __init__(self, count: int, laws: tuple[str, ...] = ()) -> None:
-        """Start `count` processes that know the user-defined laws."""
+        """Start `count` processes that know the user-defined laws in the files `laws`."""
         self.count, self.laws = count, laws
-        self.pool = self._new_pool()
+        self.pool = self._create_pool()
 
-    def _new_pool(self) -> ProcessPoolExecutor:
-        """Return a pool of new processes."""
+    def _create_pool(self) -> ProcessPoolExecutor:
+        """Return a pool of new spawned processes; they start at the first submission."""
         return ProcessPoolExecutor(self.count, get_context("spawn"), begin_worker, (self.laws,))
 
     def renew(self) -> None:
-        """Replace the processes, so that unfinished work can be submitted again."""
+        """Replace all processes by new ones after one of them died, so that unfinished work can be submitted again."""
         self._terminate()
-        self.pool = self._new_pool()
+        self.pool = self._create_pool()
 
-    def submit(self, work: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Submit work, as for any executor."""
-        return self.pool.submit(work, *args, **kwargs)
+    def submit(self, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Submit `function(*args, **kwargs)` to a process and return its future."""
+        return self.pool.submit(function, *args, **kwargs)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """End the processes, whatever they are doing."""
+        """Terminate the processes at once, also running ones; the arguments are ignored."""
         self._terminate()
 
     def _terminate(self) -> None:
-        """Terminate all processes."""
+        """Terminate all processes and cancel the waiting work."""
         processes = dict(getattr(self.pool, "_processes", None) or {})
         for process in processes.values():
             process.terminate()
@@ -56,7 +56,10 @@ class Processes(Executor):
 
 
 def begin_worker(laws: tuple[str, ...]) -> None:
-    """Prepare a new worker: it ignores Ctrl-C, ends with its parent, and knows the user-defined laws."""
+    """Prepare a new worker process: it ignores Ctrl-C, ends with its parent, and knows the user-defined laws.
+
+    laws: files of the laws.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     Thread(target=_end_with_parent, daemon=True).start()
     for law in laws:
@@ -66,23 +69,31 @@ def begin_worker(laws: tuple[str, ...]) -> None:
 
 
 def _end_with_parent() -> None:
-    """End this process when its parent ends, for example if that is killed."""
+    """Wait until the parent process ends, for example because it is killed, and end this process; for a thread of its
+    own.
+    """
     if (parent := parent_process()) is not None:
         parent.join()
         os._exit(1)
 
 
-def executor_of(given: Any) -> Executor | None:
-    """Return an executor, or that of a dask Client. Raises BadValueError for anything else."""
+def executor_of(executor: Any) -> Executor | None:
+    """Return an executor of concurrent.futures: the argument itself, or that of a dask Client; None for None.
+
+    Raises BadValueError for anything else.
+    """
     distributed = sys.modules.get("distributed")
-    if distributed is not None and isinstance(given, distributed.Client):
-        found: Executor = given.get_executor(pure=False)
+    if distributed is not None and isinstance(executor, distributed.Client):
+        found: Executor = executor.get_executor(pure=False)
         return found
-    return None if given is None else instance(given, "executor", Executor)
+    return None if executor is None else instance(executor, "executor", Executor)
 
 
 def max_submitted(executor: Executor) -> int:
-    """Return the number of blocks to submit at once, so that no worker waits and memory stays bounded."""
+    """Return the number of blocks to submit at once to an executor, AHEAD per worker.
+
+    More would cost memory, fewer would let workers wait. UNKNOWN workers are assumed if their number is not known.
+    """
     count = getattr(executor, "count", None) or getattr(executor, "_max_workers", None)
     if count is None and (client := getattr(executor, "_connect", None)) is not None:
         count = sum(client.ncores().values())  # of a cluster that grows and shrinks
@@ -90,7 +101,7 @@ def max_submitted(executor: Executor) -> int:
 
 
 def is_lost(error: BaseException) -> bool:
-    """Return whether an error means that a worker ended before its work did."""
+    """Return whether an error means that a worker process ended before its work did."""
     distributed = sys.modules.get("distributed")
     killed = (distributed.KilledWorker,) if distributed is not None else ()
     return isinstance(error, (BrokenExecutor, CancelledError, *killed))
@@ -98,9 +109,9 @@ def is_lost(error: BaseException) -> bool:
 
 @contextmanager
 def workers(count: int | None, cluster: str | None) -> Iterator[Executor | None]:
-    """Provide an executor with `count` processes, or of a dask cluster at an address; None for neither.
+    """Yield an executor with `count` processes, or of the dask cluster at the address `cluster`; None for neither.
 
-    Raises InputError, GudgeonError.
+    It is shut down at the end of the context. Raises InputError for both or no answer, GudgeonError without dask.
     """
     if count is not None and cluster is not None:
         raise InputError("--workers and --dask: a cluster has its own workers", hint="give one of them")
@@ -108,21 +119,24 @@ def workers(count: int | None, cluster: str | None) -> Iterator[Executor | None]
         with Processes(count, law_files()) as executor:
             yield executor
     elif cluster is not None:
-        with _connect(cluster) as client:
+        with _connect_to_cluster(cluster) as client:
             yield executor_of(client)
     else:
         yield None
 
 
 def law_files() -> tuple[str, ...]:
-    """Return the files of the user-defined laws that this process knows."""
+    """Return the files of the user-defined laws that are registered in this process."""
     module = sys.modules.get("gudgeon.generator.kinds.laws.registered")
     return () if module is None else tuple(origin.file for origin in module.ORIGINS.values() if origin.file)
 
 
 @contextmanager
-def _connect(address: str) -> Iterator[Any]:
-    """Provide a dask Client of an address. Raises InputError if no scheduler answers."""
+def _connect_to_cluster(address: str) -> Iterator[Any]:
+    """Yield a dask Client for the address of a scheduler, and close it at the end of the context.
+
+    Raises InputError if no scheduler answers, GudgeonError if dask is not installed.
+    """
     try:
         from distributed import Client
     except ModuleNotFoundError as error:

@@ -24,27 +24,40 @@ TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # bounds of errors in the second table
 
 
 def show_bench(
-    source: KernelSource, found: Sequence[SceneBench], table: Path, mark_step: float | None, as_json: bool = False
+    source: KernelSource,
+    scene_benches: Sequence[SceneBench],
+    table: Path,
+    mark_step: float | None,
+    as_json: bool = False,
 ) -> None:
-    """Print the results (or only JSON), and write the table and the figure next to it."""
-    rows = bench_rows(found)
+    """Print the results of `gudgeon bench` (with `as_json` as JSON), and write the table as CSV and the figure next to
+    it.
+
+    mark_step (s): step of rk4 that is marked in the figure and described; None for none. An OutputError for a file is
+    raised after printing.
+    """
+    rows = bench_rows(scene_benches)
 
     def draw() -> Figure:
-        """Return the figure."""
+        """Return the figure of the results."""
         from gudgeon.studies.show.bench_figure import bench_figure
 
-        return bench_figure(source.title or source.mechanism, found, mark_step)
+        return bench_figure(source.title or source.mechanism, scene_benches, mark_step)
 
     written, failed = write_files(table, rows, draw)
-    _show(source, found, written, mark_step, as_json)
+    _print_bench(source, scene_benches, written, mark_step, as_json)
     if failed:
         raise failed
 
 
-def _show(
-    source: KernelSource, found: Sequence[SceneBench], written: Sequence[Path], mark_step: float | None, as_json: bool
+def _print_bench(
+    source: KernelSource,
+    scene_benches: Sequence[SceneBench],
+    written: Sequence[Path],
+    mark_step: float | None,
+    as_json: bool,
 ) -> None:
-    """Print the results and the names of the written files."""
+    """Print tables, notes and names of written files for all scenes, or one JSON document."""
     if as_json:
         scenes = [
             {
@@ -53,40 +66,40 @@ def _show(
                 "interrupted": scene.interrupted,
                 "notes": notes(scene, mark_step),
             }
-            for scene in found
+            for scene in scene_benches
         ]
         files = [str(path) for path in written]
-        print_json({"mechanism": source.mechanism, "scenes": scenes, "rows": bench_rows(found), "files": files})
+        print_json({"mechanism": source.mechanism, "scenes": scenes, "rows": bench_rows(scene_benches), "files": files})
         return
     out = console()
-    for scene in found:
-        out.print(_title(scene), style="bold")
+    for scene in scene_benches:
+        out.print(_format_title(scene), style="bold")
         if scene.methods == ("kinematic",):
-            out.print(_kinematic_table(scene))
-        elif own := [row for row in scene.rows if row.setting.method not in NAMES]:
-            out.print(_table(scene, own))
+            out.print(_build_kinematic_table(scene))
+        elif own_rows := [row for row in scene.rows if row.setting.method not in NAMES]:
+            out.print(_build_rows_table(scene, own_rows))
         if checks := [row for row in scene.rows if row.setting.method in NAMES]:
             out.print("  cross-checks: others' methods on the full formulation, driven from Python")
-            out.print(_table(scene, checks, [name for name in COLUMNS if name != "Jacobians"]))
+            out.print(_build_rows_table(scene, checks, [name for name in COLUMNS if name != "Jacobians"]))
         for line in notes(scene, mark_step):
             out.print(f"  {line}")
         if scene.references:
-            out.print(_target_table(scene))
-    if any(scene.rhs for scene in found):
+            out.print(_build_target_table(scene))
+    if any(scene.rhs for scene in scene_benches):
         out.print("one right-hand side", style="bold")
-        out.print(_rhs_table(found))
+        out.print(_build_rhs_table(scene_benches))
     for path in written:
         out.print(f"wrote {path_text(path)}")
 
 
-def _title(scene: SceneBench) -> str:
-    """Return scene, window and completeness as a title."""
+def _format_title(scene: SceneBench) -> str:
+    """Return the title of a scene's tables: scene, length of the window, its reason, and completeness after Ctrl-C."""
     part = " (partial: interrupted after {} of {} rows)".format(*scene.done) if scene.interrupted else ""
     return f"{scene.scene}: the first {seconds(scene.t_end)}" + (f" ({scene.why})" if scene.why else "") + part
 
 
-def _kinematic_table(scene: SceneBench) -> Table:
-    """Return the table of the kinematic method: samples, times, constraint residual."""
+def _build_kinematic_table(scene: SceneBench) -> Table:
+    """Return the table of the kinematic method: samples, times, constraint residual; a failed row has its failure."""
     table = new_table(("samples", "a simulated s", "a sample", "max |Φ| / size"))
     for row in scene.rows:
         cells = (seconds(row.seconds), seconds(row.seconds * row.setting.value), _format_error(row.error.motion))
@@ -94,10 +107,12 @@ def _kinematic_table(scene: SceneBench) -> Table:
     return table
 
 
-def _table(scene: SceneBench, rows: Sequence[Row], columns: Sequence[str] = COLUMNS) -> Table:
-    """Return the table of rows of one scene: run time of the window, its right-hand sides, errors.
+def _build_rows_table(scene: SceneBench, rows: Sequence[Row], columns: Sequence[str] = COLUMNS) -> Table:
+    """Return a table of rows of one scene: method, setting, run time of the window, right-hand sides, Jacobians,
+    errors.
 
-    Errors in brackets are not resolved.
+    columns: heads, without "Jacobians" to leave that column out. Errors in brackets are not resolved. Failed rows have
+    the time of failure.
     """
     from rich.text import Text
 
@@ -109,25 +124,25 @@ def _table(scene: SceneBench, rows: Sequence[Row], columns: Sequence[str] = COLU
         if row.failure:
             table.add_row(method, str(row.setting), Text("fails", "red"), Text(f"at {seconds(row.failed_at)}", "red"))
             continue
-        errors = (_error_cell(scene, m, getattr(row.error, m)) for m in ("motion", "path", "force"))
+        errors = (_format_error_cell(scene, m, getattr(row.error, m)) for m in ("motion", "path", "force"))
         jacobians = [f"{row.jacobians:,}" if row.jacobians else "–"] if "Jacobians" in columns else []
         time = seconds(row.seconds * scene.t_end)
         table.add_row(method, str(row.setting), time, f"{row.right_hand_sides:,}", *jacobians, *errors)
     return table
 
 
-def _error_cell(scene: SceneBench, measure: str, error: float) -> str:
-    """Return an error as a cell, in brackets if it is not resolved."""
+def _format_error_cell(scene: SceneBench, measure: str, error: float) -> str:
+    """Return an error with two digits as a cell, in brackets if the references do not resolve it."""
     return _format_error(error) if math.isnan(error) or scene.resolved(measure, error) else f"({_format_error(error)})"
 
 
 def _format_error(value: float) -> str:
-    """Return an error as a cell, "–" if it is not known."""
+    """Return an error with two digits, "–" for NaN."""
     return "–" if math.isnan(value) else f"{value:.1e}"
 
 
-def _target_table(scene: SceneBench) -> Table:
-    """Return the table of the run times of the window by which every error is below a bound, by method."""
+def _build_target_table(scene: SceneBench) -> Table:
+    """Return the table of the least run times of the window by which every error is below a bound, by method."""
     table = new_table(("run time to errors below", *map(_format_error, TARGETS)), left=("run time to errors below",))
     for method in scene.methods:
         times = (scene.seconds_to(target, method) * scene.t_end for target in TARGETS)
@@ -136,19 +151,23 @@ def _target_table(scene: SceneBench) -> Table:
 
 
 def notes(scene: SceneBench, mark_step: float | None) -> list[str]:
-    """Return sentences on the references, orders of convergence, steps and omitted rows."""
+    """Return sentences on references, orders of convergence, the largest good step of rk4, `mark_step` and omitted
+    rows.
+
+    A scene without references (dof = 0) has a single sentence. mark_step (s): None for none.
+    """
     if not scene.references:
         return ["no degree of freedom: nothing is integrated, the error is what is left open of the constraints"]
     first, second = (f"{r.method} at {r}" for r in scene.references)
     a = scene.agreement
-    differ = ", ".join(f"{name} {_format_error(x)}" for name, x in _name_measures(a.motion, a.path, a.force))
+    differ = ", ".join(f"{name} {_format_error(x)}" for name, x in _pair_with_names(a.motion, a.path, a.force))
     lines = [
         f"references: {first} and {second}; a run is compared with another method",
         f"they differ by: {differ}; below {TRUSTED} times that, in brackets, not resolved",
     ]
     if math.isinf(a.motion):
         lines[1] = "one of them fails: nothing confirms the errors"
-    orders = _name_measures(*(scene.order(m) for m in ("motion", "path", "force")))
+    orders = _pair_with_names(*(scene.order(m) for m in ("motion", "path", "force")))
     if text := ", ".join(f"{name} {order:.2f}" for name, order in orders):
         lines.append(f"observed order of rk4: {text}")
     if scene.of("rk4"):
@@ -162,14 +181,14 @@ def notes(scene: SceneBench, mark_step: float | None) -> list[str]:
     return [*lines, *scene.left_out]
 
 
-def _name_measures(motion: float, path: float, force: float) -> list[tuple[str, float]]:
-    """Return the known ones of three values with the name of each measure."""
+def _pair_with_names(motion: float, path: float, force: float) -> list[tuple[str, float]]:
+    """Return (name, value) of the three measures of an error, without those that are NaN."""
     pairs = (("coordinates", motion), ("paths", path), ("forces", force))
     return [(name, x) for name, x in pairs if not math.isnan(x)]
 
 
 def _describe_step(scene: SceneBench, step: float) -> str:
-    """Return the result of rk4 with the marked step in words."""
+    """Return errors of rk4 with a step (s) in words, its failure, or "not tested"."""
     row: Row | None = scene.row(Setting("rk4", step))
     if row is None:
         return "not tested"
@@ -183,10 +202,10 @@ def _describe_step(scene: SceneBench, step: float) -> str:
     return specified
 
 
-def _rhs_table(found: Sequence[SceneBench]) -> Table:
-    """Return the table of the times of a right-hand side."""
+def _build_rhs_table(scene_benches: Sequence[SceneBench]) -> Table:
+    """Return the table of the times of one right-hand side, a row for each scene and state."""
     table = new_table(("scene", "state", "time", "operations", "ns an operation"))
-    for scene in found:
+    for scene in scene_benches:
         for rhs in scene.rhs:
             table.add_row(
                 scene.scene,
@@ -198,8 +217,8 @@ def _rhs_table(found: Sequence[SceneBench]) -> Table:
     return table
 
 
-def bench_rows(found: Sequence[SceneBench]) -> list[dict[str, Any]]:
-    """Return the rows of the file, with SI units in the names of the columns."""
+def bench_rows(scene_benches: Sequence[SceneBench]) -> list[dict[str, Any]]:
+    """Return the rows of the CSV file, column name (with SI unit) to value, for all scenes."""
     return [
         {
             "scene": scene.scene,
@@ -221,6 +240,6 @@ def bench_rows(found: Sequence[SceneBench]) -> list[dict[str, Any]]:
             "references_differ_force": scene.agreement.force,
             "failure": row.failure,
         }
-        for scene in found
+        for scene in scene_benches
         for row in scene.rows
     ]

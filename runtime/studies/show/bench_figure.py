@@ -29,12 +29,13 @@ CHECKS = dict(zip(NAMES, ("v", "<", ">", "p", "h", "P", "*"), strict=True))
 GREY, LIGHT = "#666666", {"scipy": "#9a9a9a", "sundials": "#56B4E9"}
 
 
-def bench_figure(title: str, found: Sequence[SceneBench], mark_step: float | None = None) -> Figure:
-    """Return the figure with a row for each scene.
+def bench_figure(title: str, scene_benches: Sequence[SceneBench], mark_step: float | None = None) -> Figure:
+    """Return the figure of `gudgeon bench`: a row of two axes for each scene, and a common legend.
 
-    Hollow markers and a shaded band show errors within the uncertainty of the references.
+    Scenes without references are left out if another has some. Hollow markers and a shaded band show errors within the
+    uncertainty of the references. mark_step (s): step of rk4 with a ring, or None.
     """
-    shown = [scene for scene in found if scene.references] or list(found)
+    shown = [scene for scene in scene_benches if scene.references] or list(scene_benches)
     with matplotlib.rc_context(STYLE):
         picture = Figure(figsize=(11, 1.2 + 3.6 * len(shown)), dpi=120, layout="constrained")
         axes = picture.subplots(len(shown), 2, squeeze=False, sharey="row")
@@ -44,57 +45,65 @@ def bench_figure(title: str, found: Sequence[SceneBench], mark_step: float | Non
                 _mark_step(left, right, mark_step, scene)
         used = dict.fromkeys(method for scene in shown for method in scene.methods)
         handles = [
-            Line2D([], [], color=_colour_of(m), marker=_marker_of(m), ls="--" if m in CHECKS else "-", ms=6, label=m)
+            Line2D(
+                [],
+                [],
+                color=_select_colour(m),
+                marker=_select_marker(m),
+                ls="--" if m in CHECKS else "-",
+                ms=6,
+                label=m,
+            )
             for m in used
         ]
         doubt = "within the references' own uncertainty"
         handles.append(Line2D([], [], color=GREY, marker="o", mfc="white", ls="", ms=5, label=doubt))
-        message = " (partial: interrupted)" if any(scene.interrupted for scene in found) else ""
+        message = " (partial: interrupted)" if any(scene.interrupted for scene in scene_benches) else ""
         head = figure_title(f"{title}: run time against error{message}", 110)
         picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
         picture.legend(handles=handles, loc="outside lower center", ncols=5, fontsize=8.5)
     return picture
 
 
-def _marker_of(method: str) -> str:
-    """Return the marker of a method."""
+def _select_marker(method: str) -> str:
+    """Return the matplotlib marker of a method."""
     return CHECKS.get(method) or MARKERS[method]
 
 
-def _colour_of(method: str) -> str:
-    """Return the colour of a method."""
+def _select_colour(method: str) -> str:
+    """Return the colour of a method; cross-checks have one for each package."""
     if method in CHECKS:
         return LIGHT[method.partition(":")[0]]
     return COLOURS[list(MARKERS).index(method) % len(COLOURS)]
 
 
-def _draw_scene(left: Axes, right: Axes, scene: SceneBench) -> None:
-    """Draw the errors of one scene over run time (left) and right-hand sides (right)."""
+def _draw_scene(time_axes: Axes, rhs_axes: Axes, scene: SceneBench) -> None:
+    """Draw the largest errors of one scene over run time (left axes) and right-hand sides or samples (right)."""
     for method in scene.methods:
         rows = [row for row in scene.of(method) if not row.failure and row.error.largest > 0]
         errors = [row.error.largest for row in rows]
-        colour, marker, check = _colour_of(method), _marker_of(method), method in CHECKS
+        colour, marker, check = _select_colour(method), _select_marker(method), method in CHECKS
         times = [row.seconds * scene.t_end * 1e3 for row in rows]
-        for ax, x in ((left, times), (right, [row.right_hand_sides or row.samples for row in rows])):
+        for ax, x in ((time_axes, times), (rhs_axes, [row.right_hand_sides or row.samples for row in rows])):
             dashes, width, z = ("--", 0.8, 1.9) if check else ("-", 1.3, 2)
             ax.plot(x, errors, dashes, color=colour, lw=width, zorder=z)
-            for place, error, row in zip(x, errors, rows, strict=True):
+            for x_value, error, row in zip(x, errors, rows, strict=True):
                 face = colour if _is_resolved(scene, row) else "white"
                 edge = {"c": [colour]} if marker == "x" else {"c": [face], "edgecolors": colour}
-                ax.scatter([place], [error], s=18 if check else 26, marker=marker, linewidths=1.1, zorder=3, **edge)
-    left.set(xscale="log", yscale="log", xlabel="run time of the window [ms]", ylabel="largest error")
-    right.set(xscale="log", xlabel="right-hand sides" if scene.references else "samples")
-    left.set_title(f"{scene.scene}, the first {seconds(scene.t_end)}", loc="left", fontsize=9.5)
-    doubt = TRUSTED * scene.agreement.largest
-    if math.isfinite(doubt) and doubt > left.get_ylim()[0]:
-        bottom = left.get_ylim()[0]
-        for ax in (left, right):
-            ax.axhspan(bottom, doubt, color="#eeeeee", zorder=0)
-        left.set_ylim(bottom=bottom)
+                ax.scatter([x_value], [error], s=18 if check else 26, marker=marker, linewidths=1.1, zorder=3, **edge)
+    time_axes.set(xscale="log", yscale="log", xlabel="run time of the window [ms]", ylabel="largest error")
+    rhs_axes.set(xscale="log", xlabel="right-hand sides" if scene.references else "samples")
+    time_axes.set_title(f"{scene.scene}, the first {seconds(scene.t_end)}", loc="left", fontsize=9.5)
+    unresolved_limit = TRUSTED * scene.agreement.largest
+    if math.isfinite(unresolved_limit) and unresolved_limit > time_axes.get_ylim()[0]:
+        bottom = time_axes.get_ylim()[0]
+        for ax in (time_axes, rhs_axes):
+            ax.axhspan(bottom, unresolved_limit, color="#eeeeee", zorder=0)
+        time_axes.set_ylim(bottom=bottom)
 
 
 def _is_resolved(scene: SceneBench, row: Row) -> bool:
-    """Return whether the largest of a row's errors is resolved."""
+    """Return whether the largest error of a row is resolved by the references; True without references."""
     return (
         any(
             getattr(row.error, m) == row.error.largest and scene.resolved(m, row.error.largest)
@@ -104,17 +113,20 @@ def _is_resolved(scene: SceneBench, row: Row) -> bool:
     )
 
 
-def _mark_step(left: Axes, right: Axes, step: float, scene: SceneBench) -> None:
-    """Draw a ring around the row of the marked step, with its errors above the axes."""
+def _mark_step(time_axes: Axes, rhs_axes: Axes, step: float, scene: SceneBench) -> None:
+    """Draw a ring around the row of rk4 with this step (s), and its errors above the right axes.
+
+    A failed row has its failure there; a step that was not measured draws nothing.
+    """
     row = scene.row(Setting("rk4", step))
     if row is None:
         return
     if row.failure or not row.error.largest > 0:
         text = f"rk4, {seconds(step)}: fails at {seconds(row.failed_at)}"
-        right.set_title(text, loc="right", fontsize=8.5, color=_colour_of("rk4"))
+        rhs_axes.set_title(text, loc="right", fontsize=8.5, color=_select_colour("rk4"))
         return
-    for ax, x in ((left, row.seconds * scene.t_end * 1e3), (right, row.right_hand_sides)):
+    for ax, x in ((time_axes, row.seconds * scene.t_end * 1e3), (rhs_axes, row.right_hand_sides)):
         ax.plot([x], [row.error.largest], "o", ms=12, mfc="none", mec=IDEAL, mew=1.2, zorder=4)
     text = f"rk4, {seconds(step)}: forces off by {share(row.error.force)}"
     text += f", {scene.contact / step:.1f} steps a contact" if math.isfinite(scene.contact) else ""
-    right.set_title(text, loc="right", fontsize=8.5, color=_colour_of("rk4"))
+    rhs_axes.set_title(text, loc="right", fontsize=8.5, color=_select_colour("rk4"))

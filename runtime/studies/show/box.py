@@ -24,37 +24,44 @@ WORST = 8  # points that are printed with their command; the others are in the t
 _NUMBER = re.compile(r"(?:[<>] ?)?\d[\d.,]*(?:e[-+]?\d+)?(?: %)?")
 
 
-def show_box(source: KernelSource, file: str, found: Sequence[VerdictBox], table: Path, as_json: bool = False) -> None:
-    """Print the results (or only JSON), and write the table and the figure next to it."""
-    rows = [row for box in found for row in cell_rows(box)]
+def show_box(source: KernelSource, file: str, boxes: Sequence[VerdictBox], table: Path, as_json: bool = False) -> None:
+    """Print the verdicts of `gudgeon map --box` (with `as_json` as JSON), and write the table as CSV and the figure
+    next to it.
+
+    file: mechanism as typed, for the commands that repeat runs. An OutputError for a file is raised after printing.
+    """
+    rows = [row for box in boxes for row in cell_rows(box)]
 
     def draw() -> Figure:
-        """Return the figure."""
+        """Return the figure of the boxes."""
         from gudgeon.studies.show.box_figure import box_figure
 
-        return box_figure(source.title or source.mechanism, found)
+        return box_figure(source.title or source.mechanism, boxes)
 
     written, failed = write_files(table, rows, draw)
-    _show(source, file, found, written, as_json)
+    _print_box(source, file, boxes, written, as_json)
     if failed:
         raise failed
 
 
-def _show(source: KernelSource, file: str, found: Sequence[VerdictBox], written: Sequence[Path], as_json: bool) -> None:
-    """Print the results and the names of the written files."""
+def _print_box(
+    source: KernelSource, file: str, boxes: Sequence[VerdictBox], written: Sequence[Path], as_json: bool
+) -> None:
+    """Print counts, tables of verdicts, the worst points with their commands, and written files; or one JSON document.
+    """
     if as_json:
-        rows = [row for one in found for row in cell_rows(one)]
+        rows = [row for one in boxes for row in cell_rows(one)]
         print_json(
             {
                 "mechanism": source.mechanism,
-                "interrupted": any(box.interrupted for box in found),
+                "interrupted": any(box.interrupted for box in boxes),
                 "cells": rows,
                 "files": [str(path) for path in written],
             }
         )
         return
     out = console()
-    for box in found:
+    for box in boxes:
         edges = ", ".join(f"{edge.name} {edge.low:.4g} … {edge.high:.4g}" for edge in box.ranges)
         title = f"{box.scene}, {box.setting.method} at {box.setting}, {seconds(box.t_long)} a point: {edges}"
         out.print(title + interruption_text(box), style="bold")
@@ -62,7 +69,7 @@ def _show(source: KernelSource, file: str, found: Sequence[VerdictBox], written:
             out.print(f"  {FULL}")
         out.print(f"  {count(box.cells)}")
         out.print(f"  {compared(box)}")
-        out.print(_verdict_table(box.cells))
+        out.print(_build_verdict_table(box.cells))
         if worst := worst_cells(box.cells):
             out.print("  the worst points, and what runs them again")
             print_failures(out, file, box, worst)
@@ -71,7 +78,7 @@ def _show(source: KernelSource, file: str, found: Sequence[VerdictBox], written:
 
 
 def count(cells: Sequence[Cell]) -> str:
-    """Return the counts by verdict in words: "28 points: 27 stable, 1 outside the model; slowest 0.3 s"."""
+    """Return the numbers of points by verdict in words: "28 points: 27 stable, 1 outside the model; slowest 0.3 s"."""
     counts = Counter(cell.status for cell in cells)
     message = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
     slowest = max((cell.seconds for cell in cells if math.isfinite(cell.seconds)), default=math.nan)
@@ -79,24 +86,26 @@ def count(cells: Sequence[Cell]) -> str:
 
 
 def group_cells(cells: Sequence[Cell]) -> list[tuple[Status, str, list[Cell]]]:
-    """Return groups of cells with equal verdict and reason (without its numbers), the worst verdict and largest group
-    first.
+    """Return groups (status, reason, cells) of cells with equal verdict and reason without its numbers.
+
+    The worst verdict comes first, then the largest group.
     """
     groups: dict[tuple[Status, str], list[Cell]] = {}
     for cell in cells:
         groups.setdefault((cell.status, kind(cell.reason)), []).append(cell)
-    order = sorted(groups.items(), key=lambda item: (SEVERITY.index(item[0][0]), -len(item[1]), item[0][1]))
-    return [(status, reason, own) for (status, reason), own in order]
+    sorted_groups = sorted(groups.items(), key=lambda item: (SEVERITY.index(item[0][0]), -len(item[1]), item[0][1]))
+    return [(status, reason, cells_of_group) for (status, reason), cells_of_group in sorted_groups]
 
 
 def kind(reason: str) -> str:
-    """Return a reason without the values of its run."""
+    """Return a reason without the numbers of its run, so that equal reasons of several runs can be grouped."""
     return _NUMBER.sub("…", re.split(r",? at t = |: ", reason)[0]).strip(", ")
 
 
 def worst_cells(cells: Sequence[Cell]) -> list[Cell]:
-    """Return the failed cells, one of each reason before a second of any; without failures, those with the largest
-    errors.
+    """Return at most WORST failed cells, one of each reason before a second of any.
+
+    Without failures they are the WORST // 2 cells with the largest errors, largest first.
     """
     if not any(cell.failed for cell in cells):
         known = [cell for cell in cells if math.isfinite(cell.error.largest)]
@@ -106,8 +115,8 @@ def worst_cells(cells: Sequence[Cell]) -> list[Cell]:
     return rounds[:WORST]
 
 
-def _verdict_table(cells: Sequence[Cell]) -> Table:
-    """Return the table of verdicts and reasons with counts and largest errors."""
+def _build_verdict_table(cells: Sequence[Cell]) -> Table:
+    """Return the table of verdicts and reasons with the number of points and the largest error."""
     from rich.text import Text
 
     table = new_table(("verdict", "points", "largest error", "reason"), left=("verdict", "reason"))

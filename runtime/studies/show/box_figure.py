@@ -34,22 +34,24 @@ LOOK = {
 }
 
 
-def box_figure(title: str, found: Sequence[VerdictBox]) -> Figure:
-    """Return the figure with a row for each scene: verdicts over the two most decisive ranges, and points across all
-    ranges.
+def box_figure(title: str, boxes: Sequence[VerdictBox]) -> Figure:
+    """Return the figure of `gudgeon map --box` with a row for each box.
+
+    The left axes show verdicts over the two most decisive ranges, the right ones (for more than two ranges) lines
+    across all ranges.
     """
-    wide = max(len(box.ranges) for box in found) > 2
+    wide = max(len(box.ranges) for box in boxes) > 2
     with matplotlib.rc_context(STYLE):
-        picture = Figure(figsize=(12.5 if wide else 7.5, 1.3 + 3.9 * len(found)), dpi=120, layout="constrained")
-        axes = picture.subplots(len(found), 2 if wide else 1, squeeze=False, width_ratios=[1, 1.25] if wide else None)
-        for row, box in zip(axes, found, strict=True):
+        picture = Figure(figsize=(12.5 if wide else 7.5, 1.3 + 3.9 * len(boxes)), dpi=120, layout="constrained")
+        axes = picture.subplots(len(boxes), 2 if wide else 1, squeeze=False, width_ratios=[1, 1.25] if wide else None)
+        for row, box in zip(axes, boxes, strict=True):
             _draw_scatter(row[0], box)
             if wide:
                 _draw_parallel_axes(row[1], box)
-        used = [s for s in reversed(SEVERITY) if any(cell.status is s for box in found for cell in box.cells)]
+        used = [s for s in reversed(SEVERITY) if any(cell.status is s for box in boxes for cell in box.cells)]
         handles = [Line2D([], [], color=LOOK[s][0], marker=LOOK[s][1], ls="", ms=6, label=s.value) for s in used]
         handles.append(Line2D([], [], color="white", mec=IDEAL, marker="o", ls="", ms=7, label="a corner of the box"))
-        message = " (partial: interrupted)" if any(box.interrupted for box in found) else ""
+        message = " (partial: interrupted)" if any(box.interrupted for box in boxes) else ""
         head = figure_title(f"{title}: where does it fail?{message}", 125 if wide else 75)
         picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
         picture.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=9)
@@ -57,9 +59,9 @@ def box_figure(title: str, found: Sequence[VerdictBox]) -> Figure:
 
 
 def rank_ranges(box: VerdictBox) -> list[int]:
-    """Return the indices of the ranges, sorted by the correlation of their logarithms with the verdict.
+    """Return the indices of the ranges, the one first whose logarithm correlates most with the verdict.
 
-    If all verdicts agree, the largest error is used instead.
+    If all verdicts agree, the largest error is used instead. Cells that are not judged do not count.
     """
     verdicts = [-SEVERITY.index(cell.status) for cell in box.cells]
     errors = [
@@ -68,27 +70,30 @@ def rank_ranges(box: VerdictBox) -> list[int]:
     ]
     judged = np.array([cell.status is not Status.MISSING for cell in box.cells])
     worth = np.array(verdicts if len(set(np.array(verdicts)[judged])) > 1 else errors, dtype=np.float64)
-    kept = judged & np.isfinite(worth)
+    is_used = judged & np.isfinite(worth)
     scores = [
-        _abs_correlation(np.log([point[edge.name] for point in box.points])[kept], worth[kept]) for edge in box.ranges
+        _abs_correlation(np.log([point[range_.name] for point in box.points])[is_used], worth[is_used])
+        for range_ in box.ranges
     ]
     return sorted(range(len(box.ranges)), key=lambda k: -scores[k])
 
 
 def _abs_correlation(x: Array, y: Array) -> float:
-    """Return |correlation| of two arrays; 0 if one of them does not vary."""
+    """Return the magnitude of the correlation of two arrays; 0 for fewer than two points, or if one of them is
+    constant.
+    """
     if len(x) < 2 or not np.ptp(x) or not np.ptp(y):
         return 0.0
     return float(abs(np.corrcoef(x, y)[0, 1]))
 
 
-def _paint_order(box: VerdictBox) -> list[int]:
-    """Return the points with the worst verdict last, so that it is painted on top."""
+def _sort_by_severity(box: VerdictBox) -> list[int]:
+    """Return the indices of the points with the worst verdict last, so that it is drawn on top."""
     return sorted(range(len(box.cells)), key=lambda k: -SEVERITY.index(box.cells[k].status))
 
 
-def _marker_style(box: VerdictBox, k: int) -> dict[str, Any]:
-    """Return the style of a point by its verdict; corners are larger."""
+def _select_marker_style(box: VerdictBox, k: int) -> dict[str, Any]:
+    """Return the arguments of `scatter` for point k by its verdict; corners of the box are larger and have an edge."""
     colour, marker = LOOK[box.cells[k].status]
     corner = k < 2 ** len(box.ranges)
     return {
@@ -101,19 +106,24 @@ def _marker_style(box: VerdictBox, k: int) -> dict[str, Any]:
 
 
 def _draw_scatter(ax: Axes, box: VerdictBox) -> None:
-    """Draw the points over the two most decisive ranges."""
+    """Draw the points of a box over its two most decisive ranges, or over the only range and the largest error."""
     order = rank_ranges(box)
     across = box.ranges[order[0]]
     up = box.ranges[order[1]] if len(order) > 1 else None
-    for z, k in enumerate(_paint_order(box)):
+    for z, k in enumerate(_sort_by_severity(box)):
         error = max(box.cells[k].error.largest, 1e-16)  # NaN stays: nothing is drawn where there is no error
         ax.scatter(
             [box.points[k][across.name]],
             [box.points[k][up.name] if up else error],
             zorder=3 + z / 1e4,
-            **_marker_style(box, k),
+            **_select_marker_style(box, k),
         )
-    ax.set(xscale="log", yscale="log", xlabel=_range_label(across), ylabel=_range_label(up) if up else "largest error")
+    ax.set(
+        xscale="log",
+        yscale="log",
+        xlabel=_format_range_label(across),
+        ylabel=_format_range_label(up) if up else "largest error",
+    )
     ax.set_title(
         f"{box.scene}, {box.setting.method} at {box.setting}, {seconds(box.t_long)} a point\n"
         f"{count(box.cells).partition(';')[0]}",
@@ -131,12 +141,14 @@ def _draw_scatter(ax: Axes, box: VerdictBox) -> None:
 
 
 def _draw_parallel_axes(ax: Axes, box: VerdictBox) -> None:
-    """Draw a vertical axis for each range and a line across them for each point."""
-    logs = [(math.log(edge.low), math.log(edge.high)) for edge in box.ranges]
-    for z, k in enumerate(_paint_order(box)):
+    """Draw a vertical axis for each range of a box, and for each point a line across all of them in its verdict's
+    colour.
+    """
+    logs = [(math.log(range_.low), math.log(range_.high)) for range_ in box.ranges]
+    for z, k in enumerate(_sort_by_severity(box)):
         shares = [
-            (math.log(box.points[k][edge.name]) - low) / ((high - low) or 1.0)
-            for edge, (low, high) in zip(box.ranges, logs, strict=True)
+            (math.log(box.points[k][range_.name]) - low) / ((high - low) or 1.0)
+            for range_, (low, high) in zip(box.ranges, logs, strict=True)
         ]
         status = box.cells[k].status
         failed = status in (Status.DIVERGED, Status.INACCURATE)
@@ -149,16 +161,16 @@ def _draw_parallel_axes(ax: Axes, box: VerdictBox) -> None:
             zorder=2 + z / 1e4,
         )
     ax.set(xlim=(-0.3, len(box.ranges) - 0.7), ylim=(-0.04, 1.04), yticks=[])
-    names = [f"{quantity(edge.low, edge.unit, 3)}\n{_range_label(edge)}" for edge in box.ranges]
+    names = [f"{quantity(range_.low, range_.unit, 3)}\n{_format_range_label(range_)}" for range_ in box.ranges]
     ax.set_xticks(range(len(names)), names)
-    for k, edge in enumerate(box.ranges):
+    for k, range_ in enumerate(box.ranges):
         ax.axvline(k, color="#888888", lw=0.8, zorder=1)
-        ax.annotate(quantity(edge.high, edge.unit, 3), (k, 1.05), ha="center", fontsize=8, annotation_clip=False)
+        ax.annotate(quantity(range_.high, range_.unit, 3), (k, 1.05), ha="center", fontsize=8, annotation_clip=False)
     ax.set_title("a line a point, across all ranges\n", loc="left")
     ax.grid(False)
     ax.spines[:].set_visible(False)
 
 
-def _range_label(edge: Range) -> str:
-    """Return the last two parts of an address with the unit as a label."""
-    return label(".".join(edge.name.split(".")[-2:]), pretty(edge.unit))
+def _format_range_label(range_: Range) -> str:
+    """Return the last two parts of a range's address, with its unit, as a label of an axis."""
+    return label(".".join(range_.name.split(".")[-2:]), pretty(range_.unit))

@@ -29,9 +29,10 @@ NUMBERS, TRENDS, ALONE = "Published numbers", "Published trends", "Ours alone"  
 
 
 def claims_sections(study: Study, parts: Mapping[str, StudyData], pictures: Pictures) -> list[Section]:
-    """Return the sections of published numbers with figures, of trends, and of the headings of the file.
+    """Return the sections of a page on the claims of a study: published numbers with figures, trends, headings of the
+    file.
 
-    Empty for a study without claims.
+    parts: data of the study's parts. pictures: receives the figures. Empty for a study without claims.
     """
     try:
         found = study.claims
@@ -40,22 +41,30 @@ def claims_sections(study: Study, parts: Mapping[str, StudyData], pictures: Pict
     names_of = _ClaimNames(parts)
     numbers, trends = (list(_group_by_claim(table.to_dict("records"))) for table in (found.numbers, found.trends))
     source = lines([found.source] * bool(found.source), "g-quiet")
-    own = [_heading(rows[0], NUMBERS if _is_published(rows[0]) else ALONE) for rows in numbers]
-    judged = [_heading(rows[0], TRENDS) for rows in trends]
-    shown = []
-    for k, heading in enumerate(_order_headings(own + judged)):
-        under = [rows for rows, name in zip(numbers, own, strict=True) if name == heading]
-        theirs = [rows for rows in under if _is_published(rows[0])]
-        drawn = gallery(_claim_figures(theirs, names_of), f"claims{k or ''}", pictures)
-        alone = _unpublished_table([rows for rows in under if not _is_published(rows[0])], names_of)
-        specified = _trend_table([rows for rows, name in zip(trends, judged, strict=True) if name == heading], names_of)
-        shown.append(
+    number_headings = [_choose_heading(rows[0], NUMBERS if _is_published(rows[0]) else ALONE) for rows in numbers]
+    trend_headings = [_choose_heading(rows[0], TRENDS) for rows in trends]
+    sections = []
+    for k, heading in enumerate(_order_headings(number_headings + trend_headings)):
+        number_rows = [rows for rows, name in zip(numbers, number_headings, strict=True) if name == heading]
+        published = [rows for rows in number_rows if _is_published(rows[0])]
+        figures_html = gallery(_iterate_claim_figures(published, names_of), f"claims{k or ''}", pictures)
+        unpublished_html = _format_unpublished_table(
+            [rows for rows in number_rows if not _is_published(rows[0])], names_of
+        )
+        trend_html = _format_trend_table(
+            [rows for rows, name in zip(trends, trend_headings, strict=True) if name == heading], names_of
+        )
+        sections.append(
             (
                 heading,
-                source * (heading in (NUMBERS, TRENDS)) + _number_table(theirs, names_of) + drawn + alone + specified,
+                source * (heading in (NUMBERS, TRENDS))
+                + _format_number_table(published, names_of)
+                + figures_html
+                + unpublished_html
+                + trend_html,
             )
         )
-    return shown
+    return sections
 
 
 def _is_published(row: Row) -> bool:
@@ -63,13 +72,15 @@ def _is_published(row: Row) -> bool:
     return not _is_missing(row["printed"]) or bool(row["figure"])
 
 
-def _heading(row: Row, otherwise: str) -> str:
-    """Return the heading of a claim, or a default."""
-    return str(row.get("heading") or otherwise)
+def _choose_heading(row: Row, default: str) -> str:
+    """Return the heading under which a claim is shown, or the default if it has none."""
+    return str(row.get("heading") or default)
 
 
 def _order_headings(headings: list[str]) -> list[str]:
-    """Return the headings without repetitions: published ones, those of the file, and the default ones."""
+    """Return the headings without repetitions: published numbers, trends, those of the file in order, unpublished
+    numbers.
+    """
     own = [name for name in dict.fromkeys(headings) if name not in (NUMBERS, TRENDS, ALONE)]
     return [name for name in (NUMBERS, TRENDS, *own, ALONE) if name in headings]
 
@@ -78,153 +89,174 @@ class _ClaimNames:
     """Names and locations of claims for display."""
 
     def __init__(self, parts: Mapping[str, StudyData]) -> None:
-        """Store the data of the parts."""
+        """Store the data of the parts, by name; titles are those of the first part."""
         self.parts = parts
         self.shown = next(iter(parts.values())).shown
 
     def at(self, row: Row) -> str:
-        """Return the coordinates of a number's cell."""
+        """Return the coordinates of a number's cell in words: "c = 0.3 mm"; the stored text in folders of earlier
+        versions.
+        """
         if "place" not in row:  # a folder that an earlier version judged
             return str(row["at"])
         return self.parts[str(row["part"])].where(json.loads(str(row["place"])))
 
     def scene(self, row: Row) -> str:
-        """Return the scene of a number's part if it has only one, else ""."""
+        """Return the title of the scene of a number's part if it has only one, else ""."""
         found = self.parts[str(row["part"])].dataset.coords.get("scene") if str(row["part"]) in self.parts else None
         return self.shown(found.item()) if found is not None and not found.ndim else ""
 
     def what(self, row: Row) -> str:
-        """Return a number in words: its own text, or measure, part and coordinates."""
+        """Return a description of a number: the text of the claim, or measure, part and coordinates."""
         part = [self.shown(row["part"])] * bool(row["part"])
         return str(row["says"]) or ", ".join(filter(None, (self.shown(row["measure"]), *part, self.at(row))))
 
 
 def _group_by_claim(rows: Iterable[Row]) -> Iterator[list[Row]]:
-    """Yield the rows of each claim, one for every ensemble."""
+    """Yield for each claim its rows, one for every ensemble, in the order of first appearance."""
     claims: dict[str, list[Row]] = {}
     for row in rows:
         claims.setdefault(str(row["claim"]), []).append(row)
     yield from claims.values()
 
 
-def _ensemble_names(claims: list[list[Row]]) -> list[str]:
-    """Return the names of all ensembles of the claims."""
+def _list_ensembles(claims: list[list[Row]]) -> list[str]:
+    """Return the names of all ensembles of the claims, without repetitions."""
     return list(dict.fromkeys(str(row["ensemble"]) for rows in claims for row in rows if row["ensemble"]))
 
 
-def _number_table(claims: list[list[Row]], names_of: _ClaimNames) -> str:
-    """Return the table of published numbers: median and quartiles of each ensemble, or of all runs."""
-    names = _ensemble_names(claims) or [""]
+def _format_number_table(claims: list[list[Row]], names_of: _ClaimNames) -> str:
+    """Return the HTML table of published numbers: printed value, median and quartiles of each ensemble, deviation,
+    note.
+
+    Without ensembles there is one column for all runs. Below the table stands a footnote.
+    """
+    names = _list_ensembles(claims) or [""]
     ours = (f"ours, {names_of.shown(name)}" if name else "ours" for name in names)
     head = ["", "figure", "what", "printed", *ours, "off by", "note"]
     footnote = ["ours: median (quartiles); off by: of the medians from what is printed"]
-    every = (_number_cells(rows, names, names_of, *_unit(_same_measure(claims, rows))) for rows in claims)
-    return _table_without_empty(head, every) + lines(footnote * bool(claims), "g-quiet")
+    every = (
+        _format_number_cells(rows, names, names_of, *_choose_unit(_select_same_measure(claims, rows)))
+        for rows in claims
+    )
+    return _format_table_without_empty(head, every) + lines(footnote * bool(claims), "g-quiet")
 
 
-def _same_measure(claims: list[list[Row]], rows_of_claim: list[Row]) -> list[list[Row]]:
-    """Return the claims with the same measure in the same figure as `one`; they share a unit."""
-    return [rows for rows in claims if all(rows[0][key] == rows_of_claim[0][key] for key in ("figure", "measure"))]
+def _select_same_measure(claims: list[list[Row]], claim_rows: list[Row]) -> list[list[Row]]:
+    """Return the claims with the same figure and measure as the claim of `claim_rows`; they share a unit."""
+    return [rows for rows in claims if all(rows[0][key] == claim_rows[0][key] for key in ("figure", "measure"))]
 
 
-def _unit(claims: list[list[Row]]) -> tuple[float, str]:
-    """Return factor and text of the unit that suits the largest of these numbers."""
-    return drawn(max(map(_largest_magnitude, claims)), str(claims[0][0]["unit"]))
+def _choose_unit(claims: list[list[Row]]) -> tuple[float, str]:
+    """Return factor and text of the unit that suits the largest value of these claims."""
+    return drawn(max(map(_find_largest_magnitude, claims)), str(claims[0][0]["unit"]))
 
 
-def _number_cells(rows: list[Row], names: list[str], names_of: _ClaimNames, factor: float, unit: str) -> list[str]:
-    """Return the cells of a published number."""
-    first, own = rows[0], {str(row["ensemble"]): row for row in rows}
-    printed = "–" if _is_missing(first["printed"]) else _with_unit(first["printed"] * factor, unit)
+def _format_number_cells(
+    rows: list[Row], names: list[str], names_of: _ClaimNames, factor: float, unit: str
+) -> list[str]:
+    """Return the cells of the table row of a published number.
+
+    rows: one for each ensemble. names: ensembles with a column each. factor, unit: of all values.
+    """
+    first, row_by_ensemble = rows[0], {str(row["ensemble"]): row for row in rows}
+    printed = "–" if _is_missing(first["printed"]) else _append_unit(first["printed"] * factor, unit)
     cells = [
-        _median_cell(own.get(name) or (rows[0] if len(rows) == 1 and k == 0 else None), factor, unit)
+        _format_median_cell(row_by_ensemble.get(name) or (rows[0] if len(rows) == 1 and k == 0 else None), factor, unit)
         for k, name in enumerate(names)
     ]
-    off = sorted(row["deviation"] for row in rows if not _is_missing(row["deviation"]))
-    ends = list(dict.fromkeys(f"{value:+.1f}".replace("-", "−") for value in (*off[:1], *off[-1:])))
-    message = f"{' … '.join(ends)} %" if off else ""
+    deviations = sorted(row["deviation"] for row in rows if not _is_missing(row["deviation"]))
+    ends = list(dict.fromkeys(f"{value:+.1f}".replace("-", "−") for value in (*deviations[:1], *deviations[-1:])))
+    deviation_text = f"{' … '.join(ends)} %" if deviations else ""
     return [
         str(first["claim"]),
         str(first["figure"]),
         names_of.what(first),
         printed,
         *cells,
-        message,
+        deviation_text,
         str(first["note"]),
     ]
 
 
-def _unpublished_table(claims: list[list[Row]], names_of: _ClaimNames) -> str:
-    """Return the table of unpublished numbers: a row for each cell with all its measures, and deviations from
-    `beside`.
+def _format_unpublished_table(claims: list[list[Row]], names_of: _ClaimNames) -> str:
+    """Return the HTML table of unpublished numbers: a row for each cell of runs with all its measures.
+
+    A value that the claim compares with another one (`beside`) has the deviation from it in %.
     """
     measures = list(dict.fromkeys(str(rows[0]["measure"]) for rows in claims))
-    each: dict[tuple[str, str], dict[str, str]] = {}
-    units = {name: _unit([rows for rows in claims if rows[0]["measure"] == name]) for name in measures}
+    cells_by_key: dict[tuple[str, str], dict[str, str]] = {}
+    units = {name: _choose_unit([rows for rows in claims if rows[0]["measure"] == name]) for name in measures}
     for rows in claims:
         first = rows[0]
         factor, unit = units[str(first["measure"])]
-        off = "" if _is_missing(first["deviation"]) else f", {first['deviation']:+.1f} %".replace("-", "−")
+        deviation = "" if _is_missing(first["deviation"]) else f", {first['deviation']:+.1f} %".replace("-", "−")
         what = str(first["says"]) or names_of.at(first), names_of.shown(first["part"])
-        own = each.setdefault(what, {})
-        own[str(first["measure"])] = _median_cell(first, factor, unit) + off
+        own = cells_by_key.setdefault(what, {})
+        own[str(first["measure"])] = _format_median_cell(first, factor, unit) + deviation
         own[NOTE] = "; ".join(filter(None, (own.get(NOTE), str(first.get("note") or ""))))
     footnote = ["median (quartiles), and how far it is off from the row that it stands beside"]
-    cells = ([*what, *(own.get(name, "") for name in (*measures, NOTE))] for what, own in each.items())
-    return _table_without_empty(["what", "part", *map(names_of.shown, measures), NOTE], cells) + lines(
+    cells = ([*what, *(own.get(name, "") for name in (*measures, NOTE))] for what, own in cells_by_key.items())
+    return _format_table_without_empty(["what", "part", *map(names_of.shown, measures), NOTE], cells) + lines(
         footnote * bool(claims), "g-quiet"
     )
 
 
-def _median_cell(row: Row | None, factor: float, unit: str) -> str:
-    """Return median and quartiles as a cell."""
+def _format_median_cell(row: Row | None, factor: float, unit: str) -> str:
+    """Return median and quartiles of a row, times `factor`, with unit; only the value for one run.
+
+    "" for None (no such ensemble), "–" if no run has the measure.
+    """
     if row is None:
         return ""
     if _is_missing(row["median"]):
         return "–"
-    middle = _with_unit(row["median"] * factor, unit)
+    middle = _append_unit(row["median"] * factor, unit)
     return middle if row["n"] == 1 else f"{middle} ({row['q25'] * factor:.4g} … {row['q75'] * factor:.4g})"
 
 
-def _with_unit(value: float, unit: str) -> str:
-    """Return a value and its unit without a line break between them."""
+def _append_unit(value: float, unit: str) -> str:
+    """Return a value with four digits and its unit, without a line break between them."""
     return f"{value:.4g}{'' if unit == '°' else chr(160)}{unit}".strip()
 
 
-def _table_without_empty(head: list[str], rows: Iterable[list[str]]) -> str:
-    """Return an HTML table without its empty columns."""
+def _format_table_without_empty(head: list[str], rows: Iterable[list[str]]) -> str:
+    """Return an HTML table without the columns that have a head but no text in any row."""
     every = list(rows)
     kept = [k for k, name in enumerate(head) if not name or any(row[k] for row in every)]
     return table([head[k] for k in kept], ([row[k] for k in kept] for row in every), True)
 
 
-def _trend_table(claims: list[list[Row]], names_of: _ClaimNames) -> str:
-    """Return the table of trends: the verdict of all ensembles, or that of each if they contradict each other."""
+def _format_trend_table(claims: list[list[Row]], names_of: _ClaimNames) -> str:
+    """Return the HTML table of trends with verdict, probability and note, and a footnote that defines them."""
     head = ["", "figure", "what", "verdict", "probability", "one run shows it", "note"]
     footnote = [
         "probability: that the next run shows it, the least of all that the trend says, with the interval in which"
         " it is known (5 % beyond each end), ensemble by ensemble; holds: all of the interval of all runs lies at"
         " 0.8 or above, fails: at 1/3 or below, undecided: neither"
     ]
-    return _table_without_empty(head, (_trend_cells(rows, names_of) for rows in claims)) + lines(
+    return _format_table_without_empty(head, (_format_trend_cells(rows, names_of) for rows in claims)) + lines(
         footnote * bool(claims), "g-quiet"
     )
 
 
-def _trend_cells(rows: list[Row], names_of: _ClaimNames) -> list[str]:
-    """Return the cells of a trend."""
+def _format_trend_cells(rows: list[Row], names_of: _ClaimNames) -> list[str]:
+    """Return the cells of the table row of a trend; `rows` has one row for each ensemble.
+
+    If ensembles contradict each other, the verdict lists that of each.
+    """
     first = rows[0]
     each = ", ".join(f"{names_of.shown(row['ensemble'])} {row['alone']}" for row in rows)
     verdict = str(first["verdict"]) if first["agreed"] else f"not agreed: {each}"
     odds = (
-        _join_distinct(map(_probability_cell, rows)),
+        _join_distinct(map(_format_probability_cell, rows)),
         _join_distinct(_format_probability(row["chance"]) for row in rows),
     )
     return [str(first["claim"]), str(first["figure"]), str(first["says"]), verdict, *odds, str(first["note"])]
 
 
-def _probability_cell(row: Row) -> str:
-    """Return a probability with its interval, if there is one."""
+def _format_probability_cell(row: Row) -> str:
+    """Return a probability, with its interval in brackets if the interval has a width."""
     message = _format_probability(row["probability"])
     if _is_missing(row["low"]) or row["low"] == row["high"]:
         return message
@@ -232,18 +264,21 @@ def _probability_cell(row: Row) -> str:
 
 
 def _format_probability(value: Any) -> str:
-    """Return a probability with two digits, "–" if it is not known."""
+    """Return a probability with two digits, "–" for None or NaN."""
     return "–" if _is_missing(value) else f"{value:.2g}"
 
 
 def _join_distinct(values: Iterable[str]) -> str:
-    """Return texts joined by commas, or one if all are equal."""
+    """Return texts joined by commas, or only one of them if all are equal."""
     shown = list(values)
     return shown[0] if len(set(shown)) == 1 else ", ".join(shown)
 
 
-def _claim_figures(claims: list[list[Row]], names_of: _ClaimNames) -> Iterator[Draw]:
-    """Yield caption and drawing function for each figure and measure of the source, in its order."""
+def _iterate_claim_figures(claims: list[list[Row]], names_of: _ClaimNames) -> Iterator[Draw]:
+    """Yield caption and drawing function for each figure and measure of the publication, in the order of the claims.
+
+    Claims without a figure have none.
+    """
     groups: dict[tuple[str, str], list[list[Row]]] = {}
     for rows in claims:
         if rows[0]["figure"]:
@@ -254,33 +289,39 @@ def _claim_figures(claims: list[list[Row]], names_of: _ClaimNames) -> Iterator[D
 
 
 def _draw_claims(claims: list[list[Row]], names_of: _ClaimNames) -> Axes:
-    """Draw the medians with quartiles of each ensemble, and printed values as black marks."""
+    """Draw the medians with quartiles of each ensemble for several claims, with printed values as black marks, on new
+    axes.
+
+    The axis of values is logarithmic if magnitudes differ by more than LARGE.
+    """
     import matplotlib
 
     from gudgeon.results.figures.plots import COLOURS, STYLE
     from gudgeon.results.figures.run_plots import new_axes
 
-    factor, unit = _unit(claims)
+    factor, unit = _choose_unit(claims)
     measure = names_of.shown(claims[0][0]["measure"])
-    names = _ensemble_names(claims) or [""]
+    names = _list_ensembles(claims) or [""]
     with matplotlib.rc_context(STYLE):
         ax = new_axes(5.6, 3.2)
         for j, name in enumerate([*names, *[""] * (names != [""])]):  # and what is in no ensemble
-            own = [
+            rows_of_ensemble = [
                 (k, row)
                 for k, rows in enumerate(claims)
                 for row in rows
                 if row["ensemble"] == name and not _is_missing(row["median"])
             ]
-            if not own:
+            if not rows_of_ensemble:
                 continue
-            at = [k + 0.16 * (j - 0.5 * (len(names) - 1)) * bool(name) for k, _ in own]
-            middle, low, high = (np.array([row[part] for _, row in own]) * factor for part in ("median", "q25", "q75"))
-            reach = middle - low, high - middle
+            positions = [k + 0.16 * (j - 0.5 * (len(names) - 1)) * bool(name) for k, _ in rows_of_ensemble]
+            middle, low, high = (
+                np.array([row[part] for _, row in rows_of_ensemble]) * factor for part in ("median", "q25", "q75")
+            )
+            error_bars = middle - low, high - middle
             ax.errorbar(
-                at,
+                positions,
                 middle,
-                reach,
+                error_bars,
                 fmt="o",
                 color=COLOURS[j % len(COLOURS)],
                 ms=3.5,
@@ -289,15 +330,19 @@ def _draw_claims(claims: list[list[Row]], names_of: _ClaimNames) -> Axes:
                 label=names_of.shown(name) if name else "ours" if names == [""] else "ours, one run",
             )
         printed = [rows[0]["printed"] * factor for rows in claims if not _is_missing(rows[0]["printed"])]
-        places = [k for k, rows in enumerate(claims) if not _is_missing(rows[0]["printed"])]
-        ax.plot(places, printed, "k_", ms=16, mew=1.6, label="printed" if printed else None)
-        scenes = len({str(rows[0]["part"]) for rows in claims}) > 1
-        ax.set_xticks(range(len(claims)), [_tick_label(rows[0], names_of, scenes) for rows in claims], fontsize=7)
+        printed_positions = [k for k, rows in enumerate(claims) if not _is_missing(rows[0]["printed"])]
+        ax.plot(printed_positions, printed, "k_", ms=16, mew=1.6, label="printed" if printed else None)
+        has_several_parts = len({str(rows[0]["part"]) for rows in claims}) > 1
+        ax.set_xticks(
+            range(len(claims)),
+            [_format_tick_label(rows[0], names_of, has_several_parts) for rows in claims],
+            fontsize=7,
+        )
         ax.set_xlim(-0.6, len(claims) - 0.4)
         ax.grid(False, axis="x")
-        ours = (row["median"] * factor for rows in claims for row in rows if not _is_missing(row["median"]))
-        shown = [abs(value) for value in (*printed, *ours) if value]
-        if shown and min(shown) > 0.0 and max(shown) > LARGE * min(shown):
+        medians = (row["median"] * factor for rows in claims for row in rows if not _is_missing(row["median"]))
+        magnitudes = [abs(value) for value in (*printed, *medians) if value]
+        if magnitudes and min(magnitudes) > 0.0 and max(magnitudes) > LARGE * min(magnitudes):
             ax.set_yscale("log")
         else:
             ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
@@ -306,15 +351,17 @@ def _draw_claims(claims: list[list[Row]], names_of: _ClaimNames) -> Axes:
     return ax
 
 
-def _tick_label(row: Row, names_of: _ClaimNames, scenes: bool) -> str:
-    """Return the label of a claim at the axis: name, scene if there are several, and coordinates, on several lines."""
+def _format_tick_label(row: Row, names_of: _ClaimNames, with_scene: bool) -> str:
+    """Return the label of a claim at the axis, on several lines: name, with `with_scene` the scene, and short
+    coordinates.
+    """
     at = names_of.at(row).split(", ")
-    message = at if max(map(len, at)) <= SHORT and len(at) <= MOST_LINES else []
-    return "\n".join(filter(None, (str(row["claim"]), names_of.scene(row) if scenes else "", *message)))
+    coordinates = at if max(map(len, at)) <= SHORT and len(at) <= MOST_LINES else []
+    return "\n".join(filter(None, (str(row["claim"]), names_of.scene(row) if with_scene else "", *coordinates)))
 
 
-def _largest_magnitude(rows: list[Row]) -> float:
-    """Return the largest magnitude of printed and computed values of a claim."""
+def _find_largest_magnitude(rows: list[Row]) -> float:
+    """Return the largest magnitude of the printed value and the medians of a claim; 0 if it has none."""
     values = (rows[0]["printed"], *(row["median"] for row in rows))
     return max((abs(value) for value in values if not _is_missing(value)), default=0.0)
 

@@ -53,71 +53,77 @@ LABELS = {
 def show_map(
     source: KernelSource,
     file: str,
-    found: Sequence[VerdictMap],
+    maps: Sequence[VerdictMap],
     table: Path,
     mark_step: float | None,
     as_json: bool = False,
 ) -> None:
-    """Print the results (or only JSON), and write the table and the figure next to it."""
-    rows = [row for scene in found for row in cell_rows(scene)]
+    """Print the maps of `gudgeon map` (with `as_json` as JSON), and write the table as CSV and the figure next to it.
+
+    file: mechanism as typed, for the commands that repeat runs. mark_step (s): step that is marked, or None. An
+    OutputError for a file is raised after printing.
+    """
+    rows = [row for scene in maps for row in cell_rows(scene)]
 
     def draw() -> Figure:
-        """Return the figure."""
+        """Return the figure of the maps."""
         from gudgeon.studies.show.map_figure import map_figure
 
-        return map_figure(source.title or source.mechanism, found, mark_step)
+        return map_figure(source.title or source.mechanism, maps, mark_step)
 
     written, failed = write_files(table, rows, draw)
-    _show(source, file, found, written, mark_step, as_json)
+    _print_maps(source, file, maps, written, mark_step, as_json)
     if failed:
         raise failed
 
 
-def _show(
+def _print_maps(
     source: KernelSource,
     file: str,
-    found: Sequence[VerdictMap],
+    maps: Sequence[VerdictMap],
     written: Sequence[Path],
     mark_step: float | None,
     as_json: bool,
 ) -> None:
-    """Print the results and the names of the written files."""
+    """Print the maps with stability limits or failures, legend, the marked step and written files; or one JSON
+    document.
+    """
     if as_json:
-        rows = [row for one in found for row in cell_rows(one)]
+        rows = [row for one in maps for row in cell_rows(one)]
         print_json(
             {
                 "mechanism": source.mechanism,
-                "interrupted": any(scene.interrupted for scene in found),
+                "interrupted": any(scene.interrupted for scene in maps),
                 "cells": rows,
                 "files": [str(path) for path in written],
             }
         )
         return
     out = console()
-    for scene in found:
+    for scene in maps:
         title = f"{scene.scene}, {scene.setting.method}: sane over {seconds(scene.t_long)}, {compared(scene)}"
         out.print(title + interruption_text(scene), style="bold")
         if scene.full:
             out.print(f"  {FULL}")
         if scene.columns.ratios:
             out.print(f"  {scene.rows.name} down, {scene.columns.name} across")
-        out.print(_map_table(scene))
+        out.print(_build_map_table(scene))
         if scene.rows.name == "step":
-            out.print(_boundary_table(scene))
+            out.print(_build_boundary_table(scene))
         elif failures := [cell for cell in scene.cells if cell.failed]:
             out.print("  what failed, and what runs it again")
             print_failures(out, file, scene, failures)
-    out.print(legend(found))
-    for line in explain_labels(found).splitlines():
+    out.print(legend(maps))
+    for line in explain_labels(maps).splitlines():
         out.print(f"  {line}")
-    for line in verdict(found, mark_step):
+    for line in verdict(maps, mark_step):
         out.print(line)
     for path in written:
         out.print(f"wrote {path_text(path)}")
 
 
-def _map_table(scene: VerdictMap) -> Table:
-    """Return the table of a map; each cell has the sign of its verdict and its decisive number."""
+def _build_map_table(scene: VerdictMap) -> Table:
+    """Return the table of a map; each cell has the sign of its verdict and its label."""
     from rich.text import Text
 
     heads = [value(scene.columns, x) for x in scene.columns.values]
@@ -129,44 +135,51 @@ def _map_table(scene: VerdictMap) -> Table:
     return table
 
 
-def _boundary_table(scene: VerdictMap) -> Table:
-    """Return the table of the largest stable step for each column, with the fault of the next step."""
+def _build_boundary_table(scene: VerdictMap) -> Table:
+    """Return the table of the largest stable step for each column, with the fault of the next longer step."""
     name = scene.columns.name
     table = new_table((name, "largest stable step", "the next one"), left=("the next one",))
     for x in scene.columns.values:
-        best = scene.largest_stable(x)
-        beyond = next((step for step in scene.rows.values if not step <= best), None)
-        cell = scene.cell(beyond, x) if beyond is not None else None
+        largest = scene.largest_stable(x)
+        next_step = next((step for step in scene.rows.values if not step <= largest), None)
+        cell = scene.cell(next_step, x) if next_step is not None else None
         after = f"{cell.setting}, {cell.status.value}: {cell.reason}" if cell else "the grid ends"
-        table.add_row(value(scene.columns, x), seconds(best) if best == best else "none", after)
+        table.add_row(value(scene.columns, x), seconds(largest) if largest == largest else "none", after)
     return table
 
 
-def print_failures(out: Console, file: str, found: VerdictMap | VerdictBox, cells: Sequence[Cell]) -> None:
-    """Print the reasons of failed cells and the command that repeats each, on one line so that it can be copied."""
+def print_failures(out: Console, file: str, verdicts: VerdictMap | VerdictBox, cells: Sequence[Cell]) -> None:
+    """Print the reasons of cells and the command that repeats each, on one line so that it can be copied.
+
+    file: mechanism as typed. A cell without a reason is shown with its largest error.
+    """
     laws = files_of_laws()
     for cell in cells:
         specified = cell.reason or f"largest error {share(cell.error.largest)}"
         out.print(f"  {SIGNS[cell.status]} {specified}", markup=False, emoji=False)
-        again = command(file, found.scene, cell, found.t_long, found.full, laws)
+        again = command(file, verdicts.scene, cell, verdicts.t_long, verdicts.full, laws)
         out.print(f"    {again}", markup=False, emoji=False, soft_wrap=True)
 
 
-def interruption_text(found: VerdictMap | VerdictBox) -> str:
-    """Return the part of a title that says how many runs Ctrl-C left; "" if it did not."""
-    return " (partial: interrupted after {} of {} runs)".format(*found.done) if found.interrupted else ""
+def interruption_text(verdicts: VerdictMap | VerdictBox) -> str:
+    """Return the part of a title that says how many runs were finished before Ctrl-C; "" if it was not interrupted."""
+    return " (partial: interrupted after {} of {} runs)".format(*verdicts.done) if verdicts.interrupted else ""
 
 
-def legend(found: Sequence[VerdictMap | VerdictBox]) -> Text:
-    """Return signs and verdicts, "not judged" only if there is such a cell."""
+def legend(verdicts: Sequence[VerdictMap | VerdictBox]) -> Text:
+    """Return the signs and names of all verdicts in colour; "not judged" only after Ctrl-C."""
     from rich.text import Text
 
-    shown = [s for s in Status if s is not Status.MISSING or any(scene.interrupted for scene in found)]
+    shown = [s for s in Status if s is not Status.MISSING or any(scene.interrupted for scene in verdicts)]
     return Text("   ").join(Text(f"{SIGNS[status]} {status.value}", COLOURS[status]) for status in shown)
 
 
 def command(file: str, scene: str, cell: Cell, t_end: float, full: bool = False, laws: Sequence[str] = ()) -> str:
-    """Return the shell command that repeats the run of a cell, with the file as it was typed."""
+    """Return the shell command that repeats the run of a cell: `gudgeon run` with scene, setting, parameters and end
+    time.
+
+    file: mechanism as typed. full: in the full formulation. laws: files of user-defined laws.
+    """
     words = ["gudgeon", "run", f"./{file}" if file.startswith("-") else file, "--scene", scene]
     words += ["--method", cell.setting.method, "--step" if cell.setting.fixed else "--rtol", repr(cell.setting.value)]
     words += ["--formulation", "full"] if full else []
@@ -178,16 +191,22 @@ def command(file: str, scene: str, cell: Cell, t_end: float, full: bool = False,
 
 
 def files_of_laws() -> list[str]:
-    """Return the files of the user-defined laws, as they were typed."""
+    """Return the files of the registered user-defined laws, as they were typed; laws registered otherwise are left
+    out.
+    """
     from gudgeon.generator.kinds.laws.registered import ORIGINS
 
     return [origin.typed for origin in ORIGINS.values() if origin.typed]
 
 
-def verdict(found: Sequence[VerdictMap], mark_step: float | None) -> list[str]:
-    """Return a line for each scene on the marked step; empty without one."""
+def verdict(maps: Sequence[VerdictMap], mark_step: float | None) -> list[str]:
+    """Return a line for each map over steps on the marked step: counts of its verdicts, and the step that suits all
+    columns.
+
+    Empty without a marked step, or if no map has it.
+    """
     lines = []
-    for scene in (s for s in found if s.rows.name == "step"):
+    for scene in (s for s in maps if s.rows.name == "step"):
         step = next((x for x in scene.rows.values if mark_step is not None and math.isclose(x, mark_step)), None)
         if step is None:
             continue
@@ -202,11 +221,13 @@ def verdict(found: Sequence[VerdictMap], mark_step: float | None) -> list[str]:
     return lines
 
 
-def cell_rows(found: VerdictMap | VerdictBox) -> list[dict[str, Any]]:
-    """Return a row for each cell, with all that is needed to repeat it."""
+def cell_rows(verdicts: VerdictMap | VerdictBox) -> list[dict[str, Any]]:
+    """Return the rows of the CSV and JSON files: for each cell its setting, parameters, verdict, errors and times
+    (SI).
+    """
     return [
         {
-            "scene": found.scene,
+            "scene": verdicts.scene,
             "method": cell.setting.method,
             "step_or_tolerance": cell.setting.value,
             "parameters": " ".join(f"{name}={x}" for name, x in cell.parameters.items()),
@@ -220,12 +241,14 @@ def cell_rows(found: VerdictMap | VerdictBox) -> list[dict[str, Any]]:
             "compared_s": cell.compared,
             "seconds": cell.seconds,
         }
-        for cell in found.cells
+        for cell in verdicts.cells
     ]
 
 
 def value(axis: Axis, x: float) -> str:
-    """Return a value of an axis as text with its unit."""
+    """Return a value of an axis as text: the word of a choice, a clearance in mm, a tolerance, or a quantity with its
+    unit.
+    """
     if axis.words:
         return axis.words[int(x)]
     if axis.name == "clearance":
@@ -235,21 +258,21 @@ def value(axis: Axis, x: float) -> str:
     return seconds(x) if axis.unit == "s" else quantity(x, PASCAL.get(axis.unit, axis.unit), 3)
 
 
-def explain_labels(found: Sequence[VerdictMap]) -> str:
-    """Return the meaning of the labels that occur in cells, two a line."""
-    used = {cell.label.split(" ")[0] for scene in found for cell in scene.cells}
+def explain_labels(maps: Sequence[VerdictMap]) -> str:
+    """Return lines with the meaning of the labels that occur in the cells, two explanations in each."""
+    used = {cell.label.split(" ")[0] for scene in maps for cell in scene.cells}
     message = dict.fromkeys(text for word, text in LABELS.items() if word in used)
     parts = ["a number: largest error against a finer run, over the time compared", *message]
     return "\n".join(" · ".join(parts[k : k + 2]) for k in range(0, len(parts), 2))
 
 
-def compared(found: VerdictMap | VerdictBox) -> str:
-    """Return over which time errors were computed, and against which setting.
+def compared(verdicts: VerdictMap | VerdictBox) -> str:
+    """Return a text: over which time errors were computed, and against which finer setting.
 
     With dry contacts runs are comparable over the first few contacts only.
     """
-    finer = "a 10× shorter step" if found.setting.fixed else "a 100× tighter tolerance"
-    ends = [cell.compared for cell in found.cells if cell.compared == cell.compared]
+    finer = "a 10× shorter step" if verdicts.setting.fixed else "a 100× tighter tolerance"
+    ends = [cell.compared for cell in verdicts.cells if cell.compared == cell.compared]
     shortest, longest = (seconds(end) for end in (min(ends, default=0.0), max(ends, default=0.0)))
     over = shortest if shortest == longest else f"{shortest} … {longest}"
     return f"errors over the first {over}, against {finer}" if ends else f"nothing to compare with {finer}"

@@ -30,27 +30,30 @@ FILL = {
 NAMES = {"step": "step", "rtol": "tolerance", "clearance": "radial clearance"}
 
 
-def map_figure(title: str, found: Sequence[VerdictMap], mark_step: float | None = None) -> Figure:
-    """Return the figure with a panel for each scene; each cell has its verdict and its decisive number."""
-    columns = max(len(scene.columns.values) for scene in found)
-    rows = max(len(scene.rows.values) for scene in found)
+def map_figure(title: str, maps: Sequence[VerdictMap], mark_step: float | None = None) -> Figure:
+    """Return the figure with a panel for each scene; each cell has the colour of its verdict and its label.
+
+    mark_step (s): step whose row gets a frame, or None.
+    """
+    columns = max(len(scene.columns.values) for scene in maps)
+    rows = max(len(scene.rows.values) for scene in maps)
     with matplotlib.rc_context(STYLE):
-        width = max(6.5, len(found) * (1.1 + 0.82 * columns))
+        width = max(6.5, len(maps) * (1.1 + 0.82 * columns))
         picture = Figure(figsize=(width, 2.0 + 0.42 * rows), dpi=120, layout="constrained")
-        axes = picture.subplots(1, len(found), squeeze=False)[0]
-        for ax, scene in zip(axes, found, strict=True):
+        axes = picture.subplots(1, len(maps), squeeze=False)[0]
+        for ax, scene in zip(axes, maps, strict=True):
             _draw_map(ax, scene, mark_step)
-        axes[0].set_ylabel(NAMES.get(found[0].rows.name, found[0].rows.name))
-        used = {cell.status for scene in found for cell in scene.cells}
+        axes[0].set_ylabel(NAMES.get(maps[0].rows.name, maps[0].rows.name))
+        used = {cell.status for scene in maps for cell in scene.cells}
         handles: list[Any] = [Patch(facecolor=FILL[s], label=s.value) for s in Status if s in used]
-        if mark_step is not None and any(_is_marked(scene, y, mark_step) for scene in found for y in scene.rows.values):
+        if mark_step is not None and any(_is_marked(scene, y, mark_step) for scene in maps for y in scene.rows.values):
             handles.append(Patch(facecolor="none", edgecolor=IDEAL, lw=1.6, label=f"step {seconds(mark_step)}"))
-        question = "which step will do?" if found[0].rows.name == "step" else "where does it fail?"
-        part = " (partial: interrupted)" if any(scene.interrupted for scene in found) else ""
+        question = "which step will do?" if maps[0].rows.name == "step" else "where does it fail?"
+        part = " (partial: interrupted)" if any(scene.interrupted for scene in maps) else ""
         head = figure_title(f"{title}: {question}{part}", int(10 * width))
         picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
-        over = (f"{scene.scene}: sane over {seconds(scene.t_long)}, {compared(scene)}" for scene in found)
-        message = "\n".join([explain_labels(found), *over])
+        over = (f"{scene.scene}: sane over {seconds(scene.t_long)}, {compared(scene)}" for scene in maps)
+        message = "\n".join([explain_labels(maps), *over])
         picture.legend(
             handles=handles, loc="outside lower center", ncols=5, fontsize=9, title=message, title_fontsize=8
         )
@@ -58,7 +61,7 @@ def map_figure(title: str, found: Sequence[VerdictMap], mark_step: float | None 
 
 
 def _draw_map(ax: Axes, scene: VerdictMap, mark_step: float | None) -> None:
-    """Draw the map of one scene."""
+    """Draw the cells of one map with ticks and title, and a frame around the row of the marked step (s)."""
     rows, columns = scene.rows.values, scene.columns.values
     for i, y in enumerate(rows):
         for j, x in enumerate(columns):
@@ -76,11 +79,11 @@ def _draw_map(ax: Axes, scene: VerdictMap, mark_step: float | None) -> None:
 
 
 def _is_marked(scene: VerdictMap, row: float, step: float | None) -> bool:
-    """Return whether a row has the marked step."""
+    """Return whether the rows of a map are steps and this row is the marked one; False for None."""
     return scene.rows.name == "step" and step is not None and math.isclose(row, step)
 
 
 def _draw_cell(ax: Axes, row: int, column: int, cell: Cell) -> None:
-    """Draw one cell with the colour of its verdict."""
+    """Draw one cell at its row and column with the colour of its verdict and its label."""
     ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=FILL[cell.status], edgecolor="white", lw=1.5))
     ax.text(column, row, cell.label, ha="center", va="center", fontsize=7.5, color="#333333", zorder=3)

@@ -40,31 +40,40 @@ class Pictures:
         self.expected: list[tuple[str, Callable[[], Axes]]] = []
 
     def place(self, name: str, draw: Callable[[], Axes]) -> str:
-        """Return the placeholder of a figure, a comment that no text of a file can contain. `name` must be unique."""
+        """Register a figure and return its placeholder, an HTML comment; `draw` is called later. `name` must be
+        unique.
+        """
         self.expected.append((name, draw))
         return f"<!--picture {len(self.expected) - 1}-->"
 
     def filled(self, page: str) -> str:
-        """Return the page with its figures."""
+        """Draw all registered figures and return the page with their SVG in place of the placeholders."""
         drawn = _draw_in_processes(self.expected)
         return _PLACE.sub(lambda place: drawn[int(place[1])], page)
 
 
 def gallery(figures: Iterable[Draw], kind: str, pictures: Pictures) -> str:
-    """Return figures with captions in a grid; of very many only the first MOST_FIGURES."""
-    parts, left = [], 0
+    """Return an HTML grid of figures with captions; of more than MOST_FIGURES only the first ones and a line on the
+    others.
+
+    kind: prefix of the figures' names. "" without figures.
+    """
+    parts, omitted = [], 0
     for k, (caption, draw) in enumerate(figures):
         if k >= MOST_FIGURES:
-            left += 1
+            omitted += 1
             continue
-        inside = pictures.place(f"{kind}-{k}", draw)
-        parts.append(f"<figure>{inside}<figcaption>{text(caption)}</figcaption></figure>")
-    more = lines([f"{left} more figures: study.plot draws them"] * bool(left), "g-quiet")
+        placeholder = pictures.place(f"{kind}-{k}", draw)
+        parts.append(f"<figure>{placeholder}<figcaption>{text(caption)}</figcaption></figure>")
+    more = lines([f"{omitted} more figures: study.plot draws them"] * bool(omitted), "g-quiet")
     return f"<div class='g-figures'>{''.join(parts)}</div>{more}" if parts else ""
 
 
 def _draw_in_processes(figures: list[tuple[str, Callable[[], Any]]]) -> list[str]:
-    """Return the SVG of all figures, drawn by forked processes if this process has no other threads."""
+    """Return the SVG of all figures in order.
+
+    Many figures are distributed over forked processes, on Linux and only if this process has no other threads.
+    """
     forks = sys.platform == "linux" and threading.active_count() == 1 and len(figures) >= MANY
     count = min(available_threads(), len(figures) // FEW) if forks else 1
     others = [_DrawingProcess(figures[k::count]) for k in range(1, count)]
@@ -84,7 +93,7 @@ class _DrawingProcess:
     """A process that draws some of the figures; if it dies, they are drawn here."""
 
     def __init__(self, expected: list[tuple[str, Callable[[], Any]]]) -> None:
-        """Start the process."""
+        """Start a forked process that draws the figures of `expected`, pairs of name and drawing function."""
         self.expected, context = expected, get_context("fork")
         self.end, begin = context.Pipe(duplex=False)
         self.process = context.Process(target=_draw_all, args=(begin, expected), daemon=True)
@@ -94,7 +103,7 @@ class _DrawingProcess:
         begin.close()
 
     def drawn(self) -> list[str]:
-        """Wait for the process and return its figures."""
+        """Wait for the process and return its figures as SVG; if the process died, draw them here."""
         try:
             found: list[str] = self.end.recv()
         except (EOFError, OSError):
@@ -103,25 +112,26 @@ class _DrawingProcess:
 
 
 def _draw_all(end: Connection, figures: list[tuple[str, Callable[[], Any]]]) -> None:
-    """Draw figures in the other process and send them."""
+    """Draw figures in the child process and send their SVG as one list; after an error nothing is sent."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the calling process's own
     with suppress(Exception):  # errors are reported when the figure is drawn again
         end.send([_draw_figure(*one) for one in figures])
 
 
 def _draw_figure(name: str, draw: Callable[[], Axes]) -> str:
-    """Return a figure as SVG, or a text if it cannot be drawn."""
+    """Return a figure as SVG, or an HTML line with the reason if it cannot be drawn."""
     from gudgeon.results.figures.run_plots import figures_for_page
 
     try:
         with figures_for_page():
-            return _svg(draw(), name)
+            return _to_svg(draw(), name)
     except (GudgeonError, ValueError, ArithmeticError) as error:
         return lines([f"not drawn: {error}"], "g-quiet")
 
 
-def _svg(ax: Axes, name: str) -> str:
-    """Return the SVG element of a figure with text as text, unique identifiers and no date."""
+def _to_svg(ax: Axes, name: str) -> str:
+    """Return the SVG element of the figure of an axes, with text as text, identifiers prefixed by `name`, and no date.
+    """
     import matplotlib
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 

@@ -25,108 +25,112 @@ QUANTILES = {"min": 0.0, "median": 0.5, "max": 1.0}
 
 
 def runs_text(plan: Plan, runs: int) -> str:
-    """Return the number of runs and the dimensions: "10 runs (scene 2 × c 5)", "1 run"."""
+    """Return a number of runs and the dimensions of the plan: "10 runs (scene 2 × c 5)"; without dimensions "1 run"."""
     shape = " × ".join(f"{name} {length}" for name, length in zip(plan.dims, plan.shape, strict=True))
     return counted(runs, "run") + f" ({visible(shape)})" * bool(shape)
 
 
-def show_estimates(plans: Plans, found: Mapping[str, Estimate], json: bool) -> None:
-    """Print the plans with the estimates from trial runs."""
+def show_estimates(plans: Plans, estimates: Mapping[str, Estimate], json: bool) -> None:
+    """Print for each part the number of runs, disk space and time that trial runs predict, or one JSON document.
+
+    estimates: by the name of the part, "" for a file without parts.
+    """
     if json:
-        each = {name: _estimate_json(plan, found[name]) for name, plan in plans.each.items()}
+        each = {name: _estimate_to_json(plan, estimates[name]) for name, plan in plans.each.items()}
         print_json({"parts": each} if plans.named else each[""])
         return
     for name, plan in plans.each.items():
         if name:
             print(f"part {visible(name)}:")
-        _show_estimate(plan, found[name])
+        _print_estimate(plan, estimates[name])
     if plans.named:
-        size, spent = sum(one.bytes for one in found.values()), sum(one.seconds for one in found.values())
-        print(f"all parts: {counted(plans.runs, 'run')}, about {size_text(size)} on disk, {_time_text(spent)}")
+        size, spent = sum(one.bytes for one in estimates.values()), sum(one.seconds for one in estimates.values())
+        print(f"all parts: {counted(plans.runs, 'run')}, about {size_text(size)} on disk, {_format_duration(spent)}")
 
 
-def _estimate_json(plan: Plan, found: Estimate) -> dict[str, Any]:
-    """Return an estimate as JSON."""
+def _estimate_to_json(plan: Plan, estimate: Estimate) -> dict[str, Any]:
+    """Return dimensions, runs, blocks, bytes, seconds, trial runs and notes of an estimate as JSON data."""
     return {
         "dimensions": dict(zip(plan.dims, plan.shape, strict=True)),
-        "runs": found.runs,
-        "blocks": found.blocks,
-        "bytes": found.bytes,
-        "seconds": found.seconds,
-        "tried": found.tried,
-        "tried_failed": found.failed,
+        "runs": estimate.runs,
+        "blocks": estimate.blocks,
+        "bytes": estimate.bytes,
+        "seconds": estimate.seconds,
+        "tried": estimate.tried,
+        "tried_failed": estimate.failed,
         "notes": list(plan.notes),
     }
 
 
-def _show_estimate(plan: Plan, found: Estimate) -> None:
-    """Print an estimate."""
-    print(f"{runs_text(plan, found.runs)} in {counted(found.blocks, 'block')}")
-    print(
-        f"about {size_text(found.bytes)} on disk, {_time_text(found.seconds)} by {counted(found.tried, 'run')} on trial"
-    )
-    if found.failed:
-        print(f"{found.failed} of {counted(found.tried, 'run')} on trial failed: {visible(found.reasons[0])}")
+def _print_estimate(plan: Plan, estimate: Estimate) -> None:
+    """Print runs, disk space, time, failed trial runs and notes of one part."""
+    print(f"{runs_text(plan, estimate.runs)} in {counted(estimate.blocks, 'block')}")
+    trial = counted(estimate.tried, "run")
+    print(f"about {size_text(estimate.bytes)} on disk, {_format_duration(estimate.seconds)} by {trial} on trial")
+    if estimate.failed:
+        print(f"{estimate.failed} of {trial} on trial failed: {visible(estimate.reasons[0])}")
     for note in plan.notes:
         print(f"note: {visible(note)}")
 
 
-def show_studies(plans: Plans, found: Study, json: bool) -> None:
-    """Print the measures of all parts over the runs that did not fail."""
-    parts = found.parts or {"": found}
+def show_studies(plans: Plans, study: Study, json: bool) -> None:
+    """Print the measures, failures and notes of all parts of a finished study, and its claims; or one JSON document."""
+    parts = study.parts or {"": study}
     if json:
-        each = {name: _study_json(plan, parts[name]) for name, plan in plans.each.items()}
-        whole = {"folder": str(found.folder), "runs": found.runs, "failed": found.failed, "parts": each}
-        claims = claims_json(found.folder)
+        each = {name: _study_to_json(plan, parts[name]) for name, plan in plans.each.items()}
+        whole = {"folder": str(study.folder), "runs": study.runs, "failed": study.failed, "parts": each}
+        claims = claims_json(study.folder)
         print_json((whole if plans.named else each[""]) | ({} if claims is None else {"claims": claims}))
         return
     for name, plan in plans.each.items():
         if name:
             print(f"part {visible(name)}:")
-        _show_study(plan, parts[name])
-    if claims_json(found.folder) is not None:
-        _show_claims(found)
+        _print_study(plan, parts[name])
+    if claims_json(study.folder) is not None:
+        _print_claims(study)
 
 
-def _study_json(plan: Plan, found: Study) -> dict[str, Any]:
-    """Return the results of one study as JSON."""
-    measures = {name: {"unit": unit, **row} for name, unit, row in _measure_spreads(plan, found)}
+def _study_to_json(plan: Plan, study: Study) -> dict[str, Any]:
+    """Return folder, runs, failures, measures and notes of one part as JSON data."""
+    measures = {name: {"unit": unit, **row} for name, unit, row in _compute_spreads(plan, study)}
     return {
-        "folder": str(found.folder),
-        "dataset": str(found.folder / DATASET),
-        "runs": found.runs,
-        "failed": found.failed,
-        "failures": found.failures,
-        "first_failures": {kind: message for kind, _, message in StudyData(found).failures()},
+        "folder": str(study.folder),
+        "dataset": str(study.folder / DATASET),
+        "runs": study.runs,
+        "failed": study.failed,
+        "failures": study.failures,
+        "first_failures": {kind: message for kind, _, message in StudyData(study).failures()},
         "measures": measures,
-        "notes": list(found.notes),
+        "notes": list(study.notes),
     }
 
 
-def _show_study(plan: Plan, found: Study) -> None:
-    """Print the results of one study."""
-    spread = {name: (unit, row) for name, unit, row in _measure_spreads(plan, found)}
-    print(runs_text(plan, found.runs))
+def _print_study(plan: Plan, study: Study) -> None:
+    """Print number of runs, a table of measures, the most frequent failures, notes and the file of one part."""
+    spread = {name: (unit, row) for name, unit, row in _compute_spreads(plan, study)}
+    print(runs_text(plan, study.runs))
     if spread:
         table = new_table(["measure", *QUANTILES, "unit", "NaN"], ["measure", "unit"])
         for name, (unit, row) in spread.items():
             numbers = (f"{row[key]:.6g}" if np.isfinite(row[key]) else "–" for key in QUANTILES)
             table.add_row(visible(name), *numbers, unit, str(row["nan"]))
         console().print(table)
-    if found.failed:
-        print(f"{found.failed} of {counted(found.runs, 'run')} failed:")
-        for kind, count, message in itertools.islice(StudyData(found).failures(), MOST_KINDS):
+    if study.failed:
+        print(f"{study.failed} of {counted(study.runs, 'run')} failed:")
+        for kind, count, message in itertools.islice(StudyData(study).failures(), MOST_KINDS):
             print(f"  {count} × {visible(kind)}" + f"\n    the first: {visible(message)}" * bool(message))
-        if (more := len(found.failures) - MOST_KINDS) > 0:
+        if (more := len(study.failures) - MOST_KINDS) > 0:
             print(f"  and {more} other reasons")
-    for note in found.notes:
+    for note in study.notes:
         print(f"note: {visible(note)}")
-    print(f"wrote {path_text(Path(found.folder) / DATASET)}")
+    print(f"wrote {path_text(Path(study.folder) / DATASET)}")
 
 
-def _show_claims(found: Study) -> None:
-    """Print the verdicts of trends, or only their totals if there are many, and the deviation from printed numbers."""
-    claims = found.claims
+def _print_claims(study: Study) -> None:
+    """Print the verdict of each trend unless there are more than MOST_TRENDS, totals, and the deviation from printed
+    numbers.
+    """
+    claims = study.claims
     trends = claims.trends
     if len(trends):
         message = {
@@ -137,20 +141,20 @@ def _show_claims(found: Study) -> None:
             says = trends.drop_duplicates("claim").set_index("claim")["says"]
             print("\n".join(f"{name} {verdict}: {visible(str(says[name]))}" for name, verdict in message.items()))
     print("\n".join(map(visible, claims.totals())))
-    print(f"wrote {path_text(Path(found.folder) / FILE)}")
+    print(f"wrote {path_text(Path(study.folder) / FILE)}")
 
 
-def _measure_spreads(plan: Plan, found: Study) -> Iterator[tuple[str, str, dict[str, Any]]]:
-    """Yield name, unit, and minimum, median, maximum and number of NaN of each measure."""
+def _compute_spreads(plan: Plan, study: Study) -> Iterator[tuple[str, str, dict[str, Any]]]:
+    """Yield name, unit, and minimum, median, maximum and number of NaN of each measure over all runs."""
     for name in (one.name for one in plan.expected.measures):
-        values = found.dataset[name].values
+        values = study.dataset[name].values
         own = values[np.isfinite(values)]
         row = {key: float(np.quantile(own, q)) if own.size else float("nan") for key, q in QUANTILES.items()}
         yield name, plan.units[name], row | {"nan": int(values.size - own.size)}
 
 
-def _time_text(value: float) -> str:
-    """Return a duration in a suitable unit."""
+def _format_duration(value: float) -> str:
+    """Return a duration (s) as text in days, h, min, or a shorter unit."""
     for factor, unit in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
         if value >= 2 * factor:
             return f"{value / factor:.3g} {unit}"

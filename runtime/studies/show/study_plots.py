@@ -42,7 +42,7 @@ class StudyPlot:
     """Figures of one study; every method returns its Axes, `axes.figure.savefig("x.svg")` stores them."""
 
     def __init__(self, study: Study) -> None:
-        """Read the data of a study."""
+        """Read the dataset and the titles of a study."""
         self.data = StudyData(study)
 
     def measure(
@@ -70,7 +70,7 @@ class StudyPlot:
         if isinstance(published, bool):
             claimed = self.data.claimed(name, over, by, at, axis) if published else []
         else:
-            stars = {key: number_of(value, "published") for key, value in _pairs(published).items()}
+            stars = {key: number_of(value, "published") for key, value in _to_dict(published).items()}
             claimed = [(self.data.place(axis, key), value, -1) for key, value in stars.items()]
         with matplotlib.rc_context(STYLE):
             ax = new_axes(5.6, 3.6) if ax is None else check_axes(ax)
@@ -124,9 +124,11 @@ class StudyPlot:
         return ax
 
     def overlay(self, series: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
-        """Plot a stored series over time with a curve for every run, in the colour of its value of `by`."""
+        """Plot a stored series over time with a curve for every run, in the colour of its value of `by`, and return
+        the axes.
+        """
         t, found = self.data.series(series, at)
-        return self._curves([(t, found)], "t [s]", series, by, at, ax)
+        return self._plot_curves([(t, found)], "t [s]", series, by, at, ax)
 
     def spectrum(
         self,
@@ -174,7 +176,7 @@ class StudyPlot:
         t, found = self.data.series(series, at)
         cutoff = positive(cutoff, "cutoff")
         left = low_pass_runs(t, found, cutoff, order, flag(causal, "causal"))
-        ax = self._curves([(t, left)], "t [s]", series, by, at, ax)
+        ax = self._plot_curves([(t, left)], "t [s]", series, by, at, ax)
         message = f"low-pass {cutoff:g} Hz, Butterworth of order {order}, {'causal' if causal else 'zero phase'}"
         ax.set_title(figure_title(f"{ax.get_title()}: {message}", TITLE))
         return ax
@@ -183,9 +185,9 @@ class StudyPlot:
         """Plot one stored series over another with a curve for every run, in the colour of its value of `by`."""
         (_, xs), (_, ys) = self.data.series(x, at), self.data.series(y, at)
         factor, unit = drawn(peak_of(xs.values), xs.attrs.get("units", ""))
-        return self._curves([(xs.values * factor, ys)], label(self.data.shown(x), unit), y, by, at, ax)
+        return self._plot_curves([(xs.values * factor, ys)], label(self.data.shown(x), unit), y, by, at, ax)
 
-    def _curves(
+    def _plot_curves(
         self,
         pairs: list[tuple[Any, Any]],
         x_label: str,
@@ -194,7 +196,11 @@ class StudyPlot:
         at: Coords | None,
         ax: Axes | None,
     ) -> Axes:
-        """Plot a curve for every run over x values, in the colour of its value of `by`."""
+        """Plot a curve for every run, in the colour of its value of `by`, and return the axes.
+
+        pairs: one pair of x values, (N,) or (…, N), and the series over them. name: of the series. ax: None for new
+        axes.
+        """
         ((x, found),) = pairs
         by = self.data.dimension(found, by) if by is not None else None
         with matplotlib.rc_context(STYLE):
@@ -293,30 +299,37 @@ class StudyPlot:
         return ax
 
     def _finish(self, ax: Axes, at: Coords | None, legend: bool) -> None:
-        """Set title and legend."""
+        """Set the title with the selected coordinates and, if `legend` is True and a curve has a label, the legend."""
         picked = ", ".join(self.data.at(name, value) for name, value in (at or {}).items())
         ax.set_title(figure_title(": ".join(filter(None, (one_line(self.data.title), picked))), TITLE))
         if legend and ax.get_legend_handles_labels()[0]:
             ax.legend(fontsize=8)
 
 
-def _pairs(published: Any) -> dict[Any, Any]:
-    """Return published values as a dict. Raises BadValueError for anything else."""
+def _to_dict(published: Any) -> dict[Any, Any]:
+    """Return published values, {coordinate: value}, as a dict; empty for None. Raises BadValueError for anything else.
+    """
     try:
         return dict(published or {})
     except (TypeError, ValueError):
         refuse("published", published, "{coordinate: number}, or True")
 
 
-def quantiles(rows: ArrayLike, which: tuple[float, ...] = QUARTILES) -> Any:
-    """Return quantiles (len(which), …) over the first axis without NaN; NaN where there is no number."""
+def quantiles(rows: ArrayLike, fractions: tuple[float, ...] = QUARTILES) -> Any:
+    """Return quantiles (len(fractions), …) over the first axis of `rows`, without values that are not finite.
+
+    fractions: 0 for the minimum to 1 for the maximum. NaN where no value is finite.
+    """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # all values are NaN, and so is the result
-        return np.nanquantile(np.where(np.isfinite(rows), rows, np.nan), which, axis=0)
+        return np.nanquantile(np.where(np.isfinite(rows), rows, np.nan), fractions, axis=0)
 
 
 def draw_band(ax: Axes, x: Any, five: Any, colour: str, text: str, size: float = 4.0) -> None:
-    """Draw extremes, quartiles and the median over x; for a single run only its line."""
+    """Draw median, quartiles and extremes over x as a line with bands; for equal extremes only the line.
+
+    five: minimum, quartiles and maximum, (5, N). size: of the markers, 0 for none.
+    """
     low, q1, middle, q3, high = five
     order = np.argsort(x, kind="stable")
     if not np.array_equal(low, high, equal_nan=True):
@@ -328,7 +341,10 @@ def draw_band(ax: Axes, x: Any, five: Any, colour: str, text: str, size: float =
 
 
 def draw_bars(ax: Axes, x: Any, five: Any, colour: str, text: str) -> None:
-    """Draw medians as dots, with bars of quartiles and of extremes, for coordinates that no line connects."""
+    """Draw medians as dots with bars of quartiles and extremes, for values that no line may connect.
+
+    five: minimum, quartiles and maximum, (5, N).
+    """
     low, q1, middle, q3, high = five
     ax.vlines(x, low, high, color=colour, alpha=0.35, lw=1.2)
     ax.vlines(x, q1, q3, color=colour, alpha=0.6, lw=3.5)
@@ -336,17 +352,17 @@ def draw_bars(ax: Axes, x: Any, five: Any, colour: str, text: str) -> None:
 
 
 def legend_label(values: Any, text: str) -> str | None:
-    """Return the label of a curve for the legend; None if it has no number."""
+    """Return the label of a curve for the legend; None if none of its values is finite."""
     return text if np.isfinite(values).any() else None
 
 
-def thin_out(n: int, most: int) -> range:
-    """Return every k-th of n indices, at most `most` of them, for labels at an axis."""
-    return range(0, n, -(-n // most))
+def thin_out(n: int, max_count: int) -> range:
+    """Return evenly spaced indices of n, at most `max_count`, for labels at an axis."""
+    return range(0, n, -(-n // max_count))
 
 
 def set_ticks(ax: Axes, x: Any, ticks: list[str] | None) -> None:
-    """Set texts at an axis, wrapped, and slanted if they would not fit."""
+    """Set texts at the x axis, wrapped, and slanted if they would not fit; None changes nothing."""
     if ticks is None:
         return
     lines = [figure_title(word, LINE) for word in ticks]
@@ -357,16 +373,20 @@ def set_ticks(ax: Axes, x: Any, ticks: list[str] | None) -> None:
             word.set(ha="right", rotation_mode="anchor")
 
 
-def draw_published(ax: Axes, claimed: list[tuple[float, float, int]], factor: float, colours: list[str]) -> None:
-    """Draw published values: position, value and index of the line of each; −1: no line."""
-    for k, (place, value, line) in enumerate(claimed):
+def draw_published(ax: Axes, published: list[tuple[float, float, int]], factor: float, colours: list[str]) -> None:
+    """Draw published values as stars in the colours of their lines.
+
+    published: position on the axis, value (SI), and index of the line, −1 for none. factor: from SI to the unit of the
+    axis.
+    """
+    for k, (place, value, line) in enumerate(published):
         own = IDEAL if line < 0 else colours[line]
         message = "published" if k == 0 else None
         ax.plot([place], [value * factor], "*", color=own, mec=IDEAL, mew=0.6, ms=9, label=message)
 
 
 def write_numbers(ax: Axes, values: Any, image: Any) -> None:
-    """Write the number into each cell of a map, dark on bright colours."""
+    """Write each finite value into its cell of a heat map, dark on bright colours and white on dark ones."""
     for (row, column), value in np.ndenumerate(values):
         if np.isfinite(value):
             bright = np.dot(image.cmap(image.norm(value))[:3], (0.299, 0.587, 0.114)) > 0.55

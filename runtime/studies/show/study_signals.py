@@ -18,53 +18,65 @@ SAME = 1e-9  # tolerance of fractions of a run that count as equal
 
 
 def alike(rows: Any) -> bool:
-    """Return whether all runs of times (runs, N) have the same samples, within NEAR of an interval."""
+    """Return whether all rows of times (runs, N) are equal to the first within NEAR of its shortest interval."""
     first = rows[0]
     step = np.nanmin(np.diff(first)) if np.isfinite(first).sum() > 1 else 0.0
     return bool(np.isclose(rows, first, rtol=1e-12, atol=NEAR * abs(float(step)), equal_nan=True).all())
 
 
-def over_shares(t: Any, found: Any) -> tuple[Any, Any] | None:
-    """Return fractions (M,) of the run, those of the longest run, and the series of all runs there (…, M).
+def over_shares(t: Any, series: Any) -> tuple[Any, Any] | None:
+    """Return fractions of the run's duration (M,), those of the longest run, and the series of all runs there (…, M).
 
-    None without any run. A run with other samples is interpolated linearly; it is NaN beyond its samples.
+    t: sample times. series: a DataArray. A run with other samples is interpolated linearly; it is NaN beyond its
+    samples. None if no run has a duration.
     """
-    times = np.broadcast_to(t, found.shape).reshape(-1, found.shape[-1])
-    own = [_scaled_times(row[np.isfinite(row)]) for row in times]
-    at = max(own, key=len, default=np.zeros(0))
-    if not len(at):
+    times = np.broadcast_to(t, series.shape).reshape(-1, series.shape[-1])
+    fractions_of_runs = [_scale_times(row[np.isfinite(row)]) for row in times]
+    fractions = max(fractions_of_runs, key=len, default=np.zeros(0))
+    if not len(fractions):
         return None
-    left = np.full((len(own), len(at)), np.nan)
-    for out, x, row, message in zip(left, found.values.reshape(times.shape), times, own, strict=True):
+    values = np.full((len(fractions_of_runs), len(fractions)), np.nan)
+    for out, x, row, run_fractions in zip(
+        values, series.values.reshape(times.shape), times, fractions_of_runs, strict=True
+    ):
         y = x[np.isfinite(row)]
-        if len(message) == len(at) and np.allclose(message, at, rtol=0.0, atol=SAME):
+        if len(run_fractions) == len(fractions) and np.allclose(run_fractions, fractions, rtol=0.0, atol=SAME):
             out[:] = y
-        elif len(message) and (good := np.isfinite(y)).any():
-            out[:] = np.interp(at, message[good], y[good], left=np.nan, right=np.nan)
-    return at, found.isel({found.dims[-1]: slice(len(at))}).copy(data=left.reshape(*found.shape[:-1], len(at)))
+        elif len(run_fractions) and (good := np.isfinite(y)).any():
+            out[:] = np.interp(fractions, run_fractions[good], y[good], left=np.nan, right=np.nan)
+    return fractions, series.isel({series.dims[-1]: slice(len(fractions))}).copy(
+        data=values.reshape(*series.shape[:-1], len(fractions))
+    )
 
 
-def _scaled_times(t: Any) -> Any:
+def _scale_times(t: Any) -> Any:
     """Return the times of a run scaled to 0 … 1; empty for a run without a duration."""
     return (t - t[0]) / (t[-1] - t[0]) if len(t) > 1 and t[-1] > t[0] else np.zeros(0)
 
 
-def spectra(t: Any, found: Any, by: str | None, name: str, window: str) -> list[tuple[Any, Any]]:
-    """Return frequencies (M,) and amplitudes (runs, M) for each value of `by`, or for all runs.
+def spectra(t: Any, series: Any, by: str | None, name: str, window: str) -> list[tuple[Any, Any]]:
+    """Return frequencies (M,) in Hz and amplitudes (runs, M) for each value of the dimension `by`, or for all runs.
 
-    Raises BadValueError for runs with different sample times.
+    name: of the series, for messages. window: as in `spectrum`. Raises BadValueError if runs of one value have
+    different sample times.
     """
-    times = np.broadcast_to(t, found.shape)
-    values = [(times, found.values)]
+    times = np.broadcast_to(t, series.shape)
+    values = [(times, series.values)]
     if by is not None:
-        k = found.dims.index(by)
-        values = [(np.take(times, i, axis=k), np.take(found.values, i, axis=k)) for i in range(found.shape[k])]
-    return [_spectrum_of_runs(*own, name, window) for own in values]
+        k = series.dims.index(by)
+        values = [(np.take(times, i, axis=k), np.take(series.values, i, axis=k)) for i in range(series.shape[k])]
+    return [_compute_spectrum_of_runs(*own, name, window) for own in values]
 
 
-def _spectrum_of_runs(times: Any, values: Any, name: str, window: str) -> tuple[Any, Any]:
-    """Return frequencies (M,) and amplitudes (runs, M) of some runs."""
-    rows = [(t[good], x[good]) for t, x in _rows(times, values) if (good := np.isfinite(t) & np.isfinite(x)).any()]
+def _compute_spectrum_of_runs(times: Any, values: Any, name: str, window: str) -> tuple[Any, Any]:
+    """Return frequencies (M,) in Hz and amplitudes (runs, M) of runs with equal sample times; one NaN without any
+    samples.
+
+    Raises BadValueError for different sample times.
+    """
+    rows = [
+        (t[good], x[good]) for t, x in _iterate_runs(times, values) if (good := np.isfinite(t) & np.isfinite(x)).any()
+    ]
     if not rows:
         return np.zeros(1), np.full((1, 1), np.nan)
     first = rows[0][0]
@@ -75,41 +87,49 @@ def _spectrum_of_runs(times: Any, values: Any, name: str, window: str) -> tuple[
     return each[0][0], np.array([amplitudes for _, amplitudes in each])
 
 
-def low_pass_runs(t: Any, found: Any, cutoff: float, order: int, causal: bool) -> Any:
-    """Return the series after a low-pass; NaN where they have no samples."""
-    left = np.full(found.shape, np.nan)
-    for own, out in zip(_rows(np.broadcast_to(t, found.shape), found.values), _rows(left), strict=True):
-        good = np.isfinite(own[0]) & np.isfinite(own[1])
-        if good.any():
-            out[0][good] = low_pass(own[0][good], own[1][good], cutoff, order, causal)
-    return found.copy(data=left)
+def low_pass_runs(t: Any, series: Any, cutoff: float, order: int, causal: bool) -> Any:
+    """Return the series after a Butterworth low-pass of each run; NaN where it has no finite samples.
+
+    cutoff: Hz. causal: False filters forwards and backwards, without a phase shift.
+    """
+    filtered = np.full(series.shape, np.nan)
+    for samples, out in zip(
+        _iterate_runs(np.broadcast_to(t, series.shape), series.values), _iterate_runs(filtered), strict=True
+    ):
+        is_finite = np.isfinite(samples[0]) & np.isfinite(samples[1])
+        if is_finite.any():
+            out[0][is_finite] = low_pass(samples[0][is_finite], samples[1][is_finite], cutoff, order, causal)
+    return series.copy(data=filtered)
 
 
-def _rows(*arrays: Any) -> Any:
-    """Return an iterator over the runs, with (N,) of each array."""
+def _iterate_runs(*arrays: Any) -> Any:
+    """Return an iterator over the runs, with the row (N,) of each array."""
     return zip(*(one.reshape(-1, one.shape[-1]) for one in arrays), strict=True)
 
 
-def crossings(t: Any, through: Any, others: list[Any], level: float, falling: bool, after: float) -> list[Any]:
+def crossings(t: Any, section_values: Any, others: list[Any], level: float, falling: bool, after: float) -> list[Any]:
     """Return the values of other series, (k,) each, where one rises (or falls) through a level after a time.
 
-    Between samples all series are monotone cubics (PCHIP).
+    t, section_values and others: (N,) samples of one run. Between samples all series are monotone cubics (PCHIP).
+    Empty for fewer than two finite samples.
     """
     from scipy.interpolate import PchipInterpolator
 
-    good = np.isfinite(t) & np.isfinite(through) & np.all([np.isfinite(own) for own in others], axis=0)
-    if good.sum() < 2:
+    is_finite = (
+        np.isfinite(t) & np.isfinite(section_values) & np.all([np.isfinite(values) for values in others], axis=0)
+    )
+    if is_finite.sum() < 2:
         return [np.zeros(0) for _ in others]
-    t, below = t[good], (through[good] - level) * (-1.0 if falling else 1.0)
-    path = PchipInterpolator(t, below)
-    starts = np.flatnonzero((below[:-1] < 0.0) & (below[1:] >= 0.0))
+    t, signed_distance = t[is_finite], (section_values[is_finite] - level) * (-1.0 if falling else 1.0)
+    path = PchipInterpolator(t, signed_distance)
+    starts = np.flatnonzero((signed_distance[:-1] < 0.0) & (signed_distance[1:] >= 0.0))
     roots = path.roots(discontinuity=False, extrapolate=False)
-    at = np.array([_root_between(roots, t[k], t[k + 1]) for k in starts])
-    at = at[at >= after] if len(at) else at
-    return [PchipInterpolator(t, own[good])(at) for own in others]
+    times = np.array([_find_root_between(roots, t[k], t[k + 1]) for k in starts])
+    times = times[times >= after] if len(times) else times
+    return [PchipInterpolator(t, values[is_finite])(times) for values in others]
 
 
-def _root_between(roots: Any, begin: float, end: float) -> float:
-    """Return the root between two samples, or the later sample if rounding lost it."""
+def _find_root_between(roots: Any, begin: float, end: float) -> float:
+    """Return the first of the sorted roots in [begin, end], or `end` if rounding lost it."""
     own = roots[(roots >= begin) & (roots <= end)]
     return float(own[0]) if len(own) else float(end)

@@ -24,14 +24,16 @@ WIDTH = 100  # of everything that is printed
 
 
 def console() -> Console:
-    """Return a console as wide as the terminal; for a file 100 columns wide."""
+    """Return a rich console without colours for files: as wide as the terminal, or 100 columns for a file."""
     from gudgeon.language.shown import plain_console
 
     return plain_console(None if sys.stdout.isatty() else WIDTH)
 
 
 def new_table(columns: Iterable[str], left: Iterable[str] = ()) -> Table:
-    """Return an empty table with numbers to the right; the columns in `left` are to the left and wrapped."""
+    """Return an empty rich table with these column heads; columns are right-aligned, those in `left` left-aligned and
+    wrapped.
+    """
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
@@ -42,7 +44,8 @@ def new_table(columns: Iterable[str], left: Iterable[str] = ()) -> Table:
 
 
 def write_csv(path: Path, rows: Sequence[dict[str, Any]]) -> None:
-    """Write rows as CSV with six digits."""
+    """Write rows as CSV, with floats of six digits and texts that a spreadsheet does not evaluate. Raises OutputError.
+    """
     text = io.StringIO()
     writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
     writer.writeheader()
@@ -54,14 +57,15 @@ def write_csv(path: Path, rows: Sequence[dict[str, Any]]) -> None:
 def write_files(
     table: Path, rows: Sequence[dict[str, Any]], draw: Callable[[], Figure]
 ) -> tuple[list[Path], OutputError | None]:
-    """Write the table and, next to it, the figure that `draw` returns; return written files and the error for others.
+    """Write the table as CSV and, next to it as PNG, the figure that `draw` returns, if matplotlib is installed.
 
-    The caller raises the error after printing, so that results are not lost with a full disk.
+    Return the written files and the first OutputError, or None. The caller raises it after printing, so that results
+    are not lost with a full disk.
     """
     written, failed = [], None
 
     def picture(path: Path) -> None:
-        """Draw and save the figure."""
+        """Draw the figure and save it as PNG."""
         from gudgeon.results.figures.plots import save_figure
 
         save_figure(draw(), path)
@@ -79,7 +83,7 @@ def write_files(
 
 
 def share(value: float) -> str:
-    """Return a fraction as text: 12 %, 0.30 %, 4e-7."""
+    """Return a fraction as text: "12 %", "0.30 %", "4e-7"; "–" for NaN."""
     if math.isnan(value):
         return "–"
     if 1e-4 <= value < 100:
@@ -88,12 +92,12 @@ def share(value: float) -> str:
 
 
 def rough_share(value: float) -> str:
-    """Return a fraction as text for a cell of a map, where small values are "< 0.01 %"."""
+    """Return a fraction as text for a cell of a map, with small values as "< 0.01 %"."""
     return "< 0.01 %" if value < 1e-4 else share(value)
 
 
 def seconds(value: float) -> str:
-    """Return a short time as text; below 1 ms in µs, so that a column of steps has one unit."""
+    """Return a time (s) with three digits and a suitable unit from ns to s; "–" for NaN or infinity."""
     for factor, unit in ((1e9, "ns"), (1e6, "µs"), (1e3, "ms"), (1.0, "s")):
         if abs(value) * factor < 999.5:
             return f"{value * factor:.3g} {unit}"
@@ -101,5 +105,5 @@ def seconds(value: float) -> str:
 
 
 def clearance(value: float) -> str:
-    """Return a radial clearance as text in mm, as in drawings; "no play" for NaN."""
+    """Return a radial clearance (m) as text in mm, as in drawings; "no play" for NaN."""
     return "no play" if math.isnan(value) else f"{value * 1e3:.3g} mm"
