@@ -38,7 +38,7 @@ import sys
 from time import process_time
 import numpy as np, gudgeon
 from gudgeon.integrators import lanes
-lanes.WORTH = 0.0  # a library of runs side by side is worth being compiled, as for many more of them
+lanes.MIN_REMAINING_S = 0.0  # a library of runs side by side is worth being compiled, as for many more of them
 file, scene, t_end = sys.argv[1:]
 columns = dict(np.load(file))
 simulation = gudgeon.load("nine_bar_press", scene=scene)

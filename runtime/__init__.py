@@ -95,7 +95,10 @@ __all__ = [
 
 
 def __getattr__(name: str) -> object:
-    """Import a public name at its first use (PEP 562)."""
+    """Import a public name of gudgeon at its first use (PEP 562), and cache it in the module.
+
+    Raises AttributeError for other names. Ctrl-C is raised after the import.
+    """
     if name not in _HOME:
         raise AttributeError(f"module 'gudgeon' has no attribute {name!r}")
     from gudgeon.waiting.ctrl_c import CtrlC

@@ -28,7 +28,9 @@ class Commands(TyperGroup):
     """List each command with its whole first sentence, which typer would cut at the end of a line."""
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
-        """Write the section of commands."""
+        """Write the section of commands of the help text, each with its whole first sentence; hidden ones are left
+        out.
+        """
         every = ((name, self.get_command(ctx, name)) for name in self.list_commands(ctx))
         message = [(name, one.get_short_help_str(WHOLE)) for name, one in every if one and not one.hidden]
         with formatter.section("Commands"):
@@ -392,12 +394,15 @@ def study(
 
 
 def name_of(one: CommandInfo) -> str:
-    """Return the name by which a command is called."""
+    """Return the name by which a registered command is called: its own, else that of its function."""
     return str(one.name or getattr(one.callback, "__name__", ""))
 
 
 def asked_for(app: typer.Typer) -> typer.Typer:
-    """Return the app with the called command only, since reading all options takes 30 ms."""
+    """Return a copy of the app with only the command named in sys.argv; reading the options of all takes 30 ms.
+
+    If the first argument names no command, the copy has all of them.
+    """
     named = [one for one in app.registered_commands if sys.argv[1:2] == [name_of(one)]]
     alone = copy(app)
     alone.registered_commands = named or app.registered_commands
@@ -405,6 +410,6 @@ def asked_for(app: typer.Typer) -> typer.Typer:
 
 
 def main() -> None:
-    """Run the command line."""
+    """Run the command line: print each warning once, and call the command that sys.argv names."""
     print_warnings_once()
     asked_for(app)()

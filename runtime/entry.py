@@ -19,7 +19,10 @@ FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)  # errors of writing
 
 
 def main() -> None:
-    """Run the command `gudgeon`; this is its entry point."""
+    """Run the command `gudgeon`, as its entry point, and exit with its code.
+
+    SIGTERM and SIGHUP are treated as Ctrl-C and give the exit code 128 + number. Matplotlib opens no windows.
+    """
     _prepare_streams()
     declare_program()
     os.environ["MPLBACKEND"] = "agg"  # nothing is shown in a window, whatever is set
@@ -41,7 +44,10 @@ def main() -> None:
 
 
 def _run_command() -> None:
-    """Run the command line; report an interrupt and errors of standard output."""
+    """Run the command line; exit with a short message after Ctrl-C or an error of standard output.
+
+    A reader that closes the pipe early gets no message. Other errors are passed on.
+    """
     try:
         from gudgeon.cli import main
 
@@ -63,7 +69,7 @@ def _run_command() -> None:
 
 
 def _prepare_streams() -> None:
-    """Replace closed standard streams by the null device, and escape characters that their encoding lacks."""
+    """Replace closed standard streams by the null device, and let output escape characters that its encoding lacks."""
     codecs.register_error("gudgeon", _escape_as_json)
     for number, name in enumerate(("stdin", "stdout", "stderr")):
         stream = getattr(sys, name)
@@ -74,7 +80,10 @@ def _prepare_streams() -> None:
 
 
 def _escape_as_json(error: UnicodeError) -> tuple[str, int]:
-    """Return the replacement of characters as JSON escapes, so that a document stays valid."""
+    """Return the replacement of characters that cannot be encoded as JSON escapes, and the position after them.
+
+    It is an error handler for codecs; a JSON document stays valid. Errors of decoding are raised.
+    """
     if not isinstance(error, UnicodeEncodeError):
         raise error
     units = error.object[error.start : error.end].encode("utf-16-be", "surrogatepass")

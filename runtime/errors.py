@@ -33,11 +33,11 @@ class GudgeonError(Exception):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Return the pickled form, independent of the constructor, so that errors can cross processes."""
-        return _again, (type(self), self.args), dict(self.__dict__)
+        return _unpickle_error, (type(self), self.args), dict(self.__dict__)
 
 
-def _again(kind: type[GudgeonError], arguments: tuple[Any, ...]) -> GudgeonError:
-    """Return an unpickled error."""
+def _unpickle_error(kind: type[GudgeonError], arguments: tuple[Any, ...]) -> GudgeonError:
+    """Create an error from its class and arguments when it is unpickled, without calling its constructor."""
     return kind.__new__(kind, *arguments)
 
 
@@ -108,7 +108,7 @@ class LawError(InputError):
 
 
 class InputErrors(InputError):
-    """Hold all errors of one file, in the order of their locations."""
+    """Hold all errors of one file, in the order of their locations; errors without a location come last."""
 
     def __init__(self, errors: Sequence[InputError]) -> None:
         self.errors = tuple(sorted(errors, key=lambda e: (e.where is None, e.where or Location("", 0, 0))))
@@ -118,7 +118,7 @@ class InputErrors(InputError):
 
 
 def together(errors: Iterable[InputError]) -> InputError:
-    """Return the only one of some errors as it is, or InputErrors of all."""
+    """Combine errors of one file: return a single one as it is, several as InputErrors."""
     found = list(errors)
     return found[0] if len(found) == 1 else InputErrors(found)
 
@@ -190,12 +190,12 @@ class OutputError(GudgeonError):
 
 
 def in_a_line(text: str) -> str:
-    """Return a name with line breaks escaped if it is not printable."""
+    """Return a name for messages on one line: line breaks are escaped if it contains any."""
     return text if text.isprintable() else text.replace("\n", "\\n").replace("\r", "\\r")
 
 
 def shortened(path: str | os.PathLike[str]) -> str:
-    """Return a path for messages on one line; of a long one, both ends."""
+    """Return a path for messages on one line; of one longer than 200 characters, both ends; '' for an empty one."""
     text = in_a_line(os.fspath(path)) or "''"
     return text if len(text) < 200 else f"{text[:80]}…{text[-80:]}"
 

@@ -48,7 +48,7 @@ def exercise(seed: int, folder: Path) -> int:
     scene = mixed_scene(seed)
     file = folder / "mixed.yaml"
     file.write_text(scene.text, encoding="utf-8")
-    made, lanes.WORTH = 0, 0.0  # runs go side by side however short a batch is
+    made, lanes.MIN_REMAINING_S = 0, 0.0  # runs go side by side however short a batch is
     for formulation in ("reduced", "full"):
         simulation = gudgeon.load(file, scene.scene, formulation=formulation)
         for options in settings(simulation):

@@ -57,7 +57,7 @@ def scenes(file: Path) -> Iterator[gudgeon.Simulation]:
 
 def exercise(file: Path, threads: int, quick: bool) -> int:
     """How many runs and batches were made of a mechanism; a refusal counts as one."""
-    made, lanes.WORTH = 0, 0.0  # runs go side by side however short a batch is
+    made, lanes.MIN_REMAINING_S = 0, 0.0  # runs go side by side however short a batch is
     for simulation in scenes(file):
         for options in settings(simulation, quick):
             made += _tried(simulation.simulate, **options)

@@ -29,12 +29,14 @@ if TYPE_CHECKING:
 LARGEST = 50.0  # m: larger lengths are probably numbers without a unit that were meant in mm
 QUICK = 45  # number of coordinates up to which assemblies are searched without --branches
 # Assemblies whose deviations from the guesses differ by less are ambiguous; rad, or fraction of the size.
-ALIKE = math.radians(5.0)
+MAX_GUESS_DIFFERENCE = math.radians(5.0)
 
 
 @dataclass(frozen=True)
-class Assembled:
-    """Result of assembling one scene at its default parameters."""
+class AssembledScene:
+    """Hold the result of assembling one scene: position, mobility of the closed linkage and of the scene, missed
+    guesses.
+    """
 
     linkage: NumPyLinkage
     q: Array
@@ -45,32 +47,34 @@ class Assembled:
 
 @dataclass(frozen=True)
 class Findings:
-    """Results of assembling all scenes, and the assemblies of the first scene that assembles."""
+    """Hold the results of assembling all scenes, and the assemblies of the first scene that assembles."""
 
-    scenes: Mapping[str, Assembled]
+    scenes: Mapping[str, AssembledScene]
     failed: Mapping[str, GudgeonError]
     assemblies: tuple[Assembly, ...] = ()
 
     @property
     def alike(self) -> list[Assembly]:
-        """Return the assemblies that follow the guesses of the file as well as the start does."""
+        """Return the assemblies, other than the start, that follow the guesses of the file as well as the start
+        does.
+        """
         first = next(iter(self.scenes.values()), None)
         if first is None or not self.assemblies:
             return []
         closure = Closure(first.linkage, first.linkage.p, 0.0)
         start = self.assemblies[0].q
-        return [a for a in self.assemblies[1:] if guess_distance(closure, a.q, start) < ALIKE]
+        return [a for a in self.assemblies[1:] if guess_distance(closure, a.q, start) < MAX_GUESS_DIFFERENCE]
 
 
 def assemble_scenes(mechanism: Mechanism, branches: bool, given: Mapping[str, float | str] | None = None) -> Findings:
-    """Assemble every scene; find other assemblies too if `branches` is set or the linkage is small (`QUICK`).
+    """Assemble every scene of a mechanism, and find its other assemblies if `branches` is set or the linkage is small.
 
     given: values in place of the file's, by address. An address of one scene holds for that scene. An error of a scene
-    is stored in `failed`. Raises UnknownNameError for an address that no scene has.
+    is stored in `failed`. Raises UnknownNameError for an address that no scene has, and an error for wrong `freedoms`.
     """
     from gudgeon.generator.pipeline import closed_linkage
 
-    scenes: dict[str, Assembled] = {}
+    scenes: dict[str, AssembledScene] = {}
     failed: dict[str, GudgeonError] = {}
     assemblies: tuple[Assembly, ...] = ()
     linkages = {name: closed_linkage(mechanism, name) for name in mechanism.scenes}
@@ -79,7 +83,7 @@ def assemble_scenes(mechanism: Mechanism, branches: bool, given: Mapping[str, fl
     for name, (linkage, rows) in linkages.items():
         linkage = linkage_at_values(mechanism, linkage, numbers)
         try:
-            scenes[name] = _assembled(linkage, rows)
+            scenes[name] = _assemble_scene(linkage, rows)
         except GudgeonError as error:
             failed[name] = error
             continue
@@ -91,11 +95,11 @@ def assemble_scenes(mechanism: Mechanism, branches: bool, given: Mapping[str, fl
     return Findings(scenes, failed, assemblies)
 
 
-def _assembled(linkage: NumPyLinkage, rows: Sequence[int]) -> Assembled:
-    """Assemble one linkage and return its position, mobility and guesses that are not followed.
+def _assemble_scene(linkage: NumPyLinkage, rows: Sequence[int]) -> AssembledScene:
+    """Assemble one linkage and return its position, mobility and the guesses that are not followed.
 
     rows: indices of the scene's own constraint equations; joints with play have none. Raises AssemblyError if positions
-    or velocities have no solution.
+    or velocities have no solution, or journals lie too deep.
     """
     p = linkage.p
     check_places(linkage, p)
@@ -107,11 +111,14 @@ def _assembled(linkage: NumPyLinkage, rows: Sequence[int]) -> Assembled:
         velocities(closure, q)
         every = find_mobility(linkage, p, q)
         own = every if len(rows) == every.rows else find_mobility(linkage, p, q, rows)
-    return Assembled(linkage, q, every, own, unfollowed(linkage, p, q))
+    return AssembledScene(linkage, q, every, own, unfollowed(linkage, p, q))
 
 
 def summary(found: Findings) -> str:
-    """Return the degrees of freedom as text, grouped by scene: "degrees of freedom 0 (ideal), 4 (dry, lubricated)"."""
+    """Return the degrees of freedom as text, grouped by scene: "degrees of freedom 0 (ideal), 4 (dry, lubricated)".
+
+    If all scenes agree, names are left out; if none assembles, the text says so.
+    """
     by_count: dict[int, list[str]] = {}
     for name, scene in found.scenes.items():
         by_count.setdefault(scene.scene.freedoms, []).append(name)
@@ -122,19 +129,24 @@ def summary(found: Findings) -> str:
 
 
 def without_masses(mechanism: Mechanism, found: Findings) -> list[str]:
-    """Return the names of the scenes that have degrees of freedom, if a body of the file has no mass."""
+    """Return the names of the scenes that have degrees of freedom, if a body of the file lacks mass or inertia; else
+    [].
+    """
     moved = [name for name in mechanism.scenes if name in found.scenes and found.scenes[name].scene.freedoms]
     return moved if any(body.lacks for body in mechanism.bodies.values()) else []
 
 
 def verdict(mechanism: Mechanism, found: Findings) -> str:
-    """Return "valid", with the scenes that cannot be run although the file is valid."""
+    """Return "valid", followed by the scenes that cannot be run although the file is valid.
+
+    They do not assemble, or need missing masses.
+    """
     unable = {*found.failed, *without_masses(mechanism, found)}
     names = ", ".join(name for name in mechanism.scenes if name in unable)
     return f"valid, but scene{'s' if len(unable) > 1 else ''} {names} cannot be run" if unable else "valid"
 
 
-def _masses(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
+def _yield_mass_remark(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
     """Yield a remark with the missing masses and inertias if a scene with degrees of freedom needs them."""
     lacking = [f"{b.name} has no {' and no '.join(b.lacks)} ({b.where})" for b in mechanism.bodies.values() if b.lacks]
     if moved := without_masses(mechanism, found):
@@ -142,13 +154,15 @@ def _masses(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
 
 
 def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
-    """Yield (subject, remark) pairs for the user: sizes, degrees of freedom, loose bodies, redundancy, guesses,
-    assemblies.
+    """Yield (subject, remark) pairs on the assembled scenes, for the user of `gudgeon check`.
+
+    Subjects are sizes, curves, start, loose bodies, degrees of freedom, masses, redundancy, singularity, guesses and
+    assemblies. Nothing is yielded if no scene assembles.
     """
     first = next(iter(found.scenes.values()), None)
     if first is None:
         return
-    if (large := _too_large(mechanism, first)) is not None:
+    if (large := _format_size_remark(mechanism, first)) is not None:
         yield "size", large
     yield from (("curve", message) for message in curve_seam_notes(first.linkage.source, first.linkage.p))
     deep = (message for scene in found.scenes.values() for message in in_walls(scene.linkage, scene.linkage.p))
@@ -160,8 +174,8 @@ def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
         count = f"{closed.freedoms} degree{'' if closed.freedoms == 1 else 's'} of freedom"
         meant = f"if that is meant, freedoms: {closed.freedoms}"
         yield "freedoms", f"{count} with all joints closed: {', '.join(closed.along)}; {meant}"
-        yield from _without_shaft(mechanism, closed)
-    yield from _masses(mechanism, found)
+        yield from _yield_shaft_remarks(mechanism, closed)
+    yield from _yield_mass_remark(mechanism, found)
     if closed.redundant:
         rows = f"{closed.redundant} row{'' if closed.redundant == 1 else 's'}"
         counted = f"by counting there are {closed.gruebler} degrees of freedom, by rank {closed.freedoms}"
@@ -182,10 +196,10 @@ def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
             f"{name} is {guess_difference_text(name, off)} from your guess: {no_nearer_text(first.linkage.source)}",
         )
     if not closed.freedoms or mechanism.freedoms is not None:
-        yield from _ambiguous(found)
+        yield from _yield_ambiguity_remark(found)
 
 
-def _without_shaft(mechanism: Mechanism, closed: Mobility) -> Iterator[tuple[str, str]]:
+def _yield_shaft_remarks(mechanism: Mechanism, closed: Mobility) -> Iterator[tuple[str, str]]:
     """Yield a remark for each driven body that can move away because no joint connects it to the drive's reference."""
     joined = {frozenset((joint.first.body, joint.second.body)) for joint in mechanism.joints.values()}
     for drive in mechanism.drives.values():
@@ -196,8 +210,11 @@ def _without_shaft(mechanism: Mechanism, closed: Mobility) -> Iterator[tuple[str
             yield "shaft", f"no joint ties {drive.body} to {whom}, against which drive {drive.name} turns it"
 
 
-def _too_large(mechanism: Mechanism, scene: Assembled) -> str | None:
-    """Return a remark on the largest length of the file if it exceeds `LARGEST`, otherwise None."""
+def _format_size_remark(mechanism: Mechanism, scene: AssembledScene) -> str | None:
+    """Return a remark on the largest length of the file if it exceeds `LARGEST` (m), otherwise None.
+
+    It suggests millimetres.
+    """
     p, source = scene.linkage.p, scene.linkage.source
     lengths = {
         slot.address: abs(float(p[k]))
@@ -214,13 +231,18 @@ def _too_large(mechanism: Mechanism, scene: Assembled) -> str | None:
     )
 
 
-def _ambiguous(found: Findings) -> Iterator[tuple[str, str]]:
-    """Yield a remark if several assemblies follow the guesses of the file equally well."""
+def _yield_ambiguity_remark(found: Findings) -> Iterator[tuple[str, str]]:
+    """Yield a remark if several assemblies follow the guesses of the file equally well, with a guess that separates
+    them.
+    """
     if not (alike := found.alike):
         return
     start = found.assemblies[0]
-    telling = next(name for name in start.guess if any(_differs(name, start, other) for other in alike))
-    here, there = _value(telling, start.guess[telling]), [_value(telling, a.guess[telling]) for a in alike]
+    telling = next(name for name in start.guess if any(_has_different_guess(name, start, other) for other in alike))
+    here, there = (
+        _format_guess_value(telling, start.guess[telling]),
+        [_format_guess_value(telling, a.guess[telling]) for a in alike],
+    )
     others = ", ".join(dict.fromkeys(value for value in there if value != here))
     yield (
         "assemblies",
@@ -231,18 +253,18 @@ def _ambiguous(found: Findings) -> Iterator[tuple[str, str]]:
     )
 
 
-def _differs(name: str, one: Assembly, other: Assembly) -> bool:
+def _has_different_guess(name: str, one: Assembly, other: Assembly) -> bool:
     """Return whether two assemblies have different printed values of the guess `name`."""
-    return _value(name, one.guess[name]) != _value(name, other.guess[name])
+    return _format_guess_value(name, one.guess[name]) != _format_guess_value(name, other.guess[name])
 
 
-def _value(name: str, x: float) -> str:
-    """Return a guess as text with its unit, as a mechanism file may contain it: x in rad or m."""
+def _format_guess_value(name: str, x: float) -> str:
+    """Return a guess as text with its unit, in degrees or mm, as a mechanism file may contain it; x in rad or m."""
     return f"{math.degrees(x):.4g} deg" if name.endswith(".theta") else f"{1e3 * x:.4g} mm"
 
 
 def branches(found: Findings) -> Iterator[str]:
-    """Yield a line for each assembly, with the guess that selects it."""
+    """Yield a heading and a line for each assembly, with the guess that selects it; nothing if none was sought."""
     if not found.assemblies:
         return
     count = len(found.assemblies)
@@ -255,19 +277,21 @@ def branches(found: Findings) -> Iterator[str]:
 
 
 def guess_text(one: Assembly) -> str:
-    """Return the guess that selects an assembly, as text for a mechanism file."""
-    guess = ", ".join(f"{name}: {_value(name, x)}" for name, x in one.guess.items())
+    """Return the guess that selects an assembly, as text for a mechanism file: "{rod.theta: 30 deg}" or "none
+    needed".
+    """
+    guess = ", ".join(f"{name}: {_format_guess_value(name, x)}" for name, x in one.guess.items())
     return f"{{{guess}}}" if guess else "none needed"
 
 
 def data(found: Findings) -> dict[str, Any]:
     """Return the results of all scenes for `--json`, by scene; angles in rad, lengths in m."""
-    return {name: _scene_data(scene) for name, scene in found.scenes.items()} | {
+    return {name: _build_scene_document(scene) for name, scene in found.scenes.items()} | {
         name: {"assembles": False, "message": str(error)} for name, error in found.failed.items()
     }
 
 
-def _scene_data(scene: Assembled) -> dict[str, Any]:
+def _build_scene_document(scene: AssembledScene) -> dict[str, Any]:
     """Return the results of one assembled scene as a dictionary for `--json`."""
     return {
         "assembles": True,

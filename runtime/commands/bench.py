@@ -15,7 +15,11 @@ EVERY = f"leave it out for all that fit; or {','.join(OFFERED)}"
 
 
 def bench_file(request: Request, methods: tuple[str, ...] = ()) -> int:
-    """Measure all scenes of a request, print the table, write it with the picture, and return the exit code."""
+    """Run `gudgeon bench`: measure all scenes of a request, print and write the table, and return the exit code.
+
+    methods: names, separated by commas, or () for all. Scenes without degrees of freedom are measured without steps.
+    Raises BadValueError for unknown methods before anything is run.
+    """
     step, t_end = request.seconds("--mark-step", request.mark), request.seconds("--t-end", request.t_end)
     loaded = load_scenes(request)
     method_names = [name.strip() for text in methods for name in text.split(",") if name.strip()] if methods else None

@@ -38,10 +38,10 @@ REFERENCE_SOLVERS = ("scipy:*", "sundials:*")  # reference solvers that fit wher
 
 
 def check_file(name: str, verbose: bool, as_json: bool, branches: bool = False, numbers: Sequence[str] = ()) -> int:
-    """Check a mechanism file, print the result, and return the exit code.
+    """Run `gudgeon check`: check a mechanism file, print the result, and return the exit code.
 
-    numbers: texts ADDRESS=VALUE, in place of the file's values. Raises InputError for an invalid file (with `as_json`
-    it is printed), AssemblyError if a scene does not assemble.
+    name: shipped name or path. numbers: texts ADDRESS=VALUE, in place of the file's values. Raises InputError for an
+    invalid file (with `as_json` it is printed), AssemblyError if a scene does not assemble.
     """
     from gudgeon.generator.reader.read import read_mechanism
 
@@ -52,16 +52,16 @@ def check_file(name: str, verbose: bool, as_json: bool, branches: bool = False, 
     except InputError as error:
         if not as_json:
             raise
-        print_json({"valid": False, "errors": _errors(error)})
+        print_json({"valid": False, "errors": _build_error_documents(error)})
         return error.exit_code
     seconds: dict[str, dict[str, float]] = {scene: {} for scene in mechanism.scenes}
     with status_line(quiet=as_json):
         found = story.assemble_scenes(mechanism, branches, given)
         scenes = {scene: derived(data, file, scene, seconds=seconds[scene]) for scene in mechanism.scenes if verbose}
     if as_json:
-        print_json(_document(mechanism, scenes, seconds, found))
-        return _exit_code(mechanism, found)
-    print(_wrap_lines(story.verdict(mechanism, found), f"{_counts(mechanism)}; {story.summary(found)}"))
+        print_json(_build_document(mechanism, scenes, seconds, found))
+        return _find_exit_code(mechanism, found)
+    print(_wrap_lines(story.verdict(mechanism, found), f"{_format_counts(mechanism)}; {story.summary(found)}"))
     for whose, remark in story.remarks(mechanism, found):
         print(_wrap_lines(f"  {whose}", remark))
     for line in story.branches(found) if branches else ():
@@ -71,17 +71,17 @@ def check_file(name: str, verbose: bool, as_json: bool, branches: bool = False, 
     for scene, problem in found.failed.items():
         message = "" if len(found.failed) == len(mechanism.scenes) else f"scene {scene}: "
         raise AssemblyError(f"{message}{problem}")
-    return _exit_code(mechanism, found)
+    return _find_exit_code(mechanism, found)
 
 
-def _exit_code(mechanism: Mechanism, found: story.Findings) -> int:
-    """Return the exit code: that of the first scene that does not assemble, or that of a missing mass, or 0."""
+def _find_exit_code(mechanism: Mechanism, found: story.Findings) -> int:
+    """Return the exit code: that of the first scene that does not assemble, else that of a missing mass, else 0."""
     lacking = MissingKeyError.exit_code if story.without_masses(mechanism, found) else 0
     return next((error.exit_code for error in found.failed.values()), lacking)
 
 
-def _errors(error: InputError) -> list[dict[str, Any]]:
-    """Return the errors of a file as dictionaries with kind, location, message and hint."""
+def _build_error_documents(error: InputError) -> list[dict[str, Any]]:
+    """Return the errors of a file as dictionaries with kind, location, message and hint, for `--json`."""
     errors = error.errors if isinstance(error, InputErrors) else (error,)
     return [
         {
@@ -96,7 +96,7 @@ def _errors(error: InputError) -> list[dict[str, Any]]:
     ]
 
 
-def _counts(mechanism: Mechanism) -> str:
+def _format_counts(mechanism: Mechanism) -> str:
     """Return the numbers of bodies, joints and drives, and the scenes, as text."""
     numbers = [
         (len(mechanism.bodies), "body", "bodies"),
@@ -108,7 +108,9 @@ def _counts(mechanism: Mechanism) -> str:
 
 
 def _count_facts(source: KernelSource) -> dict[str, int]:
-    """Return the counts of the table by label: unknowns, constraint equations, degrees of freedom, operations."""
+    """Return the counts of a scene for the table, by label: unknowns, constraint equations, degrees of freedom,
+    operations.
+    """
     facts = {
         "unknowns": len(source.coordinates),
         "rows": len(source.rows),
@@ -118,11 +120,14 @@ def _count_facts(source: KernelSource) -> dict[str, int]:
         "numbers that can be set": len(source.slots),
         **({"of them depths of contours": len(contour_parameters(source))} if source.contours else {}),
     }
-    return facts | {_label(name): count for name, count in source.operations.items()}
+    return facts | {_format_kernel_label(name): count for name, count in source.operations.items()}
 
 
 def driven(source: KernelSource) -> tuple[str, ...]:
-    """Return the drives whose constraint equations the tree solves: their coordinates are functions of time."""
+    """Return the names of constraint equations of drives that the tree solves: their coordinates are functions of time.
+
+    In the full formulation there are none.
+    """
     if source.formulation == "full":
         return ()
     rows = (source.rows[drive.row].name for drive in source.drives if drive.row >= 0)
@@ -137,7 +142,7 @@ def _fits_reference_solvers(source: KernelSource) -> bool:
     return KINEMATIC not in source.methods and not (source.frictions or source.rate_jumps or source.explicit)
 
 
-def _reduction(source: KernelSource) -> dict[str, Any]:
+def _describe_reduction(source: KernelSource) -> dict[str, Any]:
     """Return what is integrated, the operations of the accelerations in both formulations, and the methods that fit."""
     operations = {"full": source.operations["dynamics"]}
     if "reduced_dynamics" in source.operations:
@@ -153,29 +158,29 @@ def _reduction(source: KernelSource) -> dict[str, Any]:
     }
 
 
-def _further_lines(source: KernelSource, seconds: Mapping[str, float]) -> Iterator[tuple[str, str]]:
+def _yield_further_lines(source: KernelSource, seconds: Mapping[str, float]) -> Iterator[tuple[str, str]]:
     """Yield the (label, text) lines below the reduction log: methods, events, notes, seconds of each stage."""
-    yield "methods", f"{', '.join(_reduction(source)['methods'])}; auto begins with {first_method(source)}"
+    yield "methods", f"{', '.join(_describe_reduction(source)['methods'])}; auto begins with {first_method(source)}"
     if source.events:
-        yield "events", ", ".join(_events(source))
+        yield "events", ", ".join(_format_events(source))
     for note in source.notes:
         yield "", note
     stages = ", ".join(f"{name} {took:.2f}" for name, took in seconds.items())
     yield "seconds", f"{stages}; together {sum(seconds.values()):.2f}"
 
 
-def _events(source: KernelSource) -> list[str]:
+def _format_events(source: KernelSource) -> list[str]:
     """Return each event as text: "top (falling, recorded)"."""
     does = {"record": "recorded", "stop": "ends the run"}
     return [f"{event.name} ({event.direction}, {does[event.action]})" for event in source.events]
 
 
-def _label(kernel: str) -> str:
+def _format_kernel_label(kernel: str) -> str:
     """Return the label of a kernel's operations in the table."""
     return kernel if " " in kernel else f"operations in {kernel}"
 
 
-def _document(
+def _build_document(
     mechanism: Mechanism,
     scenes: Mapping[str, KernelSource],
     seconds: Mapping[str, Mapping[str, float]],
@@ -193,22 +198,25 @@ def _document(
         "assembled": story.data(found),
         "assemblies": story.branches_data(found),
         "scenes": {
-            name: _scene_data(scenes[name]) | {"seconds": seconds[name]} if name in scenes else {}
+            name: _build_scene_document(scenes[name]) | {"seconds": seconds[name]} if name in scenes else {}
             for name in mechanism.scenes
         },
     }
 
 
-def _scene_data(source: KernelSource) -> dict[str, Any]:
+def _build_scene_document(source: KernelSource) -> dict[str, Any]:
     """Return the counts, reduction, events, notes and reduction log of one scene for `--json`."""
-    document = {"events": _events(source), "notes": list(source.notes), "story": story_data(source.story)}
-    return {**_count_facts(source), **_reduction(source), **document}
+    document = {"events": _format_events(source), "notes": list(source.notes), "story": story_data(source.story)}
+    return {**_count_facts(source), **_describe_reduction(source), **document}
 
 
 def _print_scenes(
     mechanism: Mechanism, scenes: Mapping[str, KernelSource], seconds: Mapping[str, Mapping[str, float]]
 ) -> None:
-    """Print the tables of counts and the reduction logs of all scenes."""
+    """Print the tables of counts and the reduction logs of all scenes; seconds: time of each stage by scene.
+
+    Scenes that fit share a table. Kernels without operations in every scene are left out.
+    """
     from gudgeon.language.shown import one_line, plain_console
 
     facts = {scene: _count_facts(source) for scene, source in scenes.items()}
@@ -219,8 +227,8 @@ def _print_scenes(
     ]  # without kernels that are zero in every scene
     console, title = plain_console(WIDTH), one_line(mechanism.title or mechanism.name)
     for some in _group_columns(scenes, max(map(len, names))):
-        console.print(_table(title, names, {scene: facts[scene] for scene in some}))
-    for part in tell(scenes, lambda source: _further_lines(source, seconds[source.scene])):
+        console.print(_make_count_table(title, names, {scene: facts[scene] for scene in some}))
+    for part in tell(scenes, lambda source: _yield_further_lines(source, seconds[source.scene])):
         console.print(part)
 
 
@@ -232,7 +240,9 @@ def _wrap_lines(name: str, text: str) -> str:
 
 
 def _group_columns(scenes: Mapping[str, KernelSource], label: int) -> Iterator[list[str]]:
-    """Yield groups of scenes whose columns fit next to each other in one table."""
+    """Yield groups of scene names whose columns fit next to each other in one table; label: width of the first
+    column.
+    """
     some: list[str] = []
     for scene in scenes:
         widths = [max(len(name), len("999,999")) + GAP for name in [*some, scene]]
@@ -243,8 +253,8 @@ def _group_columns(scenes: Mapping[str, KernelSource], label: int) -> Iterator[l
     yield some
 
 
-def _table(title: str, names: Sequence[str], facts: Mapping[str, Mapping[str, int]]) -> Table:
-    """Return a table with one column for each scene and one row for each count."""
+def _make_count_table(title: str, names: Sequence[str], facts: Mapping[str, Mapping[str, int]]) -> Table:
+    """Return a table of rich with one column for each scene and one row for each count; "–" where a scene lacks it."""
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
@@ -260,7 +270,7 @@ def _table(title: str, names: Sequence[str], facts: Mapping[str, Mapping[str, in
 def tell(
     scenes: Mapping[str, KernelSource], rest: Callable[[KernelSource], Iterable[tuple[str, str]]]
 ) -> Iterator[Text | Table]:
-    """Yield the reduction log of each scene, its outcome, and the lines of `rest`.
+    """Yield heading and reduction log of each scene, its outcome, and the (label, text) lines of `rest`, for rich.
 
     If an earlier scene has the same log, only the lines that differ are shown.
     """
@@ -276,10 +286,10 @@ def tell(
         else:
             known.append((scene, ledger, lines))
             yield Text(f"scene {scene}", style="bold")
-        yield _ledger_table([] if same else ledger, lines)
+        yield _make_log_table([] if same else ledger, lines)
 
 
-def _ledger_table(ledger: Sequence[tuple[int, int, str]], lines: Iterable[tuple[str, str]]) -> Table:
+def _make_log_table(ledger: Sequence[tuple[int, int, str]], lines: Iterable[tuple[str, str]]) -> Table:
     """Return a table without rules: remaining coordinates, remaining constraint equations, and the step's text."""
     from rich.table import Table
     from rich.text import Text
@@ -297,7 +307,9 @@ def _ledger_table(ledger: Sequence[tuple[int, int, str]], lines: Iterable[tuple[
 
 
 def story_data(story: ReductionLog) -> dict[str, Any]:
-    """Return the reduction log for `--json`, with the coordinates and constraint equations that each step leaves."""
+    """Return the reduction log for `--json`, each step with the numbers of coordinates and constraint equations
+    left.
+    """
     left = [{"coordinates left": n, "rows left": m} for _, n, m in story.ledger()]
     data = asdict(story)
     data["steps"] = [step | counts for step, counts in zip(data["steps"], left, strict=True)]

@@ -25,7 +25,7 @@ SCENES = "scenes.json"
 
 
 def scene_names(mechanism: str) -> tuple[str, ...]:
-    """Return all scenes of a mechanism file in its order. The names come from the cache if the file is known there."""
+    """Return the names of all scenes of a mechanism file, in its order; they are cached by the file's bytes."""
     from gudgeon.loading.cache import default_cache, digest
 
     file = find_mechanism(mechanism)
@@ -43,9 +43,9 @@ def scene_names(mechanism: str) -> tuple[str, ...]:
 
 
 def select_scenes(mechanism: str, expected: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the requested scenes, each once, or all scenes if none is named.
+    """Return the requested scenes, each once, or all scenes if none is requested.
 
-    Raises UnknownNameError, which names the nearest.
+    Raises UnknownNameError, with the nearest name, for a scene that the file does not have.
     """
     names = scene_names(mechanism)
     for scene in expected:
@@ -55,7 +55,10 @@ def select_scenes(mechanism: str, expected: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def settings(texts: Iterable[str]) -> dict[str, float | str]:
-    """Return the values of `--set ADDRESS=VALUE` by address. Raises BadValueError for bad forms and repetitions."""
+    """Parse the texts `ADDRESS=VALUE` of `--set` and return the values by address.
+
+    Raises BadValueError for other forms, and for a parameter that is set twice.
+    """
     found: dict[str, float | str] = {}
     written: dict[str, str] = {}  # a parameter may be called with its section or without
     for text in texts:
@@ -71,8 +74,10 @@ def settings(texts: Iterable[str]) -> dict[str, float | str]:
 
 
 def check_addresses(names: Iterable[str], file: str, sources: Sequence[KernelSource]) -> None:
-    """Raise UnknownNameError for an address of `--set` that no scene has, with the nearest names or what stands
-    there."""
+    """Raise UnknownNameError for the first address of `--set` that no scene has.
+
+    The error says what stands there if it is no parameter, else it names the nearest address.
+    """
     known = tuple(dict.fromkeys(address for source in sources for address in addresses(source)))
     for name in names:
         if name in known:
@@ -88,15 +93,15 @@ def check_addresses(names: Iterable[str], file: str, sources: Sequence[KernelSou
 
 
 def known_settings(source: KernelSource, given: Mapping[str, float | str]) -> dict[str, float | str]:
-    """Return the values of `--set` whose addresses the scene has: an ideal scene has no viscosity."""
+    """Return those values of `--set` whose addresses the scene has; an ideal scene has no viscosity, for example."""
     known = set(addresses(source))
     return {address: number for address, number in given.items() if address in known}
 
 
 def linkage_at_values(mechanism: Mechanism, linkage: NumPyLinkage, given: Mapping[str, float | str]) -> NumPyLinkage:
-    """Return the closed linkage of a scene at other parameter values; addresses of other scenes are ignored.
+    """Return the closed linkage of a scene at other parameter values; the same object if nothing that matters is given.
 
-    Raises BadValueError.
+    Addresses of other scenes are ignored. Raises BadValueError for values out of range.
     """
     from gudgeon.generator.pipeline import closed_linkage
 
@@ -144,13 +149,17 @@ def check_folder(option: str, out: Path) -> None:
 
 
 def check_file(option: str, path: Path) -> None:
-    """Raise InputError before a run if the file `path` cannot be written or replaced."""
+    """Raise InputError before a run if the file `path` cannot be written or replaced; `option`: name for the
+    message.
+    """
     check_folder(option, path.parent)
     check_name(option, path)
 
 
 def check_name(option: str, path: Path) -> None:
-    """Raise InputError if `path` is not a possible target; its folder has been checked before."""
+    """Raise InputError if no file `path` can be written, as for a folder or a link; its parent has been checked
+    before.
+    """
     try:
         check_target(path)
     except OutputError as error:
@@ -165,7 +174,7 @@ def require_suffix(path: Path, suffixes: tuple[str, ...]) -> None:
 
 
 def have(what: str, *packages: str) -> bool:
-    """Return whether the packages are installed that write `what`; print a note to stderr if not."""
+    """Return whether the packages that write `what` are installed; print a note to stderr if one is missing."""
     missing = [package for package in packages if find_spec(package) is None]
     if missing:
         print(f"note: no {what}: {' and '.join(missing)} not installed", file=sys.stderr)

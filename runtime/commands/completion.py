@@ -12,7 +12,9 @@ from gudgeon.contract.methods import OFFERED
 
 
 def files(incomplete: str) -> list[str]:
-    """Return shipped mechanisms, YAML files and folders that begin with the text."""
+    """Return completions of a file name: shipped mechanisms, YAML files and folders that begin with the text,
+    sorted.
+    """
     from gudgeon.loading.shipped import shipped
 
     folder, _, begun = incomplete.rpartition("/")
@@ -29,7 +31,9 @@ def files(incomplete: str) -> list[str]:
 
 
 def scenes(context: typer.Context, incomplete: str) -> list[str]:
-    """Return the scenes of the mechanism on the command line, or only `ideal` if its file cannot be read."""
+    """Return completions of a scene name, from the mechanism on the command line; "ideal" alone if it cannot be
+    read.
+    """
     from gudgeon.generator.yaml import parse_yaml
     from gudgeon.loading.shipped import shipped, shipped_file
 
@@ -47,7 +51,9 @@ def methods(incomplete: str) -> list[str]:
 
 
 def laws(incomplete: str) -> list[str]:
-    """Return the names of contact, friction and film laws that begin with the text, including alternative names."""
+    """Return completions of a law name: contact, friction and film laws with this beginning, alternative names
+    included.
+    """
     from gudgeon.generator.kinds.laws.law import RESULTS, called
 
     return sorted(name for role in RESULTS for name in called(role) if name.startswith(incomplete))

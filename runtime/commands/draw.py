@@ -45,14 +45,14 @@ SUFFIXES = (".svg", ".png", ".pdf", ".dxf")
 
 @dataclass(frozen=True)
 class Drawn:
-    """Sketches in one row, a title for each, and a caption above them."""
+    """Hold the sketches of a picture, in one row, with a title for each and a caption above them."""
 
     sketches: Sequence[Sketch]
     titles: Sequence[str]
     caption: str
 
     def as_bytes(self, suffix: str) -> bytes:
-        """Return the picture as the bytes of a file; suffix: one of SUFFIXES."""
+        """Return the picture as the bytes of a file; suffix: one of SUFFIXES, ".dxf" gives a drawing for CAD."""
         if suffix == ".dxf":
             from gudgeon.drawing.dxf import as_dxf
 
@@ -75,9 +75,10 @@ class Request:
 
 
 def draw_file(request: Request) -> int:
-    """Draw the mechanism, write the picture, and return the exit code.
+    """Run `gudgeon draw`: draw the mechanism, write the picture, and return the exit code.
 
-    Raises the error of `check` for a linkage that does not close, after the picture is written.
+    The picture is of the start, of a time (--at) after a run until then, or of all assemblies (--branches). Raises
+    BadValueError for arguments. Raises the error of `check` for a linkage that does not close, after writing.
     """
     if request.at is not None and request.branches:
         raise BadValueError("--branches with --at: assemblies are those of the start", hint="leave one of them out")
@@ -97,7 +98,7 @@ def draw_file(request: Request) -> int:
         raise BadValueError(f"--at is {at:g} s: the motion starts at 0 s", hint="take a time of the motion")
     with _report_undrawable(target):
         if at > 0.0:
-            drawn, failure = _draw_moved(request, at, values), None
+            drawn, failure = _draw_at_time(request, at, values), None
         else:
             with status_line(), report_work(f"deriving {file.stem}, scene {request.scene}"):
                 drawn, failure = _draw_start(request, file, values)
@@ -111,7 +112,10 @@ def draw_file(request: Request) -> int:
 
 @contextmanager
 def _report_undrawable(target: Path) -> Iterator[None]:
-    """Raise GudgeonError if values are too large to be drawn, and suppress NumPy's warnings about them."""
+    """Raise GudgeonError for a ValueError or ArithmeticError in the with block: values are too large to be drawn.
+
+    NumPy's warnings about them are suppressed.
+    """
     try:
         with np.errstate(all="ignore"):
             yield
@@ -122,8 +126,11 @@ def _report_undrawable(target: Path) -> Iterator[None]:
         raise GudgeonError(f"{message}\n  look for a length or a start that is far too large") from error
 
 
-def _draw_moved(request: Request, at: float, values: Mapping[str, float | str]) -> Drawn:
-    """Return the picture at the time `at` in s, after a run until then."""
+def _draw_at_time(request: Request, at: float, values: Mapping[str, float | str]) -> Drawn:
+    """Run the scene to the time `at` (s) and return the picture there.
+
+    Raises SolverError if the run fails before, BadValueError for an impossible time, KeyboardInterrupt after Ctrl-C.
+    """
     from gudgeon.results.figures.mechanism_plots import sketch_at
     from gudgeon.simulation.from_file import load
 
@@ -144,16 +151,19 @@ def _draw_moved(request: Request, at: float, values: Mapping[str, float | str]) 
     if run.diagnostics.interrupted:
         raise KeyboardInterrupt
     source, t = run.source, float(run.t[-1])
-    return Drawn([sketch_at(run, t)], [""], _caption(source.title or source.mechanism, request.scene, t))
+    return Drawn([sketch_at(run, t)], [""], _format_caption(source.title or source.mechanism, request.scene, t))
 
 
-def _caption(title: str, scene: str, t: float) -> str:
+def _format_caption(title: str, scene: str, t: float) -> str:
     """Return the text above a picture: title, scene, time t in s."""
     return f"{title}: {scene}, t = {quantity(t, 's', 6)}"
 
 
 def _draw_start(request: Request, file: Path, values: Mapping[str, float | str]) -> tuple[Drawn, GudgeonError | None]:
-    """Return the picture at the start, or as near to it as the linkage closes, and the error if there is one."""
+    """Return the picture at the start, and the error of a linkage that does not close or has no velocities, else None.
+
+    An open linkage is drawn at the position nearest to closing. With --branches, all assemblies are drawn.
+    """
     from gudgeon.assembly.closure import Closure
     from gudgeon.generator.pipeline import closed_linkage
     from gudgeon.generator.reader.read import read_mechanism
@@ -165,9 +175,9 @@ def _draw_start(request: Request, file: Path, values: Mapping[str, float | str])
     closure = Closure(linkage, linkage.p, 0.0)
     with np.errstate(all="ignore"):
         q, closed = closure.nearest()
-    caption = _caption(mechanism.title or mechanism.name, request.scene, 0.0)
+    caption = _format_caption(mechanism.title or mechanism.name, request.scene, 0.0)
     if not closed:
-        return _draw_open(mechanism, closure, q, caption)
+        return _draw_unclosed(mechanism, closure, q, caption)
     v, failure = _find_velocities(closure, q)
     if request.branches:
         sketches, titles = _draw_assemblies(mechanism, closure, q)
@@ -176,7 +186,7 @@ def _draw_start(request: Request, file: Path, values: Mapping[str, float | str])
 
 
 def _find_velocities(closure: Closure, q: Array) -> tuple[Array | None, AssemblyError | None]:
-    """Return the velocities at the position q, or None and the error if there are none."""
+    """Return the velocities at the position q and None, or None and the AssemblyError if there are none."""
     from gudgeon.assembly.start import velocities
 
     try:
@@ -186,7 +196,7 @@ def _find_velocities(closure: Closure, q: Array) -> tuple[Array | None, Assembly
 
 
 def _make_posture(linkage: NumPyLinkage, q: Array, v: Array | None) -> Posture:
-    """Return the positions, velocities and loads of a linkage for drawing; v: None where there are no velocities."""
+    """Return position q, velocities v and loads of a linkage as a Posture for drawing; v may be None."""
     from gudgeon.drawing.posture import Posture
     from gudgeon.results.figures.postures import loads_at
 
@@ -218,8 +228,11 @@ def _make_sketches(mechanism: Mechanism, closure: Closure, postures: Sequence[Po
     return sketches
 
 
-def _draw_open(mechanism: Mechanism, closure: Closure, q: Array, caption: str) -> tuple[Drawn, GudgeonError]:
-    """Return the picture of a linkage that does not close, with its gaps marked, and its error."""
+def _draw_unclosed(mechanism: Mechanism, closure: Closure, q: Array, caption: str) -> tuple[Drawn, GudgeonError]:
+    """Return the picture of a linkage that does not close, with its gaps marked, and its error.
+
+    The error is raised if q or the gaps are not finite.
+    """
     from gudgeon.assembly.failures import closure_error
     from gudgeon.drawing.failures import gaps
     from gudgeon.drawing.sketch import make_sketch
@@ -234,7 +247,7 @@ def _draw_open(mechanism: Mechanism, closure: Closure, q: Array, caption: str) -
 
 
 def _draw_assemblies(mechanism: Mechanism, closure: Closure, q: Array) -> tuple[list[Sketch], list[str]]:
-    """Return a sketch of each assembly and the guess that selects it, the start first."""
+    """Return a sketch of each assembly, and as its title the guess that selects it; the start is the first."""
     from gudgeon.assembly.branches import find_assemblies
     from gudgeon.assembly.mobility import find_mobility
     from gudgeon.commands.assembly_report import guess_text

@@ -24,15 +24,16 @@ _LINE = re.compile(r"([0-9a-f]{64})  ([A-Za-z0-9_][A-Za-z0-9_.]*)")  # a plain n
 
 
 def emit_c(mechanism: str, folder: Path, scene_names: tuple[str, ...]) -> int:
-    """Write `folder/<scene>/*` and `folder/engine/*`, and return the exit code.
+    """Run `gudgeon emit`: write `folder/<scene>/*` and `folder/engine/*`, and return the exit code.
 
-    A name that ends in .fmu is that of an FMU of one scene. Nothing is written if a folder contains other files.
+    A name that ends in .fmu is that of an FMU of one scene. Raises InputError, before anything is written, if a folder
+    contains other files.
     """
     if folder.suffix.lower() == ".fmu":
         return _emit_fmu(mechanism, folder, scene_names)
     check_folder("--out", folder)
-    scenes, rooms = select_scenes(mechanism, scene_names), _engine_folders()
-    _refuse_one_folder(scenes)
+    scenes, rooms = select_scenes(mechanism, scene_names), _group_engine_files()
+    _check_distinct_folders(scenes)
     for scene in scenes:
         refuse_foreign_files(folder / scene)
     for room in rooms:
@@ -57,7 +58,10 @@ def emit_c(mechanism: str, folder: Path, scene_names: tuple[str, ...]) -> int:
 
 
 def _emit_fmu(mechanism: str, target: Path, scene_names: tuple[str, ...]) -> int:
-    """Write an FMU of one scene, and return the exit code."""
+    """Write an FMU of one scene, "ideal" unless named, report what it contains, and return the exit code.
+
+    Raises InputError for several scenes.
+    """
     scenes = select_scenes(mechanism, scene_names or ("ideal",))
     if len(scenes) != 1:
         raise InputError(f"an FMU is of one scene, not of {len(scenes)}", hint="name one with --scene")
@@ -79,7 +83,7 @@ def _emit_fmu(mechanism: str, target: Path, scene_names: tuple[str, ...]) -> int
     return 0
 
 
-def _refuse_one_folder(scenes: tuple[str, ...]) -> None:
+def _check_distinct_folders(scenes: tuple[str, ...]) -> None:
     """Raise InputError if two scenes, or a scene and the engine, would share a folder.
 
     Names are compared without case, because some file systems ignore it.
@@ -93,7 +97,7 @@ def _refuse_one_folder(scenes: tuple[str, ...]) -> None:
             raise InputError(f"scene {scene!r} cannot be emitted: {message}", hint=hint)
 
 
-def _engine_folders() -> dict[str, dict[str, str]]:
+def _group_engine_files() -> dict[str, dict[str, str]]:
     """Return the engine's texts and README files by folder ("engine/run") and file name, outer folders first."""
     rooms: dict[str, dict[str, str]] = {}
     for path, text in sorted((*engine_files().items(), engine_readme())):
@@ -103,10 +107,10 @@ def _engine_folders() -> dict[str, dict[str, str]]:
 
 
 def _write_folder(folder: Path, texts: dict[str, bytes]) -> None:
-    """Write all texts and their list of checksums into a folder, or none.
+    """Write all texts and their list of checksums into a folder, or none of them.
 
-    Files that an earlier version wrote and this one does not are removed. A list of old and new files is written first,
-    so that every file is listed even if the process is killed.
+    Unchanged files that an earlier version wrote and this one does not are removed. A list of old and new files is
+    written first, so that every file is listed even if the process is killed.
     """
     old, new = _read_list(folder), {name: {sha256(text).hexdigest()} for name, text in texts.items()}
     both = {name: old.get(name, set()) | new.get(name, set()) for name in (*new, *(old.keys() - new.keys()))}
@@ -130,7 +134,9 @@ def _format_list(sums: Mapping[str, set[str]]) -> bytes:
 
 
 def _read_list(folder: Path) -> dict[str, set[str]]:
-    """Return the checksums of files that an earlier `emit` wrote, by name; empty if there is no valid list."""
+    """Return the checksums of files that an earlier `emit` wrote into the folder, by file name; {} without a valid
+    list.
+    """
     found: dict[str, set[str]] = {}
     for line in (read_regular(folder / LIST) or b"").decode(errors="replace").splitlines():
         parts = _LINE.fullmatch(line)
@@ -141,9 +147,9 @@ def _read_list(folder: Path) -> dict[str, set[str]]:
 
 
 def refuse_foreign_files(folder: Path, inner: Collection[str] = ()) -> None:
-    """Raise InputError if the folder contains anything but unchanged files of an earlier `emit`.
+    """Raise InputError if the folder contains anything but unchanged files of an earlier `emit`; it may be absent.
 
-    inner: names of subfolders that are checked separately.
+    A link is refused too. inner: names of subfolders that are checked separately.
     """
     shown = shortened(folder)
     try:
@@ -157,7 +163,7 @@ def refuse_foreign_files(folder: Path, inner: Collection[str] = ()) -> None:
         if not listed and read_regular(folder / LIST):
             message = f"{folder / LIST} is no list as `emit` writes it: it does not tell which files there are its own"
             raise InputError(message, hint="put the list back as it was, remove the folder, or name another one")
-        kept = (path.name for path in folder.iterdir() if _is_own(path, listed) or _is_folder(path, inner))
+        kept = (path.name for path in folder.iterdir() if _is_unchanged_output(path, listed) or _is_folder(path, inner))
         foreign = sorted({path.name for path in folder.iterdir()} - set(kept))
     except OSError as error:
         raise InputError(f"{shown} cannot be read: {error.strerror or error}", hint="name another folder") from error
@@ -175,7 +181,7 @@ def _is_folder(path: Path, names: Collection[str]) -> bool:
     return path.name in names and path.is_dir() and not path.is_symlink()
 
 
-def _is_own(path: Path, listed: Mapping[str, set[str]]) -> bool:
+def _is_unchanged_output(path: Path, listed: Mapping[str, set[str]]) -> bool:
     """Return whether a file is unchanged since `emit` wrote it, is the list, or is a temporary file of a killed
     `emit`."""
     if path.is_symlink() or not path.is_file():

@@ -25,9 +25,11 @@ SUFFIXES = (".tex", ".txt", ".html", ".ipynb")
 
 
 def write_equations(mechanism: str, target: Path, scenes: tuple[str, ...]) -> int:
-    """Write the equations of one scene to a .tex, .txt, .html or .ipynb file, and return the exit code.
+    """Run `gudgeon equations`: write the equations of a scene to a .tex, .txt, .html or .ipynb file; return the exit
+    code.
 
-    target: a folder receives a page of each scene; "-" prints the text.
+    target: a folder receives a page of each scene; "-" prints the text. Raises BadValueError for several scenes in a
+    file.
     """
     if os.path.isdir(target) or not (target.suffix or target == TERMINAL):
         return _write_pages(mechanism, target, scenes)
@@ -46,12 +48,15 @@ def write_equations(mechanism: str, target: Path, scenes: tuple[str, ...]) -> in
     write_text(target, text)
     wrote("equations", target)
     if target.suffix.lower() == ".ipynb":
-        _run_once(mechanism, scene, target)
+        _check_notebook_run(mechanism, scene, target)
     return 0
 
 
-def _run_once(mechanism: str, scene: str, notebook: Path) -> None:
-    """Run what the last cells of a notebook run, so that a failure is reported now. Raises GudgeonError."""
+def _check_notebook_run(mechanism: str, scene: str, notebook: Path) -> None:
+    """Load and run the scene as the last cells of the notebook do, so that a failure is reported now.
+
+    Raises GudgeonError with the exit code of the failure, KeyboardInterrupt after Ctrl-C.
+    """
     from gudgeon.simulation.from_file import load
 
     try:
@@ -69,7 +74,7 @@ def _run_once(mechanism: str, scene: str, notebook: Path) -> None:
 
 
 def _write_pages(mechanism: str, folder: Path, scenes: tuple[str, ...]) -> int:
-    """Write a page of each scene into a folder; every page has links to the others."""
+    """Write an HTML page of each scene into a folder, created if absent; pages have links to each other. Return 0."""
     from gudgeon.simulation.from_file import load
     from gudgeon.web.page import write
 
@@ -88,7 +93,7 @@ def _write_pages(mechanism: str, folder: Path, scenes: tuple[str, ...]) -> int:
 
 
 def _derive_model(mechanism: str, scene: str) -> Model:
-    """Derive the equations of a scene."""
+    """Derive the equations of a scene of a mechanism file in SymPy and return the model."""
     from gudgeon.generator.pipeline import derive
 
     file = find_mechanism(mechanism)
@@ -96,7 +101,9 @@ def _derive_model(mechanism: str, scene: str) -> Model:
 
 
 def _format_equations(mechanism: str, scene: str, target: Path) -> str:
-    """Return the equations in the format of the target's suffix; text if there is none."""
+    """Return the equations of a scene as the text of a file in the format of the target's suffix; plain text for
+    others.
+    """
     suffix = target.suffix.lower()
     if suffix == ".html":
         from gudgeon.simulation.from_file import load
@@ -109,11 +116,11 @@ def _format_equations(mechanism: str, scene: str, target: Path) -> str:
     if suffix == ".ipynb":
         from gudgeon.teaching.notebook import notebook
 
-        return notebook(model, _mechanism_from_notebook(mechanism, target))
+        return notebook(model, _find_mechanism_from_notebook(mechanism, target))
     return equations_tex(model) if suffix == ".tex" else equations_text(model)
 
 
-def _mechanism_from_notebook(mechanism: str, target: Path) -> str:
+def _find_mechanism_from_notebook(mechanism: str, target: Path) -> str:
     """Return the path or name by which `load` finds the mechanism from the notebook's folder."""
     file = find_mechanism(mechanism)
     if file.is_absolute():  # a shipped one has its name

@@ -22,7 +22,10 @@ SUFFIXES = (".html", ".tex", ".txt", ".md")
 
 
 def write_exercise(mechanism: str, target: Path, scene: str, seed: int, at: str | None) -> int:
-    """Write an exercise sheet (.html, .tex, .txt or .md) and NAME-solutions next to it, and return the exit code."""
+    """Run `gudgeon exercise`: write an exercise sheet, and NAME-solutions next to it; return the exit code.
+
+    The suffix is .html, .tex, .txt or .md. Both files are written or neither. `at`: text of the time, or None.
+    """
     require_suffix(target, SUFFIXES)
     solutions = target.with_name(f"{target.stem}-solutions{target.suffix}")
     for file in (target, solutions):
@@ -41,7 +44,11 @@ def write_exercise(mechanism: str, target: Path, scene: str, seed: int, at: str 
 
 
 def make(mechanism: str, scene: str, seed: int, at: str | None) -> tuple[Document, Document, Drawn]:
-    """Return the sheet, its solutions, and the drawn parameter values with their run. Raises GudgeonError."""
+    """Return the exercise sheet, its solutions, and the drawn parameter values with their run.
+
+    `at`: text of the time, or None for a drawn one. Raises GudgeonError if the run fails with the file's own values
+    too.
+    """
     from gudgeon.simulation.from_file import load
     from gudgeon.teaching.draw_numbers import draw_numbers
 
@@ -73,12 +80,14 @@ def _format_document(document: Document, suffix: str, drawn: Drawn) -> str:
 
     if suffix == ".md":
         return markdown(document)
-    slots = {".html": _page_slots, ".tex": _tex_slots}.get(suffix, lambda _: {})(drawn)
+    slots = {".html": _fill_page_slots, ".tex": _fill_tex_slots}.get(suffix, lambda _: {})(drawn)
     return render(document, suffix.removeprefix("."), **slots)
 
 
-def _page_slots(drawn: Drawn) -> dict[str, str]:
-    """Return the texts that the template of a page needs: the sketch as SVG."""
+def _fill_page_slots(drawn: Drawn) -> dict[str, str]:
+    """Return the texts for the slots of the HTML template by name; "app" has the sketch as SVG if matplotlib is
+    installed.
+    """
     found = {"head": "", "app": "", "scripts": ""}
     if (sketch := _make_sketch(drawn)) is not None:
         from gudgeon.drawing.picture import as_bytes, figure_of
@@ -88,8 +97,10 @@ def _page_slots(drawn: Drawn) -> dict[str, str]:
     return found
 
 
-def _tex_slots(drawn: Drawn) -> dict[str, str]:
-    """Return the texts that the LaTeX template needs: the sketch as TikZ and its caption."""
+def _fill_tex_slots(drawn: Drawn) -> dict[str, str]:
+    """Return the texts for the slots of the LaTeX template: the sketch as TikZ and its caption; {} without
+    matplotlib.
+    """
     if (sketch := _make_sketch(drawn)) is None:
         return {}
     from gudgeon.drawing.tikz import tikz_of

@@ -14,12 +14,12 @@ MAX_TRIED = 40  # bodies up to which it is tried at once whether the linkage ass
 
 
 def import_linkage(file: Path, target: Path | None) -> int:
-    """Write the mechanism file to `target`, or to NAME.yaml in the working directory, and return the exit code.
+    """Run `gudgeon import`: convert a linkage and write it to `target`, or to NAME.yaml here; return the exit code.
 
     Raises InputError if the target exists, the file cannot be read, or the linkage does not assemble.
     """
     text = mechanism_of(file)
-    is_tried = _try_assembly(text, file)
+    is_tried = _check_assembly(text, file)
     name = next(line.partition(": ")[2] for line in text.splitlines() if line.startswith("name: "))
     target = target or Path(f"{name}.yaml")
     if target.is_symlink() or target.exists():
@@ -34,9 +34,11 @@ def import_linkage(file: Path, target: Path | None) -> int:
     return 0
 
 
-def _try_assembly(text: str, file: Path) -> bool:
-    """Return True if all scenes assemble, False if the linkage is too large to try. Raises InputError if they do
-    not."""
+def _check_assembly(text: str, file: Path) -> bool:
+    """Return True if all scenes of the mechanism text assemble, False if the linkage is too large to try.
+
+    Raises InputError if they do not; `file` is for its message.
+    """
     from gudgeon.commands.assembly_report import assemble_scenes
     from gudgeon.generator.reader.read import read_mechanism
 

@@ -48,10 +48,8 @@ Function = Callable[..., Mapping[str, Any]]
 
 
 @dataclass(frozen=True)
-class Chosen:
-    """A law with all its parameter values and options; `message` is the text of those that are not the law's
-    defaults.
-    """
+class _SelectedLaw:
+    """Hold a law with all its values and options; `message` lists those that are not the law's defaults."""
 
     law: Law
     name: str
@@ -61,7 +59,10 @@ class Chosen:
 
 
 def plot_law(law: Law, name: str, target: Path, settings: Mapping[str, float | str]) -> None:
-    """Write the picture of a law. Raises BadValueError, MissingKeyError, UnknownNameError for wrong settings."""
+    """Draw a law with the values of --set, and write the picture in the format of the target's suffix.
+
+    Raises BadValueError, MissingKeyError, UnknownNameError for wrong settings.
+    """
     from gudgeon.drawing.picture import as_bytes
 
     write_bytes(target, as_bytes(figure_of(law, name, settings), target.suffix.lower()))
@@ -69,8 +70,10 @@ def plot_law(law: Law, name: str, target: Path, settings: Mapping[str, float | s
 
 
 def figure_of(law: Law, name: str, settings: Mapping[str, float | str]) -> Figure:
-    """Return a figure of the law under one of its names, with its parameter values in the title. Raises as
-    `plot_law`."""
+    """Return a figure of the law under one of its names, with its parameter values in the title.
+
+    Raises BadValueError for a rigid law, which has no curve, and otherwise as `plot_law`.
+    """
     from gudgeon.results.figures import plots  # says where matplotlib is missing
 
     if law.rigid:
@@ -95,8 +98,8 @@ def figure_of(law: Law, name: str, settings: Mapping[str, float | str]) -> Figur
     return figure
 
 
-def _choose_values(law: Law, name: str, settings: Mapping[str, float | str]) -> Chosen:
-    """Return the law with defaults, usual values and the settings of the user. Raises as `plot_law`."""
+def _choose_values(law: Law, name: str, settings: Mapping[str, float | str]) -> _SelectedLaw:
+    """Return the law with the settings of the user, and defaults or usual values for the rest. Raises as `plot_law`."""
     from gudgeon.generator.field import with_dimensions
 
     fields = {own.name: own for own in with_dimensions(law.fields_as(name), settings)}
@@ -119,9 +122,9 @@ def _choose_values(law: Law, name: str, settings: Mapping[str, float | str]) -> 
         elif (value := _find_value(own, settings)) is not None:
             numbers[own.name] = value
             if value != own.default or own.name in settings:
-                message.append(f"{own.name} = {quantity(value, _unit(own))}")
+                message.append(f"{own.name} = {quantity(value, _get_unit(own))}")
     law.check(numbers)
-    return Chosen(law, name, numbers, options, ", ".join(message))
+    return _SelectedLaw(law, name, numbers, options, ", ".join(message))
 
 
 def chosen_numbers(law: Law) -> dict[str, float | str]:
@@ -129,8 +132,11 @@ def chosen_numbers(law: Law) -> dict[str, float | str]:
     return {**_choose_values(law, law.name, {}).numbers, **dict.fromkeys((own.name for own in law.expressions), FORCE)}
 
 
-def _read_expression(own: Field, text: str) -> Any:
-    """Return an expression of the variable that the key names, as SymPy. Raises the errors of a mechanism file."""
+def _read_expression(field: Field, text: str) -> Any:
+    """Parse an expression of the one variable that the key allows, and return it in SymPy.
+
+    Raises UnknownNameError for other names, UnitError for another dimension, and ExpressionError.
+    """
     import sympy as sp
 
     from gudgeon.errors import Location
@@ -139,58 +145,58 @@ def _read_expression(own: Field, text: str) -> Any:
     from gudgeon.language.tree import names
     from gudgeon.language.units import LENGTH
 
-    where = Location(f"value of {own.name}", 1, 1)
+    where = Location(f"value of {field.name}", 1, 1)
     tree = parse(text.strip(), where)
     for name in names(tree):
-        if name.path != own.varies:
-            raise unknown_name("name", name.path, (own.varies,), where)
-    check_dimension(tree, own.dimension, lambda _: LENGTH, where)
+        if name.path != field.varies:
+            raise unknown_name("name", name.path, (field.varies,), where)
+    check_dimension(tree, field.dimension, lambda _: LENGTH, where)
     return to_sympy(tree, lambda path: sp.Symbol(path, real=True))
 
 
-def _unit(own: Field) -> str:
+def _get_unit(field: Field) -> str:
     """Return the SI unit of a key as text, "" if it has none."""
     from gudgeon.language.units import si_unit
 
-    unit = "" if own.dimension is None else si_unit(own.dimension)
+    unit = "" if field.dimension is None else si_unit(field.dimension)
     return "" if unit == "-" else unit
 
 
-def _find_value(own: Field, settings: Mapping[str, float | str]) -> float | None:
-    """Return the value of a key: the setting, the law's default, or the usual value; None for an optional key.
+def _find_value(field: Field, settings: Mapping[str, float | str]) -> float | None:
+    """Return the value of a key: the setting, the law's default, or the usual value; None for an omitted optional key.
 
-    Raises MissingKeyError.
+    Raises MissingKeyError for a required key without any of them.
     """
     from gudgeon.language.quantities import number_of_text
 
     exponents = None
-    if own.dimension is not None:
-        exponents = float(own.dimension.length), float(own.dimension.mass), float(own.dimension.time)
-    if own.name in settings:
-        given = settings[own.name]
-        return number_of_text(given, own.name, exponents or (0, 0, 0)) if isinstance(given, str) else float(given)
-    if own.name not in SHOWN and (own.default is not None or not own.required):
-        return None if own.default is None else float(own.default)
-    usual = USUAL.get(own.name, BY_DIMENSION.get(exponents) if exponents else None)
+    if field.dimension is not None:
+        exponents = float(field.dimension.length), float(field.dimension.mass), float(field.dimension.time)
+    if field.name in settings:
+        given = settings[field.name]
+        return number_of_text(given, field.name, exponents or (0, 0, 0)) if isinstance(given, str) else float(given)
+    if field.name not in SHOWN and (field.default is not None or not field.required):
+        return None if field.default is None else float(field.default)
+    usual = USUAL.get(field.name, BY_DIMENSION.get(exponents) if exponents else None)
     if usual is None:
-        raise MissingKeyError(f"{own.name} is missing: {own.meaning}\n  for example --set {own.name}=1")
+        raise MissingKeyError(f"{field.name} is missing: {field.meaning}\n  for example --set {field.name}=1")
     return usual
 
 
-def _read_option(own: Field, given: float | str) -> str | bool:
+def _read_option(field: Field, given: float | str) -> str | bool:
     """Return the option value that `given` names. Raises UnknownNameError."""
     words: dict[str, str | bool] = {
-        str(value).lower() if isinstance(value, bool) else value: value for value in own.values
+        str(value).lower() if isinstance(value, bool) else value: value for value in field.values
     }
     if str(given) not in words:
-        raise unknown_name(f"choice of {own.name}", str(given), tuple(words), None)
+        raise unknown_name(f"choice of {field.name}", str(given), tuple(words), None)
     return words[str(given)]
 
 
 def _draw_curves(
-    ax: Axes, x: Any, lines: Iterator[tuple[Any, str]], across: tuple[str, str], up: tuple[str, str]
+    ax: Axes, x: Any, lines: Iterator[tuple[Any, str]], x_axis: tuple[str, str], y_axis: tuple[str, str]
 ) -> None:
-    """Draw curves with scaled units; values that are not finite are gaps.
+    """Draw the curves (values, label) over x with scaled units; values that are not finite are gaps.
 
     across, up: symbol and unit of the axes. Raises BadValueError if a curve has no finite value.
     """
@@ -198,15 +204,15 @@ def _draw_curves(
     for y, message in found:
         if np.isnan(y).all():
             raise BadValueError(f"nothing to draw: with these numbers {message} is no finite number anywhere")
-    wide, x_unit = scale(float(np.abs(x).max()), across[1])
-    high, y_unit = scale(float(np.nanmax([np.nanmax(np.abs(y)) for y, _ in found])), up[1])
+    wide, x_unit = scale(float(np.abs(x).max()), x_axis[1])
+    high, y_unit = scale(float(np.nanmax([np.nanmax(np.abs(y)) for y, _ in found])), y_axis[1])
     for y, message in found:
         ax.plot(wide * x, high * y, label=message)
-    ax.set(xlabel=label(across[0], x_unit), ylabel=label(up[0], y_unit))
+    ax.set(xlabel=label(x_axis[0], x_unit), ylabel=label(y_axis[0], y_unit))
 
 
-def _draw_normal(ax: Axes, law: Function, selected: Chosen) -> None:
-    """Draw the normal force over penetration during approach, rest and separation."""
+def _draw_normal(ax: Axes, law: Function, selected: _SelectedLaw) -> None:
+    """Draw the normal force over penetration during approach, rest and separation; one curve if they agree."""
     from gudgeon.generator.kinds.laws.built import reads_besides
 
     delta = np.linspace(0.0, MAX_PENETRATION * STEEL["c"], POINTS)
@@ -223,9 +229,12 @@ def _draw_normal(ax: Axes, law: Function, selected: Chosen) -> None:
     ax.set_title(PAIR + f", δ̇⁻ = {SPEED:g} m/s" * by_speed)
 
 
-def _draw_friction(ax: Axes, law: Function, selected: Chosen) -> None:
-    """Draw F_t/F_n over the slip velocity; for laws with inner states over two oscillations of the slip."""
-    speeds = [selected.numbers[own.name] for own in selected.law.parameters if _unit(own) == "m/s"]
+def _draw_friction(ax: Axes, law: Function, selected: _SelectedLaw) -> None:
+    """Draw F_t/F_n over the slip velocity; for laws with inner states over two oscillations of the slip.
+
+    The largest velocity is three times the law's largest parameter with the unit m/s.
+    """
+    speeds = [selected.numbers[own.name] for own in selected.law.parameters if _get_unit(own) == "m/s"]
     fastest = 3.0 * max(speeds, default=SPEED / 3.0)
     if not selected.law.states:
         v_t = np.linspace(-fastest, fastest, 2 * POINTS)
@@ -239,8 +248,8 @@ def _draw_friction(ax: Axes, law: Function, selected: Chosen) -> None:
     ax.set_title("slip as a cosine, third time, F_n = 1 N: what is bent follows")
 
 
-def _oscillate_slip(law: Function, of: Law, fastest: float, amplitude: float) -> tuple[Any, Any]:
-    """Return v_t and F_t for a slip that oscillates like a cosine, in its third period.
+def _oscillate_slip(law: Function, law_description: Law, fastest: float, amplitude: float) -> tuple[Any, Any]:
+    """Return v_t (m/s) and F_t (N) of a friction law for a slip that oscillates like a cosine, in its third period.
 
     fastest: largest slip velocity in m/s. amplitude: in m. The inner states start at 0. Raises BadValueError if they
     diverge.
@@ -252,23 +261,26 @@ def _oscillate_slip(law: Function, of: Law, fastest: float, amplitude: float) ->
     def rates(t: float, z: Any) -> list[float]:
         """Return the rates of the inner states z at the time t."""
         found = law(1.0, fastest * np.cos(omega * t), *z)
-        return [float(found[f"{state.name}_rate"]) for state in of.states]
+        return [float(found[f"{state.name}_rate"]) for state in law_description.states]
 
     times = np.linspace(4.0 * np.pi, 6.0 * np.pi, 2 * POINTS) / omega
-    none = [0.0] * len(of.states)
+    none = [0.0] * len(law_description.states)
     try:
         found = solve_ivp(rates, (0.0, times[-1]), none, "Radau", t_eval=times, rtol=1e-6, atol=1e-12)
     except ValueError:  # rates, or their slopes, overflow
         found = None
     if found is None or found.y.shape[1] < len(times):
-        names = ", ".join(state.name for state in of.states)
+        names = ", ".join(state.name for state in law_description.states)
         raise BadValueError(f"nothing to draw: with these numbers {names} cannot be followed; its rate overflows")
     v_t = fastest * np.cos(omega * times)
     return v_t, law(1.0, v_t, *found.y)["F_t"]
 
 
-def _draw_film(ax: Axes, law: Function, selected: Chosen) -> None:
-    """Draw the film force of a journal that turns, closes the gap, or opens it (w = 1 1/s)."""
+def _draw_film(ax: Axes, law: Function, selected: _SelectedLaw) -> None:
+    """Draw the film force over ε of a journal that turns, closes the gap, or opens it (ω_s, ε̇ = 1 1/s).
+
+    Raises BadValueError if all forces are 0.
+    """
     epsilon = np.linspace(0.01, 0.95, POINTS)
     turning, closing, opening = (law(epsilon, *w) for w in ((0.0, -0.5 * epsilon), (1.0, 0.0), (-1.0, 0.0)))
     lines = [
@@ -284,8 +296,8 @@ def _draw_film(ax: Axes, law: Function, selected: Chosen) -> None:
     ax.set_title(f"{PAIR}; ω_s = 1 rad/s, or ε̇ = ±1 1/s")
 
 
-def _draw_mixed(ax: Axes, law: Function, selected: Chosen) -> None:
-    """Draw the fraction of the dry contact over the penetration of the asperities."""
+def _draw_mixed(ax: Axes, law: Function, selected: _SelectedLaw) -> None:
+    """Draw the fraction of the dry contact over the penetration of the asperities, up to seven times the roughness."""
     max_penetration = 7.0 * sum(x for name, x in selected.numbers.items() if name.startswith("roughness"))
     delta = np.linspace(0.0, max_penetration, POINTS)
     shares = iter([(law(delta)["share"], "of the dry contact; the film has the rest")])

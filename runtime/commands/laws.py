@@ -31,7 +31,7 @@ class Asked:
 
 
 def show_laws(request: Asked) -> int:
-    """Print a table of all laws, or one law in full, or write its plot; return the exit code.
+    """Run `gudgeon laws`: print a table of all laws, or one law in full, or write its plot; return the exit code.
 
     Raises UnknownNameError, BadValueError for options that do not fit together, LawError for a user-defined law.
     """
@@ -40,7 +40,7 @@ def show_laws(request: Asked) -> int:
         raise BadValueError("--plot draws one law, --set its numbers: gudgeon laws flores --plot flores.svg")
     if name is None:
         if request.as_json:
-            print_json(_list_data())
+            print_json(_build_list_document())
         else:
             _print_table()
         return 0
@@ -53,7 +53,7 @@ def show_laws(request: Asked) -> int:
         plot_law(law, name, request.plot, settings(request.settings))
         return 0
     if request.as_json:
-        print_json(_law_data(law, name))
+        print_json(_build_law_document(law, name))
         return 0
     from gudgeon.generator.targets.latex.law import law_text
 
@@ -62,7 +62,7 @@ def show_laws(request: Asked) -> int:
 
 
 def _find_law(name: str) -> Law:
-    """Return the law with this name or alternative name. Raises UnknownNameError."""
+    """Return the law with this name or alternative name. Raise UnknownNameError with the nearest."""
     from gudgeon.generator.kinds.laws.law import RESULTS, called
 
     known = {called_so: law for role in RESULTS for called_so, law in called(role).items()}
@@ -71,8 +71,11 @@ def _find_law(name: str) -> Law:
     return known[name]
 
 
-def _by_role() -> Iterator[tuple[str, list[Law]]]:
-    """Yield each role with its laws. SymPy is not needed: the file of a law does not import it at its top."""
+def _yield_laws_by_role() -> Iterator[tuple[str, list[Law]]]:
+    """Yield each role (contact, friction, film and so on) with the list of its laws.
+
+    SymPy is not needed: the file of a law does not import it at its top.
+    """
     from gudgeon.generator.kinds.laws.law import RESULTS, laws
 
     for role in RESULTS:
@@ -88,7 +91,7 @@ def _print_table() -> None:
     table = Table(box=SIMPLE_HEAD)
     for head in ("role", "law", "title"):
         table.add_column(head, no_wrap=head != "title")
-    for role, some in _by_role():
+    for role, some in _yield_laws_by_role():
         for k, law in enumerate(some):
             also = f"also as {', '.join(law.also)}" if law.also else ""
             message = "\n".join(filter(None, (one_line(law.title), also)))
@@ -97,15 +100,18 @@ def _print_table() -> None:
     print("gudgeon laws NAME has the equations of one, its keys, validity and reference.")
 
 
-def _list_data() -> dict[str, Any]:
+def _build_list_document() -> dict[str, Any]:
     """Return all laws by role for `--json`."""
     return {
-        role: [{"law": law.name, "also": [*law.also], "title": law.title} for law in some] for role, some in _by_role()
+        role: [{"law": law.name, "also": [*law.also], "title": law.title} for law in some]
+        for role, some in _yield_laws_by_role()
     }
 
 
-def _law_data(law: Law, name: str) -> dict[str, Any]:
-    """Return equations, keys, states, validity and reference of one law for `--json`."""
+def _build_law_document(law: Law, name: str) -> dict[str, Any]:
+    """Return equations, keys, states, validity and reference of one law for `--json`, under the name by which it is
+    called.
+    """
     from gudgeon.generator.targets.latex.law import forms, in_a_line
 
     first, *others = (
@@ -121,24 +127,26 @@ def _law_data(law: Law, name: str) -> dict[str, Any]:
         "chosen": dict(law.also.get(name, {})),
         "equations": first["equations"],
         "choices": [form for form in others if form["equations"]],
-        "keys": [_key_data(own) for own in law.fields_as(name)],
+        "keys": [_build_key_document(own) for own in law.fields_as(name)],
         "states": {state.name: state.meaning for state in law.states},
         "validity": law.validity,
         "reference": law.reference or law.source,
     }
 
 
-def _key_data(own: Field) -> dict[str, Any]:
-    """Return a key of a law as a dictionary: a quantity with its SI unit, or an option with its values."""
+def _build_key_document(field: Field) -> dict[str, Any]:
+    """Return a key of a law as a dictionary for `--json`: a quantity with SI unit and bounds, or an option with its
+    values.
+    """
     message: dict[str, Any] = {
-        "key": own.name,
-        "kind": own.kind,
-        "meaning": own.meaning,
-        "required": own.required,
-        "default": own.default,
+        "key": field.name,
+        "kind": field.kind,
+        "meaning": field.meaning,
+        "required": field.required,
+        "default": field.default,
     }
-    if own.values:
-        return {**message, "values": [*own.values], "sources": dict(own.sources or {})}
-    unit = None if own.dimension is None else si_unit(own.dimension)
-    bounds = [[bound.relation, bound.limit] for bound in own.bounds]
-    return {**message, "symbol": own.symbol, "unit": unit, "bounds": bounds, "otherwise": own.otherwise}
+    if field.values:
+        return {**message, "values": [*field.values], "sources": dict(field.sources or {})}
+    unit = None if field.dimension is None else si_unit(field.dimension)
+    bounds = [[bound.relation, bound.limit] for bound in field.bounds]
+    return {**message, "symbol": field.symbol, "unit": unit, "bounds": bounds, "otherwise": field.otherwise}

@@ -40,10 +40,14 @@ class Asked:
 
 
 def map_file(request: Request, map_options: Asked) -> int:
-    """Classify the runs of all scenes, print the result, write table and picture, and return the exit code."""
+    """Run `gudgeon map`: classify the runs of all scenes, print the result, write table and picture; return the exit
+    code.
+
+    Scenes without degrees of freedom are left out with a message. Raises BadValueError, UnknownNameError for options.
+    """
     step, t_end = request.seconds("--mark-step", request.mark), request.seconds("--t-end", request.t_end)
     _check_options(map_options, step)
-    setting, loaded = _fixed_setting(map_options), load_scenes(request)
+    setting, loaded = _parse_fixed_setting(map_options), load_scenes(request)
     _check_names(map_options, loaded)
     moving = [simulation for simulation in loaded if simulation.source.degrees_of_freedom != 0]
     if not request.json:
@@ -88,7 +92,10 @@ def _map_box(
     setting: float | None,
     table: Path,
 ) -> int:
-    """Classify runs at random points of a box for each scene, show and write them, and return the exit code."""
+    """Classify runs at random points of a box for each scene, show and write them, and return the exit code.
+
+    setting: step or tolerance of all runs, or None for the usual one; table: path of the CSV file.
+    """
 
     def one(simulation: Simulation, report: Report | None) -> VerdictBox:
         """Return the box of one scene."""
@@ -118,9 +125,9 @@ def _check_options(map_options: Asked, step: float | None) -> None:
     """Raise BadValueError for options that do not fit together; step: the value of `--mark-step` in s."""
     if map_options.method not in OFFERED:
         raise BadValueError(f"--method {map_options.method!r}: expected {', '.join(OFFERED)}")
-    own = [name for name in map(_name, map_options.axes) if name in SETTINGS]
-    _check_once("--axis", map_options.axes)
-    _check_once("--range", map_options.ranges)
+    own = [name for name in map(_get_axis_name, map_options.axes) if name in SETTINGS]
+    _check_varied_once("--axis", map_options.axes)
+    _check_varied_once("--range", map_options.ranges)
     if map_options.box is None and map_options.ranges:
         hint = "add --box COUNT (0: its corners alone), or vary the number along an --axis"
         raise BadValueError(f"--range {map_options.ranges[0]}: an edge of a box, and there is no --box", hint=hint)
@@ -132,8 +139,8 @@ def _check_options(map_options: Asked, step: float | None) -> None:
         for text in map_options.ranges:
             if ".." not in text.partition("=")[2] or ":" in text:
                 raise BadValueError(f"--range {text}: expected NAME=LOW..HIGH")
-            if _name(text) in SETTINGS:
-                raise BadValueError(f"--range {text}: a box has one {_name(text)}", hint="--at gives it")
+            if _get_axis_name(text) in SETTINGS:
+                raise BadValueError(f"--range {text}: a box has one {_get_axis_name(text)}", hint="--at gives it")
     elif map_options.at is not None and (own or len(map_options.axes) < 2):
         what = "step" if map_options.fixed else "rtol"
         raise BadValueError(
@@ -144,11 +151,13 @@ def _check_options(map_options: Asked, step: float | None) -> None:
         raise BadValueError("--mark-step: no row is a step", hint="with --method rk4 the rows of the map are steps")
 
 
-def _check_once(option: str, texts: Sequence[str]) -> None:
-    """Raise BadValueError for a parameter that is varied twice; the section `parameters.` may be omitted."""
+def _check_varied_once(option: str, texts: Sequence[str]) -> None:
+    """Raise BadValueError for a parameter that is varied twice by an option; the section `parameters.` may be
+    omitted.
+    """
     varied: dict[str, str] = {}
     for text in texts:
-        name = _name(text).removeprefix("parameters.")
+        name = _get_axis_name(text).removeprefix("parameters.")
         if name in varied:
             message = f"{option} {text}: this number is varied already, by {option} {varied[name]}"
             raise BadValueError(message, hint=f"give each {option} a number of its own")
@@ -156,22 +165,24 @@ def _check_once(option: str, texts: Sequence[str]) -> None:
 
 
 def _check_names(map_options: Asked, loaded: Sequence[Simulation]) -> None:
-    """Raise UnknownNameError for a name that no scene has, with the nearest names."""
+    """Raise UnknownNameError, with the nearest names, for the name of an axis or range that no scene has."""
     every = [name for simulation in loaded for name in addresses(simulation.source)]
     known = tuple(dict.fromkeys([*SETTINGS, "clearance", *GROUPS, *every]))
     for option, texts in (("--axis", map_options.axes), ("--range", map_options.ranges)):
         for text in texts:
-            if "=" in text and _name(text) not in known:
-                raise unknown(f"{option} {text}: no scene has a number {_name(text)!r}", _name(text), known)
+            if "=" in text and _get_axis_name(text) not in known:
+                raise unknown(
+                    f"{option} {text}: no scene has a number {_get_axis_name(text)!r}", _get_axis_name(text), known
+                )
 
 
-def _name(text: str) -> str:
+def _get_axis_name(text: str) -> str:
     """Return the name before the equals sign of an axis or range."""
     return text.partition("=")[0].strip()
 
 
-def _fixed_setting(map_options: Asked) -> float | None:
-    """Return the step (s) or tolerance of `--at`, or None."""
+def _parse_fixed_setting(map_options: Asked) -> float | None:
+    """Return the step (s) or tolerance of `--at`, or None without it. Raise BadValueError if it is out of range."""
     if map_options.at is None:
         return None
     unit, power = ("s", 1) if map_options.fixed else ("", 0)

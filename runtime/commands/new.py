@@ -23,7 +23,7 @@ def new_mechanism(name: str, like: str | None) -> int:
     name = name.removesuffix(".yaml")
     _check_name(name, "mechanism")
     source = TEMPLATE if like is None else shipped_file(like)
-    target = _new_path(name)
+    target = _find_new_path(name)
     text = NAME.sub(f"name: {name}", source.read_text(encoding="utf-8"), count=1)
     if like is not None:
         text = f"# Begun from {like}, which comes with gudgeon. What follows is told of that one.\n{text}"
@@ -39,14 +39,14 @@ def new_study(name: str, like: str | None) -> int:
         raise BadValueError("--like is of mechanisms", hint="gudgeon new NAME --study begins a study; then edit it")
     name = name.removesuffix(".yaml")
     _check_name(name, "study")
-    target = _new_path(name)
+    target = _find_new_path(name)
     write_text(target, OF_STUDY.read_text(encoding="utf-8"))
     wrote("study", target)
     note(f"next: gudgeon study {target} --runs, gudgeon study {target}, gudgeon study report {name}.study")
     return 0
 
 
-def _new_path(name: str) -> Path:
+def _find_new_path(name: str) -> Path:
     """Return the path of NAME.yaml. Raises InputError if it exists."""
     target = Path(f"{name}.yaml")
     if target.is_symlink() or target.exists():

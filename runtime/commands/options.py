@@ -14,7 +14,10 @@ from gudgeon.language.shown import visible
 
 
 def whole(least: int) -> Callable[[str], int]:
-    """Return a parser for whole numbers of at least `least`; underscores and digits of other scripts are refused."""
+    """Return a parser of option texts for whole numbers of at least `least`.
+
+    Underscores and digits of other scripts are refused with typer.BadParameter.
+    """
 
     def read(text: str) -> int:
         """Return the number. Raises typer.BadParameter."""
@@ -27,28 +30,27 @@ def whole(least: int) -> Callable[[str], int]:
 
 
 def path(text: str) -> Path:
-    """Return the name of a file or folder as a path. Raises typer.BadParameter for empty text."""
+    """Convert the text of an option to a path. Raise typer.BadParameter for an empty text."""
     if not str(text).strip():
         raise typer.BadParameter(f"{visible(str(text))!r}: expected a name")
     return Path(text)
 
 
-def a_file(text: str) -> Path:
-    """Return the name of a file as a path. Raises typer.BadParameter if it ends with a slash and thus names a
-    folder."""
+def parse_file(text: str) -> Path:
+    """Convert the text of an option to the path of a file. Raise typer.BadParameter if it ends with a slash."""
     if str(text).endswith("/"):
         raise typer.BadParameter(f"{visible(str(text))!r}: this is a folder, expected a file")
     return path(text)
 
 
-def a_file_or_folder(text: str) -> Path:
-    """Return the path; a name with a suffix must be a file unless a folder has that name."""
+def parse_file_or_folder(text: str) -> Path:
+    """Convert the text of an option to a path; a name with a suffix must be a file unless a folder has that name."""
     found = path(text)
-    return a_file(text) if found.suffix and not os.path.isdir(found) else found
+    return parse_file(text) if found.suffix and not os.path.isdir(found) else found
 
 
-def _version(is_requested: bool) -> None:
-    """Print the version and exit."""
+def _print_version(is_requested: bool) -> None:
+    """Print the version and exit if `--version` is given; otherwise do nothing."""
     if is_requested:
         import gudgeon
 
@@ -56,7 +58,7 @@ def _version(is_requested: bool) -> None:
         raise typer.Exit
 
 
-Version = Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Print it.")]
+Version = Annotated[bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print it.")]
 File = Annotated[
     str,
     typer.Argument(
@@ -73,7 +75,7 @@ Pages = Annotated[
     typer.Option(
         "--out",
         "-o",
-        parser=a_file_or_folder,
+        parser=parse_file_or_folder,
         metavar="PATH",
         help="x.tex, .txt, .html or .ipynb; a folder: a page of each scene; - prints.",
     ),
@@ -96,7 +98,11 @@ At = Annotated[str | None, typer.Option("--at", metavar="TIME", help="Simulate t
 Picture = Annotated[
     Path | None,
     typer.Option(
-        "--out", "-o", parser=a_file, metavar="PATH", help="x.svg, .png, .pdf or .dxf. [default: out/NAME_SCENE.svg]"
+        "--out",
+        "-o",
+        parser=parse_file,
+        metavar="PATH",
+        help="x.svg, .png, .pdf or .dxf. [default: out/NAME_SCENE.svg]",
     ),
 ]
 Laws = Annotated[
@@ -106,7 +112,7 @@ Laws = Annotated[
 Plot = Annotated[
     Path | None,
     typer.Option(
-        "--plot", parser=a_file, metavar="PATH", help="Draw it: x.svg, .png or .pdf; its numbers by --set mu=.2."
+        "--plot", parser=parse_file, metavar="PATH", help="Draw it: x.svg, .png or .pdf; its numbers by --set mu=.2."
     ),
 ]
 LawName = Annotated[
@@ -120,7 +126,9 @@ Like = Annotated[
     typer.Option("--like", metavar="NAME", help="A mechanism that comes with gudgeon: four_bar, jansen_leg …"),
 ]
 OfStudy = Annotated[bool, typer.Option("--study", help="A study in place of a mechanism: many runs, what is measured.")]
-Sheet = Annotated[Path, typer.Option("--out", "-o", parser=a_file, metavar="PATH", help="x.html, .tex, .txt or .md.")]
+Sheet = Annotated[
+    Path, typer.Option("--out", "-o", parser=parse_file, metavar="PATH", help="x.html, .tex, .txt or .md.")
+]
 Seed = Annotated[int, typer.Option("--seed", parser=whole(0), metavar="COUNT", help="Which numbers are drawn.")]
 Moment = Annotated[
     str | None, typer.Option("--at", metavar="TIME", help="When positions and forces are asked for. [default: drawn]")
@@ -141,7 +149,7 @@ Set = Annotated[
 End = Annotated[str | None, typer.Option("--t-end", help="Length of the measured runs, in s or with a unit.")]
 Csv = Annotated[
     Path | None,
-    typer.Option("--csv", parser=a_file, metavar="PATH", help="Where the table goes, the picture beside it."),
+    typer.Option("--csv", parser=parse_file, metavar="PATH", help="Where the table goes, the picture beside it."),
 ]
 Rest = Annotated[
     str | None, typer.Option("--at", help="Step or tolerance where no axis is one. [default: 1e-8, or the scene's]")
@@ -220,8 +228,8 @@ Watch = Annotated[
     typer.Option("--watch", "-w", metavar="NAME", help="What to compare with the ideal scene: S9.y, L1.head.x."),
 ]
 Foreign = Annotated[
-    Path, typer.Argument(parser=a_file, metavar="FILE", help="JSON of pylinkage, or a text with a link of PMKS+.")
+    Path, typer.Argument(parser=parse_file, metavar="FILE", help="JSON of pylinkage, or a text with a link of PMKS+.")
 ]
 Mechanism = Annotated[
-    Path | None, typer.Option("--out", "-o", parser=a_file, metavar="PATH", help="Where to; else NAME.yaml.")
+    Path | None, typer.Option("--out", "-o", parser=parse_file, metavar="PATH", help="Where to; else NAME.yaml.")
 ]

@@ -22,17 +22,18 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 
 
 def complain(error: GudgeonError) -> None:
-    """Write `error: …` to stderr; in red on a terminal with colours, unless NO_COLOR is set (no-color.org)."""
+    """Print `error: …` to stderr; in red on a terminal with colours, unless NO_COLOR is set (no-color.org)."""
     is_plain = os.environ.get("NO_COLOR") or os.environ.get("TERM", "").lower() in ("dumb", "unknown")
     red, plain = ("\033[31m", "\033[0m") if sys.stderr.isatty() and not is_plain else ("", "")
     print(f"{red}error:{plain} {visible(error)}", file=sys.stderr)
 
 
 def report_errors(command: Command) -> Command:
-    """Return the command with gudgeon's errors printed as one line; other exceptions keep their traceback.
+    """Wrap a command so that gudgeon's errors are printed as one line and give its exit code; a decorator.
 
-    The wrapper takes further keyword arguments. `laws`: files of user-defined laws that are registered first.
-    `files_as_json`: print the written files as JSON. `quiet`: print only warnings and errors.
+    Other exceptions keep their traceback. The wrapper takes further keyword arguments. `laws`: files of user-defined
+    laws that are registered first. `files_as_json`: print the written files as JSON. `quiet`: print only warnings and
+    errors.
     """
 
     @wraps(command)
@@ -58,7 +59,7 @@ def report_errors(command: Command) -> Command:
 
 @contextmanager
 def silent(but_json: bool) -> Iterator[None]:
-    """Suppress results on stdout and progress on stderr while the block runs; but_json: stdout is not suppressed."""
+    """Suppress results on stdout and progress on stderr within the with block; but_json: stdout is not suppressed."""
     from gudgeon.commands import progress
 
     is_terminal, progress.is_terminal = progress.is_terminal, lambda: False
@@ -73,7 +74,7 @@ def silent(but_json: bool) -> Iterator[None]:
 
 
 def _register_laws(laws: Iterable[str]) -> None:
-    """Register user-defined laws; their reader is imported only if there are some."""
+    """Register the user-defined laws in these files; their reader is imported only if there are some."""
     for file in laws:
         from gudgeon.generator.kinds.laws.registered import register
 
@@ -81,7 +82,7 @@ def _register_laws(laws: Iterable[str]) -> None:
 
 
 def print_warnings_once() -> None:
-    """Print each warning once, without a line of source."""
+    """Replace Python's display of warnings: each text is printed once to stderr, without a line of source."""
     seen = set[str]()
 
     def print_once(message: Warning | str, *_: Any, **__: Any) -> None:
@@ -95,8 +96,7 @@ def print_warnings_once() -> None:
 
 @dataclass
 class Document:
-    """Contents of the JSON: paths of files and folders by kind, notes, and texts that were printed instead of
-    written."""
+    """Hold what a command reports as JSON: paths of files by kind, notes, and texts printed instead of written."""
 
     files: dict[str, str] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
@@ -107,7 +107,9 @@ _document: Document | None = None  # of the running command, if JSON is requeste
 
 
 def wrote(kind: str, path: Path, more: str = "") -> None:
-    """Report that a file or folder was written; kind: what it is; more: text after its name."""
+    """Print that a file or folder was written, or add it to the JSON document; kind: its key; more: text after its
+    name.
+    """
     if _document is None:
         print(f"wrote {path_text(path)}{more}")
     else:
@@ -116,7 +118,7 @@ def wrote(kind: str, path: Path, more: str = "") -> None:
 
 
 def note(text: str) -> None:
-    """Report a further fact in one line."""
+    """Print a further fact in one line, or add it to the notes of the JSON document."""
     if _document is None:
         print(text)
     else:
@@ -124,7 +126,9 @@ def note(text: str) -> None:
 
 
 def show(kind: str, text: str) -> None:
-    """Print a text that would have been written to a file if `-` had not been named; in JSON it has its kind as key."""
+    """Print a text that would be written to a file if the target were not "-", or add it to the JSON document as
+    `kind`.
+    """
     if _document is None:
         print(text)
     else:
@@ -133,7 +137,11 @@ def show(kind: str, text: str) -> None:
 
 @contextmanager
 def report_as_json(is_requested: bool) -> Iterator[None]:
-    """Collect what the block reports and print it at its end as JSON, if requested; also after an error."""
+    """Collect the files, notes and texts that the with block reports, and print them at its end as JSON, also after an
+    error.
+
+    Nothing is changed unless `is_requested`; an empty document is not printed.
+    """
     global _document
     if not is_requested:
         yield

@@ -22,7 +22,10 @@ def is_terminal() -> bool:
 
 @contextmanager
 def progress_bar(quiet: bool = False) -> Iterator[Callable[[str], Report | None]]:
-    """Yield a function `bar(name)` that returns a callback for `simulate(progress=…)`, or None without a terminal."""
+    """Yield a function `bar(name)` that returns a callback for `simulate(progress=…)`, within a with block.
+
+    The callback is None without a terminal or if `quiet`. A bar appears with its first report.
+    """
     if quiet or not is_terminal():
         yield lambda name: None
         return
@@ -51,7 +54,9 @@ def progress_bar(quiet: bool = False) -> Iterator[Callable[[str], Report | None]
 
 @contextmanager
 def status_line(quiet: bool = False) -> Iterator[None]:
-    """Show, on a terminal, one line on stderr about derivations and compilations while the block runs."""
+    """Show one line on stderr about each derivation and compilation within the with block; nothing if `quiet` or no
+    terminal.
+    """
     if quiet or not is_terminal():
         yield
         return
@@ -61,7 +66,7 @@ def status_line(quiet: bool = False) -> Iterator[None]:
 
 @contextmanager
 def _show_status(text: str) -> Iterator[None]:
-    """Show a line until the block ends."""
+    """Show a line with this text on stderr until the with block ends, then remove it."""
     from rich.live import Live
     from rich.text import Text
 
@@ -73,7 +78,7 @@ def _show_status(text: str) -> Iterator[None]:
 
 
 def _start_bars() -> Any:
-    """Start the display of progress bars, and return it."""
+    """Start rich's display of progress bars on stderr, and return it."""
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
     from gudgeon.language.shown import plain_console

@@ -86,7 +86,7 @@ class Request:
 
 @dataclass
 class Session:
-    """Results, failures and written files of one command so far; complete enough to be shown at any time."""
+    """Hold results, failures and written files of one command so far; complete enough to be shown at any time."""
 
     runs: dict[str, Result] = field(default_factory=dict)
     references: dict[str, Result] = field(default_factory=dict)
@@ -99,7 +99,11 @@ class Session:
 
 
 def run_scenes(request: Request) -> int:
-    """Run the scenes of a request, compare, save and show them, and return the exit code."""
+    """Run `gudgeon run`: simulate the scenes and the ideal one, compare, save and show them, and return the exit code.
+
+    Targets and parameters are checked before anything runs. Errors of single scenes are printed; after Ctrl-C, finished
+    results are saved and shown, with exit code 130.
+    """
     values = settings(request.settings)
     check_folder("--out", request.out)
     names = dict.fromkeys([IDEAL, *select_scenes(request.file, request.scenes)])
@@ -108,7 +112,7 @@ def run_scenes(request: Request) -> int:
         simulations = {name: load(request.file, name, regenerate=renew, formulation=how) for name in names}
     _check_request(request, values, simulations)
     for name, simulation in simulations.items():
-        path = result_path(request.out, simulation.source.mechanism, name)
+        path = _build_result_path(request.out, simulation.source.mechanism, name)
         check_name("--out", path)
         check_origin(path, origin_of(request.file, simulation.source.sha256))
         if request.report:
@@ -121,7 +125,7 @@ def run_scenes(request: Request) -> int:
         session.interrupted = True
     try:
         if session.runs:
-            _deliver(request, simulations, session)
+            _output_results(request, simulations, session)
     except KeyboardInterrupt:
         session.interrupted = True
     for scene, error in session.failures.items():
@@ -129,13 +133,15 @@ def run_scenes(request: Request) -> int:
     for error in session.unwritten:
         print(f"error: {visible(error)}", file=sys.stderr)
     if session.interrupted:
-        print(_interrupted(names, session), file=sys.stderr)
+        print(_format_interruption(names, session), file=sys.stderr)
         return 130
     return max((error.exit_code for error in (*session.failures.values(), *session.unwritten)), default=0)
 
 
-def _interrupted(names: Iterable[str], session: Session) -> str:
-    """Return the message after Ctrl-C: which results are shown and saved, and what is missing."""
+def _format_interruption(names: Iterable[str], session: Session) -> str:
+    """Return the message after Ctrl-C: which results are shown and saved, where runs ended, and which scenes are
+    missing.
+    """
     from gudgeon.simulation.horizon import UNFINISHED
 
     if not session.runs:
@@ -155,7 +161,7 @@ def _interrupted(names: Iterable[str], session: Session) -> str:
 
 
 def _check_request(request: Request, settings: Settings, simulations: Mapping[str, Simulation]) -> None:
-    """Raise errors for unknown names and invalid values before anything is run or written."""
+    """Raise errors for unknown addresses, series and invalid parameter values before anything is run or written."""
     check_addresses(settings, request.file, [simulation.source for simulation in simulations.values()])
     for simulation in simulations.values():
         prepare(simulation.compiled, known_settings(simulation.source, settings))
@@ -169,9 +175,10 @@ def _check_request(request: Request, settings: Settings, simulations: Mapping[st
                     raise unknown(f"{option}: no scene has a series {name!r}", name, series)
 
 
-def _requested_peaks(request: Request, source: KernelSource) -> tuple[str, ...] | None:
-    """Return the series whose peaks are computed: those of the scene and of `--peaks`; None for those of the scene
-    alone.
+def _select_peaks(request: Request, source: KernelSource) -> tuple[str, ...] | None:
+    """Return the names of series for the argument `peaks` of simulate: those of the scene's file and of `--peaks`.
+
+    Names that the scene lacks are left out. None without `--peaks`: simulate then uses those of the file.
     """
     if not request.peaks:
         return None
@@ -182,9 +189,10 @@ def _requested_peaks(request: Request, source: KernelSource) -> tuple[str, ...] 
 
 
 def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Simulation], session: Session) -> None:
-    """Run all scenes and store results and failures in the session.
+    """Run all scenes and store results and failures in the session; after Ctrl-C, return with the partial result.
 
-    The ideal scene is the last: it runs as long as the longest scene with play, and is cheap.
+    The ideal scene is the last: it runs as long as the longest scene with play, and is cheap. A failed run is stored up
+    to its failure.
     """
     t_end, step = (None if text is None else value(text) for text in (request.t_end, request.step))
     own = {name: prepare(s.compiled, known_settings(s.source, settings))[0] for name, s in simulations.items()}
@@ -208,7 +216,7 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
                     parameters=known_settings(simulation.source, settings),
                     progress=bar(name),
                     against=simulations[IDEAL] if simulation.source.clearances else None,
-                    peaks=_requested_peaks(request, simulation.source),
+                    peaks=_select_peaks(request, simulation.source),
                 )
             except (AssemblyError, SolverError) as error:  # the other scenes are still run
                 session.failures[name] = error
@@ -225,8 +233,11 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
                 return
 
 
-def _deliver(request: Request, simulations: Mapping[str, Simulation], session: Session) -> None:
-    """Save, verify, compare, draw and show the results. They are saved first, so that a later failure loses none."""
+def _output_results(request: Request, simulations: Mapping[str, Simulation], session: Session) -> None:
+    """Save, verify, compare, report, draw and show the results.
+
+    They are saved first, so that a later failure loses none.
+    """
     from gudgeon.results.reports.comparison import compare
     from gudgeon.results.series import default_watch
 
@@ -253,11 +264,14 @@ def _deliver(request: Request, simulations: Mapping[str, Simulation], session: S
 
 
 def _find_references(ideal: Simulation, session: Session) -> None:
-    """Find an ideal run to compare with for each scene with play; a run that Ctrl-C ended is not used."""
+    """Store an ideal run to compare with for each scene with play; one that Ctrl-C ended is not used.
+
+    An error of an ideal run is stored as a failure of the ideal scene.
+    """
     for scene, run in session.runs.items():
         if run.source.clearances:  # other scenes are ideal ones with other parameters
             try:
-                reference = _ideal_run(ideal, run, session)
+                reference = _find_ideal_run(ideal, run, session)
             except (GudgeonError, MemoryError) as error:
                 message = MemoryShortage(error) if isinstance(error, MemoryError) else error
                 session.failures.setdefault(IDEAL, message)
@@ -268,8 +282,8 @@ def _find_references(ideal: Simulation, session: Session) -> None:
             session.references[scene] = reference
 
 
-def _ideal_run(ideal: Simulation, run: Result, session: Session) -> Result:
-    """Return the ideal run at the sample times and parameter values of `run`; equal ones are computed once."""
+def _find_ideal_run(ideal: Simulation, run: Result, session: Session) -> Result:
+    """Return the ideal run at the sample times and parameter values of `run`; a known run that fits is used again."""
     shared = {slot.address for slot in ideal.source.slots}
     values = {address: number for address, number in run.parameters.items() if address in shared}
     for other in (session.runs.get(IDEAL), *session.references.values()):
@@ -279,11 +293,14 @@ def _ideal_run(ideal: Simulation, run: Result, session: Session) -> Result:
 
 
 def _save(request: Request, runs: Mapping[str, Result], session: Session) -> None:
-    """Write a NetCDF file for each scene; errors, such as a full disk, are stored in `session.unwritten`."""
+    """Write a NetCDF file for each scene and record its path; nothing without h5py.
+
+    Errors, such as a full disk, are stored in `session.unwritten`.
+    """
     if not have("NetCDF files", "h5py"):
         return
     for scene, run in runs.items():
-        path = result_path(request.out, run.source.mechanism, scene)
+        path = _build_result_path(request.out, run.source.mechanism, scene)
         try:
             run.save(path, {ORIGIN: origin_of(request.file, run.source.sha256)})
             session.files[scene] = str(path)
@@ -294,7 +311,10 @@ def _save(request: Request, runs: Mapping[str, Result], session: Session) -> Non
 
 
 def _draw(out: Path, runs: Mapping[str, Result], session: Session, watch: Sequence[str]) -> None:
-    """Write the picture of all runs; errors are stored in `session.unwritten`."""
+    """Write the picture of all runs and record its path; errors are stored in `session.unwritten`.
+
+    Nothing is drawn without matplotlib. watch: names of the series shown.
+    """
     if not have("picture", "matplotlib"):
         return
     from gudgeon.results.figures.plots import figure, save_figure
@@ -309,13 +329,13 @@ def _draw(out: Path, runs: Mapping[str, Result], session: Session, watch: Sequen
         session.unwritten.append(MemoryShortage(error))
 
 
-def result_path(out: Path, mechanism: str, scene: str) -> Path:
+def _build_result_path(out: Path, mechanism: str, scene: str) -> Path:
     """Return the path of the result of a scene."""
     return out / f"{mechanism}_{scene}.nc"
 
 
 def _show(request: Request, source: KernelSource, reports: list[SceneReport], session: Session) -> None:
-    """Print tables, notes and written files, or JSON."""
+    """Print tables, notes and written files, or the JSON document, and mark the session as shown."""
     from gudgeon.language.shown import plain_console
     from gudgeon.results.reports.comparison import as_json, tables
     from gudgeon.results.reports.run_report import beyond
@@ -338,8 +358,8 @@ def _show(request: Request, source: KernelSource, reports: list[SceneReport], se
 
 
 def check_needs(request: Request, scenes: Mapping[str, tuple[Simulation, Array]]) -> None:
-    """Raise MemoryError if the samples and derived series do not fit into memory, OutputError if the files do not fit
-    on disk.
+    """Raise MemoryError if samples and derived series do not fit into memory, OutputError if the files do not fit on
+    disk.
 
     scenes: each simulation with its parameter values. Files contain every series and replace older ones one after the
     other. The disk is not checked if no file is written.
@@ -354,23 +374,26 @@ def check_needs(request: Request, scenes: Mapping[str, tuple[Simulation, Array]]
     check_memory(sum(counts[name] * each[name] for name in scenes), samples_text)
     if find_spec("h5py"):
         files = [8.0 * counts[name] * (1 + len(catalogue(one.source))) for name, (one, _) in scenes.items()]
-        older = sum(_size(request.out, one.source.mechanism, name) for name, (one, _) in scenes.items())
+        older = sum(_get_file_size(request.out, one.source.mechanism, name) for name, (one, _) in scenes.items())
         check_disk(request.out, max(*files, sum(files) - older), f"the results, {samples_text},")
 
 
-def _size(out: Path, mechanism: str, scene: str) -> int:
+def _get_file_size(out: Path, mechanism: str, scene: str) -> int:
     """Return the size in bytes of an existing result, otherwise 0."""
-    path = result_path(out, mechanism, scene)
+    path = _build_result_path(out, mechanism, scene)
     return path.stat().st_size if path.is_file() else 0
 
 
-def report_path(out: Path, mechanism: str, scene: str) -> Path:
+def _build_report_path(out: Path, mechanism: str, scene: str) -> Path:
     """Return the path of the report of a scene, next to its result."""
     return out / f"{mechanism}_{scene}.html"
 
 
 def verify(runs: dict[str, Result], failures: dict[str, GudgeonError], quiet: bool) -> None:
-    """Check the contacts of every run (Result.check) and add notes; runs with faults are entered in `failures` too."""
+    """Check the contacts of every run with play (Result.check), and replace the run by one with notes on the result.
+
+    Faults and errors are stored in `failures`. quiet: without a status line.
+    """
     for scene, run in runs.items():
         if not run.source.clearances:
             continue
@@ -410,7 +433,7 @@ def write_reports(
                 with status_line(quiet=quiet):
                     runs[scene] = run = examine(simulations[scene], run, references.get(scene))
                 save({scene: run})
-            path = report_path(out, run.source.mechanism, scene)
+            path = _build_report_path(out, run.source.mechanism, scene)
             write_bytes(path, run.report().to_html().encode())
             files[f"report {scene}"] = str(path)
         except GudgeonError as error:
@@ -420,13 +443,19 @@ def write_reports(
 
 
 def origin_of(mechanism: str, digest: str) -> str:
-    """Return the digests of the path of a mechanism file and of its bytes, as text for the result file."""
+    """Return a text for the result file with the digests of the path and the bytes of the mechanism file.
+
+    digest: SHA-256 of the bytes.
+    """
     place = sha256(os.fsencode(find_mechanism(mechanism).resolve())).hexdigest()
     return f"gudgeon-origin {place[:16]} {digest[:16]}"
 
 
 def check_origin(path: Path, origin: str) -> None:
-    """Raise InputError if `path` is a result of another mechanism file."""
+    """Raise InputError if the file `path` is a result of another mechanism file; it may be absent or unreadable.
+
+    origin: text of `origin_of`; path or contents of the mechanism must agree.
+    """
     ours = _NOTED.match(origin.encode())
     try:
         with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:

@@ -6,7 +6,9 @@ from gudgeon.language.shown import print_json
 
 
 def print_schema(study: bool = False) -> int:
-    """Print the JSON Schema (draft 2020-12), derived from the reader's declarations, and return the exit code."""
+    """Print the JSON Schema (draft 2020-12) of mechanism files, or of study files with `study`; return the exit
+    code.
+    """
     if study:
         from gudgeon.generator.study.schema import schema
     else:

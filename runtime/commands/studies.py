@@ -57,12 +57,17 @@ class Request:
         return settings(self.sets)
 
     def of(self, simulation: Simulation) -> dict[str, float | str]:
-        """Return the settings that a scene has: an ideal scene has no viscosity."""
+        """Return those values of `--set` whose addresses the scene has; an ideal scene has no viscosity, for
+        example.
+        """
         known = set(addresses(simulation.source))
         return {name: message for name, message in self.parameters.items() if name in known}
 
     def seconds(self, option: str, text: str | None) -> float | None:
-        """Return a positive time in s from the text of an option, or None. Raises BadValueError."""
+        """Parse the text of an option as a positive time and return it in s; None if it is None.
+
+        Raise BadValueError.
+        """
         if text is None:
             return None
         found = number(value(text), Slot(option, "s", 0.0, False, (0, 0, 1)))
@@ -71,7 +76,11 @@ class Request:
         return found
 
     def table(self, mechanism: str, what: str) -> Path:
-        """Return the path of the CSV file; pictures have the same name. Raises InputError if it cannot be written."""
+        """Return the path of the CSV file: that of --csv, else MECHANISM_WHAT.csv in --out; pictures have the same
+        name.
+
+        Raises InputError if one of them cannot be written.
+        """
         table = self.csv or self.out / f"{mechanism}_{what}.csv"
         if self.csv is not None:
             require_suffix(self.csv, (".csv",))
@@ -84,7 +93,7 @@ class Request:
 def each(
     loaded: Sequence[Simulation], one: Callable[[Simulation, Report | None], Found], quiet: bool
 ) -> tuple[list[Found], bool]:
-    """Call `one` for every scene, and return the results and whether Ctrl-C ended it.
+    """Call `one` for every scene with a progress callback; return the results, and whether Ctrl-C ended the loop.
 
     After Ctrl-C the last result may be incomplete. quiet: without a progress bar.
     """
@@ -101,7 +110,9 @@ def each(
 
 
 def exit_code(loaded: Sequence[Simulation], found: Sequence[Measured], interrupted: bool) -> int:
-    """Return 0, or 130 after a message on what was measured before Ctrl-C."""
+    """Return the exit code: 0, or 130 after Ctrl-C, which is reported on stderr with the finished runs of each
+    scene.
+    """
     if not interrupted:
         return 0
     if not found:
@@ -115,7 +126,10 @@ def exit_code(loaded: Sequence[Simulation], found: Sequence[Measured], interrupt
 
 
 def load_scenes(request: Request) -> list[Simulation]:
-    """Load all scenes of a request and check their parameters before anything runs."""
+    """Load all requested scenes with optimized code, and check the values of --set before anything runs.
+
+    Raises UnknownNameError for an address that no scene has, BadValueError for values.
+    """
     with status_line(quiet=request.json):
         loaded = [load(request.file, scene, quick=False) for scene in select_scenes(request.file, request.scenes)]
     check_addresses(request.parameters, request.file, [simulation.source for simulation in loaded])

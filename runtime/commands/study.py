@@ -48,7 +48,10 @@ class Request:
 
 
 def report_study(folder: str, out: Path | None, json: bool) -> int:
-    """Write the page of a finished study to `out`, or next to its folder; return the exit code."""
+    """Write the HTML page of a finished study to `out`, or next to its folder, and return the exit code.
+
+    json: print the written file as JSON.
+    """
     page = out or Path(folder).absolute().with_suffix(".html")
     require_suffix(page, (".html", ".htm"))
     check_file("--out", page)
@@ -93,7 +96,7 @@ def study_file(request: Request) -> int:
 
 
 def _report_interruption(plans: Plans, folder: Path) -> None:
-    """Print how many blocks of runs are stored, after Ctrl-C."""
+    """Print to stderr, after Ctrl-C, how many blocks of runs are stored in the folder."""
     every = sum(len(plan.blocks) for plan in plans.each.values())
     there = min(every, sum(StudyFolder(folder / name, plan).there() for name, plan in plans.each.items()))
     text = f"{there} of {every} blocks of runs are in {path_text(folder)}"

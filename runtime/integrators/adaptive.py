@@ -41,11 +41,14 @@ FELT_BY_FILMS = 0.015  # largest error of velocities relative to the speeds with
 SMALLEST = 1e-14  # smallest rtol: below it, rounding errors would be controlled
 
 
-def tolerance(rtol: float | str | None, method: str, fixed: bool) -> float:
-    """Return the tolerance rtol of a step. Raise BadValueError if it is out of range, or the step is fixed."""
+def tolerance(rtol: float | str | None, method: str, has_fixed_step: bool) -> float:
+    """Return the checked relative tolerance of a step from the argument `rtol`; the default RTOL if it is None.
+
+    Raises BadValueError if the value is out of range, or if the step of the method is fixed.
+    """
     if rtol is None:
         return RTOL
-    if method == "rk4" or (fixed and method != "kinematic"):
+    if method == "rk4" or (has_fixed_step and method != "kinematic"):
         raise BadValueError(
             f"method {method!r} with a fixed step has no tolerance",
             hint=f"leave out rtol; or leave out step and take {', '.join(('auto', *CHOOSING))}",
@@ -64,12 +67,19 @@ def tolerance(rtol: float | str | None, method: str, fixed: bool) -> float:
 
 
 def stiff_method(source: KernelSource, rtol: float) -> str:
-    """Return the name of the stiff method that `auto` uses for a scene at a tolerance."""
+    """Return the name of the stiff method that `auto` uses for a scene at a tolerance.
+
+    For a scene with a film whose library has stages, a tight tolerance selects the higher order.
+    """
     return STAGED[rtol < FINE] if source.stages and _has_film(source) else STIFF
 
 
 def first_method(source: KernelSource, rtol: float = RTOL) -> str:
-    """Return the name of the first method of `auto`; with a film it is the stiff one (physics.md, section 4)."""
+    """Return the name of the method with which `auto` begins a run of the scene.
+
+    It is the kinematic analysis without degrees of freedom, the stiff method with a film, else the explicit one
+    (physics.md, section 4).
+    """
     if KINEMATIC in source.methods:
         return KINEMATIC
     return stiff_method(source, rtol) if _has_film(source) and not source.explicit else EXPLICIT
@@ -81,7 +91,10 @@ def _has_film(source: KernelSource) -> bool:
 
 
 def choice_of(compiled: CompiledModel, method: str, rtol: float) -> tuple[int, int]:
-    """Return C's numbers of the first method and of the stiff one that it may change to; 0: it may not change."""
+    """Return C's numbers of the first method and of the stiff one to which a run may switch; 0: it may not switch.
+
+    Only "adaptive", which is what auto runs, may switch.
+    """
     if method != ADAPTIVE:
         return int(compiled.lib.gudgeon_method(method.encode())), 0
     names = first_method(compiled.source, rtol), stiff_method(compiled.source, rtol)
@@ -90,25 +103,28 @@ def choice_of(compiled: CompiledModel, method: str, rtol: float) -> tuple[int, i
 
 
 def lengths(compiled: CompiledModel, p: Array) -> tuple[Array, Array]:
-    """Return L and S (m) of this module's head, of shape (...), for parameter values p (..., n_p)."""
+    """Return the length L of allowed errors and the mechanism's size S (m), for parameter values p (..., n_p).
+
+    L is the smallest positive clearance, else S. Both have the shape (...); see this module's head.
+    """
     size = mechanism_sizes(compiled.source, p)
-    play = p[..., [joint.clearance for joint in compiled.source.clearances]]
-    least = np.where(play > 0.0, play, np.inf).min(axis=-1, initial=np.inf)
-    return np.where(np.isfinite(least), least, size), size
+    clearances = p[..., [joint.clearance for joint in compiled.source.clearances]]
+    min_clearance = np.where(clearances > 0.0, clearances, np.inf).min(axis=-1, initial=np.inf)
+    return np.where(np.isfinite(min_clearance), min_clearance, size), size
 
 
 def integrated_angles(source: KernelSource) -> NDArray[np.bool_]:
-    """Return a mask (n_x,) of the integrated coordinates that are angles."""
+    """Return a mask (n_x,) of the integrated coordinates that are angles, for either formulation."""
     if source.formulation == "reduced":  # a tree's angles have the names of bodies, its slides "guide.slide", "L3.x"
         return np.array(["." not in name for name in source.tree], dtype=bool)
     return angles(source)
 
 
 def tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array]:
-    """Return the tolerances (..., 2 n_x) of a step, and L and L/S, (..., 2).
+    """Return the error tolerances (..., 2 n_x) of a step, and L and L/S, (..., 2), for the time loop in C.
 
-    The first n_x are those of coordinates, the others those of velocities per unit of speed. `p` (..., n_slots +
-    n_derived) holds the parameter values of one run, or of several.
+    The first n_x are those of coordinates, the others those of velocities per unit of speed. Films have tighter
+    velocities. `p` (..., n_slots + n_derived) holds the parameter values of one run, or of several.
     """
     source = compiled.source
     length, size = lengths(compiled, p)

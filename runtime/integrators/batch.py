@@ -65,7 +65,7 @@ class Runs(StoredRuns):
         self,
         compiled: CompiledModel,
         p: Array,
-        motion: Array,
+        p_motion: Array,
         times: Times,
         method: str,
         step: Array,
@@ -81,16 +81,18 @@ class Runs(StoredRuns):
         self.stop, self.audit = stop, audit
         self.over: Callable[[Sequence[int]], None] | None = None  # stores the results of finished runs
         n, N = len(p), times.most
-        beside = side_by_side and not drive and lanes.expected(compiled, method, n)
-        if beside:
+        has_lanes = side_by_side and not drive and lanes.expected(compiled, method, n)
+        if has_lanes:
             compiled.lib.best()  # whose functions are called from within lanes, for all runs
-        self.flow = Flow(compiled) if beside else None
+        self.flow = Flow(compiled) if has_lanes else None
         self.abreast = self.flow.count if self.flow else 1
         if self.flow and shared:
             self.abreast = min(self.abreast, max(lanes.ALWAYS, TOGETHER // N))
-        spare = min(self.abreast, TOGETHER // N) if self.flow else 0  # of runs that are over, and not taken yet
-        self.places = self.abreast + spare  # rows of samples per thread
-        super().__init__(compiled, method, p, motion, times, step, threads * self.places if shared else n, bool(drive))
+        n_spare = min(self.abreast, TOGETHER // N) if self.flow else 0  # of runs that are over, and not taken yet
+        self.places = self.abreast + n_spare  # rows of samples per thread
+        super().__init__(
+            compiled, method, p, p_motion, times, step, threads * self.places if shared else n, bool(drive)
+        )
         self.struct: Any = None if drive else self._make_struct()
         # guesses of the start that the assembly could not follow, by run
         self.unfollowed: dict[int, dict[str, float]] = {}
@@ -98,7 +100,10 @@ class Runs(StoredRuns):
         self.resumed = set[int]()  # runs that resume from a state
 
     def _make_struct(self) -> Any:
-        """Return the struct of C with pointers to the arrays, and add those arrays that only C fills."""
+        """Add the arrays that only C fills to `arrays`, and return the struct Batch of C with pointers to all arrays.
+
+        All arrays are made contiguous. Not called for time loops in Python.
+        """
         compiled, n, x = self.compiled, self.n, self.arrays
         scale, least = adaptive.tolerances(compiled, x["p"], self.rtol)
         x |= {
@@ -133,7 +138,7 @@ class Runs(StoredRuns):
         return self.__dict__ | none | {"looks": ()}
 
     def let_go(self) -> None:
-        """Release the samples, after `over` has stored what is needed of them."""
+        """Release the samples of all runs and C's struct, after `over` has stored what is needed of them."""
         self.arrays |= {name: np.zeros_like(self.arrays[name][:0]) for name in ("y", "latched", "state")}
         self.arrays.pop("a", None)
         self.struct, self.over = None, None
@@ -144,7 +149,10 @@ class Runs(StoredRuns):
         return bool(self.arrays["ending"][0])
 
     def begin(self, starts: Sequence[State | Problem]) -> None:
-        """Set the states from which the runs begin, one each, at the first of their times."""
+        """Set the states from which the runs begin, one each, at the first of their times; others are assembled later.
+
+        A state with contact codes marks its run as resumed.
+        """
         x, nc = self.arrays, len(self.compiled.source.clearances)
         for i, start in enumerate(starts):
             x["start"][i] = np.concatenate([start.q, start.v])
@@ -155,19 +163,23 @@ class Runs(StoredRuns):
         x["started"][: len(starts)] = 1
 
     def leave_out(self, failures: dict[int, Any]) -> None:
-        """Mark runs as failed before they begin."""
+        """Record runs as failed, with their errors by index, and mark them as over so that they are not integrated."""
         self.failures.update(failures)
         self.arrays["phase"][list(failures)] = OVER
 
     def run(self, progress: Progress | None) -> None:
-        """Integrate all runs. Ctrl-C ends them where they are."""
+        """Integrate all runs in threads, assemble missing starts, and record failures; Ctrl-C ends them where they are.
+
+        Starts are assembled in C where possible, in Python for the rest. `progress` is called with the fraction of runs
+        done.
+        """
         with CtrlC() as ctrl_c:
             try:
                 if self.drive or left_out(self.compiled):
                     self._assemble_all(np.flatnonzero(self.arrays["phase"] == NEW).tolist(), ctrl_c)
                 run_in_threads(self, progress, range(self.n), ctrl_c)
-                if left := self._not_closed():
-                    run_in_threads(self, progress, self._assemble_all(left, ctrl_c), ctrl_c)
+                if unassembled := self._find_unassembled_runs():
+                    run_in_threads(self, progress, self._assemble_all(unassembled, ctrl_c), ctrl_c)
                 ctrl_c.take()
             except KeyboardInterrupt:
                 self.interrupted = True
@@ -175,37 +187,44 @@ class Runs(StoredRuns):
             self._record_failures()
 
     def _record_failures(self) -> None:
-        """Record the errors of runs that did not reach their ends, and fill their remaining samples with NaN."""
+        """Record the errors of runs that did not reach their ends, and fill their remaining samples with NaN.
+
+        Interrupted runs are recorded as SolverError. Shared rows of samples are not filled.
+        """
         x = self.arrays
-        self._not_closed()
+        self._find_unassembled_runs()
         for i in np.flatnonzero(x["phase"] != OVER).tolist():
             self.failures[i] = SolverError(INTERRUPTED, float(x["t_last"][i]))
         for i in np.flatnonzero(~np.isin(x["status"], (0, ENDED))).tolist():
             if i not in self.failures:
-                self.failures[i] = self._failure_of(i)
+                self.failures[i] = self._build_error(i)
         if self.shared:
             return
-        none = x["done"] == 0
-        x["y"][none], x["latched"][none] = np.nan, np.nan
-        for i in np.flatnonzero(~none & (x["done"] < self.times.most)).tolist():
+        without_samples = x["done"] == 0
+        x["y"][without_samples], x["latched"][without_samples] = np.nan, np.nan
+        for i in np.flatnonzero(~without_samples & (x["done"] < self.times.most)).tolist():
             x["y"][i, x["done"][i] :], x["latched"][i, x["done"][i] :] = np.nan, np.nan
 
-    def _not_closed(self) -> list[int]:
-        """Return the runs whose start C could not assemble, and mark them as new."""
-        left: list[int] = np.flatnonzero(self.arrays["status"] == NOT_CLOSED).tolist()
-        self.arrays["phase"][left], self.arrays["status"][left] = NEW, 0
-        return left
+    def _find_unassembled_runs(self) -> list[int]:
+        """Return the indices of runs whose start C could not assemble, and mark these runs as new again."""
+        unassembled: list[int] = np.flatnonzero(self.arrays["status"] == NOT_CLOSED).tolist()
+        self.arrays["phase"][unassembled], self.arrays["status"][unassembled] = NEW, 0
+        return unassembled
 
     def _assemble_all(self, runs: Sequence[int], ctrl_c: CtrlC) -> list[int]:
-        """Assemble the starts of these runs in Python. Return the runs that may begin."""
+        """Assemble the starts of these runs in Python and store them; return the indices of runs that may begin.
+
+        Given starts are only checked. A run whose start does not close is recorded as failed. Guesses that were not
+        followed are stored. Ctrl-C is polled before each run.
+        """
         x = self.arrays
         for i in runs:
             ctrl_c.take()
             try:
                 if not x["started"][i]:
                     start = assemble(self.compiled, x["p"][i])
-                    if off := unfollowed(self.compiled, x["p"][i], start.q):
-                        self.unfollowed[i] = off
+                    if guess_distances := unfollowed(self.compiled, x["p"][i], start.q):
+                        self.unfollowed[i] = guess_distances
                     x["start"][i] = np.concatenate([start.q, start.v])
                 check_start(self.compiled, x["p"][i], float(self.times.of(i)[0]), x["start"][i, : self.compiled.n])
                 x["started"][i] = 1
@@ -214,7 +233,7 @@ class Runs(StoredRuns):
         return [i for i in runs if x["phase"][i] == NEW]
 
     def problem(self, i: int) -> Problem:
-        """Return run i, whose start is known, as the Problem of a single run."""
+        """Build the Problem of run i, whose start is known, as for a single run; it has no observer and no progress."""
         x, n, joints = self.arrays, self.compiled.n, len(self.compiled.source.clearances)
         return Problem(
             self.compiled,
@@ -234,12 +253,15 @@ class Runs(StoredRuns):
         )
 
     def take(self) -> None:
-        """Raise KeyboardInterrupt if all runs shall end."""
+        """Raise KeyboardInterrupt if all runs shall end; a time loop in Python calls it to poll for cancellation."""
         if self.stopping:
             raise KeyboardInterrupt
 
     def follow(self, i: int) -> None:
-        """Integrate run i from start to end by a method that Python drives."""
+        """Integrate run i from start to end by a time loop in Python, and store its results.
+
+        An error is recorded as its failure. Nothing is stored if Ctrl-C comes before the first sample.
+        """
         assert self.drive
         try:
             look = self.looks[i] if self.looks else None
@@ -251,29 +273,37 @@ class Runs(StoredRuns):
             return
         self.are_over([i])
 
-    def to_its_end(self, i: int, memory: NDArray[np.uint8], tape: StepLog | None = None) -> None:
-        """Integrate run i alone from where it is to its end."""
-        self.alone(i, i + 1, memory, tape)
+    def to_its_end(self, i: int, memory: NDArray[np.uint8], step_log: StepLog | None = None) -> None:
+        """Integrate run i in C, alone in this thread, from its present state to its end, and store its results.
+
+        `memory`: storage of C's integrator; `step_log`: step record for an observer.
+        """
+        self.alone(i, i + 1, memory, step_log)
         self.are_over([i])
 
     def are_over(self, runs: Sequence[int]) -> None:
-        """Store the results of those runs that have ended, so that others may use their rows of samples."""
+        """Pass those of the given runs that have ended to `finished`, which stores their results; do nothing without
+        it.
+
+        Runs whose start C could not assemble are skipped. Their rows of samples may be reused after that.
+        """
         x = self.arrays
-        over = [i for i in runs if self.over and x["phase"][i] == OVER and x["status"][i] != NOT_CLOSED]
-        if self.over and over:
-            self.over(over)
+        finished = [i for i in runs if self.over and x["phase"][i] == OVER and x["status"][i] != NOT_CLOSED]
+        if self.over and finished:
+            self.over(finished)
 
     def alone(
         self,
         first: int,
         end: int,
         memory: NDArray[np.uint8],
-        tape: StepLog | None,
+        step_log: StepLog | None,
         poll: Callable[[], object] = lambda: None,
     ) -> None:
-        """Integrate runs first to end − 1 one after the other; `poll` is called after each call of C.
+        """Integrate runs first to end − 1 in C, one after the other, in the calling thread.
 
-        `memory`: storage of C's integrator. `tape`: step record for observers.
+        Contacts, events and recorded steps are fetched whenever a list is full or a run is over. `memory`: storage of
+        C's integrator. `step_log`: step record for observers. `poll` is called after each call of C.
         """
         compiled, current = self.compiled, self.compiled.ffi.new("long *", first)
         compiled.lib.newest()
@@ -282,16 +312,16 @@ class Runs(StoredRuns):
             status = compiled.lib.gudgeon_ensemble(self.struct, run, current, end)
             if status in (LISTS, RUN_OVER):
                 self.fetch(int(current[0]), run, status == RUN_OVER)
-                if tape:
-                    tape.look = self.looks[int(current[0])]
-                    tape.fetch(run)
+                if step_log:
+                    step_log.look = self.looks[int(current[0])]
+                    step_log.fetch(run)
             current[0] += status == RUN_OVER
             poll()
 
     def here(self, problem: Problem) -> Trajectory:
-        """Integrate the only run in this thread, which polls `problem` for cancellation.
+        """Integrate the only run in the calling thread, in C or Python, and return its Trajectory.
 
-        Raises KeyboardInterrupt if nothing was reached.
+        `problem` polls for cancellation. Raises KeyboardInterrupt if no sample was reached.
         """
         if self.drive:
             self.store(0, self.drive(problem))
@@ -301,48 +331,55 @@ class Runs(StoredRuns):
         return self.trajectory(0)
 
     def _integrate_in_c(self, problem: Problem) -> None:
-        """Integrate the only run by the time loop in C. After Ctrl-C, what was reached is kept."""
+        """Integrate the only run by the time loop in C. After Ctrl-C, the samples up to there are kept.
+
+        A failed run is recorded; without any sample, its start becomes the first. Raises KeyboardInterrupt if Ctrl-C
+        came before the first sample.
+        """
         compiled, x = self.compiled, self.arrays
         memory = np.zeros(compiled.lib.gudgeon_run_size(), dtype=np.uint8)
-        run, tape = compiled.pointer(memory, "void *", True), StepLog(compiled) if self.looks else None
-        if tape:
-            tape.lay(run)
-        asker = Asker(compiled, lambda: self._poll(problem, run))
-        self.struct.ask, self.struct.caller, self.struct.every = asker.arguments
+        run, step_log = compiled.pointer(memory, "void *", True), StepLog(compiled) if self.looks else None
+        if step_log:
+            step_log.lay(run)
+        cancellation = Asker(compiled, lambda: self._poll_and_report(problem, run))
+        self.struct.ask, self.struct.caller, self.struct.every = cancellation.arguments
 
         def poll() -> None:
             """Raise what a poll from C raised, and poll once more."""
-            asker.check(False)
-            self._poll(problem, run)
+            cancellation.check(False)
+            self._poll_and_report(problem, run)
 
         try:
-            self.alone(0, 1, memory, tape, poll)
+            self.alone(0, 1, memory, step_log, poll)
         except KeyboardInterrupt:
             if not x["done"][0]:
                 raise
             self.interrupted, x["ending"][0] = True, 1
-            self.alone(0, 1, memory, tape)
+            self.alone(0, 1, memory, step_log)
         if not self.interrupted and x["status"][0] not in (0, ENDED):
-            self.failures[0] = self._failure_of(0)
+            self.failures[0] = self._build_error(0)
         if not x["done"][0]:  # at least the start
             rows = x["y"][0], x["latched"][0], x["state"][0]
             to = (compiled.pointer(rows[0]), compiled.pointer(rows[1]), compiled.pointer(rows[2], "signed char *"))
             compiled.lib.gudgeon_run_sample(run, self.struct.p_motion, *to)
             x["done"][0] = 1
 
-    def _poll(self, problem: Problem, run: Any) -> None:
-        """Check for Ctrl-C and for an optimized library, and report progress; called between and within steps."""
+    def _poll_and_report(self, problem: Problem, run: Any) -> None:
+        """Poll for Ctrl-C and for an optimized library, and report progress; called between calls of C and within them.
+
+        `run`: pointer to C's integrator. Raises KeyboardInterrupt.
+        """
         x, b, t = self.arrays, self.struct, problem.t
         self.compiled.lib.newest()
         problem.take()
         if problem.progress:
             if x["phase"][0] == BEGUN:
                 self.compiled.lib.gudgeon_run_report(run, b.t_last, b.counts, b.residuals, b.peaks)
-            share = (x["t_last"][0] - t[0]) / max(t[-1] - t[0], 1e-300)
-            problem.progress(float(min(max(share, 0.0), 1.0)), "integrating")
+            fraction = (x["t_last"][0] - t[0]) / max(t[-1] - t[0], 1e-300)
+            problem.progress(float(min(max(fraction, 0.0), 1.0)), "integrating")
 
-    def _failure_of(self, i: int) -> GudgeonError:
-        """Return the error that ended run i."""
+    def _build_error(self, i: int) -> GudgeonError:
+        """Build the error that ended run i in C, from its status and what C stored of it."""
         if self.arrays["status"][i] == AUDITED:
             return audit_failure(self.findings(i))
         names = "status", "t_last", "last", "peaks", "p_motion", "step", "gained", "paced", "ended"
@@ -351,7 +388,10 @@ class Runs(StoredRuns):
 
 
 def integrate(problem: Problem, drive: Drive | None = None) -> Trajectory:
-    """Integrate one run, in C or by `drive`. Raise KeyboardInterrupt where nothing was reached."""
+    """Integrate one run, in C or by the time loop `drive` in Python, and return its Trajectory.
+
+    Raises KeyboardInterrupt if no sample was reached.
+    """
     times = Times(problem.t, np.full(1, len(problem.t)), np.zeros(1, np.int_))
     motion = problem.p if problem.method == "rk4" or problem.p_free is None else problem.p_free
     runs = Runs(

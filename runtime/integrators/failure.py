@@ -75,80 +75,92 @@ REMEDY = (
 
 
 def failure(compiled: CompiledModel, method: str, run: Mapping[str, Any], t_end: float) -> SolverError:
-    """Return the error of a run to t_end (s), from what C has stored of it (Batch in engine/scene/calls.h)."""
+    """Build the error of a run to t_end (s) that C ended, from the values that C stored of it.
+
+    `run`: status, t_last, step and others by the names of Batch (engine/scene/calls.h).
+    """
     status, t, step, p = int(run["status"]), float(run["t_last"]), float(run["step"]), run["p_motion"]
     e_max, last = run["peaks"][: len(compiled.source.clearances), PEAK_e_max], run["last"]
     if status == STALLED:
-        return _stalled_error(compiled, run, t_end, e_max)
+        return _build_stalled_error(compiled, run, t_end, e_max)
     if math.isfinite(step):  # it evaluates so far after the last state
-        return _error_of_status(compiled, method, status, t, SHORTER.format(step), last, e_max, p, step)
-    return _error_of_status(compiled, method, status, t, ADVICE, last, e_max, p, 0.0)
+        return _build_status_error(compiled, method, status, t, SHORTER.format(step), last, e_max, p, step)
+    return _build_status_error(compiled, method, status, t, ADVICE, last, e_max, p, 0.0)
 
 
-def _error_of_status(
+def _build_status_error(
     compiled: CompiledModel,
     method: str,
     status: int,
     t: float,
     advice: str,
-    last: Array,
+    last_state: Array,
     e_max: Array,
     p: Array,
-    ahead: float,
+    step_ahead: float,
 ) -> SolverError:
-    """Return the error for a status at time t (s): `last` state, largest eccentricities (n_clearances,),
+    """Return the error for a status at time t (s): `last_state` state, largest eccentricities (n_clearances,),
     parameters.
 
-    `ahead` (s): how far a step of fixed length evaluated after that state.
+    `step_ahead` (s): how far a step of fixed length evaluated after that state.
     """
     if status != STOPPED and (too_large := overflowing(compiled, p, t)):
         return too_large
-    q, v = np.ravel(last)[: compiled.n], np.ravel(last)[compiled.n : 2 * compiled.n]
-    if status in (UNBOUNDED, TOO_SMALL, NOT_FINITE) and (why := undefined_here(compiled.source, p, t, q, v, ahead)):
-        return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
+    q, v = np.ravel(last_state)[: compiled.n], np.ravel(last_state)[compiled.n : 2 * compiled.n]
+    if status in (UNBOUNDED, TOO_SMALL, NOT_FINITE) and (
+        reason_text := undefined_here(compiled.source, p, t, q, v, step_ahead)
+    ):
+        return NonFiniteError(f"{reason_text}\n  {NO_NUMBER}", t)
     if status in (UNBOUNDED, TOO_SMALL) and (drive := unbounded_drive(compiled, p, t)):
-        return _unbounded_drive_error(drive, t)
+        return _build_unbounded_drive_error(drive, t)
     status = NOT_FINITE if status == UNBOUNDED else status
     if status in (NOT_FINITE, TOO_SMALL) or status > 0:
-        why = reason(compiled.source, p, t, q, v, ahead)
-        if why or (why := rate_reason(compiled, p, np.array([t, t + 1e-13 * max(1.0, abs(t))]), np.zeros_like(q))[0]):
-            return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
+        reason_text = reason(compiled.source, p, t, q, v, step_ahead)
+        if reason_text or (
+            reason_text := rate_reason(compiled, p, np.array([t, t + 1e-13 * max(1.0, abs(t))]), np.zeros_like(q))[0]
+        ):
+            return NonFiniteError(f"{reason_text}\n  {NO_NUMBER}", t)
         if drive := unbounded_drive(compiled, p, t):
-            return _unbounded_drive_error(drive, t)
-        if method in NEED_SLOPES and (why := steep_force(compiled.source, p, t, q, v)):
-            return NonFiniteError(f"{why}\n  {NO_SLOPE}", t)
-        fast = drives_text(compiled, p, t, TOO_FAST)
-        advice = GROWN if fast else advice
+            return _build_unbounded_drive_error(drive, t)
+        if method in NEED_SLOPES and (reason_text := steep_force(compiled.source, p, t, q, v)):
+            return NonFiniteError(f"{reason_text}\n  {NO_SLOPE}", t)
+        fast_drives = drives_text(compiled, p, t, TOO_FAST)
+        advice = GROWN if fast_drives else advice
     if status == NOT_FINITE:
-        return NonFiniteError(f"the motion is no longer finite at t = {t:.9g} s{fast}\n  {advice}", t)
+        return NonFiniteError(f"the motion is no longer finite at t = {t:.9g} s{fast_drives}\n  {advice}", t)
     if status in MESSAGES:
         return SolverError(MESSAGES[status].format(method=method, t=t), t)
     if status == CHATTERING:
-        return _chattering_error(compiled, t)
+        return _build_chattering_error(compiled, t)
     if status == TOO_SMALL:
-        known = _squeezed_film_error(compiled, e_max, p, t) or _dead_centre_error(compiled, last, p, t)
-        return known or SolverError(f"no step is small enough at t = {t:.9g} s{fast}\n  {advice}", t)
+        known = _build_squeezed_film_error(compiled, e_max, p, t) or _build_dead_centre_error(
+            compiled, last_state, p, t
+        )
+        return known or SolverError(f"no step is small enough at t = {t:.9g} s{fast_drives}\n  {advice}", t)
     if status == LOST:
         lies = {True: "a free corner lies in its wall", False: "a free journal lies outside its bearing"}
         which = sorted({lies[joint.at_wall] for joint in compiled.source.clearances}, reverse=True)
         return SolverError(f"a contact was lost at t = {t:.9g} s: {', or '.join(which)}", t)
     if status == OUTSIDE:
-        return _penetration_error(compiled, e_max, p, t)
+        return _build_penetration_error(compiled, e_max, p, t)
     if status == STOPPED:
         return SolverError(INTERRUPTED, t)
     if status == STALLED:
         return SolverError(f"the run no longer advances at t = {t:.9g} s{drives_text(compiled, p, t)}\n  {advice}", t)
-    return _singular_error(compiled, status, t, advice, last, p, fast)
+    return _build_singular_error(compiled, status, t, advice, last_state, p, fast_drives)
 
 
-def _unbounded_drive_error(drive: str, t: float) -> SolverError:
-    """Return the error for a drive whose second rate is unbounded at t (s)."""
+def _build_unbounded_drive_error(drive: str, t: float) -> SolverError:
+    """Build the error for a drive whose second rate is unbounded at t (s)."""
     message = f"the second rate of drive {drive} grows beyond all bounds there"
     return SolverError(f"no step leads beyond t = {t:.9g} s: {message}\n  {BOUNDED}", t)
 
 
-def _chattering_error(compiled: CompiledModel, t: float) -> SolverError:
-    """Return the error for endless changes of contacts or switching points at one time."""
+def _build_chattering_error(compiled: CompiledModel, t: float) -> SolverError:
+    """Build the error for endless changes of contacts or switching points at one time t (s).
+
+    Its advice depends on whether the scene has rigid contacts, dry friction, or forces with switching points.
+    """
     if compiled.source.rigid:
         return SolverError(
             f"contacts strike, or open and close, without end near t = {t:.9g} s\n"
@@ -158,16 +170,20 @@ def _chattering_error(compiled: CompiledModel, t: float) -> SolverError:
     source = compiled.source
     used = f"  dry_friction sticks at a slip below {AT_REST:g} m/s: speeds that small are not resolved"
     advice = [used] if source.frictions else []
-    if forces_with_switching_points(source) or not advice:
+    if _format_forces_with_switching_points(source) or not advice:
         advice.append(f"  {JUMPS}")
     message = f"a friction or another corner of the forces changes its side without end near t = {t:.9g} s"
     return SolverError("\n".join([message, *advice]), t)
 
 
-def _singular_error(
-    compiled: CompiledModel, status: int, t: float, advice: str, last: Array, p: Array, fast: str
+def _build_singular_error(
+    compiled: CompiledModel, status: int, t: float, advice: str, last_state: Array, p: Array, fast_drives: str
 ) -> SolverError:
-    """Return the error for a vanishing pivot of the constraint equations, or for a motion that diverged before."""
+    """Build the error for a vanishing pivot of the constraint equations at t (s); status − 1 is its index.
+
+    The error names a dead centre of driven loops, a singular position, or a motion that diverged before. `last_state`:
+    last state (2n + 3,); `fast_drives`: text on fast drives.
+    """
     row = compiled.source.motion_pivots[status - 1]
     if row in compiled.source.chain_rows:
         return SingularError(
@@ -181,15 +197,19 @@ def _singular_error(
     try:
         compiled.check_pivot(status, t, compiled.source.motion_pivots, p)
     except SingularError as error:
-        finite = bool(np.isfinite(last).all())
-        if finite and np.abs(last).max() < 1e12:
+        finite = bool(np.isfinite(last_state).all())
+        if finite and np.abs(last_state).max() < 1e12:
             return error
         # at a dead centre speeds grow until a pivot drowns in them, while everything stays where it is
-        dead = _dead_centre_error(compiled, last, p, t) if finite and _is_in_place(compiled, last, p) else None
-        if dead:
-            return dead
+        dead_centre_error = (
+            _build_dead_centre_error(compiled, last_state, p, t)
+            if finite and _is_within_bounds(compiled, last_state, p)
+            else None
+        )
+        if dead_centre_error:
+            return dead_centre_error
         where = f"t = {t:.9g} s (constraint row {error.pivot})"
-        return NonFiniteError(f"the motion diverged before {where}{fast}\n  {advice}", t, error.pivot)
+        return NonFiniteError(f"the motion diverged before {where}{fast_drives}\n  {advice}", t, error.pivot)
     raise AssertionError(f"status {status} stands for no failure")
 
 
@@ -209,22 +229,25 @@ class Pace:
         return self.left / max(self.gained, 1e-300) * self.steps
 
 
-def drives_text(compiled: CompiledModel, p: Array, t: float, fast: float = 0.0) -> str:
-    """Return a text with the value and rate of each drive at least `fast`: "; drive motor is at 12.3 rad, ..."."""
+def drives_text(compiled: CompiledModel, p: Array, t: float, min_rate: float = 0.0) -> str:
+    """Return a text with value and rate of each drive whose rate is at least `min_rate`; "" without any.
+
+    An example is "; drive motor is at 12.3 rad, its rate 2 rad/s". Drives that are not expressions are left out.
+    """
     source, rates = compiled.source, compiled.closed_nu(t, np.zeros(compiled.n), p)
     written = {info.address.split(".")[1]: tree for info, tree in trees(source, ("drives",))}
     with np.errstate(all="ignore"):
         values = {name: values_of_time(source, p, tree, np.array([t]))[0] for name, tree in written.items()}
-    message = [
+    parts = [
         f"drive {row.owner} is at {values[row.owner]:.9g} {row.unit}, its rate {rate:.9g} {row.unit}/s"
         for row, rate in zip(source.start_rows, rates, strict=True)
-        if row.kind == "drive" and row.owner in values and not abs(rate) < fast  # a number alone stays where it is
+        if row.kind == "drive" and row.owner in values and not abs(rate) < min_rate  # a number alone stays where it is
     ]
-    return "".join(f"; {text}" for text in message)
+    return "".join(f"; {text}" for text in parts)
 
 
 def overflowing(compiled: CompiledModel, p: Array, t: float) -> NonFiniteError | None:
-    """Return the error for drives so fast that accelerations overflow; None if there are none.
+    """Return the error for drives so fast at t (s) that accelerations overflow; None if there are none.
 
     Drives that are not numbers, or that grow to such speeds, have their own messages.
     """
@@ -237,18 +260,18 @@ def overflowing(compiled: CompiledModel, p: Array, t: float) -> NonFiniteError |
     return None
 
 
-def runaway_error(pace: Pace, drives: str) -> SolverError:
-    """Return the error for a run whose `drives` (see drives_at) move ever faster."""
+def runaway_error(pace: Pace, drive_states: str) -> SolverError:
+    """Build the error for a run whose motion becomes ever faster; `drive_states`: text of drives_text."""
     return SolverError(
         f"the motion no longer advances at t = {pace.t:.12g} s: its last {pace.steps} steps gained {pace.gained:.3g} s"
-        f" and less and less, {pace.left:.3g} s are left{drives}\n"
+        f" and less and less, {pace.left:.3g} s are left{drive_states}\n"
         f"  {GROWN}",
         pace.t,
     )
 
 
 def too_slow_error(pace: Pace) -> SolverError:
-    """Return the error for a run whose end no computer reaches at this pace."""
+    """Build the error for a run whose end is too far away at its present pace."""
     return SolverError(
         f"the run has come to t = {pace.t:.9g} s, and at the pace of its last {pace.steps} steps the {pace.left:.3g} s"
         f" that are left take {pace.needed:.1e} more\n"
@@ -257,13 +280,13 @@ def too_slow_error(pace: Pace) -> SolverError:
     )
 
 
-def forces_with_switching_points(source: KernelSource) -> str:
+def _format_forces_with_switching_points(source: KernelSource) -> str:
     """Return the addresses and lines of the file's forces with switching points; "" if there are none."""
     found = [info for info, tree in trees(source, ("forces",)) if not CORNERED.isdisjoint(functions(tree))]
     return ", ".join(f"{info.address} (line {info.line}, column {info.column})" for info in found)
 
 
-def _stalled_error(compiled: CompiledModel, run: Mapping[str, Any], t_end: float, e_max: Array) -> SolverError:
+def _build_stalled_error(compiled: CompiledModel, run: Mapping[str, Any], t_end: float, e_max: Array) -> SolverError:
     """Return the error of a run to t_end (s) that no longer advances, from what C has stored of it.
 
     `run` has t_last, p_motion, and gained (s), paced of the last steps. `ended` counts how many of them ended at
@@ -275,10 +298,10 @@ def _stalled_error(compiled: CompiledModel, run: Mapping[str, Any], t_end: float
         return too_slow_error(pace)
     # a drive that still turns on in steps so short is what they are short for
     fast = drives_text(compiled, p, t, FELT * pace.steps / max(pace.gained, 1e-300))
-    film, whose = squeezed_film_text(compiled, e_max, p), int(ended.argmax())
+    film, whose = _format_squeezed_film(compiled, e_max, p), int(ended.argmax())
     if fast and not film and ended[whose] <= 0.01 * pace.steps:
         return runaway_error(pace, fast)
-    cornered = forces_with_switching_points(compiled.source)
+    cornered = _format_forces_with_switching_points(compiled.source)
     form = f" in {cornered}" if cornered else " of a law"
     kinds = (
         "a contact begins or ends",
@@ -302,8 +325,11 @@ def _stalled_error(compiled: CompiledModel, run: Mapping[str, Any], t_end: float
     )
 
 
-def squeezed_film_text(compiled: CompiledModel, e_max: Array, p: Array) -> str:
-    """Return a text on a film that is squeezed out (e/c near 1); "" if there is none."""
+def _format_squeezed_film(compiled: CompiledModel, e_max: Array, p: Array) -> str:
+    """Return a text on the first film that is squeezed out (e/c near 1); "" if there is none.
+
+    `e_max` (n_clearances,): largest eccentricities (m).
+    """
     for joint, e in zip(compiled.source.clearances, e_max, strict=True):
         ratio = float(e) / float(p[joint.film_clearance])
         if joint.film and ratio > NEARLY_CLOSED:
@@ -311,20 +337,24 @@ def squeezed_film_text(compiled: CompiledModel, e_max: Array, p: Array) -> str:
     return ""
 
 
-def _penetration_error(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError:
-    """Return the error for a journal more than a tenth of the bearing's radius deep, or outside its contact law."""
-    _, deepest, own, name, at_wall = max(
-        (depth / min(own, 0.1 * float(p[joint.constants["R_i"]])), depth, own, joint.name, joint.at_wall)
+def _build_penetration_error(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError:
+    """Build the error for the journal or corner that lies deepest relative to its limit, at t (s).
+
+    The limit is a tenth of the bearing's radius, or the validity range of the contact law. `e_max` (n_clearances,):
+    largest eccentricities (m). The error is marked as outside the model.
+    """
+    _, penetration, law_limit, name, at_wall = max(
+        (depth / min(law_limit, 0.1 * float(p[joint.constants["R_i"]])), depth, law_limit, joint.name, joint.at_wall)
         for joint, e in zip(compiled.source.clearances, e_max, strict=True)
         for depth in [float(e) - widest(compiled.source, p, joint)]
-        for own in [float(p[joint.constants["deepest"]]) if "deepest" in joint.constants else np.inf]
+        for law_limit in [float(p[joint.constants["deepest"]]) if "deepest" in joint.constants else np.inf]
     )
     tenth = "a tenth of half the guide's width," if at_wall else "a tenth of its radius,"
-    limit = f"{1e3 * own:.3g} mm, up to which its law of contact holds," if deepest > own else tenth
+    limit = f"{1e3 * law_limit:.3g} mm, up to which its law of contact holds," if penetration > law_limit else tenth
     whose, where = (f"corner {name}", "its wall") if at_wall else (f"the journal of {name}", "its bearing")
     laws, oil = ("laws of contact", "") if at_wall else ("laws of contact and film", ", a thicker oil")
     error = SolverError(
-        f"{whose} lies {1e3 * deepest:.3g} mm deep in {where}, beyond {limit} at t = {t:.9g} s\n"
+        f"{whose} lies {1e3 * penetration:.3g} mm deep in {where}, beyond {limit} at t = {t:.9g} s\n"
         f"  {laws} hold for far less: a stiffer material{oil} or less speed, and in rk4 a shorter step",
         t,
     )
@@ -332,15 +362,17 @@ def _penetration_error(compiled: CompiledModel, e_max: Array, p: Array, t: float
     return error
 
 
-def _is_in_place(compiled: CompiledModel, last: Array, p: Array) -> bool:
-    """Return whether no body has moved beyond 10⁴ times the mechanism's size."""
-    places = [k for k, name in enumerate(compiled.source.coordinates) if not name.endswith(".theta")]
-    return bool(np.abs(np.ravel(last)[places]).max(initial=0.0) < 1e4 * max(mechanism_size(compiled, p), 1e-3))
+def _is_within_bounds(compiled: CompiledModel, last_state: Array, p: Array) -> bool:
+    """Return whether all coordinates x, y of the `last_state` state are below 10⁴ times the mechanism's size."""
+    indices = [k for k, name in enumerate(compiled.source.coordinates) if not name.endswith(".theta")]
+    return bool(np.abs(np.ravel(last_state)[indices]).max(initial=0.0) < 1e4 * max(mechanism_size(compiled, p), 1e-3))
 
 
-def _dead_centre_error(compiled: CompiledModel, last: Array, p: Array, t: float) -> SolverError | None:
-    """Return the error for a linkage in a dead centre, where constraint equations depend on each other; else None."""
-    rows = nearly_dependent_rows(compiled, p, t, np.ravel(last)[: compiled.n])
+def _build_dead_centre_error(compiled: CompiledModel, last_state: Array, p: Array, t: float) -> SolverError | None:
+    """Build the error for a linkage in a dead centre, where constraint equations depend on each other; else return
+    None.
+    """
+    rows = nearly_dependent_rows(compiled, p, t, np.ravel(last_state)[: compiled.n])
     if not rows:
         return None
     advice = (
@@ -355,8 +387,12 @@ def _dead_centre_error(compiled: CompiledModel, last: Array, p: Array, t: float)
     )
 
 
-def _squeezed_film_error(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError | None:
-    """Return the error for a film that is squeezed out, near the singularity of its law at e = c; else None."""
+def _build_squeezed_film_error(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError | None:
+    """Build the error for the first film that is squeezed out, near the singularity of its law at e = c; else return
+    None.
+
+    The error is marked as outside the model.
+    """
     for joint, e in zip(compiled.source.clearances, e_max, strict=True):
         ratio = float(e) / float(p[joint.film_clearance])
         if joint.film and ratio > NEARLY_CLOSED:
@@ -370,43 +406,49 @@ def _squeezed_film_error(compiled: CompiledModel, e_max: Array, p: Array, t: flo
     return None
 
 
-def as_findings(source: KernelSource, worst: Array, t: Array, where: NDArray[np.intc]) -> tuple[Finding, ...]:
-    """Return the audit findings from values, times and places (n_checks,) as a run reports them.
+def as_findings(source: KernelSource, values: Array, t: Array, places: NDArray[np.intc]) -> tuple[Finding, ...]:
+    """Build the audit findings from the largest value, time (s) and place of each check, (n_checks,), as C reports
+    them.
 
-    Negative values mark checks that were not made.
+    Negative values mark checks that were not made; they are left out.
     """
-    rows = zip(CHECKS, worst.tolist(), t.tolist(), where.tolist(), strict=True)
+    rows = zip(CHECKS, values.tolist(), t.tolist(), places.tolist(), strict=True)
     return tuple(
-        Finding(check.name, value, at, _place_name(source, check, k)) for check, value, at, k in rows if value >= 0.0
+        Finding(check.name, value, at, _get_place_name(source, check, k))
+        for check, value, at, k in rows
+        if value >= 0.0
     )
 
 
-def _place_name(source: KernelSource, check: Check, k: int) -> str:
-    """Return the name of the joint, row, event or coordinate k to which a check refers; "" for none."""
-    if k < 0 or not check.place:
+def _get_place_name(source: KernelSource, check: Check, index: int) -> str:
+    """Return the name of the joint, row, event or coordinate k to which a check refers; "" if k is negative.
+
+    Other kinds of places are named by kind and number.
+    """
+    if index < 0 or not check.place:
         return ""
     if check.place == "joint":
-        return source.clearances[k].name
+        return source.clearances[index].name
     if check.place == "row":
-        return source.start_rows[k].name
+        return source.start_rows[index].name
     if check.place == "event":
-        return source.events[k].name
-    return source.coordinates[k] if check.place == "coordinate" else f"{check.place} {k}"
+        return source.events[index].name
+    return source.coordinates[index] if check.place == "coordinate" else f"{check.place} {index}"
 
 
 def audit_failure(findings: tuple[Finding, ...]) -> AuditError:
-    """Return the error of a run that a check of its audit ended."""
+    """Build the error of a run that its audit ended: the worst finding with its time, and a remedy."""
     worst = max(findings, key=lambda one: one.worst)
     return AuditError(f"{describe(worst)}\n  {REMEDY}", worst.t)
 
 
 def notes_of(findings: tuple[Finding, ...]) -> tuple[str, ...]:
-    """Return a note for each audit check above its limit."""
-    return tuple(describe(one) for one in findings if not one.worst <= 1.0)
+    """Return a note, as text, for each audit finding whose value is above its limit or NaN."""
+    return tuple(describe(finding) for finding in findings if not finding.worst <= 1.0)
 
 
 def describe(finding: Finding) -> str:
-    """Return a finding as text: the check, the value, the time and the place."""
+    """Return a finding as text: the check, what it compares, how often it exceeds its limit, time (s) and place."""
     check = next(one for one in (*CHECKS, *SAMPLE_CHECKS) if one.name == finding.check)
     place = f" at {check.place} {finding.place}" if finding.place else ""
     return (

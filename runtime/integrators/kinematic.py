@@ -58,14 +58,14 @@ class _KinematicRun:
         self.maxima, self.longs = np.zeros(2), np.zeros(2, dtype=np.int_)  # |Φ|, |Φ̇|; and steps, rows of a call
         self.reached, self.seconds = 0, 0.0
         self.events = Events(problem) if self.compiled.source.events else None
-        self.asker = Asker(self.compiled, self.look)
-        self.course = self._new_course()
-        self.steps = self._make_record(problem.look) if problem.look else None
+        self.asker = Asker(self.compiled, self.poll_and_report)
+        self.course = self._allocate_course()
+        self.steps = self._make_step_log(problem.look) if problem.look else None
         if self.steps:
             self.steps.lay(self.pointer(self.course, "void *"))
 
-    def _new_course(self) -> NDArray[Any]:
-        """Return a new struct of C that follows the motion, or its works."""
+    def _allocate_course(self) -> NDArray[Any]:
+        """Allocate and initialise a struct of C that follows the motion, or its works; return its bytes."""
         course = np.zeros(self.compiled.lib.gudgeon_kinematic_size(), dtype=np.uint8)
         size = mechanism_size(self.compiled, self.problem.p)
         self.compiled.lib.gudgeon_kinematic_begin(
@@ -73,31 +73,38 @@ class _KinematicRun:
         )
         return course
 
-    def _make_record(self, look: Look) -> Course:
-        """Return the record of all steps for an observer."""
+    def _make_step_log(self, look: Look) -> Course:
+        """Return a record that collects all steps for the observer `poll_and_report`, beginning with the start."""
         none = np.zeros((1, 0))
         begin = Steps(
             self.t[:1], self.q[:1], self.v[:1], self.work[:1], none, none.astype(np.int8), np.ones(1, dtype=bool)
         )
-        return Course(self.compiled, look, self._new_course, begin)
+        return Course(self.compiled, look, self._allocate_course, begin)
 
     def pointer(self, array: NDArray[Any], kind: str = "double *") -> Any:
         """Return a C pointer to an array."""
         return self.compiled.pointer(array, kind)
 
-    def look(self) -> None:
-        """Check for Ctrl-C and for an optimized library, and report progress; called by C and between chunks."""
+    def poll_and_report(self) -> None:
+        """Poll for Ctrl-C and for an optimized library, and report progress; called by C and between chunks.
+
+        Raises KeyboardInterrupt.
+        """
         self.compiled.lib.newest()
         self.problem.take()
         if self.problem.progress:
             t = self.problem.t
-            come = float(np.nanmean(self._progress()[0])) if self.begun else t[0]  # of motion and works
+            come = float(np.nanmean(self._read_progress()[0])) if self.has_first_sample else t[0]  # of motion and works
             self.problem.progress(float(come - t[0]) / max(float(t[-1] - t[0]), 1e-300), "following the constraints")
 
-    def go(self) -> None:
-        """Follow the motion to its end in chunks: motion, events, then works of the same samples. Raise SolverError."""
+    def integrate(self) -> None:
+        """Compute all samples in chunks: the motion, its events, then its works, and pass steps to the observer.
+
+        Chunks grow while they are fast. An event may end the run. Raises SolverError where the motion cannot be
+        followed, and KeyboardInterrupt.
+        """
         first, last, chunk = 0, len(self.t) - 1, 1
-        while first < last or not self.begun:
+        while first < last or not self.has_first_sample:
             before = perf_counter()
             end, failed = self._compute_motion(first, min(first + chunk, last))
             stops = self.events is not None and end > first and self.events.find(self, first, end)
@@ -107,18 +114,22 @@ class _KinematicRun:
             if self.steps:
                 self.steps.hand_on(self.problem.p, (self.t[end], self.q[end], self.v[end]) if stops else None)
             if failed and not stops:
-                raise self._failure(failed)
+                raise self._build_error(failed)
             first = end
             chunk = max(1, min(2 * chunk, CHUNK) if perf_counter() - before < TURN else chunk // 2)
-            self.look()
+            self.poll_and_report()
 
     @property
-    def begun(self) -> bool:
-        """Return whether the first row is complete."""
+    def has_first_sample(self) -> bool:
+        """Return whether the first sample is complete."""
         return not np.isnan(self.a[0]).all()
 
     def _compute_motion(self, first: int, last: int) -> tuple[int, int]:
-        """Compute rows up to `last`; return the last row that was reached, and the status (0: no failure)."""
+        """Compute q, q̇, q̈ of the samples after `first` up to `last`, from the state of C's struct.
+
+        Return the index of the last computed sample, and the status of C (0: no failure). Recorded steps are fetched
+        when C's list is full. Raises KeyboardInterrupt.
+        """
         longs, course, status = self.pointer(self.longs, "long *"), self.pointer(self.course, "void *"), EVENTS_FULL
         while status == EVENTS_FULL:
             rows, before = slice(first, None), perf_counter()
@@ -141,7 +152,10 @@ class _KinematicRun:
         return first, int(status)
 
     def _compute_works(self, first: int, last: int) -> int:
-        """Compute the works of rows up to `last`. Raise SolverError where they cannot be computed to the end."""
+        """Compute the works of the samples after `first` up to `last`, and return `last`.
+
+        Raises SolverError where they cannot be computed to the end; `reached` is then the last complete sample.
+        """
         if last == first:
             return last
         rows, done = slice(first, None), np.zeros(1, dtype=np.int_)
@@ -156,11 +170,14 @@ class _KinematicRun:
         self.asker.check(status == STOPPED)
         if status:
             self.reached = first + int(done[0])
-            raise self._failure(status)
+            raise self._build_error(status)
         return last
 
     def _cut_at_event(self, first: int, end: int) -> int:
-        """Shorten the samples to the event that ends the run among these rows; return the index of the last sample."""
+        """Shorten the samples to the event that ends the run between `first` and `end`; return the last sample's index.
+
+        The event's time becomes the last sample, whose motion is computed. Recording of steps ends. Raises SolverError.
+        """
         assert self.events is not None
         t_end = float(self.events.in_order()[0]["t"][-1])
         last = first + int(np.searchsorted(self.t[first : end + 1], t_end - resolution(self.problem.t)))
@@ -171,12 +188,14 @@ class _KinematicRun:
             self.compiled.lib.gudgeon_kinematic_restart(self.pointer(self.course, "void *"))
             _, failed = self._compute_motion(last - 1, last)
             if failed:
-                raise self._failure(failed)
+                raise self._build_error(failed)
         return last
 
-    def _failure(self, status: int) -> SolverError:
-        """Return the error for a status of C."""
-        at, gained, steps, crawls = self._progress()
+    def _build_error(self, status: int) -> SolverError:
+        """Build the error for a nonzero status of C: no progress, a value that is not a number, or a motion not to
+        be followed.
+        """
+        at, gained, steps, crawls = self._read_progress()
         t, t_end = float(at[0]), float(self.problem.t[-1])
         if status == STALLED:
             pace = Pace(t, t_end - t, gained, steps, bool(crawls))
@@ -184,34 +203,41 @@ class _KinematicRun:
                 runaway_error(pace, drives_text(self.compiled, self.problem.p, t)) if crawls else too_slow_error(pace)
             )
         if status == NOT_FINITE:
-            return self._not_a_number_error(float(at[1]))
-        return _failure(self.problem, status, t, self._positions_at(t))
+            return self._build_undefined_error(float(at[1]))
+        return _build_motion_error(self.problem, status, t, self._compute_positions(t))
 
-    def _positions_at(self, t: float) -> Array:
-        """Return the positions at t (s), followed from the last complete row."""
+    def _compute_positions(self, t: float) -> Array:
+        """Return the coordinates (n,) at t (s), followed from the last complete sample; that sample if t is not
+        later.
+        """
         k = self.reached
-        if not self.begun or not t > self.t[k]:
+        if not self.has_first_sample or not t > self.t[k]:
             return self.q[k]
         return along(self.compiled, self.problem.p, np.array([self.t[k], t]), self.q[k], self.v[k])[0][1]
 
-    def _not_a_number_error(self, t: float) -> SolverError:
-        """Return the error for a drive, a force or one of their rates that is not a number at t (s)."""
+    def _build_undefined_error(self, t: float) -> SolverError:
+        """Build the error for a drive, a force or one of their rates that is not a number at t (s), with its
+        expression.
+        """
         compiled, p = self.compiled, self.problem.p
         why = reason(compiled.source, p, t, self.q[self.reached], self.v[self.reached])
         why = why or rate_reason(compiled, p, np.array([t]), np.zeros(compiled.n))[0]
         why = why or f"what the drives and forces do is no number at t = {t:.9g} s{drives_text(compiled, p, t)}"
         return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
 
-    def _progress(self) -> tuple[Array, float, int, int]:
-        """Return the times (s) of motion and works, the gain (s) of the last steps, their number, and if they crawl."""
+    def _read_progress(self) -> tuple[Array, float, int, int]:
+        """Return the progress of C: times (2,) in s of motion and works, then three values on the last steps.
+
+        These are the time gained (s), the number of steps, and 1 if they became far shorter than before.
+        """
         t, gained, steps = np.zeros(2), np.zeros(1), np.zeros(2, dtype=np.int_)
         self.compiled.lib.gudgeon_kinematic_progress(
             self.pointer(self.course, "void *"), self.pointer(t), self.pointer(gained), self.pointer(steps, "long *")
         )
         return t, float(gained[0]), int(steps[0]), int(steps[1])
 
-    def trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
-        """Return the complete rows as a Trajectory."""
+    def build_trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
+        """Return the complete samples as a Trajectory, with events up to the last one."""
         from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
         rows, first = slice(self.reached + 1), np.zeros(1)
@@ -242,27 +268,28 @@ class _KinematicRun:
 
 
 def run(problem: Problem) -> Trajectory:
-    """Return the Trajectory of a kinematic run at the output times, and at an event that ends it.
+    """Integrate a kinematic run and return its Trajectory at the output times, or up to an event that ends it.
 
-    Raises KeyboardInterrupt before the first sample. A chunk that Ctrl-C interrupts is discarded, because motion, works
-    and events belong together.
+    An error ends the trajectory and is its `stopped`. A chunk that Ctrl-C interrupts is discarded, because motion,
+    works and events belong together. Raises KeyboardInterrupt before the first sample.
     """
-    way = _KinematicRun(problem)
+    run_state = _KinematicRun(problem)
     interrupted, stopped = False, None
     try:
-        way.go()
+        run_state.integrate()
     except KeyboardInterrupt:
-        if not way.begun:
+        if not run_state.has_first_sample:
             raise
         interrupted = True
     except SolverError as error:
         stopped = error
-    return way.trajectory(interrupted, stopped)
+    return run_state.build_trajectory(interrupted, stopped)
 
 
 def along(compiled: CompiledModel, p: Array, t: Array, q: Array, v: Array) -> tuple[Array, Array]:
-    """Return q and q̇ (T, n) at times t (T,), following the motion from the state q, v (n,) at t[0]; NaN after a
-    failure.
+    """Compute q and q̇ (T, n) of a kinematic motion at times t (T,) in s, following it from the state q, v at t[0].
+
+    Rows after a failure are NaN. Nothing polls for Ctrl-C.
     """
     T, pointer, done = len(t), compiled.pointer, np.zeros(2, dtype=np.int_)
     course, maxima, a = (
@@ -289,18 +316,22 @@ def along(compiled: CompiledModel, p: Array, t: Array, q: Array, v: Array) -> tu
     return every_q, every_v
 
 
-def _failure(problem: Problem, status: int, t: float, q: Array) -> SolverError:
-    """Return the error for a motion that cannot be followed beyond t (s), with positions q (n,) there."""
+def _build_motion_error(problem: Problem, status: int, t: float, q: Array) -> SolverError:
+    """Build the error for a motion that cannot be followed beyond t (s), with coordinates q (n,) there.
+
+    Its cause is the first that applies: overflow, an undefined drive, no position (status < 0), a branching of the
+    motion, or a singular position.
+    """
     if message := overflowing(problem.compiled, problem.p, t):
         return message
     later = problem.t[problem.t > t]
-    until = float(later[0]) if len(later) else t
-    why, when = reason_between(problem.compiled.source, problem.p, t, until)
-    if not why:
-        times = np.linspace(t, until, 1001)
-        why, when = rate_reason(problem.compiled, problem.p, times, np.zeros(problem.compiled.n))
-    if why:
-        return NonFiniteError(f"{why}\n  {NO_NUMBER}", when)
+    t_next = float(later[0]) if len(later) else t
+    reason_text, when = reason_between(problem.compiled.source, problem.p, t, t_next)
+    if not reason_text:
+        times = np.linspace(t, t_next, 1001)
+        reason_text, when = rate_reason(problem.compiled, problem.p, times, np.zeros(problem.compiled.n))
+    if reason_text:
+        return NonFiniteError(f"{reason_text}\n  {NO_NUMBER}", when)
     if status < 0:
         return SolverError(
             f"the linkage cannot follow its drives beyond t = {t:.12g} s: Newton's method finds no position"
@@ -337,42 +368,46 @@ class Events:
         self.side = np.zeros(len(problem.compiled.source.events), dtype=np.int8)  # of zero, seen last
         self.found, self.capacity = no_events(), MAX_LISTED
 
-    def find(self, way: _KinematicRun, first: int, last: int) -> bool:
-        """Search the intervals between rows first to last; return whether an event ends the run there.
+    def find(self, run_state: _KinematicRun, first: int, last: int) -> bool:
+        """Search the intervals between samples `first` to `last`; return whether an event ends the run there.
 
-        Raises SolverError where the motion cannot be followed between its samples.
+        Events are appended to `found`. The last interval is searched slightly beyond the end. Raises SolverError where
+        the motion cannot be followed between its samples.
         """
-        times, done = way.t[first : last + 1], 0
+        times, n_done = run_state.t[first : last + 1], 0
         if last == len(self.problem.t) - 1:  # a little more, for what is zero at the end
             more = max(4.0 * float(np.spacing(abs(self.end))), 1e-12 * (self.end - float(times[-2])))
             times = np.append(times, self.end + more)
-        while done < len(times) - 1:
-            status, count = self._search_intervals(way, first + done, times[done:])
-            done += count
+        while n_done < len(times) - 1:
+            status, count = self._search_intervals(run_state, first + n_done, times[n_done:])
+            n_done += count
             if status == EVENT_STOPS:
                 return True
             if status == EVENTS_FULL:
                 self.capacity *= 4  # one interval may have more than there was room for
-            elif status and times[done] < self.end:
-                t = float(times[done])
+            elif status and times[n_done] < self.end:
+                t = float(times[n_done])
                 message = f"events cannot be looked for beyond t = {t:.9g} s: no position was found there"
                 raise SolverError(message, t)
             elif status:
                 break  # beyond the end
         return False
 
-    def _search_intervals(self, way: _KinematicRun, row: int, times: Array) -> tuple[int, int]:
-        """Search the intervals between these times from a row on; return a status and the number of complete ones."""
+    def _search_intervals(self, run_state: _KinematicRun, first: int, times: Array) -> tuple[int, int]:
+        """Search the intervals between these times from sample `first` on, and append the events to `found`.
+
+        Return the status of C and the number of complete intervals. Raises KeyboardInterrupt.
+        """
         pointer, counts = self.problem.compiled.pointer, np.zeros(2, dtype=np.int_)
         at, which = np.zeros(self.capacity), np.zeros(self.capacity, dtype=np.intc)
         status = self.problem.compiled.lib.gudgeon_kinematic_events(
-            pointer(way.course, "void *"),
+            pointer(run_state.course, "void *"),
             len(times) - 1,
             pointer(times),
             pointer(self.problem.p),
-            pointer(way.q[row:]),
-            pointer(way.v[row:]),
-            float(way.t[0]),
+            pointer(run_state.q[first:]),
+            pointer(run_state.v[first:]),
+            float(run_state.t[0]),
             int(self.problem.stop),
             pointer(self.side, "signed char *"),
             self.capacity,
@@ -381,14 +416,17 @@ class Events:
             pointer(counts, "long *"),
             pointer(counts[1:], "long *"),
         )
-        way.asker.check(status == STOPPED)
-        some = np.zeros(int(counts[0]), dtype=EVENT_DTYPE)
-        some["event"], some["t"] = which[: len(some)], at[: len(some)]
-        self.found = np.concatenate([self.found, some])
+        run_state.asker.check(status == STOPPED)
+        new_events = np.zeros(int(counts[0]), dtype=EVENT_DTYPE)
+        new_events["event"], new_events["t"] = which[: len(new_events)], at[: len(new_events)]
+        self.found = np.concatenate([self.found, new_events])
         return int(status), int(counts[1])
 
     def in_order(self) -> tuple[NDArray[Any], NDArray[Any]]:
-        """Return the events by time, not beyond the end, and the first time at which each is not a number."""
+        """Return the events sorted by time, not beyond the end, and for each undefined event the first time of that.
+
+        Both are arrays (EVENT_DTYPE).
+        """
         events, lost = split_undefined(self.problem.compiled, self.found)
         events["t"] = np.minimum(events["t"], self.end)
         return events, lost[np.unique(lost["event"], return_index=True)[1]]

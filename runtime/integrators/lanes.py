@@ -32,10 +32,10 @@ if TYPE_CHECKING:
     from gudgeon.integrators.steps import StepLog
 
 NONE = -1  # in place of the number of a run
-FEW = 16  # smallest number of runs for which vectors are used
+MIN_RUNS = 16  # smallest number of runs for which vectors are used
 # largest number of runs that proceed together, and the number that always may, however many samples they have
-MOST, ALWAYS = 32, 8
-WORTH = 6.0  # s: expected remaining time of a batch from which on its library is compiled
+MAX_LANES, ALWAYS = 32, 8
+MIN_REMAINING_S = 6.0  # s: expected remaining time of a batch from which on its library is compiled
 _later: ContextVar[int] = ContextVar("runs of the same scene that are to come in other batches", default=0)
 
 
@@ -49,46 +49,57 @@ class Lanes:
     def __init__(self, compiled: CompiledModel) -> None:
         from gudgeon.loading.build import compile_kernels
 
-        library = compile_kernels(_source_of_lanes(compiled), portable=compiled.portable)
+        library = compile_kernels(_build_lane_source(compiled), portable=compiled.portable)
         self.lib, self.ffi = library.lib, library.ffi
         self.count = int(self.lib.gudgeon_lane_count())
         single = compiled.ffi.cast("uintptr_t", compiled.lib.gudgeon_single())
         self.single = self.ffi.cast("void *", int(single))
 
     def flow(
-        self, runs: Runs, supply: Iterator[int], memories: NDArray[np.uint8], tapes: Sequence[StepLog], place: int
+        self,
+        runs: Runs,
+        waiting_runs: Iterator[int],
+        memories: NDArray[np.uint8],
+        step_logs: Sequence[StepLog],
+        first_row: int,
     ) -> None:
-        """Integrate all runs of `supply`, each with a row of `memories` as its storage.
+        """Integrate all runs of `waiting_runs` in this thread, several in the lanes of one vector, until none is left.
 
-        If rows of samples are shared, those from `place` on are used. `tapes`: step records for observers, one per row.
+        Lanes that become free are filled with the next run. Each lane has a row of `memories` as its storage. If rows
+        of samples are shared, those from `first_row` on are used. `step_logs`: step records for observers, one per
+        lane. If the batch is stopped, begun runs are handed over one by one.
         """
-        arguments, rows, number = self._arguments(runs, memories)
-        free, waiting, status = [*range(place, place + runs.places)], list[int](), LISTS
-        empty = [*range(len(rows))]
+        arguments, rows, run_of_lane = self._build_arguments(runs, memories)
+        free_rows, unstored, status = [*range(first_row, first_row + runs.places)], list[int](), LISTS
+        empty_lanes = [*range(len(rows))]
         while status != ALL_OVER and not runs.stopping:
-            for k in empty:
-                if (i := next(supply, NONE)) != NONE:
-                    number[k] = i
+            for k in empty_lanes:
+                if (i := next(waiting_runs, NONE)) != NONE:
+                    run_of_lane[k] = i
                     if runs.shared:
-                        runs.arrays["place"][i] = free.pop()
-            before = list(number)
-            status = self.lib.gudgeon_lanes(*arguments, number)
-            empty = [k for k, i in enumerate(number) if i == NONE and k < len(rows)]
-            for k in empty if status != LISTS else range(len(rows)):
+                        runs.arrays["place"][i] = free_rows.pop()
+            before = list(run_of_lane)
+            status = self.lib.gudgeon_lanes(*arguments, run_of_lane)
+            empty_lanes = [k for k, i in enumerate(run_of_lane) if i == NONE and k < len(rows)]
+            for k in empty_lanes if status != LISTS else range(len(rows)):
                 if before[k] != NONE:
-                    _fetch_lists(runs, before[k], rows[k], tapes[k] if tapes else None)
-            waiting += [before[k] for k in empty if before[k] != NONE]
-            if runs.shared and len(free) < len(empty):
-                runs.are_over(waiting)
-                free += runs.arrays["place"][waiting].tolist()
-                waiting.clear()
-        runs.are_over(waiting)
-        for k, i in enumerate(number):
+                    _fetch_lists(runs, before[k], rows[k], step_logs[k] if step_logs else None)
+            unstored += [before[k] for k in empty_lanes if before[k] != NONE]
+            if runs.shared and len(free_rows) < len(empty_lanes):
+                runs.are_over(unstored)
+                free_rows += runs.arrays["place"][unstored].tolist()
+                unstored.clear()
+        runs.are_over(unstored)
+        for k, i in enumerate(run_of_lane):
             if i != NONE:
-                runs.to_its_end(i, memories[k], tapes[k] if tapes else None)
+                runs.to_its_end(i, memories[k], step_logs[k] if step_logs else None)
 
-    def _arguments(self, runs: Runs, memories: NDArray[np.uint8]) -> tuple[tuple[Any, ...], list[Any], Any]:
-        """Return the arguments for C, pointers to the rows of `memories`, and the run numbers of the lanes (none)."""
+    def _build_arguments(self, runs: Runs, memories: NDArray[np.uint8]) -> tuple[tuple[Any, ...], list[Any], Any]:
+        """Return three things for calls of C: its arguments, pointers to the rows of `memories`, and an array of run
+        numbers.
+
+        The array has one number per lane and is filled with NONE.
+        """
         rows = [runs.compiled.pointer(memory, "void *") for memory in memories[: self.count]]
         pointers = self.ffi.new("void *[]", self.count)
         for k, memory in enumerate(memories[: self.count]):
@@ -101,22 +112,23 @@ class Flow:
     """Provide the lanes of a batch, as soon as compiling their library is worth the time."""
 
     def __init__(self, compiled: CompiledModel) -> None:
-        self.compiled, self.count, self.later = compiled, MOST, _later.get()
+        self.compiled, self.count, self.later = compiled, MAX_LANES, _later.get()
         self.lanes = _made.get(compiled)
-        if self.lanes is None and (not WORTH or _is_compiled(compiled)):
-            self.lanes = _lanes_of(compiled)
+        if self.lanes is None and (not MIN_REMAINING_S or _is_compiled(compiled)):
+            self.lanes = _load_lanes(compiled)
         self.began = time.perf_counter()
 
     def begins(self, runs: Runs) -> Lanes | None:
-        """Return the lanes if the remaining runs are worth them, else None.
+        """Return the lanes if the remaining runs are worth them, else None; called before each portion of runs.
 
-        One thread compiles their library while the others continue.
+        The first thread for which they pay off compiles their library while the others continue. None is returned if
+        the batch is stopped meanwhile.
         """
         self.lanes = self.lanes or _made.get(self.compiled)  # another batch may have made them
         if self.lanes is None and self._is_worth(runs) and _making.acquire(blocking=False):
             try:
                 with until(lambda: runs.stopping):
-                    self.lanes = self.lanes or _lanes_of(self.compiled)
+                    self.lanes = self.lanes or _load_lanes(self.compiled)
             except KeyboardInterrupt:  # the batch is ending: who waits for it has taken Ctrl-C
                 return None
             finally:
@@ -124,28 +136,33 @@ class Flow:
         return self.lanes
 
     def _is_worth(self, runs: Runs) -> bool:
-        """Return whether the remaining runs are expected to take longer than WORTH."""
+        """Return whether the remaining runs, estimated from those that are over, will take longer than WORTH
+        seconds.
+        """
         over = int(np.count_nonzero(runs.arrays["phase"] == OVER))
-        return over > 0 and (time.perf_counter() - self.began) * (runs.n + self.later - over) / over > WORTH
+        return over > 0 and (time.perf_counter() - self.began) * (runs.n + self.later - over) / over > MIN_REMAINING_S
 
 
 @contextmanager
-def followed_by(runs: int) -> Iterator[None]:
-    """Announce within a with block that so many runs follow in later batches, for which a library may pay off."""
-    token = _later.set(runs)
+def followed_by(n_runs: int) -> Iterator[None]:
+    """Announce within a with block how many runs follow in later batches, so that lanes are compiled earlier."""
+    token = _later.set(n_runs)
     try:
         yield
     finally:
         _later.reset(token)
 
 
-def _lanes_of(compiled: CompiledModel) -> Lanes:
-    """Return the library of lanes of a scene, loaded once for all its batches."""
+def _load_lanes(compiled: CompiledModel) -> Lanes:
+    """Return the library of lanes of a scene, compiled or loaded at the first call and cached for all its batches."""
     return _made.setdefault(compiled, _made.get(compiled) or Lanes(compiled))
 
 
 def numbers_of(runs: Runs, portions: deque[range | list[int]]) -> Iterator[int]:
-    """Yield the runs of the portions that are yet to begin, taking portions until none is left."""
+    """Yield the indices of runs that have not begun, taking portions from the shared queue until it is empty.
+
+    Yielding ends early if the batch is stopped. Several threads may take from the queue.
+    """
     while portions and not runs.stopping:
         try:
             portion = portions.popleft()
@@ -154,8 +171,8 @@ def numbers_of(runs: Runs, portions: deque[range | list[int]]) -> Iterator[int]:
         yield from (i for i in portion if runs.arrays["phase"][i] == NEW)
 
 
-def _source_of_lanes(compiled: CompiledModel) -> KernelSource:
-    """Return the scene with the sources and declarations of the library of lanes."""
+def _build_lane_source(compiled: CompiledModel) -> KernelSource:
+    """Return the kernel source of a scene with main file and declarations replaced by those of its library of lanes."""
     from gudgeon.loading.engine import lane_declarations
 
     return replace(compiled.source, main=compiled.source.lanes, cdef=lane_declarations())
@@ -165,24 +182,27 @@ def _is_compiled(compiled: CompiledModel) -> bool:
     """Return whether the library of lanes is in the cache."""
     from gudgeon.loading.build import is_compiled
 
-    return is_compiled(_source_of_lanes(compiled), portable=compiled.portable)
+    return is_compiled(_build_lane_source(compiled), portable=compiled.portable)
 
 
-def _fetch_lists(runs: Runs, i: int, run: Any, tape: StepLog | None = None) -> None:
-    """Fetch the contacts and events of run i, and its step record if it is full or the run is over."""
+def _fetch_lists(runs: Runs, i: int, run: Any, step_log: StepLog | None = None) -> None:
+    """Fetch the contacts and events of run i from C's integrator `run`, and its step record if full or the run is over.
+
+    Recorded steps are passed to the run's observer. Runs whose start C could not assemble are skipped.
+    """
     if runs.arrays["status"][i] == NOT_CLOSED:
         return
     over = bool(runs.arrays["phase"][i] == OVER)
-    if tape and (over or runs.compiled.lib.gudgeon_run_full(run)):
-        tape.look = runs.looks[i]
-        tape.fetch(run)
+    if step_log and (over or runs.compiled.lib.gudgeon_run_full(run)):
+        step_log.look = runs.looks[i]
+        step_log.fetch(run)
     runs.fetch(i, run, over)
 
 
-def expected(compiled: CompiledModel, method: str, runs: int) -> bool:
-    """Return whether the runs of a batch may share vectors: enough runs, and a method that the lanes have.
+def expected(compiled: CompiledModel, method: str, n_runs: int) -> bool:
+    """Return whether the runs of a batch may share vectors: enough runs, a method that the lanes have, and a compiler.
 
     Scenes derived for Taylor's method have lanes for it only.
     """
-    fits = bool(compiled.source.lanes) and (method in SMOOTH) == bool(compiled.source.taylor)
-    return runs >= FEW and fits and is_there()
+    has_lanes = bool(compiled.source.lanes) and (method in SMOOTH) == bool(compiled.source.taylor)
+    return n_runs >= MIN_RUNS and has_lanes and is_there()

@@ -40,7 +40,7 @@ class Steps:
         return Steps(*(getattr(self, each.name)[rows] for each in fields(self)))
 
     def then(self, later: Steps) -> Steps:
-        """Return these states followed by later ones."""
+        """Return new Steps: these states followed by the later ones."""
         return Steps(*(np.concatenate([getattr(self, x.name), getattr(later, x.name)]) for x in fields(self)))
 
 
@@ -57,17 +57,19 @@ class StepLog:
         self.rows = np.zeros((ROWS, sum(self.widths)))
 
     def lay(self, run: Any) -> None:
-        """Let a run that is about to begin write its states into these rows."""
+        """Register the rows with C's integrator `run`, which is about to begin and will write its states into them."""
         self.compiled.lib.gudgeon_run_record(run, self.compiled.pointer(self.rows, written=True), len(self.rows))
 
     def fetch(self, run: Any) -> None:
-        """Pass the states that the run has written since the last call to the observer."""
+        """Pass a copy of the states that C's integrator has written since the last call to the observer, if there
+        are any.
+        """
         count = int(self.compiled.lib.gudgeon_run_recorded(run))
         if count and self.look:
-            self.look(self._as_steps(self.rows[:count].copy()))
+            self.look(self._convert_rows(self.rows[:count].copy()))
 
-    def _as_steps(self, rows: Array) -> Steps:
-        """Return the rows that C wrote as Steps."""
+    def _convert_rows(self, rows: Array) -> Steps:
+        """Convert rows that C wrote (head, state, discrete states, contact codes) to Steps."""
         (head, y, memory, state), n = np.split(rows, np.cumsum(self.widths)[:-1], axis=1), self.compiled.n
         joints = len(self.compiled.source.clearances)
         return Steps(
@@ -82,26 +84,28 @@ class StepLog:
 
 
 class Shown:
-    """Collect the states of a run that Python drives, and pass them to the observer `look`, if there is one."""
+    """Collect the states of a run with a time loop in Python, and pass them in blocks to the observer `look`, if
+    any.
+    """
 
     def __init__(self, compiled: CompiledModel, look: Look | None) -> None:
         self.n, self.look = compiled.n, look
         self.waiting: list[Steps] = []
 
-    def add(self, t: Array, y: Array, memory: Array, state: NDArray[Any], jumped: bool) -> None:
-        """Add states (k, 2n + 3) at times t (k,), all with the same contacts.
+    def add(self, t: Array, y: Array, memory: Array, state: NDArray[Any], is_after_jump: bool) -> None:
+        """Add states (k, 2n + 3) at times t (k,), all with the same discrete states and contact codes.
 
-        `jumped`: whether something jumped before the first.
+        `is_after_jump`: whether something jumped before the first. A full block is passed to the observer.
         """
         k, n = len(t), self.n
-        first = np.arange(k) < int(jumped)
+        first = np.arange(k) < int(is_after_jump)
         repeated = np.tile(memory, (k, 1)), np.tile(state, (k, 1))
         self.waiting.append(Steps(t, y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], *repeated, first))
         if sum(map(len, self.waiting)) >= ROWS:
             self.hand_on()
 
     def hand_on(self) -> None:
-        """Pass the collected states to the observer."""
+        """Pass the collected states to the observer and clear them; do nothing without an observer or states."""
         waiting, self.waiting = self.waiting, []
         if self.look and waiting:
             columns = zip(*(vars(steps).values() for steps in waiting), strict=True)
@@ -119,40 +123,52 @@ class Course:
         look(first)
 
     def lay(self, course: Any, rows: int = ROWS) -> None:
-        """Let the motion write its states into these rows from now on; with 0 rows, stop that."""
+        """Register the rows with C's struct `course`, which writes its states into them from now on; with 0 rows,
+        end that.
+        """
         lib, where = self.compiled.lib, self.compiled.pointer(self.rows, written=True)
         lib.gudgeon_kinematic_record(course, where if rows else self.compiled.ffi.NULL, rows)
 
     def fetch(self, course: Any) -> None:
-        """Collect the states that were written since the last call."""
+        """Copy the states that C has written since the last call; they wait for `hand_on`, since an event may cut
+        them off.
+        """
         count = int(self.compiled.lib.gudgeon_kinematic_recorded(course))
         if count:
             self.waiting.append(self.rows[:count].copy())
 
     def hand_on(self, p: Array, end: tuple[float, Array, Array] | None = None) -> None:
-        """Pass the collected states to the observer, up to a last state (t, q, q̇) if the motion ends there."""
+        """Pass the collected states to the observer in blocks, with parameter values p, and clear them.
+
+        `end`: last state (t, q, q̇) if an event ends the motion; states after it are dropped. States that were passed
+        before are skipped.
+        """
         rows = np.concatenate(self.waiting) if self.waiting else self.rows[:0]
         self.waiting = []
         if end is not None:
             rows = np.concatenate([rows[rows[:, 0] < end[0]], np.hstack(end)[None]])
         rows = rows[rows[:, 0] > self.last.t[0]]
         for first in range(0, len(rows), ROWS):
-            self._show_rows(rows[first : first + ROWS], p)
+            self._pass_rows(rows[first : first + ROWS], p)
 
-    def _show_rows(self, rows: Array, p: Array) -> None:
-        """Compute the works of these rows and pass them to the observer."""
+    def _pass_rows(self, rows: Array, p: Array) -> None:
+        """Compute the works of the states `rows` (k, 1 + 2n) and pass the states to the observer; works are NaN
+        after a failure.
+        """
         n, count, pointer = self.compiled.n, len(rows), self.compiled.pointer
         t, q, v = rows[:, 0].copy(), rows[:, 1 : 1 + n].copy(), rows[:, 1 + n :].copy()
         work, done = np.full((count + 1, N_WORK), np.nan), np.zeros(1, dtype=np.int_)
         work[0] = self.last.work[0]
-        way = tuple(np.concatenate([old, new]) for old, new in ((self.last.t, t), (self.last.q, q), (self.last.v, v)))
+        motion = tuple(
+            np.concatenate([old, new]) for old, new in ((self.last.t, t), (self.last.q, q), (self.last.v, v))
+        )
         status = self.compiled.lib.gudgeon_kinematic_works(
             pointer(self.works, "void *"),
             count,
-            pointer(way[0]),
+            pointer(motion[0]),
             pointer(p),
-            pointer(way[1]),
-            pointer(way[2]),
+            pointer(motion[1]),
+            pointer(motion[2]),
             pointer(work, written=True),
             pointer(done, "long *", True),
         )

@@ -52,8 +52,8 @@ from gudgeon.model.compiled import Array, CompiledModel
 BLOCK = 16 * MAX_LISTED  # contacts that are stored in one block
 
 
-def impacts_from_c(numbers: Array, joints: NDArray[np.intc]) -> NDArray[Any]:
-    """Return contacts (IMPACT_DTYPE) from their values (n, N_IMPACT_COLUMNS) and joints (n,) as C lists them."""
+def _convert_contacts(numbers: Array, joints: NDArray[np.intc]) -> NDArray[Any]:
+    """Convert contacts from C's values (n, N_IMPACT_COLUMNS) and joint indices (n,) to an array (IMPACT_DTYPE)."""
     impacts = np.empty(len(joints), dtype=IMPACT_DTYPE)
     impacts["joint"] = joints
     for name in (IMPACT_DTYPE.names or ())[1:]:
@@ -65,24 +65,28 @@ class Contacts:
     """Collect the contacts of the runs of a batch; each thread has its own lists."""
 
     def __init__(self, compiled: CompiledModel) -> None:
-        self.compiled, self.own, self.all = compiled, local(), list[_Fetched]()
+        self.compiled, self.own, self.all = compiled, local(), list[_ThreadContacts]()
 
-    def fetch(self, i: int, run: Any, last: bool) -> None:
-        """Fetch and empty the list of contacts of run i; with `last` also the contacts that are still closed."""
+    def fetch(self, i: int, run: Any, is_over: bool) -> None:
+        """Fetch and clear the contacts that C's integrator `run` lists for run i; with `is_over` also those still
+        closed.
+
+        They are stored in lists of the calling thread.
+        """
         try:
-            fetched: _Fetched = self.own.fetched
+            fetched: _ThreadContacts = self.own.fetched
         except AttributeError:
-            fetched = self.own.fetched = _Fetched(self.compiled)
+            fetched = self.own.fetched = _ThreadContacts(self.compiled)
             self.all.append(fetched)
-        fetched.fetch(i, run, last)
+        fetched.fetch(i, run, is_over)
 
-    def joined(self, n: int) -> tuple[NDArray[Any], NDArray[np.int_]]:
-        """Return the contacts (IMPACT_DTYPE) of runs 0 to n − 1, by run and onset, and each run's first index.
+    def joined(self, n_runs: int) -> tuple[NDArray[Any], NDArray[np.int_]]:
+        """Return the contacts (IMPACT_DTYPE) of all n runs sorted by run and onset, and the first index of each run.
 
-        The indices have the shape (n + 1,). Call it once: the lists are released.
+        The indices have the shape (n + 1,). Call it once, after all threads have ended: the lists are released.
         """
         if not self.all:
-            return np.zeros(0, IMPACT_DTYPE), np.zeros(n + 1, np.int_)
+            return np.zeros(0, IMPACT_DTYPE), np.zeros(n_runs + 1, np.int_)
         runs = np.array([i for each in self.all for i in each.runs], np.int_)
         counts = np.array([count for each in self.all for count in each.counts], np.int_)
         begins, by_run = np.cumsum(counts) - counts, np.argsort(runs, kind="stable")
@@ -95,10 +99,10 @@ class Contacts:
         self.all.clear()
         # complex numbers are ordered by their real parts first; the rows nearly are, which a lexsort does not use
         row = row[np.argsort(whose + 1j * numbers[row, IMPACT_t_on], kind="stable")]
-        return impacts_from_c(numbers[row], joints[row]), np.searchsorted(whose, np.arange(n + 1))
+        return _convert_contacts(numbers[row], joints[row]), np.searchsorted(whose, np.arange(n_runs + 1))
 
 
-class _Fetched:
+class _ThreadContacts:
     """Collect the contacts fetched by one thread: runs, number of contacts of each, and the contacts in blocks."""
 
     def __init__(self, compiled: CompiledModel) -> None:
@@ -107,19 +111,21 @@ class _Fetched:
         self._begin()
 
     def _begin(self) -> None:
-        """Allocate an empty block."""
+        """Allocate an empty block for BLOCK contacts, with C pointers to it."""
         self.numbers, self.joints, self.n = np.empty((BLOCK, N_IMPACT_COLUMNS)), np.empty(BLOCK, np.intc), 0
         pointer = self.compiled.pointer
         self.to = pointer(self.numbers, written=True), pointer(self.joints, "int *", written=True)
 
-    def fetch(self, i: int, run: Any, last: bool) -> None:
-        """Fetch the contacts of run i into blocks; with `last` also those that are still closed."""
+    def fetch(self, i: int, run: Any, is_over: bool) -> None:
+        """Fetch the contacts of run i into blocks, allocating as many as needed; with `is_over` also those still
+        closed.
+        """
         self.runs.append(i)
         self.counts.append(0)
         while True:
             (numbers, joints), room = self.to, BLOCK - self.n
             to = numbers + N_IMPACT_COLUMNS * self.n, joints + self.n
-            count = self.compiled.lib.gudgeon_run_impacts(run, last, room, *to)
+            count = self.compiled.lib.gudgeon_run_impacts(run, is_over, room, *to)
             self.counts[-1] += count
             self.n += count
             if count < room:
@@ -128,11 +134,11 @@ class _Fetched:
             self._begin()
 
     def blocks(self) -> list[tuple[NDArray[Any], NDArray[Any]]]:
-        """Return the filled blocks: values (n, N_IMPACT_COLUMNS) and joints (n,)."""
+        """Return all blocks, the last cut to its length: values (n, N_IMPACT_COLUMNS) and joint indices (n,)."""
         return [*self.full, (self.numbers[: self.n], self.joints[: self.n])]
 
 
-class _Driven(NamedTuple):
+class _PythonLists(NamedTuple):
     """Hold the lists of a run that Python drove."""
 
     impacts: NDArray[Any]
@@ -151,27 +157,27 @@ class StoredRuns:
         compiled: CompiledModel,
         method: str,
         p: Array,
-        motion: Array,
+        p_motion: Array,
         times: Times,
         step: Array,
-        places: int,
+        n_rows: int,
         in_python: bool,
     ) -> None:
         self.compiled, self.method, self.times, self.n = compiled, method, times, len(p)
         n, N, size, nc = self.n, times.most, 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
         self.arrays: dict[str, NDArray[Any]] = {
-            "place": np.arange(n) % places,
+            "place": np.arange(n) % n_rows,
             "p": p,
-            "p_motion": motion,
+            "p_motion": p_motion,
             "step": step,
             "start": np.full((n, 2 * compiled.n), np.nan),
             "started": np.zeros(n, np.uint8),
             "phase": np.zeros(n, np.uint8),
-            "y": np.empty((places, N, size)),
+            "y": np.empty((n_rows, N, size)),
             "remembered": np.full((n, max(compiled.n_memory, 1)), np.nan),
             "codes": np.zeros((n, nc), np.int8),
-            "latched": np.empty((places, N, max(compiled.n_memory, 1))),
-            "state": np.zeros((places, N, nc), np.int8),
+            "latched": np.empty((n_rows, N, max(compiled.n_memory, 1))),
+            "state": np.zeros((n_rows, N, nc), np.int8),
             "done": np.zeros(n, np.int_),
             "status": np.zeros(n, np.intc),
             "t_last": np.full(n, times.start),
@@ -182,8 +188,8 @@ class StoredRuns:
             "peaks": np.full((n, nc, N_PEAK), np.nan),
         }
         if in_python:
-            self.arrays["a"] = np.full((places, N, compiled.n), np.nan)
-        self.driven: dict[int, _Driven] = {}
+            self.arrays["a"] = np.full((n_rows, N, compiled.n), np.nan)
+        self.driven: dict[int, _PythonLists] = {}
         self.fetched = Contacts(compiled)
         self.events: dict[int, list[NDArray[Any]]] = {}  # lists of events with states, of runs that have any
         # contacts by run once all are over, and each run's first index
@@ -192,54 +198,64 @@ class StoredRuns:
         self.interrupted = False
 
     def keep_trace(self) -> None:
-        """Allocate the envelope of forces and paths that new runs record for plots."""
+        """Allocate the envelope of forces and paths, and register it with C, so that new runs record it for plots."""
         joints, x = len(self.compiled.source.clearances), self.arrays
         x["trace"], x["traced"] = np.empty((self.n, TRACE_ROWS, trace_width(joints))), np.zeros(self.n, np.int_)
         self.struct.trace, self.struct.trace_rows = self.compiled.pointer(x["trace"], written=True), TRACE_ROWS
         self.struct.traced = self.compiled.pointer(x["traced"], "long *", True)
 
     def _join_contacts(self) -> None:
-        """Join the contacts of all runs, once these are over."""
+        """Join the contacts of all runs to one array sorted by run and onset, after all runs have ended."""
         if not self.driven:
             self.contacts, self.cuts = self.fetched.joined(self.n)
             return
         each = [self.driven[i].impacts if i in self.driven else self.contacts for i in range(self.n)]
         self.contacts, self.cuts = joined(each), np.cumsum([0, *map(len, each)])
 
-    def store(self, i: int, found: Trajectory) -> None:
-        """Fill the arrays of run i from the Trajectory that Python computed."""
-        x, k, N, n = self.arrays, int(self.arrays["place"][i]), len(found.t), self.compiled.n
-        for columns, values in ((slice(n), found.q), (slice(n, 2 * n), found.v), (slice(2 * n, None), found.work)):
+    def store(self, i: int, trajectory: Trajectory) -> None:
+        """Copy the Trajectory of run i, which a time loop in Python computed, into the arrays, and record its error
+        if any.
+        """
+        x, k, N, n = self.arrays, int(self.arrays["place"][i]), len(trajectory.t), self.compiled.n
+        for columns, values in (
+            (slice(n), trajectory.q),
+            (slice(n, 2 * n), trajectory.v),
+            (slice(2 * n, None), trajectory.work),
+        ):
             x["y"][k, :N, columns] = values
-        x["latched"][k, :N, : self.compiled.n_memory] = found.memory
-        x["state"][k, :N, : found.state.shape[1]] = found.state
-        if found.a is not None:
-            x["a"][k, :N] = found.a
-        x["done"][i], x["t_last"][i], x["seconds"][i], x["phase"][i] = N, found.t[-1], found.seconds, OVER
-        ended = ENDED if len(self.times.of(i)) > N or found.t[-1] < self.times.of(i)[-1] else 0
-        x["status"][i] = STOPPED if found.interrupted else ended
-        x["counts"][i] = [getattr(found.counts, name, 0) for name in COUNT_NAMES]
-        x["residuals"][i] = [getattr(found.counts, name, math.nan) for name in RESIDUAL_NAMES]
-        x["peaks"][i, : len(found.peaks)] = found.peaks
-        self.driven[i] = _Driven(found.impacts, found.events, found.no_number, found.change_points)
-        if found.stopped is not None:
-            self.failures[i] = found.stopped
+        x["latched"][k, :N, : self.compiled.n_memory] = trajectory.memory
+        x["state"][k, :N, : trajectory.state.shape[1]] = trajectory.state
+        if trajectory.a is not None:
+            x["a"][k, :N] = trajectory.a
+        x["done"][i], x["t_last"][i], x["seconds"][i], x["phase"][i] = N, trajectory.t[-1], trajectory.seconds, OVER
+        ended = ENDED if len(self.times.of(i)) > N or trajectory.t[-1] < self.times.of(i)[-1] else 0
+        x["status"][i] = STOPPED if trajectory.interrupted else ended
+        x["counts"][i] = [getattr(trajectory.counts, name, 0) for name in COUNT_NAMES]
+        x["residuals"][i] = [getattr(trajectory.counts, name, math.nan) for name in RESIDUAL_NAMES]
+        x["peaks"][i, : len(trajectory.peaks)] = trajectory.peaks
+        self.driven[i] = _PythonLists(
+            trajectory.impacts, trajectory.events, trajectory.no_number, trajectory.change_points
+        )
+        if trajectory.stopped is not None:
+            self.failures[i] = trajectory.stopped
 
-    def fetch(self, i: int, run: Any, last: bool) -> None:
-        """Fetch and empty the lists of contacts and events of run i."""
+    def fetch(self, i: int, run: Any, is_over: bool) -> None:
+        """Fetch and clear the lists of contacts and events of run i in C's integrator; with `is_over` also closed
+        contacts.
+        """
         if self.compiled.source.clearances:
-            self.fetched.fetch(i, run, last)
+            self.fetched.fetch(i, run, is_over)
         if self.compiled.source.events and self.compiled.lib.gudgeon_run_listed(run):
             self.events.setdefault(i, []).append(fetch_events(self.compiled, run, self.times.of(i)))
 
     def findings(self, i: int) -> tuple[Finding, ...]:
-        """Return the audit findings of run i; () for runs that Python drove."""
+        """Return the audit findings of run i; () for runs of a time loop in Python."""
         if i in self.driven:
             return ()
         return as_findings(self.compiled.source, *(self.arrays[f"audited{x}"][i] for x in ("", "_t", "_where")))
 
     def impacts_of(self, i: int) -> NDArray[Any]:
-        """Return the contacts (IMPACT_DTYPE) of run i, by onset."""
+        """Return the contacts (IMPACT_DTYPE) of run i, sorted by onset; a copy for runs in C."""
         if i in self.driven:
             return self.driven[i].impacts
         return self.contacts[self.cuts[i] : self.cuts[i + 1]].copy()
@@ -252,13 +268,13 @@ class StoredRuns:
         """Return the user events (EVENT_DTYPE) of each run, by time."""
         events = [no_events()] * self.n
         for i in (*self.events, *self.driven):
-            events[i] = plain(self._events_of(i)[0])
+            events[i] = plain(self._get_events(i)[0])
         return tuple(events)
 
-    def _events_of(self, i: int) -> tuple[NDArray[Any], NDArray[Any]]:
-        """Return the user events of run i by time, and those that are not numbers from a time on.
+    def _get_events(self, i: int) -> tuple[NDArray[Any], NDArray[Any]]:
+        """Return the user events of run i by time, and the times from which events are not numbers; both may be empty.
 
-        What C lists also has the states there.
+        For runs in C both contain the states there (event_dtype), and events after the last sample are dropped.
         """
         if i in self.driven:
             return self.driven[i].events, self.driven[i].no_number
@@ -268,32 +284,36 @@ class StoredRuns:
         events, lost = split_undefined(self.compiled, np.concatenate(self.events[i]))
         if x["status"][i] not in (0, ENDED, STOPPED) or not x["done"][i]:
             return events, lost
-        t_last = self._times_of(i)[-1] + resolution(times)
+        t_last = self._get_reached_times(i)[-1] + resolution(times)
         return events[events["t"] <= t_last], lost[lost["t"] <= t_last]
 
     def is_complete(self, i: int) -> bool:
-        """Return whether run i reached the last of its times."""
-        reached = self._times_of(i)
+        """Return whether run i has a sample at the last of its output times and was not interrupted."""
+        reached = self._get_reached_times(i)
         return self.arrays["status"][i] != STOPPED and len(reached) > 0 and reached[-1] >= self.times.of(i)[-1]
 
     def counts(self, i: int) -> Counts:
-        """Return the sums and maxima over the steps of run i."""
+        """Return the counts, sums and maxima over the steps of run i."""
         return counts_of(self.arrays["counts"][i], self.arrays["residuals"][i])
 
     def samples(self, i: int) -> tuple[Array, Array, Array, NDArray[Any]]:
-        """Return the times of the reached samples of run i, and views of (q, v, works), memory and codes."""
+        """Return the times (s) of the reached samples of run i, and views of its states, discrete states and contact
+        codes.
+
+        States are (k, 2n + 3): q, q̇ and works.
+        """
         x, compiled, k = self.arrays, self.compiled, int(self.arrays["place"][i])
-        t, joints = self._times_of(i), len(compiled.source.clearances)
+        t, joints = self._get_reached_times(i), len(compiled.source.clearances)
         y, memory, state = (x[name][k, : len(t)] for name in ("y", "latched", "state"))
         return t, y, memory[:, : compiled.n_memory], state[:, :joints]
 
     def accelerations(self, i: int) -> Array | None:
-        """Return views of q̈ at the samples of run i, if its method is driven by Python; else None."""
+        """Return a view of q̈ (k, n) at the samples of run i if a time loop in Python computed it; else None."""
         a: Array | None = self.arrays.get("a")
         return None if a is None else a[self.arrays["place"][i], : self.arrays["done"][i]]
 
-    def _times_of(self, i: int) -> Array:
-        """Return the times (s) of the samples of run i that were reached."""
+    def _get_reached_times(self, i: int) -> Array:
+        """Return the times (s) of the samples of run i that were reached; where it ended early, the last is its end."""
         done = int(self.arrays["done"][i])
         t = self.times.of(i)[:done].copy()
         if done and self.arrays["status"][i] in (ENDED, STOPPED, STALLED):
@@ -301,22 +321,25 @@ class StoredRuns:
         return t
 
     def trajectory(self, i: int) -> Trajectory:
-        """Return run i as a Trajectory; of several runs a copy of its arrays."""
-        own, x, n = np.copy if self.n > 1 else np.asarray, self.arrays, self.compiled.n
+        """Return run i as a Trajectory: copies of its rows, or views if it is the only run.
+
+        An error of an interrupted run is left out.
+        """
+        copy_if_shared, x, n = np.copy if self.n > 1 else np.asarray, self.arrays, self.compiled.n
         (t, y, memory, state), a, driven = self.samples(i), self.accelerations(i), self.driven.get(i)
-        error, (events, no_number) = self.failures.get(i), self._events_of(i)
+        error, (events, no_number) = self.failures.get(i), self._get_events(i)
         joints = len(self.compiled.source.clearances)
         is_stopped = x["status"][i] == STOPPED or (self.n == 1 and self.interrupted)
         return Trajectory(
             t,
-            own(y[:, :n]),
-            own(y[:, n : 2 * n]),
-            None if a is None else own(a),
-            own(memory),
-            own(state),
-            own(y[:, 2 * n :]),
+            copy_if_shared(y[:, :n]),
+            copy_if_shared(y[:, n : 2 * n]),
+            None if a is None else copy_if_shared(a),
+            copy_if_shared(memory),
+            copy_if_shared(state),
+            copy_if_shared(y[:, 2 * n :]),
             self.impacts_of(i),
-            own(x["peaks"][i, :joints]),
+            copy_if_shared(x["peaks"][i, :joints]),
             self.counts(i),
             is_stopped,
             error if isinstance(error, SolverError) and not is_stopped else None,
@@ -324,13 +347,13 @@ class StoredRuns:
             events=plain(events),
             event_states=None if driven else events,
             no_number=plain(no_number),
-            trace=self._envelope_of(i),
+            trace=self._build_envelope(i),
             audit=self.findings(i),
             change_points=driven.change_points if driven else NO_CHANGE_POINTS,
         )
 
-    def _envelope_of(self, i: int) -> Trace | None:
-        """Return the envelope of forces and paths of run i, or None."""
+    def _build_envelope(self, i: int) -> Trace | None:
+        """Return the envelope of forces and paths of run i; None if none was recorded."""
         if "trace" not in self.arrays:
             return None
         rows = self.arrays["trace"][i, : self.arrays["traced"][i]]

@@ -28,28 +28,32 @@ def available_threads() -> int:
 
 
 def wait_for(
-    waiting: set[Future[None]], ctrl_c: CtrlC, progress: Progress | None, fraction: Callable[[int], float]
+    futures: set[Future[None]], ctrl_c: CtrlC, progress: Progress | None, fraction: Callable[[int], float]
 ) -> None:
-    """Wait for all futures; raise their errors, and KeyboardInterrupt after Ctrl-C.
+    """Wait until all futures are done, and report progress; raise their errors, and KeyboardInterrupt after Ctrl-C.
 
     `fraction` returns the fraction of the work done, given the number of unfinished futures.
     """
-    while waiting:
-        ended, waiting = wait(waiting, POLL_INTERVAL_S)
+    while futures:
+        ended, futures = wait(futures, POLL_INTERVAL_S)
         ctrl_c.take()
         for future in ended:
             future.result()
         if progress:
-            progress(fraction(len(waiting)), "integrating")
+            progress(fraction(len(futures)), "integrating")
 
 
-def run_in_threads(runs: Runs, progress: Progress | None, expected: range | list[int], ctrl_c: CtrlC) -> None:
-    """Integrate all `expected` runs to their ends in threads. Ctrl-C ends them where they are."""
-    portion = max(1, min(PORTION, len(expected) // (8 * runs.threads)))
-    portions = deque(expected[k : k + portion] for k in range(0, len(expected), portion))
+def run_in_threads(runs: Runs, progress: Progress | None, indices: range | list[int], ctrl_c: CtrlC) -> None:
+    """Integrate the runs with indices `indices` to their ends in threads, which take them in portions from a queue.
+
+    `progress` is called with the fraction of finished runs. Ctrl-C or an error ends all runs where they are, and is
+    passed on.
+    """
+    portion = max(1, min(PORTION, len(indices) // (8 * runs.threads)))
+    portions = deque(indices[k : k + portion] for k in range(0, len(indices), portion))
     with ThreadPoolExecutor(runs.threads, thread_name_prefix="gudgeon") as pool:
         try:
-            work = _work_in_python if runs.drive else _work_in_c
+            work = _integrate_portions_in_python if runs.drive else _integrate_portions_in_c
             waiting: set[Future[None]] = {pool.submit(work, runs, portions, k) for k in range(runs.threads)}
             wait_for(waiting, ctrl_c, progress, lambda _: float(np.mean(runs.arrays["phase"] == OVER)))
         except BaseException:
@@ -57,34 +61,37 @@ def run_in_threads(runs: Runs, progress: Progress | None, expected: range | list
             raise
 
 
-def _work_in_python(runs: Runs, portions: deque[range | list[int]], worker: int) -> None:
-    """Integrate runs whose loop is in Python, in one thread, until none is left."""
+def _integrate_portions_in_python(runs: Runs, portions: deque[range | list[int]], thread_index: int) -> None:
+    """Integrate runs with a time loop in Python, in the thread `thread_index`, until the queue of portions is empty."""
     for i in numbers_of(runs, portions):
         if runs.shared:
-            runs.arrays["place"][i] = worker * runs.places
+            runs.arrays["place"][i] = thread_index * runs.places
         runs.follow(i)
 
 
-def _work_in_c(runs: Runs, portions: deque[range | list[int]], worker: int) -> None:
-    """Integrate portions of runs in one thread, alone or in lanes, until none is left."""
+def _integrate_portions_in_c(runs: Runs, portions: deque[range | list[int]], thread_index: int) -> None:
+    """Integrate portions of runs in C, in the thread `thread_index`, until the queue is empty or the batch is stopped.
+
+    Runs are integrated in vector lanes as soon as these are worth it, else one by one. Observers get step records.
+    """
     memories = np.zeros((runs.abreast, runs.compiled.lib.gudgeon_run_size()), dtype=np.uint8)
-    tapes, place = [StepLog(runs.compiled) for _ in memories] if runs.looks else [], worker * runs.places
-    for memory, own in zip(memories, tapes, strict=False):
-        own.lay(runs.compiled.pointer(memory, "void *"))
-    tape = tapes[0] if tapes else None
+    step_logs, first_row = [StepLog(runs.compiled) for _ in memories] if runs.looks else [], thread_index * runs.places
+    for memory, step_log in zip(memories, step_logs, strict=False):
+        step_log.lay(runs.compiled.pointer(memory, "void *"))
+    first_log = step_logs[0] if step_logs else None
     while portions and not runs.stopping:
-        if runs.flow and (beside := runs.flow.begins(runs)):
-            beside.flow(runs, numbers_of(runs, portions), memories, tapes, place)
+        if runs.flow and (lanes := runs.flow.begins(runs)):
+            lanes.flow(runs, numbers_of(runs, portions), memories, step_logs, first_row)
             return
         try:
             portion = portions.popleft()
         except IndexError:  # another thread was quicker
             return
         if runs.over is None and isinstance(portion, range):
-            runs.alone(portion.start, portion.stop, memories[0], tape)
+            runs.alone(portion.start, portion.stop, memories[0], first_log)
             continue
         for i in portion:
             if runs.arrays["phase"][i] == NEW:
                 if runs.shared:
-                    runs.arrays["place"][i] = place
-                runs.to_its_end(i, memories[0], tape)
+                    runs.arrays["place"][i] = first_row
+                runs.to_its_end(i, memories[0], first_log)

@@ -23,17 +23,19 @@ class Times:
     skipped: NDArray[np.int_]  # (n,) 1 if the first time, the start, was not requested and is not a sample
 
     @staticmethod
-    def of_runs(each: Mapping[int, tuple[Array, bool]], n: int) -> Times:
-        """Return the Times of n runs from the rows of those that begin (at least one), and whether they were
+    def of_runs(times_of_runs: Mapping[int, tuple[Array, bool]], n_runs: int) -> Times:
+        """Build the Times of n runs from the times of those that begin, by index, each with whether its start was
         requested.
+
+        At least one run begins; the others get none. Equal times are stored once.
         """
-        first, all_requested = next(iter(each.values()))
-        skipped = np.array([int(not each.get(i, (first, all_requested))[1]) for i in range(n)])
-        if all(row is first or np.array_equal(row, first) for row, _ in each.values()):
-            return Times(first, np.full(n, len(first)), skipped)
-        count = np.array([len(each[i][0]) if i in each else 0 for i in range(n)])
-        t = np.full((n, int(count.max())), np.nan)
-        for i, (row, _) in each.items():
+        first, all_requested = next(iter(times_of_runs.values()))
+        skipped = np.array([int(not times_of_runs.get(i, (first, all_requested))[1]) for i in range(n_runs)])
+        if all(row is first or np.array_equal(row, first) for row, _ in times_of_runs.values()):
+            return Times(first, np.full(n_runs, len(first)), skipped)
+        count = np.array([len(times_of_runs[i][0]) if i in times_of_runs else 0 for i in range(n_runs)])
+        t = np.full((n_runs, int(count.max())), np.nan)
+        for i, (row, _) in times_of_runs.items():
             t[i, : len(row)] = row
         return Times(t, count, skipped)
 
@@ -49,36 +51,47 @@ class Times:
 
     @property
     def apart(self) -> int:
-        """Return the stride in memory between the times of two runs, in numbers; 0 if they share them."""
+        """Return the stride in memory, in numbers, between the times of two runs; 0 if all runs share them."""
         return self.most if self.t.ndim == 2 else 0
 
     def of(self, i: int) -> Array:
-        """Return the times of run i, (count[i],)."""
+        """Return the times (s) of run i, (count[i],), its start included; a view."""
         return (self.t[i] if self.t.ndim == 2 else self.t)[: self.count[i]]
 
     def before(self, ends: Mapping[int, float]) -> Times:
-        """Return Times in which some runs have only the times before an end (s); the first time stays."""
+        """Return Times in which the runs with indices in `ends` have only times before their end (s); the first time
+        stays.
+        """
         count = self.count.copy()
         for i, end in ends.items():
             count[i] = max(int(np.searchsorted(self.of(i), end)), 1)
         return replace(self, count=count)
 
     def requested(self) -> Array:
-        """Return the times of samples, (N',) or (n, N') as `t`."""
+        """Return the requested sample times, without starts that were not requested: (N',), or (n, N') as `t`.
+
+        The shape is (n, N') too if only some runs skip their start; NaN follows a run's last time.
+        """
         if self.t.ndim == 1 and (self.skipped == self.skipped[:1]).all():
             return self.t[self.skipped[:1].sum() :]
         return self.without_starts(np.broadcast_to(self.t, (len(self.count), self.most)))
 
-    def without_starts(self, rows: Array) -> Array:
-        """Return rows of all runs, (n, N, …), at the requested times, (n, N', …); NaN (whole numbers: 0) after."""
+    def without_starts(self, values: Array) -> Array:
+        """Return rows of all runs, (n, N, …), at the requested times, (n, N', …), without starts that were not
+        requested.
+
+        Runs with fewer times are filled with NaN, arrays of integers with 0. A view is returned if all runs are alike.
+        """
         if (self.skipped == self.skipped[:1]).all():
-            return rows[:, self.skipped[:1].sum() :]
+            return values[:, self.skipped[:1].sum() :]
         most = int((self.count - self.skipped).max())
-        found = np.full((len(rows), most, *rows.shape[2:]), np.nan if rows.dtype.kind == "f" else 0, rows.dtype)
+        selected = np.full(
+            (len(values), most, *values.shape[2:]), np.nan if values.dtype.kind == "f" else 0, values.dtype
+        )
         for i, skip in enumerate(self.skipped.tolist()):
-            own = rows[i, skip : skip + most]
-            found[i, : len(own)] = own
-        return found
+            row = values[i, skip : skip + most]
+            selected[i, : len(row)] = row
+        return selected
 
     def ends(self) -> Array:
         """Return the last time of each run, (n,); NaN for runs without times."""
@@ -87,7 +100,10 @@ class Times:
 
 
 def last_step(duration: float, step: float) -> float:
-    """Return the length (s) of the last fixed step over `duration`: `step`, or the rest (step_end in numbers.h)."""
+    """Return the length (s) of the last fixed step of a run over `duration` (s): `step`, or the remainder.
+
+    A remainder equal to `step` up to rounding counts as `step`, as in step_end in numbers.h.
+    """
     total = max(1, math.ceil(duration / step * (1.0 - 1e-12)))
     rest = duration - (total - 1) * step
     return step if abs(rest - step) < SAME * step else rest

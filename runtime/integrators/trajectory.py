@@ -52,15 +52,15 @@ EPSILON = float(np.finfo(np.float64).eps)
 
 @cache
 def event_dtype(n: int, n_memory: int, n_clearances: int) -> np.dtype[Any]:
-    """Return the type of an event with its state, as samples have it: y is q, v (n each) and the works."""
+    """Return NumPy's type of a user event with its state: y is q, v (n each) and the works; cached by sizes."""
     at = [("y", "f8", (2 * n + N_WORK,)), ("memory", "f8", (n_memory,)), ("state", "i1", (n_clearances,))]
     return np.dtype([("event", "i4"), ("t", "f8"), *at])
 
 
-def plain(found: NDArray[Any]) -> NDArray[Any]:
-    """Return events with states as plain events (EVENT_DTYPE)."""
-    events = np.zeros(len(found), dtype=EVENT_DTYPE)
-    events["event"], events["t"] = found["event"], found["t"]
+def plain(events_with_states: NDArray[Any]) -> NDArray[Any]:
+    """Return events with states as events without them (EVENT_DTYPE): number and time."""
+    events = np.zeros(len(events_with_states), dtype=EVENT_DTYPE)
+    events["event"], events["t"] = events_with_states["event"], events_with_states["t"]
     return events
 
 
@@ -69,9 +69,9 @@ def no_events() -> NDArray[Any]:
     return np.zeros(0, dtype=EVENT_DTYPE)
 
 
-def joined(impacts: Iterable[NDArray[Any]]) -> NDArray[Any]:
-    """Return lists of contacts (IMPACT_DTYPE) joined to one; faster than numpy, which compares all fields."""
-    return np.frombuffer(bytearray().join(impacts), IMPACT_DTYPE)  # type: ignore[arg-type]
+def joined(lists: Iterable[NDArray[Any]]) -> NDArray[Any]:
+    """Join lists of contacts (IMPACT_DTYPE) to one array; faster than numpy, which compares all fields."""
+    return np.frombuffer(bytearray().join(lists), IMPACT_DTYPE)  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True)
@@ -117,17 +117,22 @@ class Counts:
     stiff_steps: int = 0
 
 
-def counts_of(counts: NDArray[Any], numbers: Array) -> Counts:
-    """Return the Counts from the arrays (N_COUNTS,) and (N_RESIDUALS,) that gudgeon_run_report writes."""
-    residuals = [x if math.isfinite(x) else math.nan for x in numbers.tolist()]
+def counts_of(counts: NDArray[Any], residual_values: Array) -> Counts:
+    """Convert the arrays (N_COUNTS,) and (N_RESIDUALS,) that gudgeon_run_report writes to Counts; infinite residuals
+    are NaN.
+    """
+    residuals = [x if math.isfinite(x) else math.nan for x in residual_values.tolist()]
     known = dict(zip((*COUNT_NAMES, *RESIDUAL_NAMES), (*counts.tolist(), *residuals), strict=True))
     return Counts(**{each.name: known[each.name] for each in fields(Counts)})
 
 
-def counts_of_runs(counts: NDArray[Any], numbers: Array) -> dict[str, NDArray[Any]]:
-    """Return arrays (n,) by the names in Counts, from those of n runs, (n, N_COUNTS) and (n, N_RESIDUALS)."""
+def counts_of_runs(counts: NDArray[Any], residual_values: Array) -> dict[str, NDArray[Any]]:
+    """Return arrays (n,) by the field names of Counts, from C's (n, N_COUNTS) and (n, N_RESIDUALS) of n runs.
+
+    Residuals that are not finite become NaN.
+    """
     known = dict(zip(COUNT_NAMES, counts.T.copy(), strict=True))
-    finite = np.where(np.isfinite(numbers), numbers, math.nan)
+    finite = np.where(np.isfinite(residual_values), residual_values, math.nan)
     known |= dict(zip(RESIDUAL_NAMES, finite.T.copy(), strict=True))
     return {each.name: known[each.name] for each in fields(Counts)}
 
@@ -171,7 +176,7 @@ class Trace:
 
     @staticmethod
     def of_rows(rows: Array, clearances: int) -> Trace:
-        """Return the envelope from the rows that C writes, (R, width)."""
+        """Build the envelope from the rows (R, width) that C writes, keeping only TRACE_COLUMNS."""
         joints = rows[:, 1:].reshape(len(rows), clearances, N_ENVELOPE_COLUMNS)
         return Trace(rows[:, 0].copy(), joints[:, :, [ENVELOPE_COLUMN_NAMES.index(name) for name in TRACE_COLUMNS]])
 
@@ -182,7 +187,7 @@ def trace_width(clearances: int) -> int:
 
 
 def resolution(t: Array) -> float:
-    """Return the time (s) up to which an event and a sample coincide in a run with these output times (N,)."""
+    """Return the time difference (s) up to which an event and a sample coincide in a run with output times t (N,)."""
     return max(32 * EPSILON * float(abs(t[[0, -1]]).max()), min(1e-11, 1e-10 * float(t[-1] - t[0])))
 
 
@@ -192,9 +197,11 @@ def no_states(compiled: CompiledModel) -> NDArray[Any]:
 
 
 def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any]:
-    """Fetch and empty the list of user events of a run's struct (event_dtype), without those at its start.
+    """Fetch and clear the list of user events in C's integrator `run`; return them (event_dtype), without those at its
+    start.
 
-    Event numbers beyond the events of the scene mean that event was not a number from that time on.
+    `times`: output times of the run. An event number beyond the scene's events means that this event was not a number
+    from that time on.
     """
     joints, rows = len(compiled.source.clearances), MAX_LISTED if compiled.source.events else 1
     t, event = np.zeros(rows), np.zeros(rows, dtype=np.intc)
@@ -219,10 +226,13 @@ def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any
     return fetched[no_number | (fetched["t"] > times[0] + resolution(times))]
 
 
-def split_undefined(compiled: CompiledModel, found: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Return the events by time, and those that are not numbers from a time on; both of the type of `found`."""
-    ordered = found[np.argsort(found["t"], kind="stable")]
+def split_undefined(compiled: CompiledModel, listed: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Split listed events into events sorted by time, and those that are not numbers from a time on.
+
+    Both have the type of `listed`; the event numbers of the second are reduced to the scene's.
+    """
+    ordered = listed[np.argsort(listed["t"], kind="stable")]
     number = ordered["event"] < len(compiled.source.events)
-    lost = ordered[~number]
-    lost["event"] -= len(compiled.source.events)
-    return ordered[number], lost
+    undefined = ordered[~number]
+    undefined["event"] -= len(compiled.source.events)
+    return ordered[number], undefined

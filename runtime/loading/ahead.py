@@ -28,14 +28,17 @@ if TYPE_CHECKING:
 
 
 def own_command_lines(source: KernelSource, portable: bool, quick: bool = False) -> dict[str, tuple[str, ...]]:
-    """Return the compiler's command lines for a scene's own object files, by the names of these."""
+    """Return the compiler's command line for each object file of a scene's own code, by file name.
+
+    A scene is compiled in one part, or in the parts of `source.units`. `quick`: without optimization.
+    """
     if source.cdef or not source.units:
         unit = "lanes" if source.cdef else ""
         return {"scene.o": unit_line(portable, [source.main], "scene.o", quick, unit)}
-    return dict(_part_line(part, portable, quick) for part in source.units)
+    return dict(_build_part_command(part, portable, quick) for part in source.units)
 
 
-def _part_line(part: int, portable: bool, quick: bool) -> tuple[str, tuple[str, ...]]:
+def _build_part_command(part: int, portable: bool, quick: bool) -> tuple[str, tuple[str, ...]]:
     """Return the name of the object file of a part of a scene, and the compiler's command line for it."""
     name = f"scene_{part}.o"
     return name, unit_line(portable, [f"-DPART={part}", MAIN], name, quick)
@@ -58,22 +61,30 @@ class BackgroundCompilation:
         return self
 
     def begin(self, part: int, texts: Mapping[str, str]) -> None:
-        """Start to compile a part of the scene, or the engine, whose texts exist now."""
+        """Start to compile a part of the scene, or the engine, in the background from the texts written so far.
+
+        Errors are ignored: the part is then compiled when it is needed.
+        """
         try:
             if part == ENGINE_PART:
                 self.begin_shared(self._engine(texts[HEADER], self._quick))
             else:
-                self._begin(*_part_line(part, self._portable, self._quick), texts)
+                self._begin(*_build_part_command(part, self._portable, self._quick), texts)
         except (GudgeonError, OSError):
             return
 
     def foresee(self, header: str) -> None:
-        """Start to compile the engine for a scene that probably has this model.h, if a second core is free."""
+        """Start to compile the engine for a scene that probably has this model.h, if there is a second core.
+
+        An empty header starts nothing.
+        """
         if header and (os.cpu_count() or 1) > 1:
             self.begin(ENGINE_PART, {HEADER: header})
 
     def shared_objects(self, source: KernelSource, quick: bool = False) -> list[SharedObject]:
-        """Return the object files that a scene shares with others: the engine, or none if it is compiled alone."""
+        """Return the object files that a scene shares with others: that of the engine; [] for a library without it
+        (lanes).
+        """
         return [] if source.cdef else [self._engine(source.files[HEADER], quick)]
 
     def _engine(self, header: str, quick: bool) -> SharedObject:
@@ -84,18 +95,22 @@ class BackgroundCompilation:
         return engine_object(header, self._portable, quick=True)
 
     def begin_shared(self, shared: SharedObject) -> None:
-        """Start to compile a shared object file that the cache lacks. Raise GudgeonError or OSError if that fails."""
+        """Start to compile a shared object file unless it is being compiled or the cache has it.
+
+        A compilation of the same file from other texts is stopped. Raises GudgeonError or OSError if it cannot be
+        started.
+        """
         if self.is_under_way(shared.name, shared.line, shared.texts):
             return
         if shared.name in self._begun:  # it was foreseen wrongly
             self._programs.stop(self._begun.pop(shared.name)[2])
-            shutil.rmtree(self._folder_of(shared.name))
+            shutil.rmtree(self._get_folder(shared.name))
         if not shared.is_there(self._portable, self._cache or default_cache()):
             self._begin(shared.name, shared.line, shared.texts)
 
     def _begin(self, name: str, line: tuple[str, ...], texts: Mapping[str, str]) -> None:
-        """Start the compiler for an object file in a temporary folder."""
-        folder = self._folder_of(name)
+        """Write missing source texts into a temporary folder and start the compiler there for an object file."""
+        folder = self._get_folder(name)
         folder.mkdir(exist_ok=True)
         for file, text in texts.items():
             if not (folder / file).exists():
@@ -103,8 +118,11 @@ class BackgroundCompilation:
         environment = {**compiler.plain(), "TMPDIR": str(folder)}
         self._begun[name] = line, dict(texts), self._programs.begin([*line], folder, environment)
 
-    def _folder_of(self, name: str) -> Path:
-        """Return the folder of an object file: the parts of a scene share one, the engine has its own."""
+    def _get_folder(self, name: str) -> Path:
+        """Return the temporary folder of an object file: the parts of a scene share one, the engine has its own.
+
+        The parent folder is created at the first call, and removed at the latest with this object.
+        """
         if self._folder is None:
             with CtrlC() as ctrl_c:  # so that every folder made is known
                 temporary = TemporaryFolder()
@@ -114,12 +132,15 @@ class BackgroundCompilation:
         return self._folder / name.partition("_")[0]
 
     def take(self, made: Path, line: tuple[str, ...], texts: Mapping[str, str]) -> bool:
-        """Wait for an object file with this command line and texts, and move it to `made`; False if there is none."""
+        """Wait for an object file compiled with this command line and texts, and move it to the path `made`.
+
+        Return False if it was not being compiled or its compilation failed.
+        """
         if self._folder is None or not self.is_under_way(made.name, line, texts):
             return False
         _, _, process = self._begun.pop(made.name)
         self._programs.wait(process)
-        found = self._folder_of(made.name) / made.name
+        found = self._get_folder(made.name) / made.name
         if process.returncode or not found.exists():
             return False
         shutil.move(found, made)
@@ -127,11 +148,11 @@ class BackgroundCompilation:
 
     @property
     def is_busy(self) -> bool:
-        """Return whether a compiler is running, or its result is still to be taken."""
+        """Return whether a compiler is running, or an object file has not been fetched yet."""
         return bool(self._begun)
 
     def is_under_way(self, name: str, line: tuple[str, ...], texts: Mapping[str, str]) -> bool:
-        """Return whether this object file is being compiled from these texts."""
+        """Return whether the object file `name` is being compiled with this command line from these texts."""
         if name not in self._begun:
             return False
         known, read, _ = self._begun[name]
@@ -148,7 +169,9 @@ class BackgroundCompilation:
 
 @dataclass(frozen=True)
 class SharedObject:
-    """Describe an object file that scenes share: kind in the cache, name, command line, what decides it, its texts."""
+    """Describe an object file that scenes share: kind in the cache, name, command line, texts, and what decides its
+    bytes.
+    """
 
     kind: str
     name: str
@@ -157,7 +180,7 @@ class SharedObject:
     texts: Mapping[str, str]
 
     def key(self, portable: bool, cache: Cache) -> str:
-        """Return the cache key: a digest of everything that decides the bytes of the object file."""
+        """Return the cache key: a digest of texts, command line, compiler and, unless `portable`, processor."""
         identity = compiler.identity(compiler.find_compiler(), cache)
         return digest([*self.decided_by, *self.line, identity, "" if portable else compiler.cpu()])
 
@@ -166,7 +189,10 @@ class SharedObject:
         return cache.has(self.kind, self.key(portable, cache))
 
     def fetch(self, portable: bool, cache: Cache, ahead: BackgroundCompilation, renew: bool = False) -> Path:
-        """Return the object file, compiled if the cache lacks it or `renew` is set. Raise BuildError."""
+        """Return the path of the object file, compiled first if the cache lacks it or `renew` is set. Raise BuildError.
+
+        A compilation of it in `ahead` is awaited and used.
+        """
 
         def make(folder: Path) -> None:
             """Compile the object file in a folder, or take it from the background compilation."""
@@ -184,9 +210,9 @@ class SharedObject:
 
 
 def engine_object(header: str, portable: bool, quick: bool = False) -> SharedObject:
-    """Return the object file of the time loops for a scene with this model.h.
+    """Return the description of the time loops' object file for a scene with this model.h.
 
-    They read only the part of it before its values.
+    The engine reads only the part of the header before its values, so that scenes of equal sizes share the file.
     """
     _, _, text = header.partition("#define GUDGEON_MODEL_H\n")
     read = text.partition(ENGINE_ENDS)[0]

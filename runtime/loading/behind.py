@@ -39,7 +39,11 @@ _begun: list[subprocess.Popen[bytes]] = []  # processes started by this process
 
 
 def is_allowed(cache: Cache) -> bool:
-    """Return whether a background process may be started, and its result is kept."""
+    """Return whether a background process may be started to make an optimized library, and the cache would keep it.
+
+    It may not with GUDGEON_QUICK=0, with a private or read-only cache, in programs that embed Python, or if MOST are
+    running.
+    """
     if os.environ.get("GUDGEON_QUICK") == "0" or cache.private:
         return False
     if getattr(sys, "frozen", False) or not Path(sys.executable or "").name.startswith(("python", "pypy")):
@@ -59,7 +63,7 @@ class OptimizedLibrary:
         self._owner, self._lock = os.getpid(), Lock()
 
     def begin(self, quick: Path, portable: bool) -> bool:
-        """Start the other process, which reads the cache entry `quick`; return whether it could be started."""
+        """Start the other process, which reads the cache entry `quick`; return False if it cannot be started."""
         import subprocess
 
         message = json.dumps([str(self._cache.root), str(quick), portable])
@@ -74,8 +78,11 @@ class OptimizedLibrary:
         return self._process is not None
 
     def look(self, functions: Functions) -> bool:
-        """Use the optimized library if it exists by now; return whether it is still to come."""
-        lock = self._own_lock()
+        """Switch `functions` to the optimized library if the cache has it; return whether it is still to come.
+
+        False also means that the process failed. Another thread that is checking makes this one return True.
+        """
+        lock = self._get_lock()
         if not lock.acquire(blocking=False):
             return True  # another thread is checking
         try:
@@ -91,24 +98,31 @@ class OptimizedLibrary:
             lock.release()
 
     def wait(self, functions: Functions) -> None:
-        """Wait for the optimized library and use it; make it here if the other process did not. Raise BuildError."""
-        with self._own_lock():
+        """Wait for the optimized library and switch `functions` to it; make it here if the other process did not.
+
+        Raises BuildError.
+        """
+        with self._get_lock():
             self._switch_to(functions, self._cache.fetch("libraries", self._key, self._build))
 
-    def _own_lock(self) -> Lock:
-        """Return the lock. In a forked child it is a new one, because the parent may hold the old one."""
+    def _get_lock(self) -> Lock:
+        """Return the lock. In a forked child it is replaced by a new one, because the parent may hold the old one."""
         if os.getpid() != self._owner:
             self._owner, self._lock, self._process = os.getpid(), Lock(), None
         return self._lock
 
     def _switch_to(self, functions: Functions, entry: Path) -> None:
-        """Make `functions` those of the library in a cache entry, if it can be opened."""
+        """Let `functions` call the library of a cache entry; keep the present one if it cannot be opened."""
         with suppress(ImportError):  # the next start tells
             functions.become(self._open(entry).lib)
 
 
 def make(message: str) -> None:
-    """Compile the optimized library; called in the other process. The next start reports errors."""
+    """Compile the optimized library into the cache, with low priority; called in the other process.
+
+    `message`: JSON of cache folder, quick entry and `portable`. One such process compiles at a time. Errors are
+    reported at the next start.
+    """
     from filelock import FileLock
 
     from gudgeon.loading.build import compile_kernels

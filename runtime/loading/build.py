@@ -73,7 +73,7 @@ def compile_kernels(
         try:
             library = _open_entry(entry, source.cdef)
         except ImportError as error:  # whole, and yet it cannot be mapped
-            library = _open_elsewhere(key, entry, source.cdef, cache, build, error)
+            library = _open_rebuilt_or_copied(key, entry, source.cdef, cache, build, error)
     with _lock:
         return _libraries.setdefault(key, library)
 
@@ -81,7 +81,7 @@ def compile_kernels(
 def _compile_quickly(
     source: KernelSource, portable: bool, cache: Cache, key: str, build: Callable[..., None]
 ) -> Library | None:
-    """Return a quick library while another process makes the one with `key`; None if that one must be awaited.
+    """Return a quick library while another process makes the optimized one with `key`; None if that must be awaited.
 
     If the cache has a quick one already, the optimized one is under way or failed; then it is made here, to see why.
     """
@@ -117,7 +117,10 @@ def _compile_quickly(
 
 
 def is_compiled(source: KernelSource, *, portable: bool = False) -> bool:
-    """Return whether `compile_kernels` finds the library in the cache."""
+    """Return whether `compile_kernels` finds the optimized library of a source in memory or in the cache.
+
+    Raises BuildError without a compiler.
+    """
     cache, command = default_cache(), compiler.find_compiler()
     flags = (*compiler.flags(portable, command), *compiler.link_flags())
     key = library_key(source, command, flags, compiler.identity(command, cache), portable)
@@ -134,15 +137,21 @@ def library_key(
 
 
 def _open_entry(entry: Path, cdef: str) -> Library:
-    """Open the library of a cache entry. Raise ImportError if it cannot be loaded or lacks its functions."""
+    """Open the library in the folder of a cache entry.
+
+    Raise ImportError if it cannot be loaded or lacks its functions.
+    """
     found = opened(entry / LIBRARY, cdef)
     if not cdef and not hasattr(found.lib, PRESENT):
         raise ImportError(f"{entry / LIBRARY} has no function {PRESENT}")
     return found
 
 
-def _open_elsewhere(key: str, entry: Path, cdef: str, cache: Cache, build: Make, error: ImportError) -> Library:
-    """Open the library built anew, or a copy of it in a temporary folder, with a warning. Raise BuildError."""
+def _open_rebuilt_or_copied(key: str, entry: Path, cdef: str, cache: Cache, build: Make, error: ImportError) -> Library:
+    """Open a library that could not be loaded: built anew, or copied to a temporary folder, with a warning.
+
+    `error`: the first failure. A file system mounted noexec is recognised. Raises BuildError if nothing helps.
+    """
     private, root = private_cache(), entry.parents[1]
     if not _is_noexec(root):  # what the compiler wrote may be broken
         try:
@@ -152,7 +161,7 @@ def _open_elsewhere(key: str, entry: Path, cdef: str, cache: Cache, build: Make,
             error = again
     if not entry.is_relative_to(private.root):
         try:
-            found = _open_entry(private.fetch("libraries", key, lambda folder: _copy(entry, folder)), cdef)
+            found = _open_entry(private.fetch("libraries", key, lambda folder: _copy_library(entry, folder)), cdef)
         except ImportError as again:
             error = again
         else:
@@ -175,13 +184,13 @@ def _is_noexec(folder: Path) -> bool:
     return bool(os.statvfs(folder).f_flag & getattr(os, "ST_NOEXEC", 0))
 
 
-def _copy(entry: Path, folder: Path) -> None:
+def _copy_library(entry: Path, folder: Path) -> None:
     """Copy the library of a cache entry to a folder."""
     (folder / LIBRARY).write_bytes((entry / LIBRARY).read_bytes())
 
 
 def build_into(folder: Path, source: KernelSource, cache: Cache) -> Path:
-    """Build a portable library in a folder, for the processor that $CC compiles for; return its path."""
+    """Compile the portable library of a source for the processor that $CC compiles for; return its path in `folder`."""
     with BackgroundCompilation(True, cache) as none:
         _build(source, folder, True, none, cache, False, False)
     return folder / LIBRARY
@@ -196,9 +205,10 @@ def _build(
     renew: bool,
     quick: bool,
 ) -> None:
-    """Write the C files into the folder, compile the scene's own parts, and link them with the shared ones.
+    """Write the C files into the folder, compile the scene's own parts, and link them with the shared object files.
 
-    All parts are compiled in parallel; those that `ahead` has begun are used.
+    All parts are compiled in parallel; those that `ahead` has begun are used. Object files are removed at the end.
+    Raises the first error of a compiler (BuildError, or OSError for a full disk).
     """
     for name, text in source.files.items():
         (folder / name).write_text(text, encoding="utf-8")

@@ -28,7 +28,7 @@ from gudgeon.waiting.ctrl_c import CtrlC
 
 LIST = "checksums"
 END = "whole"  # begins the last line of the list; without it the list is incomplete
-# names of temporary folders made by `_make`: the key, and mkdtemp's letters
+# names of temporary folders made by `_make_entry`: the key, and mkdtemp's letters
 ASIDE = re.compile(r"[0-9a-f]{64}\.[a-z0-9_]{8}(\.old)?")
 LOCK_SECONDS = 300.0  # longer than any compilation; a lock held longer means a process that hangs
 
@@ -59,11 +59,11 @@ class Cache:
         a private folder. Raises CacheError if even that fails.
         """
         try:
-            self._check(kind)
+            self._check_trusted(kind)
             entry = self.root / kind / key
             if not renew and _is_usable(entry):
                 return entry
-            return self._make(entry, make, renew)
+            return self._make_entry(entry, make, renew)
         except (OSError, Untrusted) as error:
             if self.private:
                 message = f"the temporary folder {self.root} cannot be used: {error}"
@@ -75,7 +75,7 @@ class Cache:
     def has(self, kind: str, key: str) -> bool:
         """Return whether a complete entry exists."""
         try:
-            self._check(kind)
+            self._check_trusted(kind)
             return is_whole(self.root / kind / key)
         except (OSError, Untrusted):
             return False
@@ -84,10 +84,10 @@ class Cache:
         """Return whether an entry exists, complete or not; this is faster than `has`."""
         return os.path.exists(self.root / kind / key)  # False too where the system has no such long name
 
-    def _check(self, *folders: str) -> None:
-        """Raise Untrusted if another user may have written the cache or these folders of it; they may be absent.
+    def _check_trusted(self, *folders: str) -> None:
+        """Raise Untrusted if another user may have written the cache or its subfolders; folders may be absent.
 
-        The path to a temporary folder is not checked.
+        The path to a temporary (private) cache is not checked.
         """
         try:
             if self.private:
@@ -100,7 +100,7 @@ class Cache:
             return
 
     def _warn_unusable(self, error: OSError | Untrusted) -> None:
-        """Warn that the cache folder cannot be used, and why."""
+        """Warn once that the cache folder cannot be used, why, and what the user can do."""
         what = f"the cache folder {self.root} cannot be used ({error})"
         do = "Set GUDGEON_CACHE to a folder that can be written."
         if isinstance(error, Untrusted):
@@ -110,8 +110,12 @@ class Cache:
                 do = f"Make it yours alone (chown; chmod -R go-w {self.root}) or set GUDGEON_CACHE to a folder that is."
         warn_once(f"{what}; what this process compiles is not kept. {do}", f"{self.root}")
 
-    def _make(self, entry: Path, make: Make, renew: bool) -> Path:
-        """Make an entry under a lock in a temporary folder, and move it into place; return its path."""
+    def _make_entry(self, entry: Path, make: Make, renew: bool) -> Path:
+        """Make an entry under a lock in a temporary folder, and move it into place; return its path.
+
+        An entry that another process made meanwhile is used, unless `renew` is set. A damaged one is replaced.
+        Temporary folders are removed in any case.
+        """
         import tempfile
 
         from filelock import FileLock  # 40 ms: only when something has to be made
@@ -119,20 +123,20 @@ class Cache:
         aside = self.root / "aside"
         for folder in (self.root, aside, self.root / "locks", entry.parent):
             _make_own_folder(folder)
-        self._check("aside", "locks", entry.parent.name)  # another process may have made them first
-        with FileLock(self._lock_path(entry.name), timeout=LOCK_SECONDS):
+        self._check_trusted("aside", "locks", entry.parent.name)  # another process may have made them first
+        with FileLock(self._get_lock_path(entry.name), timeout=LOCK_SECONDS):
             if not renew and _is_usable(entry):  # another process made it while this one waited
                 return entry
             left: list[Path] = []
             try:
                 with CtrlC() as ctrl_c:  # not between a folder and the note of it, nor where a lock's end swallows it
-                    self._sweep(aside, entry.name)
+                    self._remove_abandoned_folders(aside, entry.name)
                     work = Path(tempfile.mkdtemp(prefix=f"{entry.name}.", dir=aside))
                     old = work.with_name(work.name + ".old")
                     left += [work, old]
                 ctrl_c.take()
                 make(work)
-                _seal(work, entry)
+                _write_checksums(work, entry)
                 if os.path.lexists(entry):  # a damaged one: a rename cannot replace a folder that has files
                     os.replace(entry, old)
                 os.replace(work, entry)
@@ -141,12 +145,15 @@ class Cache:
                     _remove(folder)
         return entry
 
-    def _lock_path(self, key: str) -> Path:
+    def _get_lock_path(self, key: str) -> Path:
         """Return the path of the lock file of a key."""
         return self.root / "locks" / f"{key}.lock"
 
-    def _sweep(self, aside: Path, held: str) -> None:
-        """Remove the temporary folders of killed processes: those whose key no process has locked."""
+    def _remove_abandoned_folders(self, aside: Path, held: str) -> None:
+        """Remove the temporary folders of killed processes: those in `aside` whose key no process has locked.
+
+        `held`: key that this process has locked.
+        """
         from filelock import FileLock, Timeout
 
         for folder in aside.iterdir():
@@ -157,14 +164,14 @@ class Cache:
                 _remove(folder)
                 continue
             try:
-                with FileLock(self._lock_path(key), timeout=0):
+                with FileLock(self._get_lock_path(key), timeout=0):
                     _remove(folder)
             except Timeout:
                 continue  # another process works there
 
 
 def _make_own_folder(path: Path) -> None:
-    """Make a folder, and its parents, with permissions for the user only."""
+    """Create a folder and its missing parents with permissions for the user only."""
     for folder in reversed([path, *path.parents]):
         if not folder.is_dir():
             folder.mkdir(mode=0o700, exist_ok=True)
@@ -177,7 +184,7 @@ def _is_own_folder(folder: Path) -> bool:
 
 
 def warn_once(text: str, about: str = "") -> None:
-    """Issue a warning once per process, identified by `about` or its text."""
+    """Issue a RuntimeWarning unless one with the same `about`, or the same text, was issued in this process."""
     if (about or text) not in _message:
         _message.add(about or text)
         warnings.warn(text, RuntimeWarning, stacklevel=4)
@@ -187,7 +194,7 @@ _message: set[str] = set()  # warnings that were issued
 
 
 def _is_usable(entry: Path) -> bool:
-    """Return whether an entry is complete; warn if another user may have written it."""
+    """Return whether a cache entry is complete; warn, and return False, if another user may have written it."""
     try:
         return is_whole(entry)
     except Untrusted as error:
@@ -196,14 +203,14 @@ def _is_usable(entry: Path) -> bool:
 
 
 def is_whole(entry: Path) -> bool:
-    """Return whether every file of the entry exists with the bytes stored under its kind and key.
+    """Return whether a cache entry is complete: every listed file has the bytes stored under its kind and key.
 
-    Raises Untrusted if another user may have written them.
+    Raises Untrusted if another user may have written it.
     """
     try:
         check_folder(entry)
         lines = read(entry / LIST).decode().splitlines()
-        if not lines or lines.pop() != _last_line(entry):
+        if not lines or lines.pop() != _format_last_line(entry):
             return False
         pairs = [line.split(" ", 1) for line in lines]
         if any(os.path.basename(name) != name for _, name in pairs):
@@ -213,22 +220,25 @@ def is_whole(entry: Path) -> bool:
         return False
 
 
-def _last_line(entry: Path) -> str:
+def _format_last_line(entry: Path) -> str:
     """Return the last line of an entry's list of checksums."""
     return f"{END} {entry.parent.name} {entry.name}"
 
 
-def _seal(folder: Path, entry: Path) -> None:
-    """Write the list of an entry's checksums, and make its files writable for the user only."""
+def _write_checksums(folder: Path, entry: Path) -> None:
+    """Write the list of checksums of an entry in `folder`, and remove write permissions of other users.
+
+    `entry`: final path, whose kind and key are in the list.
+    """
     paths = sorted(path for path in folder.iterdir() if path.is_file())
     lines = [f"{sha256(path.read_bytes()).hexdigest()} {path.name}" for path in paths]
-    (folder / LIST).write_text("\n".join([*lines, _last_line(entry)]) + "\n")
+    (folder / LIST).write_text("\n".join([*lines, _format_last_line(entry)]) + "\n")
     for path in (*paths, folder / LIST):
         path.chmod(path.stat().st_mode & ~0o022)
 
 
 def _remove(path: Path) -> None:
-    """Remove a file, link or folder."""
+    """Remove a file, link or folder with its contents; an absent one is ignored."""
     import shutil
 
     if path.is_dir() and not path.is_symlink():
@@ -238,7 +248,10 @@ def _remove(path: Path) -> None:
 
 
 def default_cache() -> Cache:
-    """Return the user's cache: $GUDGEON_CACHE, or the platform's cache folder. Raise BadValueError for "~nobody"."""
+    """Return the user's cache: $GUDGEON_CACHE, or the platform's cache folder.
+
+    Without a home folder, a private cache is returned with a warning. Raises BadValueError for "~nobody".
+    """
     selected = os.environ.get("GUDGEON_CACHE")
     if selected:
         try:
@@ -246,7 +259,7 @@ def default_cache() -> Cache:
         except RuntimeError as error:
             hint = "name a folder by its path, or leave the variable out"
             raise BadValueError(f"GUDGEON_CACHE={selected}: no such user, or no home folder", hint=hint) from error
-    folder = _user_folder()
+    folder = _find_user_folder()
     if os.path.isabs(folder):
         return Cache(folder)
     warn_once("no home folder is known; what this process compiles is not kept. Set GUDGEON_CACHE to a folder.")
@@ -254,7 +267,7 @@ def default_cache() -> Cache:
 
 
 @cache
-def _user_folder() -> str:
+def _find_user_folder() -> str:
     """Return the platform's cache folder for gudgeon."""
     from platformdirs import user_cache_dir
 
@@ -263,7 +276,11 @@ def _user_folder() -> str:
 
 @cache
 def private_cache() -> Cache:
-    """Return a cache in a temporary folder of this process, removed when it ends."""
+    """Return the cache in a temporary folder of this process, created at the first call and removed when the process
+    ends.
+
+    Raises CacheError if it cannot be created.
+    """
     import atexit
 
     from gudgeon.files.temporary import TemporaryFolder

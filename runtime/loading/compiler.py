@@ -75,7 +75,7 @@ FULL = {
 
 
 def flags(portable: bool, command: tuple[str, ...] = (), quick: bool = False) -> tuple[str, ...]:
-    """Return the compiler's flags; `portable` leaves out those that bind the library to this CPU.
+    """Return the compiler's flags for a command; `portable` leaves out those that bind the library to this CPU.
 
     quick: no optimization, which takes a third of the time. Results are the same, since sums keep their order at every
     level.
@@ -88,8 +88,11 @@ def flags(portable: bool, command: tuple[str, ...] = (), quick: bool = False) ->
     return (*named, *(() if portable else (native,)))
 
 
-def of_unit(flags: tuple[str, ...], unit: str) -> tuple[str, ...]:
-    """Return the flags for the time loops ("loops"), the lanes ("lanes"), or a scene's own code ("")."""
+def _add_unit_flags(flags: tuple[str, ...], unit: str) -> tuple[str, ...]:
+    """Return `flags` with those added that a unit needs: time loops ("loops"), lanes ("lanes"), a scene's code ("").
+
+    They are added only if the compiler understands GCC's flags.
+    """
     return (*flags, *(MORE.get(unit, ()) if set(flags) >= GCCS else ()))
 
 
@@ -137,8 +140,9 @@ def is_there() -> bool:
 
 
 def zig() -> Path:
-    """Return the compiler zig, installed as a wheel with a C library and a linker. Raise ImportError if it is
-    missing.
+    """Return the path of the compiler zig from the package ziglang.
+
+    Raise ImportError if it is not installed or executable.
     """
     import ziglang
 
@@ -149,7 +153,7 @@ def zig() -> Path:
 
 
 def identity(command: tuple[str, ...], cache: Cache) -> str:
-    """Return compiler, version, machine and C library as text for the keys of libraries.
+    """Return compiler, version, machine and C library as text, for the cache keys of libraries.
 
     The version is cached by path, size and time of every program in the command, since asking for it is slow.
     """
@@ -158,12 +162,14 @@ def identity(command: tuple[str, ...], cache: Cache) -> str:
     programs = [os.path.realpath(found) for word in command if (found := shutil.which(word))]
     stats = [os.stat(program) for program in programs]
     key = digest([*command, *(f"{p} {s.st_size} {s.st_mtime_ns}" for p, s in zip(programs, stats, strict=True))])
-    entry = cache.fetch("compilers", key, lambda folder: _ask_version(command, folder))
-    return "\n".join([*command, (entry / "version").read_text(), *_machine()])
+    entry = cache.fetch("compilers", key, lambda folder: _write_version(command, folder))
+    return "\n".join([*command, (entry / "version").read_text(), *_describe_machine()])
 
 
 def version() -> str:
-    """Return the first line of what the compiler reports as its version; without one the library is the wheel's."""
+    """Return the first line of the compiler's version; without a compiler, a text that the library came with
+    gudgeon.
+    """
     try:
         command = find_compiler()
         return identity(command, default_cache()).split("\n")[len(command)]
@@ -171,8 +177,8 @@ def version() -> str:
         return "none: the library came with gudgeon"
 
 
-def _ask_version(command: tuple[str, ...], folder: Path) -> None:
-    """Write the compiler's version into a folder. Raise BuildError if it cannot be run."""
+def _write_version(command: tuple[str, ...], folder: Path) -> None:
+    """Run the compiler and write its version into `folder`, as a cache entry. Raise BuildError if it cannot be run."""
     try:
         with Programs() as programs:
             answer, _ = programs.wait(programs.begin([*command, "--version"], None, plain()))
@@ -181,7 +187,7 @@ def _ask_version(command: tuple[str, ...], folder: Path) -> None:
     (folder / "version").write_text(answer or "unknown")
 
 
-def _machine() -> tuple[str, ...]:
+def _describe_machine() -> tuple[str, ...]:
     """Return operating system, processor architecture and C library."""
     libc = os.confstr("CS_GNU_LIBC_VERSION") if "CS_GNU_LIBC_VERSION" in os.confstr_names else ""
     return sys.platform, os.uname().machine, libc or ""
@@ -189,7 +195,9 @@ def _machine() -> tuple[str, ...]:
 
 @remember
 def cpu() -> str:
-    """Return model and instruction sets of the CPU, to which `native` code is bound."""
+    """Return model and instruction sets of this machine's CPU as text, for keys of libraries that are not portable;
+    cached.
+    """
     if sys.platform == "darwin":
         import subprocess
 
@@ -211,14 +219,20 @@ def plain() -> dict[str, str]:
 
 
 def unit_line(portable: bool, files: Sequence[str], made: str, quick: bool = False, unit: str = "") -> tuple[str, ...]:
-    """Return the command line that compiles one unit of a library with hidden symbols; `unit` as in of_unit."""
+    """Return the command line that compiles `files` to the object file `made`, with hidden symbols.
+
+    `unit` adds flags as in of_unit; `quick`: without optimization.
+    """
     command = find_compiler()
-    options = of_unit(flags(portable, command, quick), unit)
+    options = _add_unit_flags(flags(portable, command, quick), unit)
     return (*command, *options, "-fvisibility=hidden", *include_flags(), "-c", *files, "-o", made)
 
 
 def begin(programs: Programs, line: Sequence[str], folder: Path) -> subprocess.Popen[str]:
-    """Start a compiler in a folder. Raise BuildError if it cannot be run."""
+    """Start a compiler in a folder, which also gets its temporary files; return the process.
+
+    Raise BuildError if it cannot run.
+    """
     environment = {**plain(), "TMPDIR": str(folder)}  # what it writes in between belongs to the entry too
     try:
         return programs.begin([*line], folder, environment)
@@ -227,8 +241,10 @@ def begin(programs: Programs, line: Sequence[str], folder: Path) -> subprocess.P
 
 
 def finish(programs: Programs, process: subprocess.Popen[str], made: Path) -> Exception | None:
-    """Wait for a compiler; return None or its error: OSError for a full disk (another folder is tried), else
-    BuildError.
+    """Wait for a compiler; return None if it made the file `made`, else the error.
+
+    The error is an OSError for a full disk or file-size limit, so that another folder is tried; else BuildError with
+    its first lines.
     """
     out, err = programs.wait(process)
     if process.returncode == 0 and made.is_file():

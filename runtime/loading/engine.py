@@ -40,7 +40,7 @@ def engine_digest() -> str:
 
 
 def own_texts(source: KernelSource) -> list[str]:
-    """Return names and texts of a scene's own files, for cache keys."""
+    """Return names and texts of a scene's own files, alternating and sorted by name, for cache keys."""
     return [part for name in sorted(source.files) for part in (name, source.files[name])]
 
 
@@ -50,12 +50,15 @@ def include_flags() -> tuple[str, ...]:
 
 
 def declarations(source: KernelSource) -> str:
-    """Return the declarations of a library's functions, as cffi reads them."""
-    return source.cdef or declared_for(source.files[HEADER])
+    """Return the declarations of the functions of a source's library, as cffi reads them.
+
+    They are those of the source (lanes), or those of the engine that its model.h selects.
+    """
+    return source.cdef or _select_engine_declarations(source.files[HEADER])
 
 
-def declared_for(header: str) -> str:
-    """Return the declarations for a scene with the engine and this model.h."""
+def _select_engine_declarations(header: str) -> str:
+    """Return the declarations of the engine's functions that a scene with this model.h has."""
     return _select_lines(CALLS.read_text(encoding="utf-8"), _parse_sizes(header))
 
 
@@ -81,7 +84,10 @@ def _parse_sizes(header: str) -> dict[str, int]:
 
 
 def _select_lines(text: str, values: dict[str, int]) -> str:
-    """Return the lines of a header whose `#if NAME && !NAME` hold; conditions are not nested."""
+    """Return the lines of a header whose `#if NAME && !NAME` conditions hold for `values`; conditions are not nested.
+
+    Preprocessor lines are left out.
+    """
     kept, holds = [], True
     for line in text.splitlines():
         if line.startswith("#if "):
@@ -95,7 +101,9 @@ def _select_lines(text: str, values: dict[str, int]) -> str:
 
 
 def contents(folder: Path, *suffixes: str) -> Iterator[tuple[str, bytes]]:
-    """Yield (path relative to the folder, bytes) of files with these suffixes, sorted by the parts of their paths."""
+    """Yield (path relative to `folder`, bytes) of all files below it with these suffixes, sorted by the parts of the
+    paths.
+    """
     found, left = list[tuple[list[str], str]](), [(list[str](), str(folder))]
     while left:
         parts, place = left.pop()

@@ -44,7 +44,10 @@ class Loading:
 
 
 def override_values(overrides: Overrides | None) -> dict[str, str | float | bool]:
-    """Return overrides as texts, numbers and flags. Raise BadValueError for other types."""
+    """Check the argument `overrides` and return it as a dictionary by address; None gives {}.
+
+    Values are texts, numbers and flags. Raises BadValueError for other types.
+    """
     found = mapping(overrides, "overrides", "{address: a value as the file would have it}")
     return {text(name, "an address of overrides"): _check_override(name, value) for name, value in found.items()}
 
@@ -58,7 +61,11 @@ def _check_override(name: str, value: object) -> str | float | bool:
 
 
 def find_mechanism(mechanism: str | os.PathLike[str]) -> Path:
-    """Return the YAML file of a name or path. Raise UnknownNameError for an unknown name."""
+    """Return the path of the YAML file of a mechanism, given by path or by the name of a shipped one.
+
+    A text with "/" or ending in .yaml or .yml is a path, which need not exist. Raises UnknownNameError for an unknown
+    name.
+    """
     mechanism = path(mechanism, "mechanism")
     if isinstance(mechanism, os.PathLike) or "/" in mechanism or mechanism.endswith((".yaml", ".yml")):
         return Path(mechanism)
@@ -66,7 +73,10 @@ def find_mechanism(mechanism: str | os.PathLike[str]) -> Path:
 
 
 def read_bytes(file: Path) -> bytes:
-    """Return the bytes of a mechanism file. Raise InputError if it cannot be read, LimitError if it is too large."""
+    """Return the bytes of a mechanism file. Raise InputError if it cannot be read, LimitError if it is too large.
+
+    If a shipped mechanism has the file's name, the message says so.
+    """
     try:
         return read_named(file, MAX_BYTES, hint="name a YAML file")
     except LimitError:
@@ -132,7 +142,7 @@ def kernel_source(
 
 
 def is_known(mechanism: str, scene: str, overrides: Overrides) -> bool:
-    """Return whether the cache has a scene's kernel source, or the file does not exist; tables are not checked."""
+    """Return whether the cache has a scene's kernel source, or the file cannot be read; tables are not checked."""
     try:
         data = read_bytes(find_mechanism(mechanism))
     except InputError:
@@ -149,12 +159,15 @@ def _changes_scene(data: bytes, file: Path, scene: str, overrides: Overrides) ->
 
 
 def tables_now(source: KernelSource, file: Path) -> tuple[tuple[str, str], ...]:
-    """Return the tables of a kernel source with their present SHA-256. Raise InputError if one is missing."""
+    """Return the names of the tables of a kernel source, each with the SHA-256 of its present file next to `file`.
+
+    Raises InputError if one is missing.
+    """
     return tuple((name, sha256(read_beside(file, name, MAX_TABLE_BYTES)).hexdigest()) for name, _ in source.tables)
 
 
 def laws_now(source: KernelSource) -> tuple[tuple[str, str], ...]:
-    """Return the user-defined laws of a kernel source with their present keys; "" if a law is not registered."""
+    """Return the names of the user-defined laws of a kernel source, each with its present key; "" if not registered."""
     if not source.laws:
         return ()
     from gudgeon.generator.kinds.laws.registered import key_of
@@ -171,9 +184,10 @@ def derived(
     seconds: dict[str, float] | None = None,
     ahead: BackgroundCompilation | None = None,
 ) -> KernelSource:
-    """Derive the kernel source of a scene; each stage records its time in `seconds`.
+    """Derive the kernel source of a scene from the bytes of its file; each stage adds its time (s) to `seconds`.
 
-    Errors in the file are reported before SymPy is imported.
+    `ahead` compiles finished parts in the background meanwhile. Errors in the file are reported before SymPy is
+    imported.
     """
     with (
         report_work(f"deriving {file.stem}, scene {scene}"),

@@ -43,7 +43,7 @@ def write_scenes(folder: Path, sources: Iterable[KernelSource], readable: Collec
 
 
 def _remove_others(folder: Path, kept: Collection[str]) -> None:
-    """Remove files with other paths, and folders that are empty then."""
+    """Remove all files below the folder whose relative paths are not in `kept`, and folders that are empty then."""
     for path in sorted(folder.rglob("*"), reverse=True):  # the contents of a folder precede the folder
         if path.is_dir():
             if not any(path.iterdir()):
@@ -53,7 +53,7 @@ def _remove_others(folder: Path, kept: Collection[str]) -> None:
 
 
 def read_scene(folder: Path, scene: str) -> KernelSource | None:
-    """Return a scene that `write_scenes` wrote; None if there is none, or if it cannot be read."""
+    """Return the kernel source of a scene that `write_scenes` wrote; None if it is absent or cannot be read."""
     archive = unpacked(folder)
     try:
         stored, packed = archive["scenes"][scene], archive["texts"]

@@ -58,7 +58,10 @@ class Functions:
         self._libraries = [library]  # the last one is called; others stay open, for a call may be in one
 
     def __getattr__(self, name: str) -> Any:
-        """Return a function of the newest library, and remember it."""
+        """Return a function of the newest library and cache it; called for names that are not cached.
+
+        Raises AttributeError for functions that the library lacks.
+        """
         if name.startswith("_"):
             raise AttributeError(name)
         library = self._libraries[-1]
@@ -81,12 +84,12 @@ class Functions:
         self._behind = behind
 
     def newest(self) -> None:
-        """Switch to the optimized library if it exists by now."""
+        """Switch to the optimized library if it exists by now; called often during runs. Do nothing without one."""
         if (behind := self._behind) and not behind.look(self):
             self._behind = None
 
     def best(self) -> None:
-        """Wait for the optimized library and switch to it, before long computations."""
+        """Wait for the optimized library, if one is being made, and switch to it, before long computations."""
         if behind := self._behind:
             behind.wait(self)
             self._behind = None
@@ -102,8 +105,11 @@ class Functions:
 
 
 def opened(file: Path, cdef: str = "") -> Library:
-    """Open the library in a file, of the engine or with given declarations. Raise ImportError."""
-    ffi = _engine_interface() if cdef in ("", lane_declarations()) else _parse_declarations(cdef)
+    """Open the library in a file: one with the engine, or one with given declarations.
+
+    Raise ImportError if that fails.
+    """
+    ffi = _get_engine_interface() if cdef in ("", lane_declarations()) else _parse_declarations(cdef)
     try:
         return Library(file, ffi, Functions(ffi.dlopen(str(file))))
     except (OSError, UnicodeEncodeError) as error:  # cffi takes a path as UTF-8
@@ -111,8 +117,10 @@ def opened(file: Path, cdef: str = "") -> Library:
 
 
 @lru_cache(maxsize=1)
-def _engine_interface() -> Any:
-    """Return cffi's interface to the engine's declarations."""
+def _get_engine_interface() -> Any:
+    """Return cffi's interface to the engine's declarations, cached; the stored one, unless the declarations have
+    changed.
+    """
     text = all_declarations()
     return declared.ffi if digest([text]) == declared.OF else _parse_declarations(text)
 
@@ -128,7 +136,10 @@ def _parse_declarations(text: str) -> Any:
 
 
 def carried(source: KernelSource) -> Library | None:
-    """Return the bundled library of a source; None if there is none for this machine, or the user set $CC."""
+    """Return the library of a source that is bundled with gudgeon; None if there is none or it cannot be opened.
+
+    The user's $CC switches bundled libraries off.
+    """
     if os.environ.get("CC"):
         return None
     path = CARRIED / platform(sys.platform, os.uname().machine) / file_name(source)

@@ -30,34 +30,37 @@ def generated() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in MECHANISMS.glob("*.yaml")))
 
 
-def shipped_studies() -> dict[str, Path]:
+def _list_shipped_studies() -> dict[str, Path]:
     """Return the files of the studies that come with gudgeon, by name."""
     found = sorted(STUDIES.glob("*.yaml"))
     return {path.stem: path.resolve() for path in found if STUDY in path.read_bytes()}
 
 
 def shipped_file(name: str) -> Path:
-    """Return the file of a shipped mechanism. Raise UnknownNameError with the nearest names.
+    """Return the path of a shipped mechanism's YAML file, by name, with links resolved.
 
-    Raises InputError if none are installed.
+    Raises UnknownNameError with the nearest name, or InputError if none are installed.
     """
     names = shipped()
     if name in names:
         file = next(path for folder in (MECHANISMS, GALLERY) if (path := folder / f"{name}.yaml").exists())
         return file.resolve()  # in a clone the package has links: show the real file
-    raise _unknown_name_error("mechanism", name, names)
+    raise _build_unknown_name_error("mechanism", name, names)
 
 
 def shipped_study(name: str) -> Path:
     """Return the file of a shipped study. Raise UnknownNameError or InputError as `shipped_file`."""
-    found = shipped_studies()
+    found = _list_shipped_studies()
     if name in found:
         return found[name]
-    raise _unknown_name_error("study", name, tuple(found))
+    raise _build_unknown_name_error("study", name, tuple(found))
 
 
-def _unknown_name_error(what: str, name: str, names: tuple[str, ...]) -> InputError:
-    """Return the error for an unknown name, or for an installation without such files."""
+def _build_unknown_name_error(what: str, name: str, names: tuple[str, ...]) -> InputError:
+    """Build the error for an unknown name of a mechanism or study (`what`), with the nearest of `names`.
+
+    Without any names, it is an InputError for an incomplete installation.
+    """
     if not names:
         message = f"this installation of gudgeon is not whole: it has no {what.replace('y', 'ie')}s"
         return InputError(message, hint="install it anew; in a clone `make run` or `sh tools/setup all,web` does it")
@@ -71,7 +74,9 @@ def _unknown_name_error(what: str, name: str, names: tuple[str, ...]) -> InputEr
 
 
 def committed_header(mechanism: str, scene: str) -> str:
-    """Return the committed model.h of a scene, for any version of its YAML; "" if there is none."""
+    """Return the committed model.h of a scene, whatever version of its YAML; "" if there is none or a name is
+    invalid.
+    """
     if not (mechanism.isidentifier() and scene.isidentifier()):
         return ""
     try:
@@ -81,7 +86,9 @@ def committed_header(mechanism: str, scene: str) -> str:
 
 
 def committed(mechanism: str, scene: str, sha256: str) -> KernelSource | None:
-    """Return the committed kernel source of a shipped scene, if it was made from these bytes of YAML; else None."""
+    """Return the committed kernel source of a shipped scene; None unless it was made from a YAML file with this
+    SHA-256.
+    """
     if not (mechanism.isidentifier() and scene.isidentifier()):
         return None  # a name must not walk out of the folder
     source = read_scene(GENERATED / mechanism, scene)

@@ -27,24 +27,31 @@ METHODS = ("rk4", *CHOOSING, *SMOOTH, ADAPTIVE, *DRIVES)
 MAX_STEPS = 10**12  # largest number of fixed steps of a run
 DEFAULT_OUTPUT, MOST_OUTPUT = 1000, 10**8  # numbers of intervals: the default, and the largest that is allowed
 OUTPUT = f"a whole number of intervals, 1 to {MOST_OUTPUT:.0e}, or times (s)"
-MOST_TRUTHS = 10**4  # largest number of list entries that are searched for True and False
+MAX_CHECKED_ITEMS = 10**4  # largest number of list entries that are searched for True and False
 # shortest run in roundings of its times, the same in s, and latest end of a run in s
-NEAREST, SHORTEST, FURTHEST = 1024, 1e-290, 1e18
+MIN_ROUNDINGS, MIN_DURATION_S, MAX_END_TIME_S = 1024, 1e-290, 1e18
 
 
 def integrate(problem: Problem) -> Trajectory:
-    """Integrate one run by its method. Raise KeyboardInterrupt where nothing was reached."""
+    """Integrate one run by its method, in C or Python, and return its trajectory.
+
+    Raise KeyboardInterrupt if it has no sample.
+    """
     return batch.integrate(problem, DRIVES.get(problem.method))
 
 
 def seconds(name: str, value: float | str) -> float:
-    """Return a time in s from a number or a text such as '5 ms' or '1e-3'. Raise InputError for anything else."""
+    """Parse a time argument and return it in s: a number, or a text such as '5 ms' or '1e-3'. `name` is for messages.
+
+    Raises InputError for anything else.
+    """
     return number(value, Slot(name, "s", 0.0, False, (0, 0, 1)))
 
 
 def end_of(source: KernelSource, t_end: float | str | None, p: Array) -> float | str | None:
-    """Return t_end (s), evaluated with the parameter values p if it is an expression such as '2*pi/omega'. Numbers,
-    plain texts and None are returned unchanged.
+    """Evaluate t_end (s) with the parameter values p if it is an expression with names such as '2*pi/omega'.
+
+    Numbers, plain texts and None are returned unchanged. Raises InputError for unknown names or a wrong dimension.
     """
     if not isinstance(t_end, str):
         return t_end
@@ -64,14 +71,15 @@ def output_times(
 ) -> tuple[Array, bool]:
     """Return the increasing sample times (s) of a run from t0, and whether t0 itself is a requested sample.
 
-    The times are a new array that begins with t0. `p` are the parameter values of the run. Raises BadValueError.
+    The times are a new array that begins with t0. They follow from `output`: times, or a number of intervals to t_end.
+    Without either, those of the file hold, with parameter values `p`. Raises BadValueError, MemoryError.
     """
     if isinstance(output, np.ndarray) and not output.ndim:
         output = output[()]
     if isinstance(output, (float, np.floating)):
         raise BadValueError(f"output is {message(output)}: expected {OUTPUT}", hint="a list for times: output=[0.5]")
     if output is not None and not isinstance(output, bool) and not is_whole(output):
-        times, requested = _given_times(t0, output)
+        times, requested = _check_output_times(t0, output)
         kind = np.asarray(output).dtype
         rounding = float(np.finfo(kind).eps) if kind.kind == "f" else 0.0
         _check_t_end_matches_output(None if t_end is None else seconds("t_end", t_end), float(times[-1]), rounding)
@@ -87,21 +95,21 @@ def output_times(
     return np.linspace(t0, end, int(intervals) + 1), True
 
 
-def _given_times(t0: float, output: ArrayLike) -> tuple[Array, bool]:
-    """Return the checked sample times of the user from t0 on, and whether t0 is one of them.
+def _check_output_times(t0: float, output: ArrayLike) -> tuple[Array, bool]:
+    """Check the sample times (s) given by the user; return them from t0 on, and whether t0 is one of them.
 
-    Raises BadValueError for booleans, times that do not increase, and times before t0.
+    Raises BadValueError for booleans, no times, times that do not increase, and times before t0.
     """
     times = as_c_array(output, "output", (None,), finite=True, own=True, most=MOST_OUTPUT)
     if not isinstance(output, np.ndarray) or output.dtype.kind == "b":
-        for k, value in enumerate(np.asarray(output, object)[:MOST_TRUTHS]):
+        for k, value in enumerate(np.asarray(output, object)[:MAX_CHECKED_ITEMS]):
             if isinstance(value, (bool, np.bool_)):
                 raise BadValueError(f"output[{k}] is {value}: expected a time (s)")
     if not len(times):
         raise BadValueError("output: expected at least one time (s), got none")
-    back = np.flatnonzero(~(np.diff(times) > 0.0))
-    if len(back):
-        k = int(back[0])
+    decreasing = np.flatnonzero(~(np.diff(times) > 0.0))
+    if len(decreasing):
+        k = int(decreasing[0])
         raise BadValueError(f"output: expected increasing times (s), got {times[k + 1]!s} s after {times[k]!s} s")
     if times[0] < t0:
         raise BadValueError(f"output: times begin at {t0!s} s, got {times[0]!s} s")
@@ -110,37 +118,47 @@ def _given_times(t0: float, output: ArrayLike) -> tuple[Array, bool]:
     return times if requested else np.concatenate([[t0], times]), requested
 
 
-def _check_t_end_matches_output(t_end: float | None, last: float, rounding: float) -> None:
-    """Raise BadValueError if t_end differs from the last of the given sample times by more than their `rounding`."""
-    if t_end is not None and not abs(t_end - last) <= max(1e-9, 0.5 * rounding) * max(abs(t_end), abs(last)):
+def _check_t_end_matches_output(t_end: float | None, last_time: float, relative_tolerance: float) -> None:
+    """Raise BadValueError if t_end differs from the last sample time `last_time` by more than the relative
+    `relative_tolerance`.
+
+    None as t_end always passes.
+    """
+    if t_end is not None and not abs(t_end - last_time) <= max(1e-9, 0.5 * relative_tolerance) * max(
+        abs(t_end), abs(last_time)
+    ):
         hint = "leave out t_end, for the times say when the run ends, or let them end there"
-        raise BadValueError(f"t_end is {t_end:.12g} s, and the times of output end at {last:.12g} s", hint=hint)
+        raise BadValueError(f"t_end is {t_end:.12g} s, and the times of output end at {last_time:.12g} s", hint=hint)
 
 
-def _check_duration(what: str, t0: float, end: float, roundings: int) -> None:
-    """Raise BadValueError if the end of a run is too close to its start for distinct times, or too large."""
-    if end > FURTHEST:
-        raise BadValueError(f"{what} {end:g} s: expected {FURTHEST:g} s at most", hint="times are in s")
-    least = max(max(roundings, NEAREST) * float(np.spacing(max(abs(t0), abs(end)))), SHORTEST)
-    if 0.0 < end - t0 < least:
+def _check_duration(message_begin: str, t0: float, end: float, min_roundings: int) -> None:
+    """Raise BadValueError if the end of a run (s) is too close to its start t0 for distinct times, or too large.
+
+    `message_begin` begins the message; `min_roundings`: least duration in units of the last digit of the times.
+    """
+    if end > MAX_END_TIME_S:
+        raise BadValueError(f"{message_begin} {end:g} s: expected {MAX_END_TIME_S:g} s at most", hint="times are in s")
+    min_duration = max(max(min_roundings, MIN_ROUNDINGS) * float(np.spacing(max(abs(t0), abs(end)))), MIN_DURATION_S)
+    if 0.0 < end - t0 < min_duration:
         raise BadValueError(
-            f"{what} {end:.17g} s, {end - t0:.3g} s after the start at {t0:.9g} s: expected {least:.3g} s at least, or"
-            " numbers have no room for the times between",
+            f"{message_begin} {end:.17g} s, {end - t0:.3g} s after the start at {t0:.9g} s:"
+            f" expected {min_duration:.3g} s at least, or numbers have no room for the times between",
             hint="times are in s",
         )
 
 
 def derived_for(source: KernelSource, method: str) -> str:
-    """Return the variant that a scene must be derived as for a method that its library lacks; "" if it has it."""
+    """Return the name of the variant that a scene must be derived as for a method; "" if its library suffices."""
     if method in STAGED:
         return "" if source.stages or source.no_slopes else STAGES
     return method if method in SMOOTH and not source.taylor else ""
 
 
-def method_of(source: KernelSource, method: str, fixed: bool) -> str:
-    """Return the name of the method that integrates the scene, "adaptive" where auto switches between methods.
+def method_of(source: KernelSource, method: str, has_step: bool) -> str:
+    """Return the name of the method that integrates the scene for the argument `method`, which may be "auto".
 
-    `fixed` says that a step is given. Raises BadValueError for a method that does not fit, AssemblyError if dof < 0.
+    "auto" gives rk4 if a step is given (`has_step`), kinematic analysis without degrees of freedom, else "adaptive".
+    Raises BadValueError for a method that does not fit, AssemblyError if dof < 0.
     """
     dof = source.degrees_of_freedom
     if dof < 0:
@@ -148,30 +166,40 @@ def method_of(source: KernelSource, method: str, fixed: bool) -> str:
             f"{-dof} constraint rows more than coordinates: constraints are redundant or contradict each other\n"
             "  remove a drive or a joint; `gudgeon check -v` lists the rows"
         )
-    fitting = source.methods
-    if KINEMATIC not in fitting and not source.explicit:
-        fitting = (*fitting, ADAPTIVE, *(() if source.states else driver.NAMES))  # peers integrate no inner states
+    fitting_methods = source.methods
+    if KINEMATIC not in fitting_methods and not source.explicit:
+        fitting_methods = (
+            *fitting_methods,
+            ADAPTIVE,
+            *(() if source.states else driver.NAMES),
+        )  # peers integrate no inner states
     if source.taylor:
-        fitting = (*fitting, *SMOOTH)
+        fitting_methods = (*fitting_methods, *SMOOTH)
     if method == "auto":
-        return fitting[0] if len(fitting) == 1 or fixed else EXPLICIT if source.explicit else ADAPTIVE
+        return (
+            fitting_methods[0] if len(fitting_methods) == 1 or has_step else EXPLICIT if source.explicit else ADAPTIVE
+        )
     if method not in METHODS:
         offered = ", ".join(name for name in METHODS if name != ADAPTIVE)  # a name of ours for what auto runs
         raise BadValueError(f"method {method!r}: expected auto, {offered}")
-    if method not in fitting:
-        why = f"this scene has {dof} degree{'' if dof == 1 else 's'} of freedom"
+    if method not in fitting_methods:
+        reason = f"this scene has {dof} degree{'' if dof == 1 else 's'} of freedom"
         if source.rigid:
-            why = source.no_slopes
+            reason = source.no_slopes
         elif source.states:
-            why = f"a law has an inner state ({next(filter(None, source.states))}), which peers do not integrate"
+            reason = f"a law has an inner state ({next(filter(None, source.states))}), which peers do not integrate"
         *others, last = source.methods
         fit = f"{', '.join(others)} and {last} fit it" if others else f"{last} fits it"
-        raise BadValueError(f"method {method!r} does not fit: {why}; use auto ({fit})")
+        raise BadValueError(f"method {method!r} does not fit: {reason}; use auto ({fit})")
     return method
 
 
 def step_of(compiled: CompiledModel, step: float | str | None, method: str, p: Array, duration: float) -> float:
-    """Return the fixed step (s) of a run, or infinity where the method controls its step."""
+    """Return the fixed step (s) of a run of `duration` (s); infinity where the method controls its step.
+
+    Without the argument `step`, rk4 takes the step of the file or a default. Raises BadValueError unless it is
+    positive.
+    """
     if method == "kinematic" or (step is None and method != "rk4"):
         return math.inf
     if step is None:

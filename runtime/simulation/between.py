@@ -26,12 +26,16 @@ from gudgeon.results.series import catalogue
 
 NODES = 0.5 * (leggauss(6)[0] + 1.0)  # fractions of an interval between two states at which powers are evaluated
 INSIDE = 0.381966  # fraction of an interval: no multiple of it is near the period of a force that a step could hide
-KEPT = 256  # largest number of evaluated places that are cached for the next series
-ROUNDED = 1e-7  # of the speed: in shorter intervals, differences of positions are too rounded to check the speed
-REST = 1e-9  # of the positions: a block that moves by less is at rest
-CLOSE = 1e-3  # of the largest acceleration: interpolated states whose accelerations err by more are left out
+MAX_CACHED = 256  # largest number of evaluated places that are cached for the next series
+MAX_SPEED_ERROR = (
+    1e-7  # of the speed: in shorter intervals, differences of positions are too rounded to check the speed
+)
+MAX_MOTION_AT_REST = 1e-9  # of the positions: a block that moves by less is at rest
+MAX_ACCELERATION_ERROR = (
+    1e-3  # of the largest acceleration: interpolated states whose accelerations err by more are left out
+)
 # diagnostics of a block of states, in which nothing is known
-NONE = Diagnostics(
+UNKNOWN_DIAGNOSTICS = Diagnostics(
     method="",
     step=math.nan,
     steps=0,
@@ -51,9 +55,10 @@ NONE = Diagnostics(
 
 
 class Path:
-    """Hold the current block of states of a run, and evaluate series at and between them.
+    """Hold the current block of a run's states, and evaluate series at and between them.
 
-    The first two states ended the block before. `names`: the only series that will be evaluated; None: any.
+    Two states of the previous block precede it. `names`: the only series that will be evaluated; None: any. `numbers`:
+    parameter values, given values and their mask, as in a Result.
     """
 
     def __init__(
@@ -62,84 +67,104 @@ class Path:
         self.compiled, self.source = compiled, compiled.source
         self.p, self.given, self.is_given = numbers  # as in a Result
         self.catalogue = catalogue(self.source)
-        own = self.catalogue.keys() if names is None else [name for name in names if name in self.catalogue]
-        self.parts = PARTS if names is None else evaluation_parts_of(self.source, own) | {"a"}
-        self.works = any(depends_on_works(self.source, name) for name in own)
+        requested = self.catalogue.keys() if names is None else [name for name in names if name in self.catalogue]
+        self.parts = PARTS if names is None else evaluation_parts_of(self.source, requested) | {"a"}
+        self.needs_works = any(depends_on_works(self.source, name) for name in requested)
         self.exact = self.source.methods == (KINEMATIC,)
         self.films = any(joint.film for joint in self.source.clearances)
-        self.gives = any(joint.joint not in self.source.rigid for joint in self.source.clearances)
+        self.has_elastic_contact = any(joint.joint not in self.source.rigid for joint in self.source.clearances)
         self.first: Steps | None = None  # first state of the run: energies count from it
         self.lost = 0  # number of states without accelerations
-        self.seen: dict[tuple[int, int, float, float], tuple[Result, Array]] = {}  # cached evaluations between states
+        self.cached: dict[tuple[int, int, float, float], tuple[Result, Array]] = {}  # cached evaluations between states
         # k, polynomial of the rates between states k and k + 1, and its integral
-        self.nearest: tuple[int, Any] = (-1, None)
-        self.powers: tuple[int, Any] = (-1, None)  # k, integral of the powers between states k and k + 1
-        self.middle: Result | None = None  # run evaluated at INSIDE of every interval
+        self.rates_cache: tuple[int, Any] = (-1, None)
+        self.works_cache: tuple[int, Any] = (-1, None)  # k, integral of the powers between states k and k + 1
+        self.inside_cache: Result | None = None  # run evaluated at INSIDE of every interval
         self.steps: Steps
         self.run: Result
         self.inner: NDArray[np.bool_]  # (K − 1,) whether k and k + 1 are the ends of a part of a step
 
     def take(self, steps: Steps) -> None:
-        """Replace the block by the next states of the run; the last two states of the old block stay in front."""
+        """Replace the block by the next states of the run, and evaluate the equations at them.
+
+        The last two states of the old block stay in front. Cached evaluations are dropped. States without accelerations
+        are counted in `lost`.
+        """
         self.first = steps[:1] if self.first is None else self.first
         self.steps = self.steps[-2:].then(steps) if hasattr(self, "steps") else steps
-        self.run, good = self._result(self.steps)
-        self.nearest, self.powers, self.seen, self.middle = (-1, None), (-1, None), {}, None
+        self.run, good = self._build_result(self.steps)
+        self.rates_cache, self.works_cache, self.cached, self.inside_cache = (-1, None), (-1, None), {}, None
         self.lost += int((~good[len(good) - len(steps) :]).sum())
         self.inner = ~self.steps.jumped[1:] & (
-            np.diff(self.steps.t) > (0.0 if self.exact else _shortest_interval(self.steps))
+            np.diff(self.steps.t) > (0.0 if self.exact else _compute_shortest_interval(self.steps))
         )
 
     def values(self, name: str) -> Array:
-        """Return a series at the states of the block, (K,); NaN where it is not known."""
+        """Return a series at the states of the block, (K,); NaN where the equations cannot be solved."""
         return self.run[name][1:]
 
     def between(self, k: int, t: Array, name: str) -> Array:
-        """Return a series at times t (T,) between states k and k + 1; NaN where the interpolation is too inaccurate."""
-        place = (k, len(t), float(t[0]), float(t[-1]))
-        if place not in self.seen:
-            if len(self.seen) >= KEPT:
-                self.seen.clear()
-            found = self._result(self._interpolate_states(k, t))[0]
-            self.seen[place] = found, self._interpolation_error(k, t, found.a[1:]) if self.gives else np.zeros(len(t))
-        found, off = self.seen[place]
-        return np.where(off <= CLOSE, found[name][1:], np.nan)
+        """Return a series at times t (T,) between states k and k + 1; NaN where the interpolation is too inaccurate.
+
+        The evaluated states are cached for the next series, KEPT of them at most.
+        """
+        key = (k, len(t), float(t[0]), float(t[-1]))
+        if key not in self.cached:
+            if len(self.cached) >= MAX_CACHED:
+                self.cached.clear()
+            result = self._build_result(self._interpolate_states(k, t))[0]
+            self.cached[key] = (
+                result,
+                self._compute_interpolation_error(k, t, result.a[1:]) if self.has_elastic_contact else np.zeros(len(t)),
+            )
+        result, errors = self.cached[key]
+        return np.where(errors <= MAX_ACCELERATION_ERROR, result[name][1:], np.nan)
 
     def inside(self, name: str) -> Array:
-        """Return a series at the fraction INSIDE between successive states, (K − 1,); NaN across jumps or if unknown.
+        """Return a series at the fraction INSIDE of each interval between successive states, (K − 1,).
 
-        The motion there is Hermite's polynomial of order 5 through positions, velocities and accelerations.
+        The value is NaN across jumps and where it is unknown. The motion there is Hermite's polynomial of order 5
+        through positions, velocities and accelerations. Its evaluation is cached for the block.
         """
-        if self.middle is None:
+        if self.inside_cache is None:
             x, a, s = self.steps, self.run.a[1:], INSIDE
             h, q = np.diff(x.t)[:, None], np.diff(x.q, axis=0)
             r0, r1, c0, c1 = h * x.v[:-1], h * x.v[1:], h**2 * a[:-1], h**2 * a[1:]
             with np.errstate(invalid="ignore", divide="ignore"):
-                rest = q - r0 - 0.5 * c0, r1 - r0 - c0, c1 - c0  # what the powers 3 to 5 add at the end
-                third = 10.0 * rest[0] - 4.0 * rest[1] + 0.5 * rest[2]
-                fourth = -15.0 * rest[0] + 7.0 * rest[1] - rest[2]
-                fifth = 6.0 * rest[0] - 3.0 * rest[1] + 0.5 * rest[2]
-                place = x.q[:-1] + s * (r0 + s * (0.5 * c0 + s * (third + s * (fourth + s * fifth))))
-                speed = (r0 + s * (c0 + s * (3.0 * third + s * (4.0 * fourth + s * 5.0 * fifth)))) / h
-            place[~self.inner] = speed[~self.inner] = np.nan
+                remainders = q - r0 - 0.5 * c0, r1 - r0 - c0, c1 - c0  # what the powers 3 to 5 add at the end
+                third = 10.0 * remainders[0] - 4.0 * remainders[1] + 0.5 * remainders[2]
+                fourth = -15.0 * remainders[0] + 7.0 * remainders[1] - remainders[2]
+                fifth = 6.0 * remainders[0] - 3.0 * remainders[1] + 0.5 * remainders[2]
+                q_inside = x.q[:-1] + s * (r0 + s * (0.5 * c0 + s * (third + s * (fourth + s * fifth))))
+                v_inside = (r0 + s * (c0 + s * (3.0 * third + s * (4.0 * fourth + s * 5.0 * fifth)))) / h
+            q_inside[~self.inner] = v_inside[~self.inner] = np.nan
             t, works = x.t[:-1] + s * h[:, 0], np.full((len(h), N_WORK), np.nan)
-            self.middle = self._result(Steps(t, place, speed, works, x.memory[:-1], x.state[:-1], x.jumped[:-1]))[0]
-        return self.middle[name][1:]
+            self.inside_cache = self._build_result(
+                Steps(t, q_inside, v_inside, works, x.memory[:-1], x.state[:-1], x.jumped[:-1])
+            )[0]
+        return self.inside_cache[name][1:]
 
-    def _interpolation_error(self, k: int, t: Array, a: Array) -> Array:
+    def _compute_interpolation_error(self, k: int, t: Array, a: Array) -> Array:
         """Return the relative error (T,) of the accelerations a (T, n) against those of the interpolant at times t.
 
-        The error is relative to the largest acceleration of its kind. The forces of films and of stiff friction
-        depend steeply on the speed. Interpolated speeds within the tolerance may therefore give wrong forces.
+        The interval is that after state k. The error is relative to the largest acceleration of its kind (lengths or
+        angles). The forces of films and of stiff friction depend steeply on the speed. Interpolated speeds within the
+        tolerance may therefore give wrong forces.
         """
-        mid, half, rates, _ = self._rates(k)
-        off = np.abs(a - legval((t - mid) / half, legder(rates)).T / half).reshape(len(t), -1, 3)
-        most = np.abs(self.run.a[1:][k : k + 2]).reshape(2, -1, 3)
-        shares = [off[..., kind].max(axis=(1, 2)) / most[..., kind].max(initial=1e-300) for kind in ([0, 1], [2])]
-        return np.maximum(*shares)
+        mid, half, rates, _ = self._interpolate_rates(k)
+        differences = np.abs(a - legval((t - mid) / half, legder(rates)).T / half).reshape(len(t), -1, 3)
+        largest = np.abs(self.run.a[1:][k : k + 2]).reshape(2, -1, 3)
+        errors = [
+            differences[..., kind].max(axis=(1, 2)) / largest[..., kind].max(initial=1e-300) for kind in ([0, 1], [2])
+        ]
+        return np.maximum(*errors)
 
-    def _result(self, steps: Steps) -> tuple[Result, NDArray[np.bool_]]:
-        """Return a Result of the run's first state and these states, and which states have accelerations."""
+    def _build_result(self, steps: Steps) -> tuple[Result, NDArray[np.bool_]]:
+        """Return a Result of the run's first state and the states `steps`, and a mask of those with accelerations.
+
+        The Result has evaluated equations, no impacts and empty diagnostics. Series count energies from the first
+        state.
+        """
         assert self.first is not None
         x = self.first.then(steps)
         evaluation, good = self._evaluate_states(x)
@@ -157,13 +182,18 @@ class Path:
             memory=x.memory,
             work=x.work,
             impacts=np.zeros(0, IMPACT_DTYPE),
-            diagnostics=NONE,
+            diagnostics=UNKNOWN_DIAGNOSTICS,
         )
         run.__dict__.update(evaluation=evaluation, _catalogue=self.catalogue)
         return run, good
 
     def _evaluate_states(self, x: Steps) -> tuple[Evaluation, NDArray[np.bool_]]:
-        """Evaluate the equations at states; return NaN where they cannot be solved, and a mask of the others."""
+        """Evaluate the equations at the states x (K,); return NaN where they cannot be solved, and a mask of the
+        others.
+
+        Times just after a jump are moved before it for expressions that depend on the side. A state that fails is
+        removed, and the rest is evaluated again.
+        """
         good = np.asarray(np.isfinite(x.q).all(axis=1) & np.isfinite(x.v).all(axis=1))
         t = x.t
         if self.compiled.beyond and not self.exact:  # step ends have the rates before a jump
@@ -172,20 +202,23 @@ class Path:
         while True:
             try:
                 states = (t, x.q, x.v, x.memory) if good.all() else (t[good], x.q[good], x.v[good], x.memory[good])
-                found = self.compiled.evaluate(*states, self.p, parts=self.parts)
+                evaluation = self.compiled.evaluate(*states, self.p, parts=self.parts)
                 break
             except SolverError as error:
-                left = good & (np.abs(t - error.time) > 4.0 * around(t))
-                good = left if (left != good).any() else np.zeros_like(good)
+                remaining = good & (np.abs(t - error.time) > 4.0 * around(t))
+                good = remaining if (remaining != good).any() else np.zeros_like(good)
         if good.all():
-            return found, good
-        whole = {name: np.full((len(x), *known.shape[1:]), np.nan) for name, known in vars(found).items()}
+            return evaluation, good
+        columns = {name: np.full((len(x), *known.shape[1:]), np.nan) for name, known in vars(evaluation).items()}
         for name in self.parts:
-            whole[name][good] = getattr(found, name)
-        return Evaluation(**whole), good
+            columns[name][good] = getattr(evaluation, name)
+        return Evaluation(**columns), good
 
     def _interpolate_states(self, k: int, t: Array) -> Steps:
-        """Interpolate the states at times t (T,) between states k and k + 1, with the contacts of the first of them."""
+        """Interpolate the states at times t (T,) between states k and k + 1, with the contacts of state k.
+
+        Inner states vary linearly. Works are NaN unless a requested series needs them.
+        """
         x = self.steps
         s = ((t - x.t[k]) / (x.t[k + 1] - x.t[k]))[:, None]
         q, v = self._interpolate_motion(k, t, s)
@@ -193,7 +226,7 @@ class Path:
         states = slice(memory.shape[1] - len(self.source.states), None)
         memory[:, states] += s * (x.memory[k + 1, states] - x.memory[k, states])
         codes = np.repeat(x.state[k : k + 1], len(t), axis=0)
-        works = self._interpolate_works(k, s) if self.works else np.full((len(t), N_WORK), np.nan)
+        works = self._interpolate_works(k, s) if self.needs_works else np.full((len(t), N_WORK), np.nan)
         return Steps(t, q, v, works, memory, codes, s[:, 0] < 0.5)  # from where rates come
 
     def _interpolate_motion(self, k: int, t: Array, s: Array) -> tuple[Array, Array]:
@@ -205,77 +238,88 @@ class Path:
         if self.exact:
             q, v = along(self.compiled, self.p, np.concatenate([x.t[k : k + 1], t]), x.q[k], x.v[k])
             return q[1:], v[1:]
-        mid, half, rates, integral = self._rates(k)
+        mid, half, rates, integral = self._interpolate_rates(k)
         places = (np.concatenate([x.t[k : k + 2], t]) - mid) / half
-        way = half * legval(places, integral).T
-        left = x.q[k + 1] - x.q[k] - (way[1] - way[0])  # what rates do not know of positions
-        return x.q[k] + (way[2:] - way[0]) + s * left, legval(places[2:], rates).T
+        displacement = half * legval(places, integral).T
+        correction = x.q[k + 1] - x.q[k] - (displacement[1] - displacement[0])  # what rates do not know of positions
+        return x.q[k] + (displacement[2:] - displacement[0]) + s * correction, legval(places[2:], rates).T
 
-    def _rates(self, k: int) -> tuple[float, float, Any, Any]:
-        """Return the interpolant of q̇ between states k and k + 1: middle and half width (s), Legendre coefficients.
+    def _interpolate_rates(self, k: int) -> tuple[float, float, Any, Any]:
+        """Return the interpolant of q̇ between states k and k + 1: middle and half width (s), Legendre coefficients,
+        its integral.
 
-        The last item returned is the integral of the polynomial. It also passes through neighbouring states where
-        these improve it, which they do not across a kink of a force.
+        The polynomial also passes through neighbouring states where these reduce its estimated error; across a kink of
+        a force they do not. The result of the last k is cached.
         """
-        if self.nearest[0] != k:
-            h, far = np.diff(self.steps.t), 2 if self.films else 1  # neighbours on each side
-            before, after = (self._neighbours(h, k, way, far) for way in (-1, 1))
-            parts = {(k - i, k + 2 + j) for i in range(before, -1, -1) for j in range(after, -1, -1)}
-            best = min((self._fit_rates(slice(*rows)) for rows in sorted(parts)), key=lambda one: one[0])
-            self.nearest = k, (*best[1:], legint(best[3]))
-        found: tuple[float, float, Any, Any] = self.nearest[1]
-        return found
+        if self.rates_cache[0] != k:
+            h, max_count = np.diff(self.steps.t), 2 if self.films else 1  # neighbours on each side
+            before, after = (self._count_neighbours(h, k, direction, max_count) for direction in (-1, 1))
+            ranges = {(k - i, k + 2 + j) for i in range(before, -1, -1) for j in range(after, -1, -1)}
+            fit = min((self._fit_rates(slice(*rows)) for rows in sorted(ranges)), key=lambda one: one[0])
+            self.rates_cache = k, (*fit[1:], legint(fit[3]))
+        interpolant: tuple[float, float, Any, Any] = self.rates_cache[1]
+        return interpolant
 
-    def _neighbours(self, h: Array, k: int, way: int, most: int) -> int:
-        """Return how many states before k (way −1) or after k + 1 (way 1) the polynomial may pass through."""
+    def _count_neighbours(self, h: Array, k: int, direction: int, max_count: int) -> int:
+        """Return how many states before k (way −1) or after k + 1 (way 1) the polynomial may pass through, 0 to
+        `max_count`.
+
+        Counting ends at a jump, at an interval more than eight times longer or shorter, and at a state without
+        accelerations. `h`: lengths (s) of all intervals.
+        """
         a = self.run.a[1:]
-        for found in range(most):
-            j = k + way * (found + 1)
+        for count in range(max_count):
+            j = k + direction * (count + 1)
             if not (0 <= j < len(h) and self.inner[j] and 0.125 < h[j] / h[k] < 8.0):
-                return found
-            if not np.isfinite(a[j if way < 0 else j + 1]).all():
-                return found
-        return most
+                return count
+            if not np.isfinite(a[j if direction < 0 else j + 1]).all():
+                return count
+        return max_count
 
     def _fit_rates(self, rows: slice) -> tuple[float, float, float, Any]:
-        """Fit the polynomial of q̇ through states and their accelerations; return its estimated error and itself.
+        """Fit the polynomial of q̇ to the states `rows` and their accelerations.
 
-        With films, accelerations are not used: they amplify the errors of velocities.
+        Return its estimated error, the middle and half width of its interval (s), and its Legendre coefficients. With
+        films, accelerations are not used: they amplify the errors of velocities.
         """
         x, a = self.steps, self.run.a[1:]
         t, n = x.t[rows], len(x.t[rows]) * (1 if self.films else 2)
         mid, half = float(0.5 * (t[0] + t[-1])), float(0.5 * (t[-1] - t[0]))
-        places = (t - mid) / half
-        matrix, given = legvander(places, n - 1), x.v[rows]
+        s = (t - mid) / half
+        matrix, values = legvander(s, n - 1), x.v[rows]
         if not self.films:
-            matrix = np.concatenate([matrix, legval(places, _legendre_derivatives(n)).T])
-            given = np.concatenate([given, half * a[rows]])
-        found = np.linalg.solve(matrix, given)
-        last, before = np.abs(found[-1]).max(), np.abs(found[-2]).max()
-        return float(last * min(1.0, last / max(before, 1e-300))), mid, half, found
+            matrix = np.concatenate([matrix, legval(s, _differentiate_legendre(n)).T])
+            values = np.concatenate([values, half * a[rows]])
+        coefficients = np.linalg.solve(matrix, values)
+        last, second_last = np.abs(coefficients[-1]).max(), np.abs(coefficients[-2]).max()
+        return float(last * min(1.0, last / max(second_last, 1e-300))), mid, half, coefficients
 
     def _interpolate_works(self, k: int, s: Array) -> Array:
-        """Return the works (T, 3) at fractions s (T, 1): the integral of the polynomial through the powers."""
+        """Return the works (T, 3) in J at fractions s (T, 1) between states k and k + 1.
+
+        They are the integral of the polynomial through the powers at six Gauss points, corrected linearly so that state
+        k + 1 is met. The integral of the last k is cached.
+        """
         x = self.steps
-        if self.powers[0] != k:
+        if self.works_cache[0] != k:
             h = x.t[k + 1] - x.t[k]
             t = x.t[k] + h * NODES
             q, v = self._interpolate_motion(k, t, NODES[:, None])
             power = self.compiled.evaluate(t, q, v, np.repeat(x.memory[k : k + 1], len(t), axis=0), self.p).power
-            self.powers = k, legint(legfit(2.0 * NODES - 1.0, 0.5 * h * power, len(NODES) - 1), lbnd=-1.0)
-        work = legval(2.0 * s[:, 0] - 1.0, self.powers[1]).T
-        left = x.work[k + 1] - x.work[k] - legval(1.0, self.powers[1])
-        out: Array = x.work[k] + work + s * left
+            self.works_cache = k, legint(legfit(2.0 * NODES - 1.0, 0.5 * h * power, len(NODES) - 1), lbnd=-1.0)
+        work = legval(2.0 * s[:, 0] - 1.0, self.works_cache[1]).T
+        correction = x.work[k + 1] - x.work[k] - legval(1.0, self.works_cache[1])
+        out: Array = x.work[k] + work + s * correction
         return out
 
 
 @cache
-def _legendre_derivatives(n: int) -> Any:
+def _differentiate_legendre(n: int) -> Any:
     """Return the Legendre coefficients of the derivatives of the first n Legendre polynomials."""
     return legder(np.eye(n))
 
 
-def _shortest_interval(x: Steps) -> float:
+def _compute_shortest_interval(x: Steps) -> float:
     """Return the length (s) of the shortest interval in which differences of positions still determine speeds.
 
     Lengths and angles are tested separately. Blocks at rest are not limited, though forces may vary there.
@@ -283,6 +327,6 @@ def _shortest_interval(x: Steps) -> float:
     shortest = 0.0
     for kind in (slice(0, None, 3), slice(1, None, 3), slice(2, None, 3)):  # x, y, angles of all bodies
         q, v = (np.abs(part[:, kind][np.isfinite(part[:, kind])]).max(initial=0.0) for part in (x.q, x.v))
-        if v * float(x.t[-1] - x.t[0]) > REST * q:
-            shortest = max(shortest, 40.0 * np.finfo(float).eps * float(q) / (ROUNDED * float(v)))
+        if v * float(x.t[-1] - x.t[0]) > MAX_MOTION_AT_REST * q:
+            shortest = max(shortest, 40.0 * np.finfo(float).eps * float(q) / (MAX_SPEED_ERROR * float(v)))
     return shortest

@@ -48,23 +48,28 @@ KEPT = 20_000  # samples up to which the evaluation made for the energy balance 
 AFTER_CTRL_C = 0.1  # s: time limit for the energy balance of an interrupted run; without it the residual is NaN
 
 
-def diagnose(problem: Problem, trajectory: Trajectory, balance: tuple[float, float]) -> Diagnostics:
-    """Return the diagnostics of a run, from its trajectory and its energy `balance` (residual, throughput; J)."""
+def _build_diagnostics(problem: Problem, trajectory: Trajectory, balance: tuple[float, float]) -> Diagnostics:
+    """Build the Diagnostics of a run from its problem, its trajectory and its energy `balance` (residual, throughput;
+    J).
+
+    Quantities that do not apply are NaN, such as the step of an adaptive method. For "auto", the method's name lists
+    the methods that made steps.
+    """
     compiled, method, x, counts = problem.compiled, problem.method, trajectory, trajectory.counts
-    worst, turned = balance
-    duration, used, last = float(problem.t[-1] - problem.t[0]), problem.step, math.nan
-    if math.isfinite(used) and duration > 0.0:
-        last = last_step(duration, used)
-        used = max(last, min(used, duration))
+    residual, throughput = balance
+    duration, step, last = float(problem.t[-1] - problem.t[0]), problem.step, math.nan
+    if math.isfinite(step) and duration > 0.0:
+        last = last_step(duration, step)
+        step = max(last, min(step, duration))
     simulated = float(x.t[-1] - x.t[0]) if len(x.t) else 0.0
     if method == ADAPTIVE:
-        both = EXPLICIT, stiff_method(compiled.source, problem.rtol)
-        method = "+".join(both) if 0 < counts.stiff_steps < counts.steps else both[counts.stiff_steps > 0]
+        methods = EXPLICIT, stiff_method(compiled.source, problem.rtol)
+        method = "+".join(methods) if 0 < counts.stiff_steps < counts.steps else methods[counts.stiff_steps > 0]
     return Diagnostics(
         method=method,
-        step=used if math.isfinite(problem.step) else math.nan,
+        step=step if math.isfinite(problem.step) else math.nan,
         steps=counts.steps,
-        last_step=last if last != used else math.nan,
+        last_step=last if last != step else math.nan,
         t_end=float(problem.t[-1]) if len(x.t) and x.t[-1] < problem.t[-1] else math.nan,
         rtol=problem.rtol if math.isinf(problem.step) and method != "kinematic" else math.nan,
         rejected=counts.rejected,
@@ -74,53 +79,59 @@ def diagnose(problem: Problem, trajectory: Trajectory, balance: tuple[float, flo
         onsets=counts.onsets,
         phi_max=counts.phi_max,
         phi_dot_max=counts.phi_dot_max,
-        energy_residual=worst,
-        energy_turned_over=turned,
+        energy_residual=residual,
+        energy_turned_over=throughput,
         ratio_min=counts.ratio_min,
         ratio_max=counts.ratio_max,
         ratio_outside=counts.ratio_outside,
-        peaks=_peaks(compiled, x),
+        peaks=_build_peaks(compiled, x),
         seconds=x.seconds,
         seconds_per_simulated_second=x.seconds / simulated if simulated > 0 else math.nan,
         interrupted=x.interrupted,
-        notes=_notes(compiled, problem, trajectory),
+        notes=_build_notes(compiled, problem, trajectory),
         audit=x.audit,
     )
 
 
-def energy_balance(energy: Array, work: Array, look: Callable[[], object]) -> tuple[float, float]:
-    """Return the largest residual of energies (N, 2) and works (N, 3), and the energy throughput; both in J.
+def _compute_energy_balance(energy: Array, work: Array, poll: Callable[[], object]) -> tuple[float, float]:
+    """Return the largest residual of the energy balance and the energy throughput of a run, both in J.
 
-    Both are NaN without samples. An impact at the very start has done its work before the first sample. `look` polls
-    for cancellation between blocks; its exceptions are passed on.
+    `energy` (N, 2): kinetic and potential; `work` (N, 3). Both results are NaN without samples. An impact at the very
+    start has done its work before the first sample. `poll` polls for cancellation between blocks; its exceptions are
+    passed on.
     """
     if not len(energy):  # not even the start has accelerations
         return math.nan, math.nan
-    worst = turned = 0.0
+    residual_max = throughput = 0.0
     for first in range(0, len(energy), BLOCK):
         rows = slice(first, first + BLOCK)
-        with np.errstate(invalid="ignore", over="ignore"):  # infinities: reported by `unbalanced_note`
+        with np.errstate(invalid="ignore", over="ignore"):  # infinities: reported by `_build_unbalanced_note`
             residual = energy[rows].sum(axis=1) - energy[0].sum() - (work[rows].sum(axis=1) - work[0].sum())
-        worst = float(np.maximum(worst, np.abs(residual).max()))  # NaN stays NaN
-        turned += float(np.abs(np.diff(work[first : first + BLOCK + 1], axis=0)).sum())
-        look()
+        residual_max = float(np.maximum(residual_max, np.abs(residual).max()))  # NaN stays NaN
+        throughput += float(np.abs(np.diff(work[first : first + BLOCK + 1], axis=0)).sum())
+        poll()
     with np.errstate(invalid="ignore"):
-        return worst, turned + float(np.ptp(energy[:, 0]))
+        return residual_max, throughput + float(np.ptp(energy[:, 0]))
 
 
-def coarse(problem: Problem, worst: float, turned: float) -> tuple[str, ...]:
-    """Return a note on a fixed step whose energy does not balance: other methods control the error."""
-    if math.isinf(problem.step) or not worst > COARSE * turned:
+def _build_coarse_step_note(problem: Problem, residual: float, throughput: float) -> tuple[str, ...]:
+    """Return a note if the energy balance of a run with fixed steps is too inaccurate, else ().
+
+    `residual`: residual (J); `throughput`: throughput (J). Methods with error control get no note.
+    """
+    if math.isinf(problem.step) or not residual > COARSE * throughput:
         return ()
     return (
-        f"energy balances to {worst:.3g} J of {turned:.3g} J turned over: a step of {problem.step:.3g} s is too"
+        f"energy balances to {residual:.3g} J of {throughput:.3g} J turned over: a step of {problem.step:.3g} s is too"
         " long for these forces; compare with a shorter one or with method auto",
     )
 
 
-def unbalanced_note(t: Array, energy: Array, work: Array, worst: float) -> tuple[str, ...]:
-    """Return a note that the energy balance is not a number, with the time of the first such sample; else ()."""
-    if math.isfinite(worst) or not len(t):
+def _build_unbalanced_note(t: Array, energy: Array, work: Array, residual: float) -> tuple[str, ...]:
+    """Return a note if the energy residual `residual` (J) is not finite, with the time of the first such sample; else
+    ().
+    """
+    if math.isfinite(residual) or not len(t):
         return ()
     with np.errstate(invalid="ignore"):
         known = np.isfinite(energy.sum(axis=1) + work.sum(axis=1))
@@ -129,12 +140,12 @@ def unbalanced_note(t: Array, energy: Array, work: Array, worst: float) -> tuple
     return (f"energy is not balanced: {what} is no finite number at t = {t[k]:.9g} s: the residual says nothing",)
 
 
-def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> tuple[str, ...]:
+def _build_notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> tuple[str, ...]:
     """Return the notes of a run: warnings that a reader should know before trusting it."""
     p, notes, counts = problem.p, list(problem.remarks), trajectory.counts
-    if problem.state is None and (tied := dependent_rows(compiled, p, float(problem.t[0]), problem.q)):
+    if problem.state is None and (dependent := dependent_rows(compiled, p, float(problem.t[0]), problem.q)):
         notes.append(
-            f"the start is a dead centre: rows {', '.join(tied)} tie each other there; velocities that drives and"
+            f"the start is a dead centre: rows {', '.join(dependent)} tie each other there; velocities that drives and"
             " start.rates leave open were taken least: give a rate of each body that may move"
         )
     if why := without_masses(compiled.source):
@@ -150,32 +161,35 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
         notes.append(f"event {name} is no number (NaN) at t = {t:.9g} s: where it is none it has no zeros")
     if compiled.source.events and ":" in problem.method:
         notes.append(f"events are not watched by method {problem.method}")
-    passed, first = trajectory.change_points
-    if passed and not without_masses(compiled.source):
+    n_passed, first = trajectory.change_points
+    if n_passed and not without_masses(compiled.source):
         notes.append(
-            f"{passed} samples lie at or near a change point (the first at t = {first:.9g} s): positions and rates"
+            f"{n_passed} samples lie at or near a change point (the first at t = {first:.9g} s): positions and rates"
             " pass on the smooth branch; forces and torques there are not determined by the rows"
         )
-    notes += unbounded_sample_note(compiled, problem, trajectory)
+    notes += _yield_unbounded_sample_note(compiled, problem, trajectory)
     notes += curve_seam_notes(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
     notes += range_notes(compiled, p, float(problem.t[0]), problem.q, counts, trajectory.peaks)
     if compiled.source.rigid:
         notes += find_zeno_points([joint.name for joint in compiled.source.clearances], trajectory.impacts)
-        notes += stiff_film_note(compiled.source, problem, counts)
+        notes += _yield_stiff_film_note(compiled.source, problem, counts)
     notes += notes_of(trajectory.audit)
     notes += indeterminate(compiled.source)
     return tuple(notes)
 
 
 def indeterminate(source: KernelSource) -> Iterator[str]:
-    """Yield a note on redundant constraints, if the scene has any."""
+    """Yield a note that names the joints with undetermined reactions, if the scene has redundant constraints."""
     if source.indeterminate:
         owners = ", ".join(source.indeterminate)
         yield f"constraints are redundant: the reactions of {owners} are not determined by rigid bodies (NaN)"
 
 
-def stiff_film_note(source: KernelSource, problem: Problem, counts: Counts) -> Iterator[str]:
-    """Yield a note on many steps of a stiff film in a scene with rigid contacts: no implicit method fits."""
+def _yield_stiff_film_note(source: KernelSource, problem: Problem, counts: Counts) -> Iterator[str]:
+    """Yield a note if a stiff film needed more than MANY adaptive steps in a scene with rigid contacts.
+
+    No implicit method fits such a scene. Called for scenes with rigid contacts only.
+    """
     films = [joint.name for joint in source.clearances if joint.film]
     if films and counts.steps > MANY and math.isinf(problem.step):
         yield (
@@ -185,8 +199,11 @@ def stiff_film_note(source: KernelSource, problem: Problem, counts: Counts) -> I
         )
 
 
-def unbounded_sample_note(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> Iterator[str]:
-    """Yield a note on the sample of a kinematic run at which the second rate of a drive is unbounded."""
+def _yield_unbounded_sample_note(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> Iterator[str]:
+    """Yield a note on the sample of a kinematic run at which the second rate of a drive is unbounded.
+
+    Nothing is yielded for other scenes, without samples, and if no acceleration exceeds a hundred times the median.
+    """
     if compiled.source.methods != ("kinematic",) or not len(trajectory.t) or trajectory.a is None:
         return
     largest = np.abs(np.nan_to_num(trajectory.a, nan=math.inf)).max(axis=1)
@@ -199,8 +216,9 @@ def unbounded_sample_note(compiled: CompiledModel, problem: Problem, trajectory:
 
 
 def may_leave_range(source: KernelSource, p: Array, size: Array, phi_max: Array, peaks: Array) -> Any:
-    """Return a mask (n,) of the runs for which `range_notes` may yield a note. Shapes: parameter values p (n, ...),
-    peaks (n, n_clearances, 3).
+    """Return a mask (n_runs,) of the runs of a batch for which `range_notes` may yield a note; it avoids the full test.
+
+    Shapes: parameter values p (n_runs, …), mechanism sizes and `phi_max` (n_runs,), peaks (n_runs, n_clearances, 3).
     """
     c, e_max = p[:, [joint.clearance for joint in source.clearances]], peaks[:, :, PEAK_e_max]
     least = np.array([THIN if joint.film and not joint.dry else 1.0 for joint in source.clearances])
@@ -208,56 +226,69 @@ def may_leave_range(source: KernelSource, p: Array, size: Array, phi_max: Array,
 
 
 def range_notes(compiled: CompiledModel, p: Array, t0: float, q0: Array, counts: Counts, peaks: Array) -> Iterator[str]:
-    """Yield notes on a run that left its model: a linkage that came apart, or joints outside their contact laws. `q0`
-    is the start, `peaks` (n_clearances, 3).
+    """Yield notes on a run that left its model: a linkage that came apart, or joints outside their contact laws.
+
+    `t0`, `q0`: time (s) and coordinates of the start. `peaks` (n_clearances, 3).
     """
     if counts.phi_max > APART * mechanism_size(compiled, p):
         yield (
             f"the linkage came apart: constraints are violated by up to {counts.phi_max:.3g}: nothing after that means"
             " anything; a step too long does this, or a drive that pushes the links through a dead centre"
         )
-    yield from _note_range_of_laws(compiled, p, t0, q0, peaks)
+    yield from _yield_law_range_notes(compiled, p, t0, q0, peaks)
 
 
-def _note_range_of_laws(compiled: CompiledModel, p: Array, t0: float, q0: Array, peaks: Array) -> Iterator[str]:
-    """Yield a note for each joint with play whose eccentricity left the range of its contact or film law."""
+def _yield_law_range_notes(compiled: CompiledModel, p: Array, t0: float, q0: Array, peaks: Array) -> Iterator[str]:
+    """Yield notes for each joint with play whose largest eccentricity left the range of its contact or film law.
+
+    The notes are on squeezed-out films, journals too near the bearing for a film, and penetrations too deep. `t0`,
+    `q0`: the start, which may be too deep already. `peaks` (n_clearances, 3).
+    """
     for k, (joint, e_max) in enumerate(zip(compiled.source.clearances, peaks[:, PEAK_e_max], strict=True)):
         c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
-        deepest = float(e_max) - widest(compiled.source, p, joint)
+        penetration = float(e_max) - widest(compiled.source, p, joint)
         ratio = float(e_max) / float(p[joint.film_clearance])
         if joint.film and not joint.dry and ratio > THIN:
             yield (
                 f"{joint.name}: the film is squeezed out, e/c = {ratio:.7g}: its law, singular at e = c, is"
                 " capped there: a dry contact beyond it, or a thicker oil, keeps the surfaces apart"
             )
-        elif joint.film and not joint.dry and deepest > (1.0 - THIN) * c:
+        elif joint.film and not joint.dry and penetration > (1.0 - THIN) * c:
             yield (
-                f"{joint.name}: the journal is up to {1e3 * deepest:.3g} mm within its bearing (c = {1e3 * c:.3g} mm),"
-                " where a film with extra_clearance still carries it: a dry contact takes its force there"
+                f"{joint.name}: the journal is up to {1e3 * penetration:.3g} mm within its bearing"
+                f" (c = {1e3 * c:.3g} mm), where a film with extra_clearance still carries it:"
+                " a dry contact takes its force there"
             )
-        if deepest > (most := min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius)):
-            begun = _penetration_at(compiled, p, t0, q0, k, joint) > most
-            into = "corner goes {} mm into its wall (gap" if joint.at_wall else "journal goes {} mm into its bearing (c"
+        if penetration > (limit := min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius)):
+            begins_deep = _compute_penetration(compiled, p, t0, q0, k, joint) > limit
+            location = (
+                "corner goes {} mm into its wall (gap" if joint.at_wall else "journal goes {} mm into its bearing (c"
+            )
             yield (
-                f"{joint.name}: the {into.format(f'{1e3 * deepest:.3g}')} {1e3 * c:.3g} mm,"
+                f"{joint.name}: the {location.format(f'{1e3 * penetration:.3g}')} {1e3 * c:.3g} mm,"
                 f" {'half the width' if joint.at_wall else 'radius'} {1e3 * radius:.3g} mm): outside what contact laws"
-                " hold for; " + ("it lies so deep from the start on" if begun else "a step too long does this too")
+                " hold for; "
+                + ("it lies so deep from the start on" if begins_deep else "a step too long does this too")
             )
 
 
-def _penetration_at(compiled: CompiledModel, p: Array, t: float, q: Array, k: int, joint: ClearanceInfo) -> float:
-    """Return the penetration (m) of joint k at the positions q: journal in bearing, or corner in wall."""
+def _compute_penetration(compiled: CompiledModel, p: Array, t: float, q: Array, k: int, joint: ClearanceInfo) -> float:
+    """Return the penetration (m) of joint k at time t and coordinates q: of journal in bearing, or of corner in
+    wall.
+    """
     if joint.at_wall:
         return corner_gap(compiled, p, t, q, np.zeros_like(q), k)[0]
     return float(np.hypot(*eccentricity(compiled, p, t, q, joint)[1])) - float(p[joint.clearance])
 
 
-def _peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak, ...]:
-    """Return the peak force and eccentricity of each joint with play, with its first contact."""
+def _build_peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak, ...]:
+    """Return the peak force and eccentricity of each joint with play, with time and force of its first contact (NaN
+    if none).
+    """
     peaks = []
     for i, joint in enumerate(compiled.source.clearances):
-        own = trajectory.impacts[trajectory.impacts["joint"] == i]
-        first = (float(own["t_on"][0]), first_contact_force(own)) if len(own) else (math.nan, math.nan)
+        contacts = trajectory.impacts[trajectory.impacts["joint"] == i]
+        first = (float(contacts["t_on"][0]), first_contact_force(contacts)) if len(contacts) else (math.nan, math.nan)
         F, t, e_max = (float(trajectory.peaks[i, k]) for k in (PEAK_F, PEAK_t, PEAK_e_max))
         peaks.append(Peak(joint.name, F, t, e_max, *first))
     return tuple(peaks)
@@ -268,19 +299,27 @@ class _TimeLimitReached(Exception):
 
 
 def build_result(problem: Problem, trajectory: Trajectory, given: Array, is_given: Array, soon: bool = True) -> Result:
-    """Return the Result of a run with its diagnostics, after evaluating all samples for the energy balance.
+    """Return the Result of a run with its diagnostics, after evaluating all samples for energy balance, audit and
+    notes.
 
-    The evaluation is postponed if Ctrl-C comes meanwhile, or if it ended the run and, with `soon`, takes too long.
+    The evaluation is left out if Ctrl-C or a lack of memory ends it. If Ctrl-C ended the run and `soon`, it is left out
+    after AFTER_CTRL_C seconds. It is stored with the Result of a short run. A start that is no requested sample is
+    removed from the samples.
     """
     compiled = problem.compiled
-    x, evaluation, failed, balance = without_works(compiled, trajectory), None, False, (math.nan, math.nan)
-    look = _make_poll(problem, x.interrupted, soon)
+    x, evaluation, is_unsolvable, balance = (
+        _clear_undefined_works(compiled, trajectory),
+        None,
+        False,
+        (math.nan, math.nan),
+    )
+    poll = _make_poll(problem, x.interrupted, soon)
     try:
         times = evaluation_times(compiled, x.t, x.q, x.v, problem.p)
-        evaluation = compiled.evaluate(times, x.q, x.v, x.memory, problem.p, look)
-        balance = energy_balance(evaluation.energy, x.work, look)
+        evaluation = compiled.evaluate(times, x.q, x.v, x.memory, problem.p, poll)
+        balance = _compute_energy_balance(evaluation.energy, x.work, poll)
     except SolverError:
-        failed = True
+        is_unsolvable = True
     except (
         _TimeLimitReached,
         MemoryError,
@@ -288,8 +327,8 @@ def build_result(problem: Problem, trajectory: Trajectory, given: Array, is_give
         pass
     except KeyboardInterrupt:
         x = replace(x, interrupted=True)
-    a = x.a if evaluation is None else _accelerations(x, evaluation, times)
-    if a is None and failed:
+    a = x.a if evaluation is None else _select_accelerations(x, evaluation, times)
+    if a is None and is_unsolvable:
         a = np.full_like(x.q, np.nan)
     if evaluation is not None:
         x = replace(x, audit=(*x.audit, *audit_samples(compiled, problem, x, evaluation, balance)))
@@ -307,7 +346,7 @@ def build_result(problem: Problem, trajectory: Trajectory, given: Array, is_give
         memory=x.memory,
         work=x.work,
         impacts=x.impacts,
-        diagnostics=diagnose(problem, x, balance),
+        diagnostics=_build_diagnostics(problem, x, balance),
         events=x.events,
         event_states=x.event_states,
         trace=x.trace,
@@ -315,91 +354,103 @@ def build_result(problem: Problem, trajectory: Trajectory, given: Array, is_give
         begun=problem.begun,
     )
     if evaluation is not None:
-        message = unbalanced_note(x.t, evaluation.energy, x.work, balance[0]) + coarse(problem, *balance)
-        result = result if compiled.source.massless else _with_notes(result, message)
+        notes = _build_unbalanced_note(x.t, evaluation.energy, x.work, balance[0]) + _build_coarse_step_note(
+            problem, *balance
+        )
+        result = result if compiled.source.massless else _add_notes(result, notes)
         result.__dict__["evaluation"] = evaluation  # a cached property: not computed again
     result = result if problem.start_is_sample else without_start(result)
     if evaluation is not None:
         evaluation = result.evaluation
-        result = with_undetermined(with_notes_on_undefined(result, evaluation), evaluation)
+        result = _add_undetermined_friction_notes(with_notes_on_undefined(result, evaluation), evaluation)
         result.__dict__.pop("evaluation", None)
         if len(x.t) <= KEPT:
             result.__dict__["evaluation"] = evaluation
     return result
 
 
-def with_undetermined(run: Result, evaluation: Evaluation) -> Result:
-    """Return the run with notes on frictions that drives or other frictions hold at rest over samples."""
-    first, found = len(run.source.clearances), list[str]()
+def _add_undetermined_friction_notes(run: Result, evaluation: Evaluation) -> Result:
+    """Return the run with a note for each friction that drives or other frictions hold at rest over successive samples.
+
+    Its force is not determined. Frictions without a static limit are skipped.
+    """
+    first, notes = len(run.source.clearances), list[str]()
     for k, name in enumerate(run.source.frictions):
         mode, slip = run.memory[:, first + k], evaluation.friction[:, k, 1]
         rests = (mode != 0.0) & ((mode == MODE_HELD) | (np.abs(slip) <= AT_REST))
-        lasts = rests[1:] & rests[:-1]
+        rests_successively = rests[1:] & rests[:-1]
         static = run.source.place.get(f"forces.{name}.static")  # None: the file has 0 N, which no parameter changes
-        if lasts.any() and static is not None and run.p[static] > 0.0:
-            t, count = float(run.t[lasts.argmax()]), f"{int(rests.sum())} of {len(rests)} samples"
-            found.append(
+        if rests_successively.any() and static is not None and run.p[static] > 0.0:
+            t, count = float(run.t[rests_successively.argmax()]), f"{int(rests.sum())} of {len(rests)} samples"
+            notes.append(
                 f"friction {name} is at rest by drives or by other friction from t = {t:.9g} s on, in {count}: any"
                 " force within its static limit fits there, so its force, what drives give and reactions are not"
                 " determined; the run has the last force of sliding, or 0"
             )
-    return _with_notes(run, found)
+    return _add_notes(run, notes)
 
 
-def _with_notes(run: Result, message: Sequence[str]) -> Result:
-    """Return the run with more notes; the same object if there are none."""
-    notes = (*run.diagnostics.notes, *message)
-    return replace(run, diagnostics=replace(run.diagnostics, notes=notes)) if message else run
+def _add_notes(run: Result, notes_to_add: Sequence[str]) -> Result:
+    """Return a copy of the run with more notes in its diagnostics; the same object if there are none."""
+    notes = (*run.diagnostics.notes, *notes_to_add)
+    return replace(run, diagnostics=replace(run.diagnostics, notes=notes)) if notes_to_add else run
 
 
-def _accelerations(x: Trajectory, evaluation: Evaluation, times: Array) -> Array:
-    """Return q̈ (N, n) from the method, else from the evaluation; at the last instant the left limit."""
+def _select_accelerations(x: Trajectory, evaluation: Evaluation, times: Array) -> Array:
+    """Return q̈ (N, n) as the method computed it, else from the evaluation.
+
+    At the last sample it is the evaluation's left limit if its time was moved before the end.
+    """
     if x.a is None:
         return evaluation.a
     return np.append(x.a[:-1], evaluation.a[-1:], axis=0) if times[-1] < x.t[-1] else x.a
 
 
-def without_works(compiled: CompiledModel, trajectory: Trajectory) -> Trajectory:
-    """Return the trajectory, with works of NaN if the scene has no masses."""
+def _clear_undefined_works(compiled: CompiledModel, trajectory: Trajectory) -> Trajectory:
+    """Return the trajectory with works of NaN if the scene has no masses; otherwise the same object."""
     if not compiled.source.massless:
         return trajectory
     return replace(trajectory, work=np.full_like(trajectory.work, np.nan))
 
 
 def _make_poll(problem: Problem, interrupted: bool, soon: bool) -> Callable[[], None]:
-    """Return the function that the evaluation calls every few milliseconds: it polls Ctrl-C and reports progress."""
-    begun = message = monotonic()
+    """Return the function without arguments that the evaluation of samples calls every few milliseconds.
 
-    def look() -> None:
+    It polls for Ctrl-C and reports progress. It raises _TimeLimitReached if the run is `interrupted`, `soon` is set,
+    and AFTER_CTRL_C seconds have passed.
+    """
+    time_at_begin = last_report = monotonic()
+
+    def poll() -> None:
         """Poll for Ctrl-C and report progress. Raise _TimeLimitReached if an interrupted run takes too long."""
-        nonlocal message
+        nonlocal last_report
         problem.take()
         now = monotonic()
-        if problem.progress and not interrupted and now - message > EVERY:
-            message = now
+        if problem.progress and not interrupted and now - last_report > EVERY:
+            last_report = now
             problem.progress(1.0, "balancing energy")
-        if interrupted and soon and now - begun > AFTER_CTRL_C:
+        if interrupted and soon and now - time_at_begin > AFTER_CTRL_C:
             raise _TimeLimitReached
 
-    return look
+    return poll
 
 
 def check_result(problem: Problem, trajectory: Trajectory, result: Result) -> tuple[Result, SolverError | None]:
-    """Return the run, and the error that ends it after its samples, or None.
+    """Return the run, and the SolverError that ends it after its samples, or None.
 
-    Such errors are the failure of the time loop, contradictory constraints, or a failed audit of the samples. If
-    Ctrl-C comes meanwhile, the run is marked as interrupted.
+    Such errors are the failure of the time loop, contradictory constraints, or a failed audit of the samples. If Ctrl-C
+    comes meanwhile, the run is marked as interrupted.
     """
-    found = result.diagnostics.audit
+    findings = result.diagnostics.audit
     try:
-        failure = contradiction(problem, trajectory) or (audit_failure(found) if failed(found) else None)
+        failure = contradiction(problem, trajectory) or (audit_failure(findings) if failed(findings) else None)
     except KeyboardInterrupt:
         result, failure = _mark_interrupted(result), contradiction(problem, replace(trajectory, interrupted=True))
     return result, trajectory.stopped or failure
 
 
 def late(ctrl_c: CtrlC, result: Result) -> Result:
-    """Return the result, marked as interrupted if Ctrl-C came while it was being built."""
+    """Poll for Ctrl-C; return the result, marked as interrupted if Ctrl-C came while it was being built."""
     try:
         ctrl_c.take()
     except KeyboardInterrupt:
@@ -408,6 +459,6 @@ def late(ctrl_c: CtrlC, result: Result) -> Result:
 
 
 def _mark_interrupted(result: Result) -> Result:
-    """Return the result marked as interrupted, with a note."""
-    message = _with_notes(result, () if result.diagnostics.interrupted else (INTERRUPTED_NOTE,))
-    return replace(message, diagnostics=replace(message.diagnostics, interrupted=True))
+    """Return a copy of the result marked as interrupted, with a note unless it was marked before."""
+    marked = _add_notes(result, () if result.diagnostics.interrupted else (INTERRUPTED_NOTE,))
+    return replace(marked, diagnostics=replace(marked.diagnostics, interrupted=True))

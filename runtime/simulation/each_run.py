@@ -21,15 +21,18 @@ from gudgeon.simulation.arguments import MAX_STEPS, MOST_OUTPUT, end_of, output_
 Errors = dict[int, BadValueError]
 
 
-def rows_of_times(output: Any) -> list[Any] | None:
-    """Return the output times as one row per run, of a list of rows or an array (n, N); None if all runs share them."""
+def _split_times_by_run(output: Any) -> list[Any] | None:
+    """Split the argument `output` into one row of times per run; return None if all runs share their times.
+
+    Rows come from an array (n, N), or from a list, tuple or object array that contains sequences. Rows are not checked.
+    """
     if getattr(output, "ndim", None) == 2:
         return list(as_c_array(output, "output", (None, None), most=MOST_OUTPUT))
-    of_objects = getattr(output, "ndim", None) == 1 and getattr(output, "dtype", None) == np.dtype(object)
-    if not (isinstance(output, (list, tuple)) or of_objects):
+    is_object_array = getattr(output, "ndim", None) == 1 and getattr(output, "dtype", None) == np.dtype(object)
+    if not (isinstance(output, (list, tuple)) or is_object_array):
         return None
-    several = any(isinstance(row, (list, tuple)) or getattr(row, "ndim", 0) for row in output)
-    return list(output) if several else None
+    has_rows = any(isinstance(row, (list, tuple)) or getattr(row, "ndim", 0) for row in output)
+    return list(output) if has_rows else None
 
 
 @dataclass
@@ -40,101 +43,122 @@ class EachRun:
     t_end: Any
     output: Any
     step: Any
-    bad: Errors = field(default_factory=dict)  # errors of runs without valid times or step, by index
+    failures: Errors = field(default_factory=dict)  # errors of runs without valid times or step, by index
 
     def __post_init__(self) -> None:
         """Split the arguments into columns with one value per run."""
         self.ends, self.steps = column("t_end", self.t_end), column("step", self.step)
-        self.rows = rows_of_times(self.output)
+        self.rows = _split_times_by_run(self.output)
 
-    def length(self, runs: int) -> int:
-        """Return the number of runs, given `runs` parameter sets. Raise BadValueError if lengths do not agree."""
+    def length(self, n_sets: int) -> int:
+        """Return the number of runs of the batch, given the number of parameter sets `n_sets`.
+
+        Raises BadValueError if t_end, output or step have another number of values; one set combines with any number.
+        """
         for name, values in (("t_end", self.ends), ("output", self.rows), ("step", self.steps)):
-            if values is not None and (not values or runs not in (1, len(values))):
-                of = "rows of times" if name == "output" else "values"
-                message = f"{name} has {len(values)} {of} for {runs} run{'s' if runs > 1 else ''}"
+            if values is not None and (not values or n_sets not in (1, len(values))):
+                items = "rows of times" if name == "output" else "values"
+                message = f"{name} has {len(values)} {items} for {n_sets} run{'s' if n_sets > 1 else ''}"
                 raise BadValueError(message, hint="one for all runs, or one for every run")
-            runs = runs if values is None else len(values)
-        return runs
+            n_sets = n_sets if values is None else len(values)
+        return n_sets
 
-    def times(self, p: Array, t0: float, left_out: dict[int, Any]) -> Times:
-        """Return the sample times of all runs from t0 (s), with parameter values p (n, ...). Runs in `left_out` get
-        none; invalid times are recorded in `bad`.
+    def times(self, p: Array, t0: float, excluded: dict[int, Any]) -> Times:
+        """Return the sample times of all runs from t0 (s), with parameter values p (n_runs, …).
+
+        Runs in `excluded` get none. Errors of single runs are recorded in `failures`; if every run has one, the first
+        is raised. Runs with equal times share one array. Raises MemoryError before arrays that do not fit.
         """
         source = self.compiled.source
-        follows = isinstance(self.t_end, str) and holds_names(spaced(self.t_end)) or bool(source.simulate_written)
-        if self.ends is None and self.rows is None and not follows:
+        has_own_times = isinstance(self.t_end, str) and holds_names(spaced(self.t_end)) or bool(source.simulate_written)
+        if self.ends is None and self.rows is None and not has_own_times:
             t, requested = output_times(source, p[0], t0, self.t_end, self.output)
             return Times(t, np.full(len(p), len(t)), np.full(len(p), int(not requested)))
-        found: dict[int, tuple[Array, bool]] = {}
-        same: dict[Any, tuple[Array, bool]] = {}
+        times_of_runs: dict[int, tuple[Array, bool]] = {}
+        known_times: dict[Any, tuple[Array, bool]] = {}
         for i in range(len(p)):
-            own = None if i in left_out else self._times_of_run(i, p[i], t0, same)
-            if own is None:
+            times = None if i in excluded else self._compute_times_of_run(i, p[i], t0, known_times)
+            if times is None:
                 continue
-            if len(found) == 1 and own is not next(iter(found.values())):  # a row for each is made of them
-                check_memory(2 * 8 * float(len(p)) * len(own[0]), f"{len(p)} rows of times, {len(own[0])} each,")
-            found[i] = own
-        if self.bad and not found:
-            raise next(iter(self.bad.values()))
-        return Times.of_runs(found or {0: (np.array([t0]), True)}, len(p))
+            if len(times_of_runs) == 1 and times is not next(
+                iter(times_of_runs.values())
+            ):  # a row for each is made of them
+                check_memory(2 * 8 * float(len(p)) * len(times[0]), f"{len(p)} rows of times, {len(times[0])} each,")
+            times_of_runs[i] = times
+        if self.failures and not times_of_runs:
+            raise next(iter(self.failures.values()))
+        return Times.of_runs(times_of_runs or {0: (np.array([t0]), True)}, len(p))
 
-    def _times_of_run(
-        self, i: int, p: Array, t0: float, same: dict[Any, tuple[Array, bool]]
+    def _compute_times_of_run(
+        self, i: int, p: Array, t0: float, known_times: dict[Any, tuple[Array, bool]]
     ) -> tuple[Array, bool] | None:
-        """Return the `output_times` of run i, or None if they are not numbers. `same` caches them across runs."""
+        """Return the sample times (s) of run i from t0, and whether t0 is a requested sample; None if they are invalid.
+
+        A time that is not finite, or an expression of the file that fails, is recorded in `failures`. Other errors are
+        raised as BadValueError with the run's index. `known_times` caches times across runs with equal ends.
+        """
         source = self.compiled.source
         row = self.output if self.rows is None else self.rows[i]
         try:
             end = end_of(source, self.t_end if self.ends is None else _require_time(self.ends[i], "t_end"), p)
         except InputError as error:
             raise BadValueError(f"run {i}: {error}") from None
-        if message := _message_if_not_finite(end, "t_end") or (
-            "" if self.rows is None else _message_if_times_not_finite(row)
+        if message := _explain_if_not_finite(end, "t_end") or (
+            "" if self.rows is None else _explain_if_times_not_finite(row)
         ):
-            self.bad[i] = BadValueError(message)
+            self.failures[i] = BadValueError(message)
             return None
-        alike = self.rows is None and not source.simulate_written and isinstance(end, (int, float, str))
-        key = (type(end), end) if alike else None
-        if key in same:
-            return same[key]
+        is_shareable = self.rows is None and not source.simulate_written and isinstance(end, (int, float, str))
+        key = (type(end), end) if is_shareable else None
+        if key in known_times:
+            return known_times[key]
         try:
             t = output_times(source, p, t0, end, row)
         except InputError as error:
             if end is None and self.rows is None:  # what the file says of its runs, with these numbers
-                self.bad[i] = BadValueError(str(error))
+                self.failures[i] = BadValueError(str(error))
                 return None
             raise BadValueError(f"run {i}: {error}") from None
-        return same.setdefault(key, t) if key else t
+        return known_times.setdefault(key, t) if key else t
 
-    def lengths_of_steps(self, method: str, p: Array, times: Times, left_out: dict[int, Any]) -> Array:
-        """Return the fixed step (s) of each run, (n,); infinite where the method controls its step. Values of runs in
-        `left_out` have no meaning.
+    def lengths_of_steps(self, method: str, p: Array, times: Times, excluded: dict[int, Any]) -> Array:
+        """Return the fixed step (s) of each run, (n_runs,); infinity where the method controls its step.
+
+        Runs in `excluded` or `failures` get 1.0, which has no meaning. A step that is not finite is recorded in
+        `failures`; if every run has an error, the first is raised.
         """
         steps = np.full(len(p), 1.0 if method == "rk4" or self.step is not None else math.inf)
-        own = [i for i in range(len(p) if steps[0] < math.inf else 0) if i not in left_out and i not in self.bad]
-        if self.step is not None and self.steps is None and times.t.ndim == 1 and own:
-            steps[own] = self._step_of(own[0], self.step, method, p[own[0]], float(times.t[-1] - times.t[0]))
+        indices = [
+            i for i in range(len(p) if steps[0] < math.inf else 0) if i not in excluded and i not in self.failures
+        ]
+        if self.step is not None and self.steps is None and times.t.ndim == 1 and indices:
+            steps[indices] = self._compute_step_of_run(
+                indices[0], self.step, method, p[indices[0]], float(times.t[-1] - times.t[0])
+            )
             return steps
-        for i in own:
+        for i in indices:
             step, t = self.step if self.steps is None else self.steps[i], times.of(i)
-            if message := "" if self.steps is None else _message_if_not_finite(step, "step"):
-                self.bad[i] = BadValueError(message)
+            if message := "" if self.steps is None else _explain_if_not_finite(step, "step"):
+                self.failures[i] = BadValueError(message)
                 continue
-            steps[i] = self._step_of(i, step, method, p[i], float(t[-1] - t[0]))
-        if self.bad and len(self.bad | left_out) == len(p) and self.steps is not None:
-            raise next(iter(self.bad.values()))
+            steps[i] = self._compute_step_of_run(i, step, method, p[i], float(t[-1] - t[0]))
+        if self.failures and len(self.failures | excluded) == len(p) and self.steps is not None:
+            raise next(iter(self.failures.values()))
         return steps
 
-    def _step_of(self, i: int, step: Any, method: str, p: Array, duration: float) -> float:
-        """Return the checked step (s) of run i. Errors of the file's own expressions fail this run only."""
+    def _compute_step_of_run(self, i: int, step: Any, method: str, p: Array, duration: float) -> float:
+        """Return the checked fixed step (s) of run i, which lasts `duration` (s).
+
+        An error of the file's own step expression is recorded in `failures`, with 1.0 returned. Others are raised as
+        BadValueError, with the index of the run if runs have their own values.
+        """
         try:
             h = step_of(self.compiled, step if self.steps is None else _require_time(step, "step"), method, p, duration)
             if duration / h > MAX_STEPS:
                 raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
         except InputError as error:
             if step is None and self.compiled.source.simulate_written:
-                self.bad[i] = BadValueError(str(error))
+                self.failures[i] = BadValueError(str(error))
                 return 1.0
             if self.steps is None and self.ends is None and self.rows is None:
                 raise
@@ -149,17 +173,20 @@ def _require_time(value: Any, name: str) -> Any:
     return value
 
 
-def _message_if_not_finite(value: Any, name: str) -> str:
-    """Return a message if a float is not finite, else ""."""
+def _explain_if_not_finite(value: Any, name: str) -> str:
+    """Return a message if `value` is a float and not finite, else ""; other types are not checked here."""
     number = isinstance(value, (float, np.floating))
     return f"{name}: {value} is not a finite number" if number and not math.isfinite(value) else ""
 
 
-def _message_if_times_not_finite(row: Any) -> str:
-    """Return a message on the first sample time that is not finite, else "". Other types are refused by the reader."""
+def _explain_if_times_not_finite(times: Any) -> str:
+    """Return a message on the first sample time that is not finite, else "".
+
+    Rows that are no one-dimensional list of numbers, or too long, are left to the reader of times, which refuses them.
+    """
     try:
-        t = np.asarray(row if np.size(row) <= MOST_OUTPUT else (), dtype=float)
+        t = np.asarray(times if np.size(times) <= MOST_OUTPUT else (), dtype=float)
     except (TypeError, ValueError):
         return ""
-    odd = np.flatnonzero(~np.isfinite(t)).tolist() if t.ndim == 1 else []
-    return f"output[{odd[0]}] is {t[odd[0]]}: expected finite numbers" if odd else ""
+    not_finite = np.flatnonzero(~np.isfinite(t)).tolist() if t.ndim == 1 else []
+    return f"output[{not_finite[0]}] is {t[not_finite[0]]}: expected finite numbers" if not_finite else ""

@@ -38,26 +38,28 @@ if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
 
 NODES, WEIGHTS = leggauss(6)  # nodes and weights of Gauss's quadrature on −1 to 1
-MOST = 20_000  # largest number of intervals between samples that get Gauss points
+MAX_INTERVALS = 20_000  # largest number of intervals between samples that get Gauss points
 MIN_SAMPLES, MAX_SAMPLES = 2, 100_000_000  # limits of the number of intervals of a contact check
-STORED = "the run could not be repeated bit for bit: only its stored samples were checked"
-ANOTHER = "the run could not be repeated bit for bit: where the work of its joints went is not known"
+NOTE_STORED_SAMPLES = "the run could not be repeated bit for bit: only its stored samples were checked"
+NOTE_NOT_REPEATED = "the run could not be repeated bit for bit: where the work of its joints went is not known"
 
 
 def examine(
     simulation: Simulation, run: Result, ideal: Simulation | Result | None = None, progress: Progress | None = None
 ) -> Result:
-    """Return the run with `diagnostics.examined`. `ideal`: the ideal scene, or its run at the run's times.
+    """Return the run with `diagnostics.examined`: works and forces of its joints, estimated errors, forces of ideal
+    joints.
 
-    Raises BadValueError for a run of another scene, or of a file without the scene. Ctrl-C is passed on.
+    `ideal`: the ideal scene, or its run at the run's times; None leaves its forces out. Raises BadValueError for a run
+    of another scene, or of a file without the scene. Ctrl-C is passed on.
     """
     check_simulation_of_run(simulation, run, "examine")
     notes: list[str] = []
-    whole = with_start(run)
-    joints = _examine_joints(simulation, whole, notes, progress)
-    differences, message = _estimate_errors(simulation, whole, notes, progress)
-    found = Examined(joints, _ideal_forces(run, ideal, notes), differences, message, tuple(notes))
-    return replace(run, diagnostics=replace(run.diagnostics, examined=found))
+    run_with_start = with_start(run)
+    joints = _examine_joints(simulation, run_with_start, notes, progress)
+    differences, description = _estimate_errors(simulation, run_with_start, notes, progress)
+    examined = Examined(joints, _compute_ideal_forces(run, ideal, notes), differences, description, tuple(notes))
+    return replace(run, diagnostics=replace(run.diagnostics, examined=examined))
 
 
 def _repeat_run(
@@ -67,49 +69,66 @@ def _repeat_run(
     settings: dict[str, Any],
     progress: Progress | None,
     peaks: tuple[str | SlidingRequest, ...] = (),
-    beyond: float = math.nan,
+    t_beyond: float = math.nan,
 ) -> Iterator[Result]:
-    """Yield repetitions of the run with samples at times t: from the file's start, then from its first sample.
+    """Yield repetitions of the run with samples at times t (s): from the file's start if it began there, then from its
+    own.
 
-    Repetitions that end early are skipped. `beyond` (s): end of the repetition if an event or an error ended the run
-    at the last of the times; NaN if nothing did.
+    Repetitions that fail or end early are skipped. `t_beyond` (s): end of the repetition if an event or an error ended
+    the run at the last of the times; NaN if nothing did. Raises KeyboardInterrupt if Ctrl-C ends one.
     """
-    begin, ends = start_of_run(run), math.isfinite(beyond)
-    times = np.append(t, beyond) if ends else t
-    for start in (None, begin) if begin.t == 0.0 and run.begun is None else (begin,):
+    own_start, has_end = start_of_run(run), math.isfinite(t_beyond)
+    times = np.append(t, t_beyond) if has_end else t
+    for start in (None, own_start) if own_start.t == 0.0 and run.begun is None else (own_start,):
         try:
-            other = repeated(simulation, times, start, settings, progress, peaks, ends)
+            repetition = repeated(simulation, times, start, settings, progress, peaks, has_end)
         except GudgeonError:  # a start that does not close any more
             continue
-        if other is not None and other.diagnostics.interrupted:
+        if repetition is not None and repetition.diagnostics.interrupted:
             raise KeyboardInterrupt
-        if other is not None and len(other.t) == len(t):
-            yield other
+        if repetition is not None and len(repetition.t) == len(t):
+            yield repetition
 
 
 def _examine_joints(
     simulation: Simulation, run: Result, notes: list[str], progress: Progress | None
 ) -> tuple[JointExamined, ...]:
-    """Return the works, forces and restitution of each joint with play, from a repetition of the run."""
+    """Return the works, forces and restitution of each joint with play, from a repetition of the run at Gauss points.
+
+    Return () without play or with one sample. If the run cannot be repeated exactly, return () and append a note to
+    `notes`. The work of a single film is the remainder of the energy balance.
+    """
     if not run.source.clearances or len(run.t) < 2:
         return ()
-    t, weights = _quadrature(run)
+    t, weights = _compute_quadrature(run)
     ends = run.impacts["t_off"]
-    every = np.unique(np.concatenate([run.t, t, ends[(ends >= run.t[0]) & (ends <= run.t[-1])]]))
-    other = repeat_exactly(simulation, run, every, progress)
-    if other is None:
-        notes.append(ANOTHER)
+    times = np.unique(np.concatenate([run.t, t, ends[(ends >= run.t[0]) & (ends <= run.t[-1])]]))
+    repetition = repeat_exactly(simulation, run, times, progress)
+    if repetition is None:
+        notes.append(NOTE_NOT_REPEATED)
         return ()
-    at, joints = np.searchsorted(other.t, t), run.source.clearances
-    solid = other  # the same states, and of its joints' forces what the surfaces bear that touch
+    indices, joints = np.searchsorted(repetition.t, t), run.source.clearances
+    dry_repetition = repetition  # the same states, and of its joints' forces what the surfaces bear that touch
     if any(joint.dry and joint.film for joint in joints) and not run.source.laws:
-        solid = replace(other, p=without_oil(simulation.compiled, other.p))
-    found = tuple(_examine_joint(run, other, solid, k, joint, at, weights) for k, joint in enumerate(joints))
+        dry_repetition = replace(repetition, p=without_oil(simulation.compiled, repetition.p))
+    found = tuple(
+        _examine_joint(run, repetition, dry_repetition, k, joint, indices, weights) for k, joint in enumerate(joints)
+    )
     if [joint.film for joint in joints].count(True) != 1 or run.source.laws or run.source.rigid:
         return found
-    rest = -float(weights @ other.evaluation.power[at, 2])  # its film took, the torque of its shear too, all the rest
-    rest -= sum(x for one in found for x in (one.used - one.returned, one.friction) if math.isfinite(x))
-    return tuple(replace(one, film=rest) if math.isfinite(one.film) else one for one in found)
+    remainder = -float(
+        weights @ repetition.evaluation.power[indices, 2]
+    )  # its film took, the torque of its shear too, all the rest
+    remainder -= sum(
+        x
+        for joint_examined in found
+        for x in (joint_examined.used - joint_examined.returned, joint_examined.friction)
+        if math.isfinite(x)
+    )
+    return tuple(
+        replace(joint_examined, film=remainder) if math.isfinite(joint_examined.film) else joint_examined
+        for joint_examined in found
+    )
 
 
 def repeat_exactly(
@@ -119,151 +138,187 @@ def repeat_exactly(
     progress: Progress | None,
     peaks: tuple[str | SlidingRequest, ...] = (),
 ) -> Result | None:
-    """Return the run repeated bit for bit at times t, which include its own; None if that does not succeed."""
-    usual, to = repeat_settings(run)[0], math.nan if run.diagnostics.interrupted else run.diagnostics.t_end
-    for other in (
-        x for own in _exact_settings(usual) for x in _repeat_run(simulation, run, t, own, progress, peaks, to)
+    """Return the run repeated bit for bit at times t (s), which include its own; None if no repetition is identical."""
+    settings, t_beyond = repeat_settings(run)[0], math.nan if run.diagnostics.interrupted else run.diagnostics.t_end
+    for repetition in (
+        x
+        for exact_settings in _list_exact_settings(settings)
+        for x in _repeat_run(simulation, run, t, exact_settings, progress, peaks, t_beyond)
     ):
-        if other.t[-1] != t[-1]:  # its event is not quite where it was
+        if repetition.t[-1] != t[-1]:  # its event is not quite where it was
             continue
-        same = np.searchsorted(other.t, run.t)
-        if np.array_equal(other.q[same], run.q, equal_nan=True) and np.array_equal(other.v[same], run.v):
-            return other
+        same = np.searchsorted(repetition.t, run.t)
+        if np.array_equal(repetition.q[same], run.q, equal_nan=True) and np.array_equal(repetition.v[same], run.v):
+            return repetition
     return None
 
 
-def _exact_settings(usual: dict[str, Any]) -> Iterator[dict[str, Any]]:
-    """Yield the settings that may repeat the run exactly: for "auto", first those of the method that made all steps."""
-    if usual["method"] in CHOOSING and "step" not in usual:
-        yield usual | {"method": ADAPTIVE}
-    yield usual
+def _list_exact_settings(settings: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """Yield the arguments of simulate that may repeat the run exactly.
+
+    For methods that "auto" chooses between, the adaptive method comes first, then `settings` as it is.
+    """
+    if settings["method"] in CHOOSING and "step" not in settings:
+        yield settings | {"method": ADAPTIVE}
+    yield settings
 
 
-def _quadrature(run: Result) -> tuple[Array, Array]:
-    """Return times (s) and weights (s) of a quadrature over all contacts, or over the whole run if there is a film."""
-    edges = [run.t[:: max(1, len(run.t) // MOST)], run.t[-1:], *(run.impacts[n] for n in ("t_on", "t_off", "t_peak"))]
+def _compute_quadrature(run: Result) -> tuple[Array, Array]:
+    """Return times and weights (s) of a Gauss quadrature over all contacts of a run, or over the whole run if it has a
+    film.
+
+    Six points lie between successive samples, onsets, peaks, separations and recorded step ends.
+    """
+    edges = [
+        run.t[:: max(1, len(run.t) // MAX_INTERVALS)],
+        run.t[-1:],
+        *(run.impacts[n] for n in ("t_on", "t_off", "t_peak")),
+    ]
     edges += [] if run.trace is None else [run.trace.t]
     t = np.unique(np.concatenate(edges))
     t = t[(t >= run.t[0]) & (t <= run.t[-1])]
     half, middle = 0.5 * np.diff(t), 0.5 * (t[1:] + t[:-1])
-    kept = half > 1e-12 * (t[-1] - t[0])
+    is_used = half > 1e-12 * (t[-1] - t[0])
     if not any(joint.film for joint in run.source.clearances):
         begin = np.sort(run.impacts["t_on"])
         end = np.sort(np.where(np.isnan(run.impacts["t_off"]), np.inf, run.impacts["t_off"]))
-        kept &= np.searchsorted(begin, middle, "right") > np.searchsorted(end, middle, "right")
-    half, middle = half[kept], middle[kept]
+        is_used &= np.searchsorted(begin, middle, "right") > np.searchsorted(end, middle, "right")
+    half, middle = half[is_used], middle[is_used]
     return (middle[:, None] + half[:, None] * NODES).ravel(), (half[:, None] * WEIGHTS).ravel()
 
 
 def _examine_joint(
-    run: Result, other: Result, solid: Result, k: int, joint: ClearanceInfo, at: Any, weights: Array
+    run: Result, repetition: Result, dry_repetition: Result, k: int, joint: ClearanceInfo, indices: Any, weights: Array
 ) -> JointExamined:
-    """Return the examined quantities of joint k from the repeated run `other` at the sample indices `at`.
+    """Return the examined quantities of joint k from the repeated run `repetition` at the sample indices `indices`.
 
-    `solid` is the same run whose forces are those of the touching surfaces only.
+    `weights` (s) belong to these samples. `dry_repetition` is the same run with the forces of touching surfaces only,
+    without oil. Quantities that do not apply, as film work of a dry joint, are NaN.
     """
     name, span = joint.name, float(run.t[-1] - run.t[0])
-    e, force = other[f"{name}.e"][at], other[f"{name}.F"][at]
-    parts = ((solid[f"{name}.F{axis}"] * other[f"{name}.e{axis}"])[at] for axis in "xy")
+    e, force = repetition[f"{name}.e"][indices], repetition[f"{name}.F"][indices]
+    products = ((dry_repetition[f"{name}.F{axis}"] * repetition[f"{name}.e{axis}"])[indices] for axis in "xy")
     with np.errstate(invalid="ignore", divide="ignore"):
-        along = sum(parts) / e
+        radial_force = sum(products) / e
         if (depths := contour_of(run.source, run.p, name)) is not None:  # of the force, what acts by the penetration
             bearing = run.source.bodies[joint.first].name if joint.first >= 0 else None
-            theta = other[f"{bearing}.theta"][at] if bearing else 0.0
-            angle = np.arctan2(other[f"{name}.ey"][at], other[f"{name}.ex"][at]) - theta
-            along = -other[f"{name}.Fn"][at] / np.hypot(1.0, depth_at(depths, angle, 1) / e)
-        normal = np.where(e > 0.0, along, 0.0) * other[f"{name}.deltadot"][at]  # W, by the forces
+            theta = repetition[f"{bearing}.theta"][indices] if bearing else 0.0
+            angle = np.arctan2(repetition[f"{name}.ey"][indices], repetition[f"{name}.ex"][indices]) - theta
+            radial_force = -repetition[f"{name}.Fn"][indices] / np.hypot(1.0, depth_at(depths, angle, 1) / e)
+        normal = np.where(e > 0.0, radial_force, 0.0) * repetition[f"{name}.deltadot"][indices]  # W, by the forces
     rigid = name in run.source.rigid  # closed at δ = 0, where its force does no work along the normal
-    touching = (other.state[at, k] > 0) if rigid else joint.dry & (other[f"{name}.delta"][at] > 0.0)
-    slip = (solid[f"{name}.Ft"] * other[f"{name}.vt"])[at]
-    in_film = _film_power(other, joint)[at] if joint.film else np.zeros(len(at))
-    of_both = _film_power(solid, joint)[at] if solid is not other and joint.film else in_film
-    found = [
+    touching = (repetition.state[indices, k] > 0) if rigid else joint.dry & (repetition[f"{name}.delta"][indices] > 0.0)
+    slip = (dry_repetition[f"{name}.Ft"] * repetition[f"{name}.vt"])[indices]
+    film_power = _compute_film_power(repetition, joint)[indices] if joint.film else np.zeros(len(indices))
+    dry_film_power = (
+        _compute_film_power(dry_repetition, joint)[indices]
+        if dry_repetition is not repetition and joint.film
+        else film_power
+    )
+    works = [
         float(weights @ np.where(touching, power, 0.0))
         for power in (np.maximum(-normal, 0.0), np.maximum(normal, 0.0), -slip)
     ]
-    film = float(weights @ np.where(touching, of_both - in_film, -in_film))
-    impacting = _compression_time(run, other, k, name) / span if joint.dry else math.nan
+    film = float(weights @ np.where(touching, dry_film_power - film_power, -film_power))
+    impacting = _compute_compression_time(run, repetition, k, name) / span if joint.dry else math.nan
     rms = math.sqrt(float(weights @ force**2) / span)
-    used, returned, friction = found if joint.dry else (math.nan,) * 3
-    used, returned = (math.nan, math.nan) if rigid else (used, returned)
+    compression, returned, friction = works if joint.dry else (math.nan,) * 3
+    compression, returned = (math.nan, math.nan) if rigid else (compression, returned)
     return JointExamined(
         name,
         impacting,
         rms,
-        used,
+        compression,
         returned,
         friction,
         film if joint.film else math.nan,
-        *_restitution(run, other, k, name),
+        *_compute_restitution(run, repetition, k, name),
     )
 
 
 def has_known_contact_force(source: KernelSource, joint: ClearanceInfo) -> bool:
-    """Return whether a joint's surfaces touch with a known contact force; not beside a film of a user-defined law."""
+    """Return whether the contact force of a joint's surfaces is known: it has a dry contact, without a film of a
+    user's law.
+    """
     return joint.dry and not (joint.film and source.laws)
 
 
 def without_oil(compiled: CompiledModel, p: Array) -> Array:
-    """Return the parameter values p of a run with all oil viscosities zero, so that its films carry no load."""
+    """Return the parameter values (n_p,) of a run with the viscosities of all films set to zero, so that films carry no
+    load.
+
+    The derived parameters are computed again.
+    """
     slots = compiled.source.slots
     values = p[: len(slots)].copy()
     values[[s.address.startswith("contacts.") and s.address.endswith(".film.viscosity") for s in slots]] = 0.0
     return compiled.prepare(values, np.ones(len(slots), dtype=bool))
 
 
-def _compression_time(run: Result, other: Result, k: int, name: str) -> float:
-    """Return the total time (s) from each onset of joint k until its penetration first stops growing."""
-    rate, total = other[f"{name}.deltadot"], 0.0
+def _compute_compression_time(run: Result, repetition: Result, k: int, name: str) -> float:
+    """Return the total time (s) from each onset of joint k until its penetration first stops growing.
+
+    Contacts are cut at the ends of the run; zeros of the rate are interpolated between samples of `repetition`.
+    """
+    rate, total = repetition[f"{name}.deltadot"], 0.0
     for contact in run.impacts[run.impacts["joint"] == k]:
         begin, end = max(contact["t_on"], run.t[0]), contact["t_off"]
         end = run.t[-1] if math.isnan(end) else min(end, run.t[-1])
-        first, last = np.searchsorted(other.t, (begin, end), "right")
-        fell = np.flatnonzero(rate[first:last] <= 0.0)
+        first, last = np.searchsorted(repetition.t, (begin, end), "right")
+        not_growing = np.flatnonzero(rate[first:last] <= 0.0)
         turn = end
-        if len(fell) and (j := int(first + fell[0])) > first and rate[j - 1] > 0.0:
-            turn = other.t[j - 1] + (other.t[j] - other.t[j - 1]) * rate[j - 1] / (rate[j - 1] - rate[j])
-        elif len(fell):
-            turn = other.t[first + fell[0]]
+        if len(not_growing) and (j := int(first + not_growing[0])) > first and rate[j - 1] > 0.0:
+            turn = repetition.t[j - 1] + (repetition.t[j] - repetition.t[j - 1]) * rate[j - 1] / (rate[j - 1] - rate[j])
+        elif len(not_growing):
+            turn = repetition.t[first + not_growing[0]]
         total += max(float(turn - begin), 0.0)
     return total
 
 
-def _film_power(run: Result, joint: ClearanceInfo) -> Array:
+def _compute_film_power(run: Result, joint: ClearanceInfo) -> Array:
     """Return the power (N,) in W of the film's resultant at the journal's centre: F · (ė − ω_i ẑ × e)."""
     name, source = joint.name, run.source
     bearing = next((part.ends[0] for part in source.parts if part.section == "joints" and part.name == name), "")
     omega = run[f"{source.bodies[joint.first].name}.omega"] if joint.first >= 0 else 0.0
     ex, ey = run[f"{name}.ex"], run[f"{name}.ey"]
-    x, y = (_rate(run, joint.point, axis) - _rate(run, bearing, axis) for axis in (0, 1))
+    x, y = (_get_point_velocity(run, joint.point, axis) - _get_point_velocity(run, bearing, axis) for axis in (0, 1))
     power: Array = run[f"{name}.Fx"] * (x + omega * ey) + run[f"{name}.Fy"] * (y - omega * ex)
     return power
 
 
-def _rate(run: Result, point: str, axis: int) -> Array:
-    """Return the velocity (m/s) of a point along an axis (0: x, 1: y); zero for points of the ground."""
+def _get_point_velocity(run: Result, point: str, axis: int) -> Array:
+    """Return the velocity (m/s) of a point along an axis (0: x, 1: y) at each sample; zero for points of the ground."""
     body, _, last = point.rpartition(".")
     name = f"{body if last == 'com' else point}.{MOTION[axis][1]}"
     return run[name] if name in run else np.zeros(len(run.t))
 
 
-def _restitution(run: Result, other: Result, k: int, name: str) -> tuple[int, float, float, float, float, float]:
-    """Return the number of ended contacts, and minimum, quartiles and maximum of their restitution.
+def _compute_restitution(
+    run: Result, repetition: Result, k: int, name: str
+) -> tuple[int, float, float, float, float, float]:
+    """Return the number of ended contacts of joint k, and minimum, quartiles and maximum of their restitution.
 
-    Contacts that began at rest, such as closed ones pressed by the impact of another contact, are not counted in it.
+    Contacts that began at rest, such as closed ones pressed by another impact, are not counted in it. Without any, the
+    five values are NaN.
     """
-    own = run.impacts[run.impacts["joint"] == k]
-    own = own[(own["t_off"] >= run.t[0]) & (own["t_off"] <= run.t[-1])]
-    ended, own = len(own), own[own["deltadot"] > 0.0]
-    parting = -other[f"{name}.deltadot"][np.searchsorted(other.t, own["t_off"])]
-    if not len(own):
+    contacts = run.impacts[run.impacts["joint"] == k]
+    contacts = contacts[(contacts["t_off"] >= run.t[0]) & (contacts["t_off"] <= run.t[-1])]
+    ended, contacts = len(contacts), contacts[contacts["deltadot"] > 0.0]
+    separation_speeds = -repetition[f"{name}.deltadot"][np.searchsorted(repetition.t, contacts["t_off"])]
+    if not len(contacts):
         return ended, math.nan, math.nan, math.nan, math.nan, math.nan
-    low, q1, middle, q3, high = map(float, np.quantile(parting / own["deltadot"], (0.0, 0.25, 0.5, 0.75, 1.0)))
+    low, q1, middle, q3, high = map(
+        float, np.quantile(separation_speeds / contacts["deltadot"], (0.0, 0.25, 0.5, 0.75, 1.0))
+    )
     return ended, low, q1, middle, q3, high
 
 
-def _ideal_forces(run: Result, ideal: Simulation | Result | None, notes: list[str]) -> tuple[IdealForce, ...]:
-    """Return the largest and rms forces at the joints with play if they had none, from the ideal scene."""
+def _compute_ideal_forces(run: Result, ideal: Simulation | Result | None, notes: list[str]) -> tuple[IdealForce, ...]:
+    """Return the largest and rms forces (N) at the joints with play if they had none, from the ideal scene or its run.
+
+    A Simulation is run with the same parameters and times. If it fails, a note is appended to `notes`. Return ()
+    without play, masses or an ideal scene, and on failure.
+    """
     if ideal is None or run.source.massless or not run.source.clearances:
         return ()
     if hasattr(ideal, "simulate"):
@@ -274,19 +329,21 @@ def _ideal_forces(run: Result, ideal: Simulation | Result | None, notes: list[st
         except GudgeonError as error:
             notes.append(f"the ideal scene cannot be followed: {str(error).partition(chr(10))[0]}")
             return ()
-    found = []
-    played = dict.fromkeys(joint.joint for joint in run.source.clearances)
-    for name in (joint for joint in played if f"{joint}.F" in ideal.names):
+    forces = []
+    joints_with_play = dict.fromkeys(joint.joint for joint in run.source.clearances)
+    for name in (joint for joint in joints_with_play if f"{joint}.F" in ideal.names):
         force = ideal[f"{name}.F"]
         if np.isfinite(force).all():
             at = int(force.argmax())
-            rms = mean_square(ideal.t, force) ** 0.5
-            found.append(IdealForce(name, float(force[at]), float(ideal.t[at]), rms))
-    return tuple(found)
+            rms = _compute_mean_square(ideal.t, force) ** 0.5
+            forces.append(IdealForce(name, float(force[at]), float(ideal.t[at]), rms))
+    return tuple(forces)
 
 
-def mean_square(t: Array, values: Array) -> float:
-    """Return the mean square over time of a series by the trapezoidal rule; of one sample, its square."""
+def _compute_mean_square(t: Array, values: Array) -> float:
+    """Return the mean square over time of a series (N,) at times t (s) by the trapezoidal rule; of one sample, its
+    square.
+    """
     span = float(t[-1] - t[0])
     return float(np.trapezoid(values**2, t)) / span if span > 0.0 else float(values[0] ** 2)
 
@@ -294,44 +351,49 @@ def mean_square(t: Array, values: Array) -> float:
 def _estimate_errors(
     simulation: Simulation, run: Result, notes: list[str], progress: Progress | None
 ) -> tuple[tuple[Difference, ...], str]:
-    """Return how far the main series and joint forces change in a more accurate run, and how that was run.
+    """Return how far the main series and joint forces change in a more accurate run, and a text on how that was run.
 
-    Times after the predictability horizon are not compared.
+    The other run has half the step or a tighter tolerance. Times after the predictability horizon are not compared.
+    Return ((), "") for kinematic runs without play, and with a note in `notes` if the other run ends early.
     """
     if simulation.source.degrees_of_freedom == 0 and not run.source.clearances or len(run.t) < 2:
         return (), ""  # Newton's method at each sample, without steps
-    usual, tighter = repeat_settings(run)
-    fixed = "step" in usual
-    message = "steps half as long" if fixed else f"tolerance {tighter['rtol']:.3g} a step"
-    settings = usual | {"step": usual["step"] / 2.0} if fixed else tighter
-    other = next(_repeat_run(simulation, run, run.t, settings, progress), None)
-    if other is None:
-        notes.append(f"a run with {message} does not come to the end of this one")
+    settings_of_run, tighter = repeat_settings(run)
+    fixed = "step" in settings_of_run
+    description = "steps half as long" if fixed else f"tolerance {tighter['rtol']:.3g} a step"
+    settings = settings_of_run | {"step": settings_of_run["step"] / 2.0} if fixed else tighter
+    accurate_run = next(_repeat_run(simulation, run, run.t, settings, progress), None)
+    if accurate_run is None:
+        notes.append(f"a run with {description} does not come to the end of this one")
         return (), ""
     horizon = run.diagnostics.horizon
     until = min(horizon, float(run.t[-1])) if math.isfinite(horizon) else float(run.t[-1])
-    believed = run.t <= until
+    is_compared = run.t <= until
     names = [name for watched in default_watch(run) for name in (watched, *rates(watched)) if name]
-    found = []
+    results = []
     for name in dict.fromkeys([*names, *(f"{joint.name}.F" for joint in run.source.clearances)]):
-        apart = np.abs(other[name] - run[name])[believed]
-        if np.isfinite(apart).all():
-            at = int(apart.argmax())
-            found.append(Difference(name, run.unit(name), float(apart[at]), float(run.t[at]), until))
-    return tuple(found), message
+        differences = np.abs(accurate_run[name] - run[name])[is_compared]
+        if np.isfinite(differences).all():
+            index = int(differences.argmax())
+            results.append(Difference(name, run.unit(name), float(differences[index]), float(run.t[index]), until))
+    return tuple(results), description
 
 
 def check_contacts(run: Result, samples: int, progress: Progress | None = None) -> ContactCheck:
-    """Return the check of a run's contacts at `samples` equal intervals and at its own samples; see Result.check."""
+    """Check the contacts of a run at `samples` equal intervals and at its own samples; see Result.check.
+
+    The run is repeated bit for bit for more samples. If it cannot be, only stored samples are checked, and a note says
+    so.
+    """
     from gudgeon.simulation.simulation import Simulation
 
     samples = whole_number(samples, "samples", MIN_SAMPLES, MAX_SAMPLES)
     run = with_start(run)
     if not run.source.clearances or len(run.t) < MIN_SAMPLES:
         return check_samples(run)
-    dense = run
+    dense_run = run
     if run.compiled is not None:
         times = np.union1d(run.t, np.linspace(run.t[0], run.t[-1], samples + 1))
-        dense = repeat_exactly(Simulation(run.compiled, ""), run, times, progress) or run
-    found = check_samples(dense, run)
-    return found if dense is not run else replace(found, notes=(STORED,))
+        dense_run = repeat_exactly(Simulation(run.compiled, ""), run, times, progress) or run
+    check = check_samples(dense_run, run)
+    return check if dense_run is not run else replace(check, notes=(NOTE_STORED_SAMPLES,))

@@ -73,8 +73,10 @@ def load_bytes(
     quick: bool = False,
     start: float | None = None,
 ) -> Simulation:
-    """Load a scene from the bytes of a file; arguments as in `load`. `start`: time of perf_counter when reading
-    began.
+    """Load a scene from the bytes of a mechanism file and return its Simulation; arguments as in `load`.
+
+    `file` is for messages and tables next to it. `start`: time of perf_counter when reading began, or None. SIGTERM and
+    SIGHUP end compilers first.
     """
     read = perf_counter()
     start = read if start is None else start

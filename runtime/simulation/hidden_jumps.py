@@ -28,11 +28,11 @@ from gudgeon.model.written import trees, undefined_at_a_corner, values_of_time
 
 _HIDING = names_where(lambda f: f.hides_corners)  # functions that may hide a switching point
 # grid intervals, largest number of candidates of `_find_jumps`, and of `_find_first_break`
-GRID, MOST, MOST_CORNERS = 4096, 16, 512
-AT_THE_END = 1e-12  # fraction of a run's time that is searched after its end
+GRID, MAX_JUMPS, MAX_BREAK_CANDIDATES = 4096, 16, 512
+END_MARGIN = 1e-12  # fraction of a run's time that is searched after its end
 # intervals of a refinement level, and number of levels; each is a quarter as wide as the one before
 POINTS, LEVELS = 16, 11
-EVERYWHERE = 6  # number of intervals with large differences from which on there is no isolated point
+MAX_LARGE_DIFFERENCES = 6  # number of intervals with large differences from which on there is no isolated point
 
 
 @dataclass(frozen=True)
@@ -55,93 +55,99 @@ _Search: TypeAlias = tuple[str, Expr, Callable[..., list[Jump]]]  # in a drive w
 
 
 def find_hidden_jumps(source: KernelSource, p: Array, t0: float, t1: float) -> list[Jump]:
-    """Return the jumps of all drives between t0 and t1 (s), ordered by time; at most MOST per drive."""
+    """Return the jumps of value or rate of all drives between t0 and t1 (s), sorted by time; at most MOST per drive."""
     found = []
-    for drive, tree in _drives_that_may_hide(source) if t1 > t0 else ():
+    for drive, tree in _list_drives_with_unknown_switching(source) if t1 > t0 else ():
         found += _find_jumps(source, p, tree, drive, t0, t1)
-    for drive, tree in _drives_that_may_break(source) if t1 > t0 else ():
+    for drive, tree in _list_drives_with_branches(source) if t1 > t0 else ():
         found += _find_first_break(source, p, tree, drive, t0, t1)
     return sorted(found, key=lambda jump: jump.t)
 
 
 def may_jump(source: KernelSource) -> bool:
     """Return whether any drive needs a search for hidden jumps."""
-    return bool(_drives_that_may_hide(source) or _drives_that_may_break(source))
+    return bool(_list_drives_with_unknown_switching(source) or _list_drives_with_branches(source))
 
 
-def _searches(source: KernelSource) -> list[_Search]:
-    """Return the searches for jumps that no run can pass, by drive.
+def _list_jump_searches(source: KernelSource) -> list[_Search]:
+    """Return the drives to search for jumps that no run can pass: name, expression and search function of each.
 
     For kinematic scenes these include infinite rates of drives whose switching points are found otherwise.
     """
-    found: list[_Search] = [(drive, tree, _find_jumps) for drive, tree in _drives_that_may_hide(source)]
-    found += [(drive, tree, _find_first_break) for drive, tree in _drives_that_may_break(source)]
+    found: list[_Search] = [(drive, tree, _find_jumps) for drive, tree in _list_drives_with_unknown_switching(source)]
+    found += [(drive, tree, _find_first_break) for drive, tree in _list_drives_with_branches(source)]
     known = {drive for drive, *_ in found}
-    others = () if _integrates(source) else _drive_expressions(source)
+    others = () if _has_impulse_at_jump(source) else _list_drive_expressions(source)
     return found + [
-        (drive, tree, _find_unbounded)
+        (drive, tree, _find_unbounded_rates)
         for drive, tree in others
         if drive not in known and _may_hide_switching_point(tree)
     ]
 
 
 def first_jumps(
-    source: KernelSource, p: Array, t0: float, ends: Sequence[float], left_out: Container[int] = ()
+    source: KernelSource, p: Array, t0: float, ends: Sequence[float], excluded: Container[int] = ()
 ) -> dict[int, Jump]:
-    """Return the first jump of each run between t0 and its end (s), by index; parameter values p (runs, values).
+    """Return the first jump of each run after t0 and up to its end (s), by index; runs without one are absent.
 
-    Drives with equal parameter values are searched once. Runs in `left_out` are skipped.
+    `p` (n_runs, …): parameter values. Drives with equal parameter values are searched once. Runs in `excluded` are
+    skipped.
     """
-    first, known = dict[int, Jump](), dict[tuple[Any, ...], float | Jump]()
-    for drive, tree, search in _searches(source):
+    first, known_jumps = dict[int, Jump](), dict[tuple[Any, ...], float | Jump]()
+    for drive, tree, search in _list_jump_searches(source):
         used = {f"parameters.{name.path}" for name in names(tree)}
         columns = [k for k, slot in enumerate(source.slots) if slot.address in used]
         for i, t1 in enumerate(ends):
-            if i in left_out or not t1 > t0:
+            if i in excluded or not t1 > t0:
                 continue
             key = drive, t1, p[i, columns].tobytes()
-            if key not in known:
+            if key not in known_jumps:
                 found = [jump for jump in search(source, p[i], tree, drive, t0, t1) if jump.t > t0]
-                known[key] = min(found, key=lambda jump: jump.t, default=math.inf)
-            jump = known[key]
+                known_jumps[key] = min(found, key=lambda jump: jump.t, default=math.inf)
+            jump = known_jumps[key]
             if isinstance(jump, Jump) and (i not in first or jump.t < first[i].t):
                 first[i] = jump
     return first
 
 
-def _integrates(source: KernelSource) -> bool:
-    """Return whether a jump would cause an impulse on degrees of freedom; else the linkage just follows it."""
+def _has_impulse_at_jump(source: KernelSource) -> bool:
+    """Return whether a jump of a drive would cause an impulse on degrees of freedom; else the linkage just follows
+    it.
+    """
     return bool(source.drives) and KINEMATIC not in source.methods
 
 
-def _drive_expressions(source: KernelSource) -> list[tuple[str, Expr]]:
-    """Return all drives with their expressions."""
+def _list_drive_expressions(source: KernelSource) -> list[tuple[str, Expr]]:
+    """Return the name and expression of each drive."""
     return [(info.address.split(".")[1], tree) for info, tree in trees(source, ("drives",))]
 
 
-def _drives_that_may_hide(source: KernelSource) -> list[tuple[str, Expr]]:
-    """Return the drives that may have switching points which the generator has not found."""
+def _list_drives_with_unknown_switching(source: KernelSource) -> list[tuple[str, Expr]]:
+    """Return name and expression of the drives that may have switching points which the generator has not found."""
     return [
         (drive, tree)
-        for drive, tree in _drive_expressions(source)
+        for drive, tree in _list_drive_expressions(source)
         if _may_hide_switching_point(tree) and drive not in source.rate_jumps and CORNERED.isdisjoint(functions(tree))
     ]
 
 
 def end_before(jump: Jump, t0: float) -> float:
-    """Return the time (s) before which the last sample of a run from t0 must lie that meets a jump."""
+    """Return the time (s) before which the last sample of a run from t0 must lie if it meets the jump.
+
+    A break between branches is avoided by a margin, since a sample at its time may be on either side.
+    """
     return jump.t - (1e-10 * max(abs(t0), abs(jump.t)) if jump.breaks else 0.0)  # at the jump it is on either side
 
 
 def jump_failure(source: KernelSource, jump: Jump) -> SolverError:
-    """Return the error that ends a run at a jump of a drive."""
+    """Build the error that ends a run at a jump of a drive; NonFiniteError if a branch is not a number there."""
     why = "its rate is no number there" if jump.kind == "rate" else "no linkage follows it"
-    message = _jump_message(jump, "the impulse there would be left out" if _integrates(source) else why)
+    message = _format_jump(jump, "the impulse there would be left out" if _has_impulse_at_jump(source) else why)
     return (NonFiniteError if jump.message else SolverError)(message, jump.t)
 
 
-def _jump_message(jump: Jump, why: str) -> str:
-    """Return the error message of a jump; `why` says what makes it an error."""
+def _format_jump(jump: Jump, reason: str) -> str:
+    """Return the error message of a jump, by its kind, with a remedy; `reason` says what makes it an error."""
     if jump.message:
         return f"{jump.message}\n  {NO_NUMBER}"
     if jump.kind == "infinite rate":
@@ -156,21 +162,23 @@ def _jump_message(jump: Jump, why: str) -> str:
         )
     what = f"its rate jumps by about {jump.size:.3g}" if jump.kind == "rate" else f"it jumps by {jump.size:.4g}"
     return (
-        f"drive {jump.drive}: {what} at t = {jump.t:.6g} s, which its form does not show: {why}\n"
+        f"drive {jump.drive}: {what} at t = {jump.t:.6g} s, which its form does not show: {reason}\n"
         "  write it with abs, min, max or ramp, whose corners are found, or end the run before"
     )
 
 
 def _may_hide_switching_point(tree: Expr) -> bool:
-    """Return whether an expression has a function, a broken power or a division that may hide a switching point."""
+    """Return whether an expression contains a function, a non-integer power or a division that may hide a switching
+    point.
+    """
     match tree:
         case Unary(operand=operand):
             return _may_hide_switching_point(operand)
         case Binary(operator=operator, left=left, right=right):
-            whole = isinstance(right, Number) and (operator == "/" or right.value == round(right.value) >= 0)
+            is_integer_power = isinstance(right, Number) and (operator == "/" or right.value == round(right.value) >= 0)
             return (
                 operator in ("**", "/")
-                and not whole
+                and not is_integer_power
                 or _may_hide_switching_point(left)
                 or _may_hide_switching_point(right)
             )
@@ -179,94 +187,109 @@ def _may_hide_switching_point(tree: Expr) -> bool:
     return False
 
 
-def _drives_that_may_break(source: KernelSource) -> list[tuple[str, Expr]]:
+def _list_drives_with_branches(source: KernelSource) -> list[tuple[str, Expr]]:
     """Return the drives with where or mod, whose branches may not meet at their switching points."""
-    return [(drive, tree) for drive, tree in _drive_expressions(source) if not JUMPING.isdisjoint(functions(tree))]
+    return [(drive, tree) for drive, tree in _list_drive_expressions(source) if not JUMPING.isdisjoint(functions(tree))]
 
 
 @np.errstate(all="ignore")
 def _find_first_break(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
-    """Return the first time at which a drive's value jumps, as a list of one Jump, or an empty list.
+    """Return the first time between t0 and t1 (s) at which a drive's value jumps, as a list of one Jump; [] without
+    one.
 
-    The end is included: the last sample may lie on either side of it.
+    `drive` and `tree`: its name and expression, with where or mod. The end is included: the last sample may lie on
+    either side of it. A branch that is not a number at its own switching point is returned as a Jump too.
     """
-    behind = AT_THE_END * (t1 - t0)
-    t1 += behind
+    end_margin = END_MARGIN * (t1 - t0)
+    t1 += end_margin
     info = next(info for info, _ in trees(source, ("drives",)) if info.address.split(".")[1] == drive)
     undefined = undefined_at_a_corner(source, p, info, tree, np.linspace(t0, t1, GRID + 1))
     if undefined:
         t1 = undefined[1]
-    share, h = (
-        _curvature_ratio(source, p, tree, t0, t1, "reflect"),
+    ratios, h = (
+        _compute_curvature_ratio(source, p, tree, t0, t1, "reflect"),
         (t1 - t0) / GRID,
     )  # the last place may stand out too
-    for k in np.flatnonzero(share > 3.0)[:MOST_CORNERS].tolist():
-        at = t0 + (k + 1) * h
-        jump = _classify_jump(source, p, tree, drive, max(at - h, t0), min(at + h, t1))
+    for k in np.flatnonzero(ratios > 3.0)[:MAX_BREAK_CANDIDATES].tolist():
+        t = t0 + (k + 1) * h
+        jump = _classify_jump(source, p, tree, drive, max(t - h, t0), min(t + h, t1))
         if jump and jump.kind == "value":
-            near = values_of_time(source, p, tree, np.array([at - h, at, at + h]))
-            if jump.size > 10.0 * behind * np.abs(np.diff(near)).max() / h:  # else a jump of the rate, so near an end
+            near = values_of_time(source, p, tree, np.array([t - h, t, t + h]))
+            if (
+                jump.size > 10.0 * end_margin * np.abs(np.diff(near)).max() / h
+            ):  # else a jump of the rate, so near an end
                 return [replace(jump, breaks=True)]
     return [Jump(drive, t1, "no number", np.nan, breaks=True, message=undefined[0])] if undefined else []
 
 
-def _curvature_ratio(source: KernelSource, p: Array, tree: Expr, t0: float, t1: float, beyond: Any = "edge") -> Array:
-    """Return the ratio (GRID − 1,) of second differences on the grid to the median of those around them."""
+def _compute_curvature_ratio(
+    source: KernelSource, p: Array, tree: Expr, t0: float, t1: float, pad_mode: Any = "edge"
+) -> Array:
+    """Return the ratio (GRID − 1,) of second differences of a drive on a grid to the median of those around them.
+
+    `pad_mode`: how the differences are continued past the ends t0, t1 (mode of numpy.pad).
+    """
     f = values_of_time(source, p, tree, np.linspace(t0, t1, GRID + 1))
-    bent = np.abs(np.diff(f, 2))
-    around = np.median(np.lib.stride_tricks.sliding_window_view(np.pad(bent, 8, mode=beyond), 17), axis=1)
-    return np.asarray(bent / (around + 1e-14 * np.abs(f).max(initial=0.0) + 1e-300))
+    second_differences = np.abs(np.diff(f, 2))
+    around = np.median(
+        np.lib.stride_tricks.sliding_window_view(np.pad(second_differences, 8, mode=pad_mode), 17), axis=1
+    )
+    return np.asarray(second_differences / (around + 1e-14 * np.abs(f).max(initial=0.0) + 1e-300))
 
 
 @np.errstate(all="ignore")
 def _find_jumps(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
-    """Return the hidden jumps of one drive between t0 and t1 (s), at most MOST."""
-    share = _curvature_ratio(source, p, tree, t0, t1)
-    outstanding = [k for k in np.argsort(-share, kind="stable")[: 4 * MOST].tolist() if share[k] > 3.0]
+    """Return the hidden jumps of one drive between t0 and t1 (s), at most MOST, the clearest first.
+
+    `drive` and `tree`: its name and expression. Jumps closer than 2.5 grid intervals count as one.
+    """
+    ratios = _compute_curvature_ratio(source, p, tree, t0, t1)
+    candidates = [k for k in np.argsort(-ratios, kind="stable")[: 4 * MAX_JUMPS].tolist() if ratios[k] > 3.0]
     found: list[Jump] = []
     h = (t1 - t0) / GRID
-    for k in outstanding:
-        at = t0 + (k + 1) * h
-        if len(found) < MOST and all(abs(at - jump.t) > 2.5 * h for jump in found):
-            jump = _classify_jump(source, p, tree, drive, max(at - h, t0), min(at + h, t1))
+    for k in candidates:
+        t = t0 + (k + 1) * h
+        if len(found) < MAX_JUMPS and all(abs(t - jump.t) > 2.5 * h for jump in found):
+            jump = _classify_jump(source, p, tree, drive, max(t - h, t0), min(t + h, t1))
             found += [jump] if jump else []
     return found
 
 
-def _find_unbounded(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
-    """Return the hidden jumps of a drive that leave its rate infinite or its value discontinuous."""
+def _find_unbounded_rates(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
+    """Return the hidden jumps of a drive at which its rate is infinite or its value is discontinuous."""
     return [jump for jump in _find_jumps(source, p, tree, drive, t0, t1) if jump.kind != "rate"]
 
 
 def _classify_jump(source: KernelSource, p: Array, tree: Expr, drive: str, a: float, b: float) -> Jump | None:
-    """Classify a candidate between a and b (s) by second differences on shorter and shorter intervals.
+    """Classify a candidate between a and b (s) as a jump of value, rate or infinite rate, and return the Jump.
 
-    Return None if the drive is smooth there, or not a number.
+    Second differences are compared on shorter and shorter intervals. Return None if the drive is smooth or not a number
+    there.
     """
     logs: list[float] = []
     sizes: list[float] = []  # of the rate's change
     for _ in range(LEVELS):
         times = np.linspace(a, b, POINTS + 1)
         f = values_of_time(source, p, tree, times)
-        bent = np.abs(np.diff(f, 2))
-        if not np.isfinite(bent).all():
+        second_differences = np.abs(np.diff(f, 2))
+        if not np.isfinite(second_differences).all():
             return None  # no number there: another matter
-        k = int(bent.argmax())
-        if bent[k] < 1e-11 * np.abs(f).max(initial=0.0) or b - a < 1e-11 * max(abs(a), abs(b)):
+        k = int(second_differences.argmax())
+        if second_differences[k] < 1e-11 * np.abs(f).max(initial=0.0) or b - a < 1e-11 * max(abs(a), abs(b)):
             break
-        if np.count_nonzero(bent > 0.25 * bent[k]) >= EVERYWHERE:
+        if np.count_nonzero(second_differences > 0.25 * second_differences[k]) >= MAX_LARGE_DIFFERENCES:
             break  # rounding, as of a square that is not quite one under its root
-        logs.append(float(np.log(bent[k]) / np.log(4.0)))
+        logs.append(float(np.log(second_differences[k]) / np.log(4.0)))
         sizes.append(float(abs((f[-1] - f[-2]) - (f[1] - f[0])) / (times[1] - times[0])))
-        value = float(bent[k])
+        value = float(second_differences[k])
         a, b = float(times[max(k - 1, 0)]), float(times[min(k + 3, POINTS)])
     if len(logs) < 5:
         return None
-    powers = -np.diff(logs)  # how the differences go with h; a function may be smooth but for its last digits
-    last = float(powers[-4:].mean())
-    if last > 1.4:
+    exponents = -np.diff(logs)  # how the differences go with h; a function may be smooth but for its last digits
+    last_exponent = float(exponents[-4:].mean())
+    if last_exponent > 1.4:
         return None
     # near an end of the interval, a jump of the rate shows by its distance from there, until that is wider
-    power = max(float(np.median(powers[: len(powers) // 2 + 1])), last)
-    kind = "rate" if power > 0.8 else "infinite rate" if power > 0.2 else "value"
+    exponent = max(float(np.median(exponents[: len(exponents) // 2 + 1])), last_exponent)
+    kind = "rate" if exponent > 0.8 else "infinite rate" if exponent > 0.2 else "value"
     return Jump(drive, 0.5 * (a + b), kind, sizes[min(3, len(sizes) - 1)] if kind == "rate" else value)

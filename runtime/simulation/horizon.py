@@ -36,15 +36,19 @@ if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
 
 APART = 0.25  # of the clearance: difference at which runs count as parted
-MOVED = 1e-12  # relative change of the start: about the error of one step at this tolerance (integrators/adaptive.py)
-TIGHTER, SHORTER = 100.0, 4.0  # factors of tolerance and of step between the run and the more accurate one
+PERTURBATION = (
+    1e-12  # relative change of the start: about the error of one step at this tolerance (integrators/adaptive.py)
+)
+RTOL_RATIO, STEP_RATIO = 100.0, 4.0  # factors of tolerance and of step between the run and the more accurate one
 UNFINISHED = "interrupted while its horizon was sought: the run is complete, how far to trust it is not known"
 TIMES = 4000  # compared times between 4^k s and 4^(k + 1) s: the horizon's resolution
-SHORTEST = 1.0 / 256.0  # of the run's length, about: the end of the first compared interval
+MIN_INTERVAL = 1.0 / 256.0  # of the run's length, about: the end of the first compared interval
 
 
 def with_horizon(simulation: Simulation, run: Result, progress: Progress | None = None) -> Result:
-    """Return the run with diagnostics.horizon; see `horizon`. After Ctrl-C, the complete run with a note."""
+    """Return the run with diagnostics.horizon; after Ctrl-C, with a horizon of NaN, a note, and marked as
+    interrupted.
+    """
     try:
         found, interrupted = horizon(simulation, run, progress), False
     except KeyboardInterrupt:
@@ -56,24 +60,25 @@ def with_horizon(simulation: Simulation, run: Result, progress: Progress | None 
 
 
 def horizon(simulation: Simulation, run: Result, progress: Progress | None = None, apart: float = APART) -> float:
-    """Return the time (s) up to which a run agrees with its repetitions; inf: to its end.
+    """Return the time (s) up to which a run agrees with its perturbed repetitions; infinity if it does so to its end.
 
-    The runs use `run.diagnostics.method`, from the run's start to its last sample. A repetition that an error ends is
-    compared as far as it came. Ctrl-C is passed on. `apart`: limit of the difference, as in the head of this file.
+    The repetitions use `run.diagnostics.method`, from the run's start to its last sample. A repetition that an error
+    ends is compared as far as it came. Kinematic scenes have infinity. `apart`: largest difference, as in the head of
+    this file. Ctrl-C is passed on.
     """
     begin, t1 = start_of_run(run), float(run.t[-1])
     t0 = begin.t
     if simulation.source.degrees_of_freedom == 0 or not t1 > t0:
         return math.inf
-    usual, tighter = repeat_settings(run)
-    variants = ((begin, usual), (begin, tighter), (_perturb_start(simulation, run, begin), usual))
+    settings, tighter = repeat_settings(run)
+    variants = ((begin, settings), (begin, tighter), (_perturb_start(simulation, run, begin), settings))
     known = t0
-    for times in _intervals_to_compare(t0, t1):
-        cut = times[-1] > t1
-        within = np.append(times[times < t1], t1) if cut else times
-        found = _find_parting(simulation, within, variants, progress, apart)
-        if cut and found is not None:
-            longer = _find_parting(simulation, times, variants, progress, apart)
+    for times in _yield_intervals(t0, t1):
+        is_cut = times[-1] > t1
+        compared_times = np.append(times[times < t1], t1) if is_cut else times
+        found = _find_last_agreement(simulation, compared_times, variants, progress, apart)
+        if is_cut and found is not None:
+            longer = _find_last_agreement(simulation, times, variants, progress, apart)
             found = longer if longer is not None and known < longer <= t1 else found
         if found is not None:
             return max(known, found)
@@ -81,11 +86,12 @@ def horizon(simulation: Simulation, run: Result, progress: Progress | None = Non
     return math.inf
 
 
-def _intervals_to_compare(t0: float, t1: float) -> Iterator[Array]:
-    """Yield arrays of TIMES times to compare, each ending four times as far from t0 as the one before; the last has
-    t1.
+def _yield_intervals(t0: float, t1: float) -> Iterator[Array]:
+    """Yield arrays of TIMES increasing times (s), each ending four times as far from t0 as the array before.
+
+    The last array reaches t1 or goes beyond it.
     """
-    top = 4.0 ** math.floor(math.log(SHORTEST * (t1 - t0), 4.0))
+    top = 4.0 ** math.floor(math.log(MIN_INTERVAL * (t1 - t0), 4.0))
     low, last = 0.0, False
     while not last:
         last = not t0 + top < t1
@@ -93,24 +99,28 @@ def _intervals_to_compare(t0: float, t1: float) -> Iterator[Array]:
         low, top = top, 4.0 * top
 
 
-def _find_parting(
+def _find_last_agreement(
     simulation: Simulation,
     times: Array,
     variants: Iterable[tuple[State, dict[str, Any]]],
     progress: Progress | None,
-    apart: float,
+    max_difference: float,
 ) -> float | None:
-    """Run the variants (start, settings) and return the last time (s) before they differ; None if they agree."""
+    """Run the variants (start, settings) through `times` and return the last time (s) before they differ by
+    `max_difference`.
+
+    Return None if they agree, −infinity if a variant fails at its start. Raises KeyboardInterrupt after Ctrl-C.
+    """
     runs = []
     for start, settings in variants:
-        other = repeated(simulation, times, start, settings, progress)
-        if other is None:
+        run = repeated(simulation, times, start, settings, progress)
+        if run is None:
             return -math.inf
-        if other.diagnostics.interrupted:
+        if run.diagnostics.interrupted:
             raise KeyboardInterrupt
-        runs.append(other)
-    agreed, parted = _compare_runs(simulation, runs, apart)
-    return agreed if parted else None
+        runs.append(run)
+    agreed, is_different = _compare_runs(simulation, runs, max_difference)
+    return agreed if is_different else None
 
 
 def repeated(
@@ -122,29 +132,36 @@ def repeated(
     peaks: tuple[str | SlidingRequest, ...] = (),
     stop: bool = False,
 ) -> Result | None:
-    """Return a run through `times`, as far as it goes, or None if it fails at its start. `stop`: events may end it."""
+    """Return a run of `simulation` through `times` (s), or its part before an error; None if it fails at its start.
+
+    `start`: state to resume from, or None for the file's. `stop`: whether events may end it.
+    """
     try:
         return simulation.simulate(output=times, start=start, progress=progress, stop=stop, peaks=peaks, **settings)
     except SolverError as error:
         return cast("Result | None", error.partial)
 
 
-def _compare_runs(simulation: Simulation, runs: list[Result], limit: float) -> tuple[float, bool]:
-    """Return the last compared time (s) at which all runs are within `limit` of the first, and whether they part.
+def _compare_runs(simulation: Simulation, runs: list[Result], max_difference: float) -> tuple[float, bool]:
+    """Return the last time (s) at which all runs are within `max_difference` of the first, and whether they differ
+    later.
 
-    They also part where one of them ends early.
+    Runs are compared at the samples that all have. A run that ends early counts as different.
     """
     count = min(len(run.t) for run in runs)
-    paths = [_compared_coordinates(simulation, run)[:count] for run in runs]
+    paths = [_compute_compared_coordinates(simulation, run)[:count] for run in runs]
     gaps = [np.abs(path - paths[0]).max(axis=1) for path in paths[1:]]
-    apart = np.flatnonzero(~(np.maximum(*gaps) <= limit))
-    last = int(apart[0]) - 1 if len(apart) else count - 1
+    different = np.flatnonzero(~(np.maximum(*gaps) <= max_difference))
+    last = int(different[0]) - 1 if len(different) else count - 1
     agreed = float(runs[0].t[last]) if last >= 0 else start_of_run(runs[0]).t
-    return agreed, bool(len(apart)) or any(len(run.t) > count for run in runs)
+    return agreed, bool(len(different)) or any(len(run.t) > count for run in runs)
 
 
-def _compared_coordinates(simulation: Simulation, run: Result) -> Array:
-    """Return the compared coordinates (N, …): e/c of all journals, or all coordinates of a scene without play."""
+def _compute_compared_coordinates(simulation: Simulation, run: Result) -> Array:
+    """Return the dimensionless coordinates (N, …) of a run that are compared.
+
+    They are e/c of all journals. In a scene without play they are lengths over the mechanism's size, and angles.
+    """
     if run.source.clearances:
         scaled = [
             run[f"{joint.name}.{axis}"] / run.p[joint.clearance]
@@ -152,17 +169,18 @@ def _compared_coordinates(simulation: Simulation, run: Result) -> Array:
             for axis in ("ex", "ey")
         ]
         return np.stack(scaled, axis=1)
-    return np.asarray(run.q / np.where(_is_angle(run), 1.0, mechanism_size(simulation.compiled, run.p)))
+    return np.asarray(run.q / np.where(_find_angles(run), 1.0, mechanism_size(simulation.compiled, run.p)))
 
 
-def _is_angle(run: Result) -> Any:
+def _find_angles(run: Result) -> Any:
     """Return a mask (n,) of the coordinates that are angles."""
     return np.array([name.endswith(".theta") for name in run.source.coordinates])
 
 
-def check_simulation_of_run(simulation: Simulation, run: Result, requested: str) -> None:
-    """Raise BadValueError unless `run` is a Result of `simulation`'s scene. `requested` names the caller in
-    messages.
+def check_simulation_of_run(simulation: Simulation, run: Result, function_name: str) -> None:
+    """Raise BadValueError unless `run` is a Result of the file and scene of `simulation`.
+
+    `function_name`: name of the caller's function, for the message.
     """
     from gudgeon.results.results import Result
     from gudgeon.simulation.simulation import Simulation
@@ -170,35 +188,38 @@ def check_simulation_of_run(simulation: Simulation, run: Result, requested: str)
     instance(simulation, "simulation", Simulation)
     instance(run, "run", Result)
     if run.source.whole_sha256 != simulation.source.whole_sha256 or run.source.scene != simulation.source.scene:
-        raise BadValueError(f"{requested}: expected the simulation whose run it is")
+        raise BadValueError(f"{function_name}: expected the simulation whose run it is")
 
 
 def repeat_settings(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return the arguments of simulate that repeat a run, and those of a more accurate one."""
+    """Return two sets of arguments of simulate: one that repeats a run, and one of a more accurate run.
+
+    The second has a shorter step or a tighter tolerance. At the tightest tolerance that is allowed, it is looser
+    instead.
+    """
     from gudgeon.simulation.arguments import METHODS
 
     d = run.diagnostics
     method = d.method if d.method in METHODS else "adaptive"  # what its steps were made with is not one name
-    usual = {"method": method, "parameters": dict(run.final.parameters)}
+    settings = {"method": method, "parameters": dict(run.final.parameters)}
     if math.isfinite(d.step):
-        return usual | {"step": d.step}, usual | {"step": d.step / SHORTER}
+        return settings | {"step": d.step}, settings | {"step": d.step / STEP_RATIO}
     # at the tightest tolerance that there is, the other run is the looser one
-    other = d.rtol / TIGHTER if d.rtol >= TIGHTER * SMALLEST else d.rtol * TIGHTER
-    return usual | {"rtol": d.rtol}, usual | {"rtol": other}
+    rtol = d.rtol / RTOL_RATIO if d.rtol >= RTOL_RATIO * SMALLEST else d.rtol * RTOL_RATIO
+    return settings | {"rtol": d.rtol}, settings | {"rtol": rtol}
 
 
-def _tolerances(simulation: Simulation, run: Result) -> Array:
-    """Return the error tolerance of each coordinate and velocity (2n,) at the relative tolerance MOVED.
-
-    They are those of integrators/adaptive.py; velocities are per unit of speed.
+def _compute_tolerances(simulation: Simulation, run: Result) -> Array:
+    """Return the error tolerance (2n,) of each coordinate and, per unit of speed, velocity at the relative tolerance
+    MOVED.
     """
     length, size = lengths(simulation.compiled, run.p)
-    of_q = MOVED * np.where(_is_angle(run), length / size, length)
-    return np.concatenate([of_q, np.full(len(of_q), MOVED)])
+    of_q = PERTURBATION * np.where(_find_angles(run), length / size, length)
+    return np.concatenate([of_q, np.full(len(of_q), PERTURBATION)])
 
 
 def start_of_run(run: Result) -> State:
-    """Return the start of a run as a state to resume from: the state it was given, or its first sample."""
+    """Return the start of a run as a state to resume from: the state that it resumed, else its first sample."""
     if run.begun is not None:
         return replace(run.begun, parameters=run.final.parameters)
     run = run.start_row or run
@@ -206,11 +227,13 @@ def start_of_run(run: Result) -> State:
 
 
 def _perturb_start(simulation: Simulation, run: Result, start: State) -> State:
-    """Return the start moved by MOVED in a fixed random direction and projected onto the constraints."""
-    angle, n = _is_angle(run), len(start.q)
-    draw = np.random.default_rng(1).uniform(-1.0, 1.0, 2 * n)
+    """Return the start moved by the relative distance MOVED in a fixed pseudo-random direction, projected onto the
+    constraints.
+    """
+    angle, n = _find_angles(run), len(start.q)
+    random = np.random.default_rng(1).uniform(-1.0, 1.0, 2 * n)
     speed = [np.abs(start.v[angle == kind]).max(initial=0.0) for kind in (False, True)]
-    scale = draw * _tolerances(simulation, run)
-    q, v = start.q + scale[:n], start.v + scale[n:] * np.where(angle, speed[1], speed[0])
+    displacement = random * _compute_tolerances(simulation, run)
+    q, v = start.q + displacement[:n], start.v + displacement[n:] * np.where(angle, speed[1], speed[0])
     q, v = project(simulation.compiled, start.t, q, v, run.p)
     return replace(start, q=q, v=v)

@@ -45,18 +45,18 @@ if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
 
 
-WAYS = ("auto", "tangent", "twin")  # methods for the growth of differences
+METHODS = ("auto", "tangent", "twin")  # methods for the growth of differences
 RTOL = 1e-12  # default tolerance of the runs: far below the distance of neighbours
 # loosest tolerance of a second run: if only one run takes another step, they differ by the error of the step
-LOOSEST = 1e-10
-LOOKED = 1000  # samples by which the motion is measured
+MAX_RTOL_OF_SECOND_RUN = 1e-10
+N_SAMPLES = 1000  # samples by which the motion is measured
 INTERVALS = 60  # number of intervals of the time; at least one per period
-SHORTEST = 2.0**-12  # shortest interval, relative to the longest
-ON_TIME = 1e-6  # of a period: by which a time may differ from a multiple of it
+MIN_INTERVAL = 2.0**-12  # shortest interval, relative to the longest
+PERIOD_TOL = 1e-6  # of a period: by which a time may differ from a multiple of it
 
 
 def reason_without_tangent(source: KernelSource) -> str:
-    """Return why the Jacobian does not describe all motions of neighbours; "" where it does."""
+    """Return why the Jacobian does not describe all motions of neighbouring states of a scene; "" where it does."""
     if source.no_slopes:
         return source.no_slopes
     if source.states:
@@ -84,35 +84,42 @@ def lyapunov(
     start: State | None,
     progress: Progress | None,
 ) -> Lyapunov:
-    """Return the Lyapunov exponent of the motion; arguments as in Simulation.lyapunov."""
+    """Compute the largest Lyapunov exponent of a motion, and its returns to a section; arguments as in
+    Simulation.lyapunov.
+
+    `settings`: method, rtol and step of all runs. Raises BadValueError without degrees of freedom, for arguments, and
+    for a span that is too short. Ctrl-C is passed on.
+    """
     source = simulation.source
     t_end: float | str
     if isinstance(until, Result):
-        t_end, start, settings = _of_run(simulation, until, parameters, start, settings)
+        t_end, start, settings = _read_run_settings(simulation, until, parameters, start, settings)
     else:
         t_end = until
     if source.degrees_of_freedom <= 0:
         raise BadValueError("without a degree of freedom no difference can grow: drives determine the motion")
-    why = _reason_for_twin(source, text(by, "by"))
-    settings = _run_settings(settings, why is not None)
-    begin = _settled_start(simulation, skip, settings, parameters, start)
-    looked = simulation.simulate(t_end, output=LOOKED, stop=False, peaks=(), progress=progress, **begin, **settings)
-    if looked.diagnostics.interrupted:
+    reason = _explain_second_run(source, text(by, "by"))
+    settings = _build_run_settings(settings, reason is not None)
+    arguments_of_start = _find_settled_start(simulation, skip, settings, parameters, start)
+    run_measured = simulation.simulate(
+        t_end, output=N_SAMPLES, stop=False, peaks=(), progress=progress, **arguments_of_start, **settings
+    )
+    if run_measured.diagnostics.interrupted:
         raise KeyboardInterrupt
-    returns = Returns.of(looked, section)
-    measure = Neighbours.of(looked, simulation.compiled)
-    _refuse_short(looked, measure)
+    returns = Returns.of(run_measured, section)
+    measure = Neighbours.of(run_measured, simulation.compiled)
+    _check_duration(run_measured, measure)
     transverse = bool(returns.event) and not _depends_on_time(source)
-    arguments = (simulation, measure, settings, start_of_run(looked), transverse)
-    pair = SecondRun(*arguments) if why is not None else Tangent(*arguments, Flow(simulation.compiled, looked))
-    t, growth = [float(looked.t[0])], []
-    for run, grown in _intervals(pair, t[0], float(looked.t[-1]), returns.period, progress):
+    arguments = (simulation, measure, settings, start_of_run(run_measured), transverse)
+    pair = SecondRun(*arguments) if reason is not None else Tangent(*arguments, Flow(simulation.compiled, run_measured))
+    t, growth = [float(run_measured.t[0])], []
+    for run, grown in _yield_intervals(pair, t[0], float(run_measured.t[-1]), returns.period, progress):
         t.append(float(run.t[-1]))
         growth.append(grown)
         returns.note(run)
     return Lyapunov(
-        "tangent" if why is None else "twin",
-        why or "",
+        "tangent" if reason is None else "twin",
+        reason or "",
         np.array(t),
         np.array(growth),
         pair.unresolved / (t[-1] - t[0]),
@@ -124,118 +131,133 @@ def lyapunov(
 
 
 def reason_against_tangent(source: KernelSource) -> str:
-    """Return why `auto` follows a second run although the tangent would do; "" where the tangent is fast."""
+    """Return why by="auto" follows a second run although the tangent would be valid; "" where the tangent is fast.
+
+    The reason is a stiff film, on which the tangent needs as many panels as there are steps.
+    """
     films = [joint.name for joint in source.clearances if joint.film]
     return f"the film of {films[0]} is stiff: the mesh of the tangent is as fine as its steps" if films else ""
 
 
-def _refuse_short(run: Result, measure: Neighbours) -> None:
-    """Raise BadValueError for a span in which the motion hardly changes: no mean over it is a rate of growth."""
+def _check_duration(run: Result, measure: Neighbours) -> None:
+    """Raise BadValueError if the motion hardly changes in the run, so that a mean over it is no rate of growth."""
     if measure.is_short(run):
         span = float(run.t[-1] - run.t[0])
         message = f"a span of {span:.3g} s is too short for a Lyapunov exponent: nothing turns or strikes in it"
         raise BadValueError(message, hint="expected a span of several swings, turns or contacts: an exponent is a mean")
 
 
-def _of_run(
+def _read_run_settings(
     simulation: Simulation,
     run: Result,
     parameters: Mapping[str, float | str] | None,
     start: State | None,
     settings: dict[str, Any],
 ) -> tuple[float, State, dict[str, Any]]:
-    """Return end, start and settings of simulate for the exponent of a given run, with the tolerance of neighbours.
+    """Return end (s), start and settings of simulate for the exponent of a given run.
 
-    Raises BadValueError for a run of another scene, or if parameters or a start are given too.
+    Method and step are those of the run unless `settings` has others; the tolerance is not taken over. Raises
+    BadValueError for a run of another scene, or if parameters or a start are given too.
     """
     check_simulation_of_run(simulation, run, "lyapunov")
     if parameters is not None or start is not None:
         hint = "leave out parameters and start"
         raise BadValueError("lyapunov of a run: it has its own start and numbers", hint=hint)
-    usual = {name: value for name, value in repeat_settings(run)[0].items() if name in ("method", "step")}
-    message = {name: value for name, value in settings.items() if value is not None and value != "auto"}
-    return float(run.t[-1]), start_of_run(run), settings | usual | message
+    run_settings = {name: value for name, value in repeat_settings(run)[0].items() if name in ("method", "step")}
+    requested = {name: value for name, value in settings.items() if value is not None and value != "auto"}
+    return float(run.t[-1]), start_of_run(run), settings | run_settings | requested
 
 
-def _intervals(
+def _yield_intervals(
     pair: SecondRun | Tangent, begin: float, end: float, period: float, progress: Progress | None
 ) -> Iterator[tuple[Result, float]]:
-    """Yield the run of each interval and ln of the growth of the difference in it.
+    """Yield the run of each interval and ln of the growth of the difference in it, from `begin` to `end` (s).
 
-    Intervals are halved where the difference grows too much; ends of periods are ends of intervals.
+    Intervals are halved where the difference grows too much, then lengthened again. Ends of periods are ends of
+    intervals; `period` is 0 without one. `progress` is called after each.
     """
     longest = (end - begin) / INTERVALS
     if period:
         longest = period / math.ceil(period / longest)
     t, h = begin, longest
     while t < end:
-        goal = min(begin + (math.floor((t - begin) / longest * (1.0 + 1e-12) + 1e-6) + 1) * longest, end)
-        goal = end if end - goal < 1e-6 * longest else goal
-        aim = goal if t + h > goal - 1e-3 * h else t + h
-        done = pair.advance(aim, h <= SHORTEST * longest)
-        if done is None:
-            h = 0.5 * (aim - t)
+        interval_end = min(begin + (math.floor((t - begin) / longest * (1.0 + 1e-12) + 1e-6) + 1) * longest, end)
+        interval_end = end if end - interval_end < 1e-6 * longest else interval_end
+        t_next = interval_end if t + h > interval_end - 1e-3 * h else t + h
+        advanced = pair.advance(t_next, h <= MIN_INTERVAL * longest)
+        if advanced is None:
+            h = 0.5 * (t_next - t)
             continue
-        t, h = aim, min(2.0 * h, longest) if abs(done[1]) < 1.0 else h
-        yield done
+        t, h = t_next, min(2.0 * h, longest) if abs(advanced[1]) < 1.0 else h
+        yield advanced
         if progress:
             progress((t - begin) / (end - begin), "following a neighbour")
 
 
-def _reason_for_twin(source: KernelSource, by: str) -> str | None:
-    """Return None if the tangent is used, else the reason for a second run. Raises BadValueError."""
-    if by not in WAYS:
-        refuse("by", by, f"one of {', '.join(WAYS)}")
-    why = reason_without_tangent(source)
-    if by == "tangent" and why:
-        raise BadValueError(f"no exponent by the tangent: {why}", hint='by="twin" takes a second run')
-    why = why or (reason_against_tangent(source) if by == "auto" else "")
-    return None if by == "tangent" or (by == "auto" and not why) else why
+def _explain_second_run(source: KernelSource, method: str) -> str | None:
+    """Return None if the tangent is used, else the reason for a second run ("" if the user requested it).
+
+    Raises BadValueError for an unknown method `method`, and for by="tangent" where the Jacobian does not suffice.
+    """
+    if method not in METHODS:
+        refuse("by", method, f"one of {', '.join(METHODS)}")
+    reason = reason_without_tangent(source)
+    if method == "tangent" and reason:
+        raise BadValueError(f"no exponent by the tangent: {reason}", hint='by="twin" takes a second run')
+    reason = reason or (reason_against_tangent(source) if method == "auto" else "")
+    return None if method == "tangent" or (method == "auto" and not reason) else reason
 
 
-def _run_settings(settings: dict[str, Any], is_twin: bool) -> dict[str, Any]:
-    """Return the arguments of simulate for all runs. Raise BadValueError for a tolerance too loose for a second run."""
+def _build_run_settings(settings: dict[str, Any], is_twin: bool) -> dict[str, Any]:
+    """Return the arguments of simulate for all runs, with the tolerance RTOL unless a tolerance or fixed step is given.
+
+    Raises BadValueError for a tolerance that is too loose for a second run (`is_twin`).
+    """
     given = {name: value for name, value in settings.items() if value is not None}
     if given.get("step") is not None or str(given.get("method")) == "rk4":
         return given
     given = {"rtol": RTOL} | given
-    if is_twin and tolerance(given["rtol"], "auto", False) > LOOSEST:
+    if is_twin and tolerance(given["rtol"], "auto", False) > MAX_RTOL_OF_SECOND_RUN:
         message = f"rtol is {given['rtol']}: a twin is {NEAR:g} apart, and would measure what steps err by"
-        raise BadValueError(message, hint=f"expected {LOOSEST:g} or less; without one it is {RTOL:g}")
+        raise BadValueError(message, hint=f"expected {MAX_RTOL_OF_SECOND_RUN:g} or less; without one it is {RTOL:g}")
     return given
 
 
 def neighbours_rtol(source: KernelSource, rtol: float | None) -> float | None:
-    """Return the tolerance of runs with a neighbour, where that of other runs is `rtol`.
+    """Return the tolerance of runs with a neighbour, where that of other runs is `rtol`; None stays None.
 
-    It is at most LOOSEST where a second run is followed.
+    It is at most LOOSEST where by="auto" follows a second run.
     """
     return (
-        min(rtol, LOOSEST)
+        min(rtol, MAX_RTOL_OF_SECOND_RUN)
         if rtol is not None and (reason_without_tangent(source) or reason_against_tangent(source))
         else rtol
     )
 
 
-def _settled_start(
+def _find_settled_start(
     simulation: Simulation,
     skip: float | str,
     settings: dict[str, Any],
     parameters: Mapping[str, float | str] | None,
     start: State | None,
 ) -> dict[str, Any]:
-    """Return the start and parameters of the measured run, which begins after the motion has settled for `skip` (s)."""
+    """Run the scene for `skip` (s) and return the arguments `start` and, if needed, `parameters` of the run after that.
+
+    With skip 0 nothing is run, and the given arguments are returned. Raises BadValueError for a negative or infinite
+    time.
+    """
     state = None if start is None else own(simulation.source, start)
     given, is_given, _ = numbers(simulation.compiled, state, parameters)
     p = prepare_slots(simulation.compiled, given, is_given)
     found = end_of(simulation.source, skip, p)
-    wait = seconds("skip", 0.0 if found is None else found)
-    if not (math.isfinite(wait) and wait >= 0.0):
-        raise BadValueError(f"skip is {wait:g} s: expected a time of zero or more")
+    duration = seconds("skip", 0.0 if found is None else found)
+    if not (math.isfinite(duration) and duration >= 0.0):
+        raise BadValueError(f"skip is {duration:g} s: expected a time of zero or more")
     arguments: dict[str, Any] = {"start": start, "parameters": parameters}
-    if wait == 0.0:
+    if duration == 0.0:
         return arguments
-    t = wait + (0.0 if state is None else state.t)
+    t = duration + (0.0 if state is None else state.t)
     run = simulation.simulate(t, output=1, stop=False, peaks=(), **arguments, **settings)
     if run.diagnostics.interrupted:
         raise KeyboardInterrupt
@@ -243,7 +265,7 @@ def _settled_start(
 
 
 def _depends_on_time(source: KernelSource) -> bool:
-    """Return whether a drive or a force depends on t."""
+    """Return whether the expression of a drive or a force contains the time t."""
     return any(name.path == "t" for _, tree in trees(source, ("drives", "forces")) for name in names(tree))
 
 
@@ -262,46 +284,54 @@ class Returns:
 
     @staticmethod
     def of(run: Result, section: str | float | None) -> Returns:
-        """Prepare the returns from a run that shows the whole motion. Raise InputError for an invalid section."""
+        """Prepare an empty collection of returns, with scales from a run that shows the whole motion.
+
+        Raises InputError for an invalid section.
+        """
         event, period = _parse_section(run, section)
         size = float(mechanism_sizes(run.source, run.p))
         per = np.where(angles(run.source), 1.0, size)
         speed = float(np.sqrt(np.mean(np.square(run.v / per), axis=0)).max(initial=0.0)) * size
-        found = Returns(event, period, float(run.t[0]), size, speed or size, 0.0)
-        whole = found._points_of(run)
-        found.extent = float(np.sqrt(np.mean(np.sum(np.square(whole - whole.mean(axis=0)), axis=1))))
-        return found
+        returns = Returns(event, period, float(run.t[0]), size, speed or size, 0.0)
+        points = returns._compute_points(run)
+        returns.extent = float(np.sqrt(np.mean(np.sum(np.square(points - points.mean(axis=0)), axis=1))))
+        return returns
 
     def note(self, run: Result) -> None:
-        """Add the returns of a part of the run."""
+        """Append the returns in the next part of the run: its events, or its end if that is a multiple of the
+        period.
+        """
         if self.event:
-            at = run.at_events(self.event)
-            self.t += at.t.tolist()
-            self.points += list(self._points_of(at)) if len(at) else []
+            events = run.at_events(self.event)
+            self.t += events.t.tolist()
+            self.points += list(self._compute_points(events)) if len(events) else []
         elif self.period:
             turns = (float(run.t[-1]) - self.begin) / self.period
-            if round(turns) > 0 and abs(turns - round(turns)) < ON_TIME:
+            if round(turns) > 0 and abs(turns - round(turns)) < PERIOD_TOL:
                 self.t.append(float(run.t[-1]))
-                self.points.append(self._points_of(run)[-1])
+                self.points.append(self._compute_points(run)[-1])
 
     def section(self) -> Section | None:
-        """Return the collected section, or None if no section was requested."""
+        """Return the collected times and points as a Section; None if no section was requested."""
         if not (self.event or self.period):
             return None
         points = np.array(self.points) if self.points else np.zeros((0, 1))
         return Section(self.event or f"every {self.period:.6g} s", np.array(self.t), points, self.extent)
 
-    def _points_of(self, run: Result | AtEvents) -> Array:
-        """Return the points (k, d) of all samples of a run, or of its states at events."""
+    def _compute_points(self, run: Result | AtEvents) -> Array:
+        """Return the dimensionless points (k, d) of all samples of a run, or of its states at events.
+
+        They contain scaled positions, cosines and sines of angles, scaled velocities, and e/c of each joint with play.
+        """
         source = run.source if not hasattr(run, "all") else run.all.source
         p = run.p if not hasattr(run, "all") else run.all.p
         angle = angles(source)
-        per = np.where(angle, 1.0, self.size)
+        scale = np.where(angle, 1.0, self.size)
         parts = [
             run.q[:, ~angle] / self.size,
             np.cos(run.q[:, angle]),
             np.sin(run.q[:, angle]),
-            run.v / per * (self.size / self.speed),
+            run.v / scale * (self.size / self.speed),
         ]
         parts += [
             (run[f"{joint.name}.{axis}"] / p[joint.clearance])[:, None]
@@ -312,7 +342,11 @@ class Returns:
 
 
 def _parse_section(run: Result, section: str | float | None) -> tuple[str, float]:
-    """Return the event and the period (s) of the requested section; "" and 0.0 if there is none."""
+    """Return the event's name and the period (s) of the requested section; "" or 0.0 for the part that does not apply.
+
+    Both are empty if `section` is None. Raises BadValueError for a period outside the run, UnknownNameError for an
+    unknown event.
+    """
     if section is None:
         return "", 0.0
     events = [event.name for event in run.source.events]

@@ -29,15 +29,15 @@ if TYPE_CHECKING:
 
 
 NEAR = 1e-6  # initial distance of neighbours: far above integration errors, far below non-linear effects
-TURNED = 0.2  # of the rms acceleration: it changes by less in a span in which nothing turns
-DRAW = 1  # random seed of the first difference
-FURTHEST = 1e3  # times NEAR: if the distance is larger, the interval is repeated with half its length
-ONE = 1e-8  # times NEAR: closer runs count as merged, as where friction sticks; a new neighbour is drawn
+MAX_CHANGE_AT_REST = 0.2  # of the rms acceleration: it changes by less in a span in which nothing turns
+SEED = 1  # random seed of the first difference
+MAX_GROWTH = 1e3  # times NEAR: if the distance is larger, the interval is repeated with half its length
+MERGED = 1e-8  # times NEAR: closer runs count as merged, as where friction sticks; a new neighbour is drawn
 
 
 @dataclass(frozen=True, eq=False)
 class Neighbours:
-    """Measure differences of states of one run, with scales from that run."""
+    """Measure differences between states of one run in dimensionless form, with scales taken from that run."""
 
     compiled: CompiledModel
     p: Array  # (n_slots + n_derived,)
@@ -47,7 +47,9 @@ class Neighbours:
 
     @staticmethod
     def of(run: Result, compiled: CompiledModel) -> Neighbours:
-        """Take the scales from the parameter values and the speeds of a run."""
+        """Build the scales from the parameter values and the rms speeds of a run; a run at rest counts as crossing
+        in 1 s.
+        """
         length, size = (float(x) for x in lengths(compiled, run.p))
         angle = angles(compiled.source)
         speeds = np.sqrt(np.mean(np.square(run.v / np.where(angle, 1.0, size)), axis=0))
@@ -56,7 +58,7 @@ class Neighbours:
         return Neighbours(compiled, run.p, np.concatenate([of_q, of_q / crossing]), size, crossing)
 
     def is_short(self, run: Result) -> bool:
-        """Return whether a run ends before anything turns, so that an exponent would be meaningless.
+        """Return whether a run ends before anything turns, so that a Lyapunov exponent would be meaningless.
 
         Such a run has no contact and does not cross the mechanism's size. It ends before its accelerations could stop
         it (rms speed over rms acceleration), or before they change.
@@ -67,7 +69,7 @@ class Neighbours:
         speed, acceleration, change = (
             float(np.sqrt(np.mean(np.square(x / q)))) for x in (run.v, run.a, run.a - run.a.mean(axis=0))
         )
-        return span * acceleration < speed or change <= TURNED * acceleration
+        return span * acceleration < speed or change <= MAX_CHANGE_AT_REST * acceleration
 
     @property
     def n(self) -> int:
@@ -75,51 +77,57 @@ class Neighbours:
         return len(self.weights) // 2
 
     def apart(self, difference: Array) -> float:
-        """Return the scaled norm of a difference (2n,) of (q, q̇)."""
+        """Return the scaled Euclidean norm of a difference (2n,) of (q, q̇)."""
         return float(np.linalg.norm(difference / self.weights))
 
     def onto(self, t: float, y: Array) -> Array:
-        """Return y = (q, q̇), (2n,), projected onto the constraints at time t."""
+        """Project a state y = (q, q̇), (2n,), onto the constraints at time t (s) and return it."""
         n = len(y) // 2
         return np.concatenate(project(self.compiled, t, y[:n], y[n:], self.p))
 
     def drawn(self, t: float, y: Array) -> Array:
-        """Return a neighbour of y at distance NEAR on the constraints, in a fixed random direction."""
-        ahead = self.weights * np.random.default_rng(DRAW).standard_normal(len(y))
+        """Return a neighbour (2n,) of the state y at the distance NEAR on the constraints, in a fixed pseudo-random
+        direction.
+        """
+        difference = self.weights * np.random.default_rng(SEED).standard_normal(len(y))
         for _ in range(2):  # project onto the constraints, then scale to the length
-            ahead *= NEAR / self.apart(ahead)
-            ahead = self.onto(t, y + ahead) - self.onto(t, y)
-        return y + ahead
+            difference *= NEAR / self.apart(difference)
+            difference = self.onto(t, y + difference) - self.onto(t, y)
+        return y + difference
 
     def along(self, difference: Array, flow: Array) -> float:
-        """Return the component of a difference (2n,) along the motion's direction `flow` = (q̇, q̈)."""
+        """Return the scaled component of a difference (2n,) along the motion's direction `flow` = (q̇, q̈); 0
+        without motion.
+        """
         w = self.weights
         length = float(np.sum(np.square(flow / w)))
         return float((difference / w) @ (flow / w)) / length if length > 0.0 else 0.0
 
 
 def flat(state: State) -> Array:
-    """Return (q, q̇), (2n,), of a state."""
+    """Return the vector (q, q̇), (2n,), of a state."""
     return np.concatenate([state.q, state.v])
 
 
-def moved(state: State, y: Array, memory: Array) -> State:
-    """Return the state with coordinates and velocities y (2n,) and discrete states `memory`."""
+def _replace_state_vector(state: State, y: Array, memory: Array) -> State:
+    """Return a copy of the state with (q, q̇) replaced by y (2n,), and the discrete states by `memory`."""
     n = len(state.q)
     return replace(state, q=y[:n].copy(), v=y[n:].copy(), memory=memory)
 
 
-def alike(one: State, other: State) -> bool:
+def _have_equal_modes(first: State, second: State) -> bool:
     """Return whether two states have the same closed contacts and the same sticking frictions."""
-    clearances = len(one.state)
-    modes = (one.memory[clearances:], other.memory[clearances:])
-    closed = np.array_equal(one.state > 0, other.state > 0)
+    clearances = len(first.state)
+    modes = (first.memory[clearances:], second.memory[clearances:])
+    closed = np.array_equal(first.state > 0, second.state > 0)
     return closed and np.array_equal(np.isnan(modes[0]), np.isnan(modes[1]))
 
 
 @dataclass(eq=False)
 class SecondRun:
-    """Follow a second run next to the `state` of the first one, and measure how their distance grows."""
+    """Integrate a second run next to the first one, whose state is `state`, and measure the growth of their
+    distance.
+    """
 
     simulation: Simulation
     measure: Neighbours
@@ -130,15 +138,19 @@ class SecondRun:
     merged: int = 0  # number of times that both runs became one
 
     def __post_init__(self) -> None:
-        """Draw the neighbour."""
+        """Draw the neighbour of the present state, and store its distance; also called again after both runs have
+        merged.
+        """
         first = self.measure.drawn(self.state.t, flat(self.state))
-        self.other = moved(self.state, first, self.state.memory.copy())
+        self.other = _replace_state_vector(self.state, first, self.state.memory.copy())
         self.distance = self.measure.apart(first - flat(self.state))
 
-    def advance(self, t: float, shortest: bool) -> tuple[Result, float] | None:
-        """Advance both runs to t (s); return the first run and ln of the growth of the distance.
+    def advance(self, t: float, is_shortest: bool) -> tuple[Result, float] | None:
+        """Advance both runs to t (s); return the first run and ln of the growth of their distance.
 
-        Return None if the distance grew too much, unless the interval is the `shortest`.
+        Return None, with nothing changed, if the distance grew or shrank too much, unless the interval is the
+        `is_shortest`. After merging, a new neighbour is drawn. The neighbour is scaled back if both have the same
+        modes. Raises the error of a failed run, and KeyboardInterrupt.
         """
         begin = [self.state, self.other]
         batch = self.simulation.simulate_many(
@@ -148,30 +160,33 @@ class SecondRun:
             raise batch.failures[0].error
         if any(run.diagnostics.interrupted for run in (batch[0], batch[1])):
             raise KeyboardInterrupt
-        run, other = batch[0], batch[1].final
-        difference = flat(other) - flat(run.final)
+        run, neighbour = batch[0], batch[1].final
+        difference = flat(neighbour) - flat(run.final)
         if self.transverse:
             flow = np.concatenate([run.v[-1], run.a[-1]])
             difference -= self.measure.along(difference, flow) * flow
         distance = self.measure.apart(difference)
-        if distance <= ONE * NEAR:
-            grown = math.log(ONE * NEAR / self.distance)
+        if distance <= MERGED * NEAR:
+            log_growth = math.log(MERGED * NEAR / self.distance)
             self.state, self.merged = run.final, self.merged + 1
             self.__post_init__()
-            return run, grown
-        far = not 1.0 / FURTHEST < distance / self.distance < FURTHEST or distance > FURTHEST * NEAR
-        if far and not shortest:
+            return run, log_growth
+        is_too_far = not 1.0 / MAX_GROWTH < distance / self.distance < MAX_GROWTH or distance > MAX_GROWTH * NEAR
+        if is_too_far and not is_shortest:
             return None
-        grown = math.log(distance / self.distance)
-        self.state, self.other, self.distance = run.final, other, distance
-        if alike(run.final, other):
+        log_growth = math.log(distance / self.distance)
+        self.state, self.other, self.distance = run.final, neighbour, distance
+        if _have_equal_modes(run.final, neighbour):
             self._rescale(difference)
-        return run, grown
+        return run, log_growth
 
     def _rescale(self, difference: Array) -> None:
-        """Scale the neighbour back to the distance NEAR, in its present direction."""
+        """Move the second state back to the distance NEAR from the first, along the present `difference` (2n,).
+
+        Inner states are scaled alike, and the new state is projected onto the constraints.
+        """
         s, y = NEAR / self.distance, flat(self.state)
-        ahead = self.measure.onto(self.state.t, y + s * difference)
+        neighbour = self.measure.onto(self.state.t, y + s * difference)
         memory = self.state.memory + s * (self.other.memory - self.state.memory)
-        self.other = moved(self.other, ahead, memory)
-        self.distance = self.measure.apart(ahead - y)
+        self.other = _replace_state_vector(self.other, neighbour, memory)
+        self.distance = self.measure.apart(neighbour - y)

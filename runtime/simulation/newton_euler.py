@@ -27,7 +27,7 @@ ELEMENTS = {
     "rotational_spring_damper": "M",
     "angle": "M",
 }  # of each kind the result that is its force or moment
-LEAST = 1e-300  # N, N m: smallest divisor
+MIN_DIVISOR = 1e-300  # N, N m: smallest divisor
 GROUND = PointInfo("", -1, -1, -1)
 Number = tuple[int, float]  # index into the parameter values p, or −1 and the value itself
 
@@ -48,16 +48,16 @@ class Table:
     """Hold which forces act on which bodies of a scene: joints first, then elements, then joints with play."""
 
     signs: Array  # (n_bodies, n_forces) 1 for a force on the second body, −1 for its reaction
-    moved: NDArray[np.intp]  # bodies on which all forces are known
-    turned: NDArray[np.intp]  # bodies on which all moments are known, too
-    turning: Array  # (n_turned, n_joints + n_elements) the rows of `signs` of these bodies
+    with_known_forces: NDArray[np.intp]  # bodies on which all forces are known
+    with_known_moments: NDArray[np.intp]  # bodies on which all moments are known, too
+    signs_of_moments: Array  # (n_turned, n_joints + n_elements) the rows of `signs` of these bodies
     points: tuple[PointInfo, ...]  # (n_joints + n_elements,) at which the forces act
     elements: tuple[Element, ...]
     gravity: tuple[tuple[int, int], ...]  # given components: axis, index into p
 
 
 def table_of(source: KernelSource) -> Table:
-    """Return the table of forces of a scene; it is cached in the source."""
+    """Return the table of forces of a scene, built at the first call and cached in `source`."""
     kept = source.__dict__
     if "newton_euler" not in kept:
         kept["newton_euler"] = _build_table(source)
@@ -66,11 +66,13 @@ def table_of(source: KernelSource) -> Table:
 
 
 def _build_table(source: KernelSource) -> Table:
-    """Build the table of forces of a scene."""
+    """Build the table of forces of a scene: which forces act on which bodies, and on which bodies all of them are
+    known.
+    """
     places, n = {point.name: point for point in source.points}, len(source.bodies)
     points = [places[joint.point] for joint in source.joints]
     bodies = {"ground", *(body.name for body in source.bodies)}
-    found = [(part, _element_of_part(source, part)) for part in source.parts if part.section != "joints"]
+    found = [(part, _build_element(source, part)) for part in source.parts if part.section != "joints"]
     elements = tuple(element for _, element in found if element)
     lost = {
         name.partition(".")[0]
@@ -103,8 +105,11 @@ def _build_table(source: KernelSource) -> Table:
     )
 
 
-def _element_of_part(source: KernelSource, part: PartInfo) -> Element | None:
-    """Return a force element or drive as a pair of opposite forces; None for other parts."""
+def _build_element(source: KernelSource, part: PartInfo) -> Element | None:
+    """Return the Element of a force element or drive of the file; None for other kinds and unknown ends.
+
+    With one end, the ground is the first body.
+    """
     bodies = {body.name: PointInfo("", body.index, -1, -1) for body in source.bodies}
     places = bodies | {point.name: point for point in source.points}
     if part.kind not in ELEMENTS or not places.keys() >= set(part.ends):
@@ -123,70 +128,78 @@ def _element_of_part(source: KernelSource, part: PartInfo) -> Element | None:
 
 
 def _parse_number(source: KernelSource, address: str) -> Number | None:
-    """Return a number of the file as an index into p or as its written value; None for an expression."""
+    """Return a number of the file at an address as (index into p, 0) or (−1, value); None for an expression."""
     if address in source.place:
         return source.place[address], 0.0
     written = [json.loads(one.tree) for one in source.written if one.address == address]
     return (-1, float(written[0])) if written and isinstance(written[0], int | float) else None
 
 
-def newton_euler(compiled: CompiledModel, p: Array, q: Array, evaluation: Evaluation, at: NDArray[np.intp]) -> Array:
-    """Return the residual of each body's equations at samples `at`, relative to the largest term.
+def newton_euler(
+    compiled: CompiledModel, p: Array, q: Array, evaluation: Evaluation, samples: NDArray[np.intp]
+) -> Array:
+    """Compute the residuals of each body's Newton–Euler equations at the samples `samples`, relative to the largest
+    term.
 
     The shape is (len(at), n_bodies); bodies that are left out have 0.
     """
-    table, n = table_of(compiled.source), len(at)
-    worst = np.zeros((n, len(compiled.source.bodies)))
-    if not len(table.moved) or not n:
-        return worst
+    table, n = table_of(compiled.source), len(samples)
+    residuals = np.zeros((n, len(compiled.source.bodies)))
+    if not len(table.with_known_forces) or not n:
+        return residuals
     m = compiled.mass(p)
-    inertia = (evaluation.a[at] * m).reshape(n, -1, 3)
-    q = q[at].reshape(n, -1, 3)
+    inertia = (evaluation.a[samples] * m).reshape(n, -1, 3)
+    q = q[samples].reshape(n, -1, 3)
     wrenches = np.concatenate(
         [
-            evaluation.reactions[at, : len(compiled.source.joints)],
-            *(_element_wrench(element, p, q, evaluation, at)[:, np.newaxis] for element in table.elements),
+            evaluation.reactions[samples, : len(compiled.source.joints)],
+            *(_compute_element_wrench(element, p, q, evaluation, samples)[:, np.newaxis] for element in table.elements),
         ],
         axis=1,
     )
-    forces = np.concatenate([wrenches[:, :, :2], evaluation.clearance[at, :, :2]], axis=1)
-    left = inertia[:, :, :2] - table.signs @ forces
+    forces = np.concatenate([wrenches[:, :, :2], evaluation.clearance[samples, :, :2]], axis=1)
+    residual = inertia[:, :, :2] - table.signs @ forces
     for axis, k in table.gravity:
-        left[:, :, axis] -= m[::3] * p[k]
-    largest = max(np.abs(inertia[:, :, :2]).max(), np.abs(forces).max(initial=0.0), LEAST)
-    worst[:, table.moved] = np.abs(left[:, table.moved]).max(axis=2) / largest
-    if len(table.turned):
-        moments, longest = _moments(table, p, q, wrenches)
-        off = np.abs(inertia[:, table.turned, 2] - moments.sum(axis=2))
-        off /= max(np.abs(moments).max(initial=0.0), largest * longest, LEAST)
-        worst[:, table.turned] = np.maximum(worst[:, table.turned], off)
-    return worst
+        residual[:, :, axis] -= m[::3] * p[k]
+    largest = max(np.abs(inertia[:, :, :2]).max(), np.abs(forces).max(initial=0.0), MIN_DIVISOR)
+    residuals[:, table.with_known_forces] = np.abs(residual[:, table.with_known_forces]).max(axis=2) / largest
+    if len(table.with_known_moments):
+        moments, longest = _compute_moments(table, p, q, wrenches)
+        differences = np.abs(inertia[:, table.with_known_moments, 2] - moments.sum(axis=2))
+        differences /= max(np.abs(moments).max(initial=0.0), largest * longest, MIN_DIVISOR)
+        residuals[:, table.with_known_moments] = np.maximum(residuals[:, table.with_known_moments], differences)
+    return residuals
 
 
-def _element_wrench(element: Element, p: Array, q: Array, evaluation: Evaluation, at: NDArray[np.intp]) -> Array:
-    """Return force and moment (n, 3) in N and N m of an element on its second body; q is (n, n_bodies, 3)."""
-    wrench = np.zeros((len(at), 3))
+def _compute_element_wrench(
+    element: Element, p: Array, q: Array, evaluation: Evaluation, samples: NDArray[np.intp]
+) -> Array:
+    """Return force and moment (n, 3) in N and N m of an element on its second body at the samples `samples`.
+
+    `q` (n, n_bodies, 3): coordinates of the bodies there.
+    """
+    wrench = np.zeros((len(samples), 3))
     if element.kind == "angle":
-        wrench[:, 2] = evaluation.torques[at, element.column]
+        wrench[:, 2] = evaluation.torques[samples, element.column]
     elif element.kind == "dry_friction":
         u_x, u_y = (p[k] if k >= 0 else value for k, value in element.direction)
         theta = q[:, element.first.body, 2] * (element.first.body >= 0)
-        force = evaluation.friction[at, element.column, 0] / np.hypot(u_x, u_y)
+        force = evaluation.friction[samples, element.column, 0] / np.hypot(u_x, u_y)
         wrench[:, 0] = force * (np.cos(theta) * u_x - np.sin(theta) * u_y)
         wrench[:, 1] = force * (np.sin(theta) * u_x + np.cos(theta) * u_y)
     elif element.kind == "spring_damper":
-        span = _point_coordinates(element.first, p, q) - _point_coordinates(element.second, p, q)
-        length = np.maximum(np.hypot(span[:, 0], span[:, 1]), LEAST)
-        wrench[:, :2] = (evaluation.series[at, element.column] / length)[:, np.newaxis] * span
+        span = _compute_point_coordinates(element.first, p, q) - _compute_point_coordinates(element.second, p, q)
+        length = np.maximum(np.hypot(span[:, 0], span[:, 1]), MIN_DIVISOR)
+        wrench[:, :2] = (evaluation.series[samples, element.column] / length)[:, np.newaxis] * span
     elif element.kind == "force":
-        wrench[:, :2] = evaluation.series[at, element.column : element.column + 2]
+        wrench[:, :2] = evaluation.series[samples, element.column : element.column + 2]
     else:
-        wrench[:, 2] = evaluation.series[at, element.column]
+        wrench[:, 2] = evaluation.series[samples, element.column]
     return wrench
 
 
-def _point_coordinates(point: PointInfo, p: Array, q: Array) -> Array:
-    """Return the coordinates (n, 2) in m of a point; q is (n, n_bodies, 3)."""
+def _compute_point_coordinates(point: PointInfo, p: Array, q: Array) -> Array:
+    """Return the ground coordinates (n, 2) in m of a point of a body or of the ground; q is (n, n_bodies, 3)."""
     x = point.sign_x * p[point.x] if point.x >= 0 else 0.0
     y = point.sign_y * p[point.y] if point.y >= 0 else 0.0
     body = q[:, point.body] * (point.body >= 0)
@@ -194,16 +207,20 @@ def _point_coordinates(point: PointInfo, p: Array, q: Array) -> Array:
     return np.column_stack([body[:, 0] + c * x - s * y, body[:, 1] + s * x + c * y])
 
 
-def _moments(table: Table, p: Array, q: Array, wrenches: Array) -> tuple[Array, float]:
+def _compute_moments(table: Table, p: Array, q: Array, wrenches: Array) -> tuple[Array, float]:
     """Return moments about centres of mass (n, n_turned, n_joints + n_elements) in N m, and the longest arm in m.
 
     q is (n, n_bodies, 3). The longest arm of any body scales the rounding errors of moments: forces at a body's own
     centre of mass have no arm.
     """
-    points = np.array([_point_coordinates(point, p, q) for point in table.points]).reshape(-1, len(q), 2).swapaxes(0, 1)
+    points = (
+        np.array([_compute_point_coordinates(point, p, q) for point in table.points])
+        .reshape(-1, len(q), 2)
+        .swapaxes(0, 1)
+    )
     arms = points[:, np.newaxis] - q[:, :, np.newaxis, :2]
     acts = table.signs[:, : len(table.points)] != 0.0
     longest = float((np.hypot(arms[..., 0], arms[..., 1]) * acts).max(initial=0.0))
-    arm = arms[:, table.turned]
+    arm = arms[:, table.with_known_moments]
     F, M = wrenches[:, np.newaxis, :, :2], wrenches[:, np.newaxis, :, 2]
-    return np.asarray(table.turning * (M + arm[..., 0] * F[..., 1] - arm[..., 1] * F[..., 0])), longest
+    return np.asarray(table.signs_of_moments * (M + arm[..., 0] * F[..., 1] - arm[..., 1] * F[..., 0])), longest

@@ -30,54 +30,64 @@ NODES = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 9))
 COEFFICIENTS = np.linalg.inv(chebvander(2.0 * NODES - 1.0, len(NODES) - 1))
 FINE = chebvander(np.linspace(-1.0, 1.0, 129), len(NODES) - 1)  # matrix from coefficients to values at 129 points
 ROUNDS, AT_AN_END = 12, 3  # largest number of refinements, and the number if the maximum is at an end
-MOST = 16  # intervals of a block that are searched; the most promising first
-SAME = 1e-14  # of a value: a smaller increase is rounding, and the earlier time is reported
+MAX_INTERVALS = 16  # intervals of a block that are searched; the most promising first
+PEAK_TOL = 1e-14  # of a value: a smaller increase is rounding, and the earlier time is reported
 RESOLVED = 2e-4  # of the largest value of a block: allowed error of states predicted from their neighbours
 # matrix from five states to the values at INSIDE of their four intervals
 PREDICT = np.vander(np.arange(4) + INSIDE, 5) @ np.linalg.inv(np.vander(np.arange(5.0)))
-SMALL = 5e-9  # of the largest acceleration of its kind: smaller values are rounding
-EQUAL = 1e-6  # relative difference up to which intervals of a step count as equal
-MOST_HALVED = 4096  # largest number of intervals that are evaluated for one series of a block
-CLOSE = 1e-11  # of the largest value of a block: largest last coefficients of a resolved polynomial
+ACCELERATION_ROUNDING = 5e-9  # of the largest acceleration of its kind: smaller values are rounding
+INTERVAL_TOL = 1e-6  # relative difference up to which intervals of a step count as equal
+MAX_HALVED_INTERVALS = 4096  # largest number of intervals that are evaluated for one series of a block
+COEFFICIENT_TOL = 1e-11  # of the largest value of a block: largest last coefficients of a resolved polynomial
 
 
 class Search:
-    """Search the peaks of series over all steps of one run; `found` returns them."""
+    """Search the peaks of series over all steps of one run; it is a step observer.
+
+    `beside`: the scene from which errors of the series are computed, or None.
+    """
 
     def __init__(
         self,
         compiled: CompiledModel,
         names: Iterable[str],
-        numbers: tuple[Array, Array, Array],
-        beside: ComparedScene | None = None,
+        parameter_arrays: tuple[Array, Array, Array],
+        compared_scene: ComparedScene | None = None,
     ) -> None:
         self.names = tuple(names)
-        self.ours = Path(compiled, numbers, self.names)
-        self.beside = beside  # the scene with which errors are computed
-        self.theirs = Path(beside.compiled, beside.numbers, self.names) if beside else None
+        self.interpolant = Path(compiled, parameter_arrays, self.names)
+        self.beside = compared_scene  # the scene with which errors are computed
+        self.compared_interpolant = (
+            Path(compared_scene.compiled, compared_scene.numbers, self.names) if compared_scene else None
+        )
         self.kinds = [(name, False) for name in self.names]
-        if beside:
-            self.kinds += [(name, True) for name in self.names if name in beside.names]
+        if compared_scene:
+            self.kinds += [(name, True) for name in self.names if name in compared_scene.names]
         self.unresolved: set[str] = set()  # series that vary too fast for the search
         self.best: dict[tuple[str, bool, int], tuple[float, float]] = {}  # (name, is an error, sign) → value, time
 
     def __call__(self, steps: Steps) -> None:
-        """Process the next states of the run."""
-        self.ours.take(steps)
-        paths = [self.ours]
-        if self.theirs and self.beside and (followed := self.beside.follow(steps.t)) is not None:
-            self.theirs.take(followed)
-            paths.append(self.theirs)
+        """Process the next states of the run: update the peaks of all series, and of their errors while the other
+        scene runs.
+        """
+        self.interpolant.take(steps)
+        interpolants = [self.interpolant]
+        if self.compared_interpolant and self.beside and (followed := self.beside.follow(steps.t)) is not None:
+            self.compared_interpolant.take(followed)
+            interpolants.append(self.compared_interpolant)
         for name, error in self.kinds:
-            if not error or len(paths) == 2:
-                self._update_peaks(name, error, paths if error else paths[:1])
+            if not error or len(interpolants) == 2:
+                self._update_peaks(name, error, interpolants if error else interpolants[:1])
 
     def message(self) -> Observation:
-        """Return the peaks and notes as a Result stores them."""
+        """Return the peaks and notes as an Observation, which is stored in a Result."""
         return Observation(self.found(), self.notes())
 
     def found(self) -> tuple[Extremes, ...]:
-        """Return the extremes of each series, then those of errors against the other scene."""
+        """Return the extremes of each series, then those of errors against the other scene if it ran to the end.
+
+        Values and times are NaN for series without a finite value.
+        """
         unknown = (math.nan, math.nan)
         message = []
         for name, error in self.kinds:
@@ -85,159 +95,182 @@ class Search:
                 continue
             high, low = (self.best.get((name, error, sign), unknown) for sign in (1, -1))
             against = self.beside.scene if error and self.beside else ""
-            message.append(Extremes(name, self.ours.catalogue[name].unit, *high, 0.0 - low[0], low[1], against))
+            message.append(Extremes(name, self.interpolant.catalogue[name].unit, *high, 0.0 - low[0], low[1], against))
         return tuple(message)
 
     def notes(self) -> tuple[str, ...]:
         """Return the notes for the run: states left out, and series that could not be searched."""
         message = []
-        if self.ours.lost:
-            message.append(f"peaks: {self.ours.lost} states of steps have no accelerations and are left out")
+        if self.interpolant.lost:
+            message.append(f"peaks: {self.interpolant.lost} states of steps have no accelerations and are left out")
         for name in sorted(self.unresolved):
             message.append(f"peaks: {name} varies too fast within a step to be searched: a larger value may exist")
         if self.beside and self.beside.lost:
             message.append(f"errors over all steps are not known: scene {self.beside.scene}: {self.beside.lost}")
         return tuple(message)
 
-    def _update_peaks(self, name: str, error: bool, paths: list[Path]) -> None:
-        """Update the peaks of one series from the present states and the intervals between them."""
-        values = _subtract_other([path.values(name) for path in paths])
-        t, inner = self.ours.steps.t, self.ours.inner
+    def _update_peaks(self, name: str, is_error: bool, interpolants: list[Path]) -> None:
+        """Update the peaks of one series, or of its `is_error`, from the present states and the intervals between them.
+
+        `interpolants`: that of the run, then for errors that of the other scene. At most MOST intervals are searched,
+        the most promising first.
+        """
+        values = _subtract_other([path.values(name) for path in interpolants])
+        t, inner = self.interpolant.steps.t, self.interpolant.inner
         scale = max(
-            float(np.abs(values[np.isfinite(values)]).max(initial=0.0)), SMALL * self._largest_acceleration(name)
+            float(np.abs(values[np.isfinite(values)]).max(initial=0.0)),
+            ACCELERATION_ROUNDING * self._find_largest_acceleration(name),
         )
-        if not error:
-            for k in np.flatnonzero(_find_unresolved(self.ours, name, values, RESOLVED * scale)).tolist():
-                self._halve(name, k, scale)
+        if not is_error:
+            for k in np.flatnonzero(_find_unresolved(self.interpolant, name, values, RESOLVED * scale)).tolist():
+                self._refine_unresolved(name, k, scale)
         for sign in (1, -1):
-            key = (name, error, sign)
+            key = (name, is_error, sign)
             if np.isfinite(sign * values).any():
                 k = int(np.nanargmax(np.where(np.isfinite(values), sign * values, -np.inf)))
                 self._store_peak(key, float(sign * values[k]), float(t[k]))
-            rises = _estimate_maxima(t, sign * values, inner)
-            for k in np.argsort(-rises, kind="stable")[:MOST].tolist():
-                if not rises[k] > self.best.get(key, (-math.inf, 0.0))[0]:
+            estimates = _estimate_maxima(t, sign * values, inner)
+            for k in np.argsort(-estimates, kind="stable")[:MAX_INTERVALS].tolist():
+                if not estimates[k] > self.best.get(key, (-math.inf, 0.0))[0]:
                     break
-                self._refine_maximum(key, k, paths, scale)
+                self._refine_maximum(key, k, interpolants, scale)
 
     def _refine_maximum(
         self,
         key: tuple[str, bool, int],
         k: int,
-        paths: list[Path],
+        interpolants: list[Path],
         scale: float,
-        within: tuple[float, float] | None = None,
+        time_range: tuple[float, float] | None = None,
     ) -> None:
         """Refine the maximum between states k and k + 1, until a polynomial through the samples resolves it.
 
-        `within`: begin and end (s) of the part that is searched; None: the whole interval.
+        `time_range`: begin and end (s) of the part that is searched; None: the whole interval.
         """
-        low, high = within or self.ours.steps.t[k : k + 2].tolist()
+        low, high = time_range or self.interpolant.steps.t[k : k + 2].tolist()
         for turn in range(ROUNDS):
             times = low + NODES * (high - low)
-            values = key[2] * _subtract_other([path.between(k, times, key[0]) for path in paths])
+            values = key[2] * _subtract_other([path.between(k, times, key[0]) for path in interpolants])
             known = np.where(np.isfinite(values), values, -np.inf)
             best = int(known.argmax())
             self._store_peak(key, float(known[best]), float(times[best]))
             if np.isfinite(values).all():
                 parts = COEFFICIENTS @ values
-                if np.abs(parts[-2:]).max() <= CLOSE * scale:
-                    top, share = _polynomial_maximum(parts)
+                if np.abs(parts[-2:]).max() <= COEFFICIENT_TOL * scale:
+                    top, share = _find_polynomial_maximum(parts)
                     self._store_peak(key, top, low + share * (high - low))
                     break
             if not times[1] > times[0] or (best in (0, len(NODES) - 1) and turn >= AT_AN_END):
                 break
             low, high = float(times[max(best - 1, 0)]), float(times[min(best + 1, len(NODES) - 1)])
 
-    def _halve(self, name: str, k: int, scale: float) -> None:
-        """Sample a series between states k and k + 1 on intervals that are halved until polynomials resolve it."""
-        parts, looked = self.ours.steps.t[np.newaxis, k : k + 2], 0
-        while len(parts) and looked < MOST_HALVED:
-            looked += len(parts)
-            low, high = parts[:, :1], parts[:, 1:]
+    def _refine_unresolved(self, name: str, k: int, scale: float) -> None:
+        """Sample a series between states k and k + 1 on intervals that are halved until polynomials resolve it.
+
+        Maxima above the known peak are refined and stored. A series that needs too many intervals is recorded in
+        `unresolved`. `scale`: size of its values.
+        """
+        intervals, n_sampled = self.interpolant.steps.t[np.newaxis, k : k + 2], 0
+        while len(intervals) and n_sampled < MAX_HALVED_INTERVALS:
+            n_sampled += len(intervals)
+            low, high = intervals[:, :1], intervals[:, 1:]
             times = low + NODES * (high - low)
-            values = self.ours.between(k, times.ravel(), name).reshape(times.shape)
+            values = self.interpolant.between(k, times.ravel(), name).reshape(times.shape)
             known = np.asarray(np.isfinite(values).all(axis=1))
             coefficients = np.where(known[:, np.newaxis], values, 0.0) @ COEFFICIENTS.T
-            split = np.abs(coefficients[:, -2:]).max(axis=1) > RESOLVED * scale
-            split &= times[:, 1] > times[:, 0]
-            for j in np.flatnonzero(known & ~split).tolist():
+            is_unresolved = np.abs(coefficients[:, -2:]).max(axis=1) > RESOLVED * scale
+            is_unresolved &= times[:, 1] > times[:, 0]
+            for j in np.flatnonzero(known & ~is_unresolved).tolist():
                 for sign in (1, -1):
-                    if _polynomial_maximum(sign * coefficients[j])[0] + RESOLVED * scale > self._highest(name, sign):
-                        self._refine_maximum((name, False, sign), k, [self.ours], scale, (low[j, 0], high[j, 0]))
+                    if _find_polynomial_maximum(sign * coefficients[j])[0] + RESOLVED * scale > self._get_peak(
+                        name, sign
+                    ):
+                        self._refine_maximum((name, False, sign), k, [self.interpolant], scale, (low[j, 0], high[j, 0]))
             middle = 0.5 * (low + high)
-            parts = np.concatenate([np.hstack([low, middle])[split], np.hstack([middle, high])[split]])
-        if len(parts):
+            intervals = np.concatenate(
+                [np.hstack([low, middle])[is_unresolved], np.hstack([middle, high])[is_unresolved]]
+            )
+        if len(intervals):
             self.unresolved.add(name)
 
-    def _largest_acceleration(self, name: str) -> float:
-        """Return the largest acceleration of the block with the unit of a series; 0 for other series."""
-        kinds = {"m/s^2": [0, 1], "rad/s^2": [2]}.get(self.ours.catalogue[name].unit, [])
-        a = np.abs(self.ours.run.a[1:]).reshape(-1, self.ours.compiled.n // 3, 3)[:, :, kinds]
+    def _find_largest_acceleration(self, name: str) -> float:
+        """Return the largest finite acceleration of the block, linear or angular by the unit of a series; 0 for
+        other units.
+        """
+        kinds = {"m/s^2": [0, 1], "rad/s^2": [2]}.get(self.interpolant.catalogue[name].unit, [])
+        a = np.abs(self.interpolant.run.a[1:]).reshape(-1, self.interpolant.compiled.n // 3, 3)[:, :, kinds]
         return float(a[np.isfinite(a)].max(initial=0.0))
 
-    def _highest(self, name: str, sign: int) -> float:
-        """Return the largest known value of sign times a series."""
+    def _get_peak(self, name: str, sign: int) -> float:
+        """Return the largest known value of sign times a series; −infinity if there is none."""
         return self.best.get((name, False, sign), (-math.inf, 0.0))[0]
 
     def _store_peak(self, key: tuple[str, bool, int], value: float, t: float) -> None:
-        """Store a value and its time, if it exceeds the known peak by more than rounding."""
-        if math.isfinite(value) and (key not in self.best or value - self.best[key][0] > SAME * abs(value)):
+        """Store a value and its time t (s) for `key`, if it is finite and exceeds the known peak by more than
+        rounding.
+        """
+        if math.isfinite(value) and (key not in self.best or value - self.best[key][0] > PEAK_TOL * abs(value)):
             self.best[key] = float(value), float(t)
 
 
-def _polynomial_maximum(parts: Array) -> tuple[float, float]:
-    """Return the maximum of a polynomial with given Chebyshev coefficients, and its position in [0, 1]."""
-    fine = FINE @ parts
+def _find_polynomial_maximum(coefficients: Array) -> tuple[float, float]:
+    """Return the maximum over [0, 1] of a polynomial with Chebyshev coefficients `coefficients` (9,), and its position.
+
+    The maximum is found on 129 points and refined by a parabola.
+    """
+    fine = FINE @ coefficients
     k = int(fine.argmax())
-    share = k / (len(fine) - 1)
+    position = k / (len(fine) - 1)
     if 0 < k < len(fine) - 1:
-        bend = fine[k - 1] - 2.0 * fine[k] + fine[k + 1]
-        share += 0.5 * (fine[k - 1] - fine[k + 1]) / bend / (len(fine) - 1) if bend < 0.0 else 0.0
-    return float(max(fine[k], chebval(2.0 * share - 1.0, parts))), share
+        second_difference = fine[k - 1] - 2.0 * fine[k] + fine[k + 1]
+        position += (
+            0.5 * (fine[k - 1] - fine[k + 1]) / second_difference / (len(fine) - 1) if second_difference < 0.0 else 0.0
+        )
+    return float(max(fine[k], chebval(2.0 * position - 1.0, coefficients))), position
 
 
-def _subtract_other(values: list[Array]) -> Array:
+def _subtract_other(series: list[Array]) -> Array:
     """Return a series, or its difference from that of another scene if two are given."""
-    return values[0] if len(values) == 1 else values[0] - values[1]
+    return series[0] if len(series) == 1 else series[0] - series[1]
 
 
-def _find_unresolved(path: Path, name: str, values: Array, allowed: float) -> NDArray[np.bool_]:
+def _find_unresolved(interpolant: Path, name: str, values: Array, tolerance: float) -> NDArray[np.bool_]:
     """Return a mask (K − 1,) of the intervals in which the states do not resolve a series.
 
     Five states at equal intervals of one step predict the series at INSIDE of each interval by a polynomial of order 4.
-    The series is not resolved where the value differs by more than `allowed`.
+    The series is not resolved where the value differs by more than `tolerance`. Kinematic motions and films are not
+    tested.
     """
-    out = np.zeros(max(len(values) - 1, 0), bool)
-    if len(values) < len(PREDICT) + 1 or path.exact or path.films:
-        return out
+    is_unresolved = np.zeros(max(len(values) - 1, 0), bool)
+    if len(values) < len(PREDICT) + 1 or interpolant.exact or interpolant.films:
+        return is_unresolved
     windows = np.lib.stride_tricks.sliding_window_view
-    h = np.where(path.inner, np.diff(path.steps.t), np.nan)
+    h = np.where(interpolant.inner, np.diff(interpolant.steps.t), np.nan)
     with np.errstate(invalid="ignore"):
         four = windows(h, len(PREDICT))
-        equal = np.flatnonzero(np.abs(four - four[:, :1]).max(axis=1) < EQUAL * four[:, 0])
+        equal = np.flatnonzero(np.abs(four - four[:, :1]).max(axis=1) < INTERVAL_TOL * four[:, 0])
         if len(equal):
-            there = windows(path.inside(name), len(PREDICT))[equal]
+            inner_values = windows(interpolant.inside(name), len(PREDICT))[equal]
             predicted = windows(values, len(PREDICT) + 1)[equal] @ PREDICT.T
-            for k in equal[(np.abs(there - predicted) > allowed).any(axis=1)].tolist():
-                out[k : k + len(PREDICT)] = True
-    return out
+            for k in equal[(np.abs(inner_values - predicted) > tolerance).any(axis=1)].tolist():
+                is_unresolved[k : k + len(PREDICT)] = True
+    return is_unresolved
 
 
-def _estimate_maxima(t: Array, values: Array, inner: NDArray[np.bool_]) -> Array:
+def _estimate_maxima(t: Array, values: Array, is_within_step: NDArray[np.bool_]) -> Array:
     """Return an upper estimate (K − 1,) of a series between states k and k + 1; −∞ if no value exceeds the ends.
 
-    It is the maximum of a parabola through both ends, with twice the second derivative that neighbours show. `inner` (K
-    − 1,): intervals within one step.
+    It is the maximum of a parabola through both ends, with twice the second derivative that neighbours show.
+    `is_within_step`: mask (K − 1,) of intervals within one step; others give −∞.
     """
-    out = np.full(max(len(t) - 1, 0), -np.inf)
+    estimates = np.full(max(len(t) - 1, 0), -np.inf)
     if len(t) < 3:
-        return out
+        return estimates
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-        h, way = np.diff(t), np.diff(values)
-        bend = np.abs(np.diff(way / h)) / (t[2:] - t[:-2]) * 2.0  # at states 1 to K − 2
-        bend = np.where(inner[1:] & inner[:-1] & np.isfinite(bend), bend, 0.0)
-        most = 2.0 * np.maximum(np.append(bend, 0.0), np.insert(bend, 0, 0.0)) * h**2
-        top = 0.5 + way / most  # share of the part at which the parabola is highest
-        height = values[:-1] + way * top + 0.5 * most * top * (1.0 - top)
-    return np.where(inner & (top > 0.0) & (top < 1.0) & np.isfinite(height), height, out)
+        h, differences = np.diff(t), np.diff(values)
+        curvature = np.abs(np.diff(differences / h)) / (t[2:] - t[:-2]) * 2.0  # at states 1 to K − 2
+        curvature = np.where(is_within_step[1:] & is_within_step[:-1] & np.isfinite(curvature), curvature, 0.0)
+        curvature_term = 2.0 * np.maximum(np.append(curvature, 0.0), np.insert(curvature, 0, 0.0)) * h**2
+        top = 0.5 + differences / curvature_term  # share of the part at which the parabola is highest
+        height = values[:-1] + differences * top + 0.5 * curvature_term * top * (1.0 - top)
+    return np.where(is_within_step & (top > 0.0) & (top < 1.0) & np.isfinite(height), height, estimates)

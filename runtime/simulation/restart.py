@@ -27,15 +27,16 @@ from gudgeon.model.contours import put
 from gudgeon.model.parameters import given_slots
 from gudgeon.results.results import State
 
-OPEN = 1e-6  # rad, or relative to the mechanism's size: largest constraint violation that a run leaves
+MAX_VIOLATION = 1e-6  # rad, or relative to the mechanism's size: largest constraint violation that a run leaves
 # code of an open contact, and a hint for messages
-FREE, AS_IT_WAS = 0, "the `final` of a run has both as they belong together"
+FREE, HINT_FINAL = 0, "the `final` of a run has both as they belong together"
 MAX_REPORTED = 6  # largest number of parameters or constraint equations that a message names
 
 
 def own(source: KernelSource, start: Any) -> State:
-    """Return a copy of the state with arrays as C needs them. Raise BadValueError if it does not belong to the
-    scene.
+    """Check the argument `start` and return a copy of the state with arrays as C needs them.
+
+    Raises BadValueError if it is not a State of the scene, ArrayError for wrong shapes or values.
     """
     if not isinstance(start, State):
         hint = "the `final` of a run" if not hasattr(start, "final") else "its `final`"
@@ -57,19 +58,19 @@ def own(source: KernelSource, start: Any) -> State:
     )
 
 
-def checked_states(source: KernelSource, start: Any, rows: int) -> list[State]:
-    """Return the states of a batch, one per run, from one for all of `rows` runs or one each; [] without a start.
+def checked_states(source: KernelSource, start: Any, n_runs: int) -> list[State]:
+    """Return the checked states of a batch, one per run, from one state for all of `n_runs` runs or one each.
 
-    Raises BadValueError if their number or their times do not fit.
+    Return [] without a start. Raises BadValueError if their number does not fit, or if their times differ.
     """
     if start is None:
         return []
     single = isinstance(start, State) or not isinstance(start, Iterable) or getattr(start, "ndim", 1) == 0
     if single or hasattr(start, "final"):
-        return [own(source, start)] * rows
+        return [own(source, start)] * n_runs
     states = [own(source, one) for one in start]
-    if len(states) != rows and 1 not in (rows, len(states)) or not states:
-        message = f"start has {counted(len(states), 'state')} for {counted(rows, 'run')}"
+    if len(states) != n_runs and 1 not in (n_runs, len(states)) or not states:
+        message = f"start has {counted(len(states), 'state')} for {counted(n_runs, 'run')}"
         raise BadValueError(message, hint="one state, or one for every run")
     times = sorted({state.t for state in states})
     if len(times) > 1:
@@ -77,11 +78,11 @@ def checked_states(source: KernelSource, start: Any, rows: int) -> list[State]:
             f"start: states at {times[0]:.9g} s and {times[-1]:.9g} s: the runs of a batch have their times together"
         )
         raise BadValueError(message, hint="states at the same time, or a batch for each time")
-    return states * rows if len(states) == 1 else states
+    return states * n_runs if len(states) == 1 else states
 
 
 def _check_memory(source: KernelSource, state: Array, memory: Array) -> None:
-    """Raise BadValueError for a contact whose code and stored approach speed contradict each other.
+    """Raise BadValueError if contact codes and discrete states of a state contradict each other.
 
     Closed contacts need a finite approach speed, open ones NaN. Inner states and friction modes are checked too.
     """
@@ -92,21 +93,22 @@ def _check_memory(source: KernelSource, state: Array, memory: Array) -> None:
             message, expected = f"is {rate:g} while start.state[{k}] is {code}", "the rate (m/s) with which it closed"
         else:
             continue
-        raise BadValueError(f"start.memory[{k}] of joint {joint.name} {message}: expected {expected}", hint=AS_IT_WAS)
+        raise BadValueError(f"start.memory[{k}] of joint {joint.name} {message}: expected {expected}", hint=HINT_FINAL)
     first = len(memory) - len(source.states)
     for k, (name, z) in enumerate(zip(source.states, memory[first:].tolist(), strict=True), first):
         joint_of = (k - first) * len(state) // max(len(source.states), 1)
         if name and not math.isfinite(z) and not (math.isnan(z) and state[joint_of] == FREE):
             message = f"start.memory[{k}], the inner state {name}, is {z:g}: expected a length (m), or NaN while free"
-            raise BadValueError(message, hint=AS_IT_WAS)
+            raise BadValueError(message, hint=HINT_FINAL)
     if np.isinf(memory).any():
         k = int(np.isinf(memory).argmax())
         message = f"start.memory[{k}] is {memory[k]:g}: expected the mode of a friction, or NaN"
-        raise BadValueError(message, hint=AS_IT_WAS)
+        raise BadValueError(message, hint=HINT_FINAL)
 
 
 def _check_origin(source: KernelSource, start: State) -> None:
-    """Raise BadValueError if a state belongs to another mechanism, scene, file or overrides.
+    """Raise BadValueError if a state belongs to another mechanism, scene, file or overrides, or its fields have wrong
+    types.
 
     Fields that are empty, as in a state made by hand, are not compared.
     """
@@ -121,7 +123,7 @@ def _check_origin(source: KernelSource, start: State) -> None:
             f" this is {source.mechanism} / {source.scene}"
         )
     if start.sha256 not in ("", source.whole_sha256):
-        changed = _changed_files(source, start)
+        changed = _find_changed_files(source, start)
         if changed:
             message = f"start: this state was computed with another {' and another '.join(changed)}"
             hint = "go on with what it was computed with, or run this one from its start"
@@ -139,13 +141,16 @@ def _check_origin(source: KernelSource, start: State) -> None:
         )
 
 
-def _changed_files(source: KernelSource, start: State) -> list[str]:
-    """Return the laws and tables that differ from those of the state, if the file itself is the same."""
-    then, now = dict(start.beside), dict(source.beside)
+def _find_changed_files(source: KernelSource, start: State) -> list[str]:
+    """Return the names of laws and tables that differ from those of the state, as "law x" or "table y".
+
+    Return [] if the file itself differs.
+    """
+    keys_of_state, present_keys = dict(start.beside), dict(source.beside)
     if replace(source, tables=start.beside, laws=()).whole_sha256 != start.sha256:
         return []
     kinds = {name: "law" for name, _ in source.laws} | {name: "table" for name, _ in source.tables}
-    return [f"{kinds[name]} {name}" for name in kinds if then.get(name) != now[name]]
+    return [f"{kinds[name]} {name}" for name in kinds if keys_of_state.get(name) != present_keys[name]]
 
 
 def numbers(
@@ -154,45 +159,47 @@ def numbers(
     parameters: Mapping[str, Any] | None,
     contour: Mapping[str, Array] = MappingProxyType({}),
 ) -> tuple[Array, Array, tuple[str, ...]]:
-    """Return values and mask (n_slots,) of the given run-time parameters, and notes on them.
+    """Return values and mask (n_slots,) of the run-time parameters given by state, arguments and contours, and notes.
 
-    Parameters of the state hold unless they are given anew.
+    Parameters of the state hold unless `parameters` or `contour` give them anew; a note then lists those that changed.
     """
     given, is_given = given_slots(compiled.source, parameters)
     put(compiled.source, contour, given, is_given)
     if start is None:
         return given, is_given, choice_notes(compiled.source, given, is_given)
     if not mapping(start.parameters, "start.parameters"):
-        before, was_given = np.zeros_like(given), np.zeros_like(is_given)
+        values_of_state, is_given_by_state = np.zeros_like(given), np.zeros_like(is_given)
     else:
-        before, was_given = given_slots(compiled.source, start.parameters, "start.parameters")
-    both, mask = np.where(is_given, given, before), np.logical_or(is_given, was_given)
-    selected = choice_notes(compiled.source, both, mask)
+        values_of_state, is_given_by_state = given_slots(compiled.source, start.parameters, "start.parameters")
+    values, mask = np.where(is_given, given, values_of_state), np.logical_or(is_given, is_given_by_state)
+    selected = choice_notes(compiled.source, values, mask)
     if not is_given.any():
-        return both, mask, selected
-    had, has = compiled.prepare(before, was_given), compiled.prepare(both, mask)
-    changed = [k for k in np.flatnonzero(is_given).tolist() if had[k] != has[k]]
+        return values, mask, selected
+    p_before, p = compiled.prepare(values_of_state, is_given_by_state), compiled.prepare(values, mask)
+    changed = [k for k in np.flatnonzero(is_given).tolist() if p_before[k] != p[k]]
     if not changed:
-        return both, mask, selected
+        return values, mask, selected
     slots = compiled.source.slots
-    message = [
-        f"{slots[k].address} {_format_value(has[k], slots[k])} (before {_format_value(had[k], slots[k])})"
+    changes = [
+        f"{slots[k].address} {_format_value(p[k], slots[k])} (before {_format_value(p_before[k], slots[k])})"
         for k in changed[:MAX_REPORTED]
     ]
     more = f" and {len(changed) - MAX_REPORTED} more" if len(changed) > MAX_REPORTED else ""
     return (
-        both,
+        values,
         mask,
         (
             *selected,
-            f"goes on from t = {start.t:.9g} s with other numbers: {', '.join(message)}{more}",
+            f"goes on from t = {start.t:.9g} s with other numbers: {', '.join(changes)}{more}",
         ),
     )
 
 
 def check_resumable(compiled: CompiledModel, start: State, p: Array) -> None:
-    """Raise AssemblyError if the parameter values p leave constraint equations open at the state to resume from."""
-    if message := _violated_equations(compiled, p, compiled.phi(start.t, start.q, p)):
+    """Raise AssemblyError if the constraint equations are violated at the state to resume from with parameter values
+    p.
+    """
+    if message := _format_violated_equations(compiled, p, compiled.phi(start.t, start.q, p)):
         raise AssemblyError(
             f"start: the state at t = {start.t:.9g} s does not fit the numbers given: rows {message} are "
             "open by so much\n"
@@ -202,17 +209,19 @@ def check_resumable(compiled: CompiledModel, start: State, p: Array) -> None:
 
 
 def constraint_violation_notes(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array) -> tuple[str, ...]:
-    """Return a note if the state to resume from, q, v (n,) at t (s), violates the constraints; else ().
+    """Return a note if the state q, v (n,) at t (s) to resume from violates the constraints; else ().
 
     Positions must satisfy Φ(t, q) = 0, velocities Φ_q q̇ = ν, up to the rounding of their terms. A run never leaves
     such a state; one made by hand may be.
     """
     source = compiled.source
     with np.errstate(all="ignore"):  # the run itself tells what is not finite
-        message = _violated_equations(compiled, p, compiled.phi(t, q, p))
+        message = _format_violated_equations(compiled, p, compiled.phi(t, q, p))
         if not message:
             phi_q, nu = compiled.phi_q(t, q, p), compiled.nu(t, q, p)
-            message = _violated_equations(compiled, p, phi_q @ v - nu, np.abs(phi_q) @ np.abs(v) + np.abs(nu), "/s")
+            message = _format_violated_equations(
+                compiled, p, phi_q @ v - nu, np.abs(phi_q) @ np.abs(v) + np.abs(nu), "/s"
+            )
     if not message:
         return ()
     used = "the run takes the coordinates that it integrates, and closes the others anew"
@@ -223,24 +232,25 @@ def constraint_violation_notes(compiled: CompiledModel, p: Array, t: float, q: A
     return (f"the state at t = {t:.9g} s is off the constraints, rows {message}: {used}",)
 
 
-def _violated_equations(
-    compiled: CompiledModel, p: Array, by: Array, terms: Array | float = 0.0, rate: str = ""
+def _format_violated_equations(
+    compiled: CompiledModel, p: Array, residuals: Array, terms: Array | float = 0.0, unit_suffix: str = ""
 ) -> str:
-    """Return the names of constraint equations violated by more than a run leaves: "rod.length (0.1 m)".
+    """Return the names of constraint equations violated by more than a run leaves, as "rod.length (0.1 m)"; "" if none.
 
-    `by` (m,): residuals; `terms` (m,): sizes of their terms.
+    `residuals` (m,): residuals; `terms` (m,): sizes of their terms, which allow more; `unit_suffix`: "/s" for
+    velocities.
     """
     rows, size = compiled.source.rows, mechanism_size(compiled, p)
-    allowed = OPEN * (np.array([size if row.unit == "m" else 1.0 for row in rows]) + terms)
-    message = [
-        f"{row.name} ({x:.3g} {row.unit}{rate})"
-        for row, x, most in zip(rows, by, allowed, strict=True)
-        if not abs(x) <= most
+    allowed = MAX_VIOLATION * (np.array([size if row.unit == "m" else 1.0 for row in rows]) + terms)
+    violated = [
+        f"{row.name} ({x:.3g} {row.unit}{unit_suffix})"
+        for row, x, limit in zip(rows, residuals, allowed, strict=True)
+        if not abs(x) <= limit
     ]
-    more = f" and {len(message) - MAX_REPORTED} more" if len(message) > MAX_REPORTED else ""
-    return f"{', '.join(message[:MAX_REPORTED])}{more}" if message else ""
+    more = f" and {len(violated) - MAX_REPORTED} more" if len(violated) > MAX_REPORTED else ""
+    return f"{', '.join(violated[:MAX_REPORTED])}{more}" if violated else ""
 
 
 def _format_value(value: float, slot: Slot) -> str:
-    """Return the text of a parameter value with its unit, or its word."""
+    """Return a parameter value as text with its unit, or as the word that it stands for."""
     return str(specified(slot, float(value))) if slot.words else f"{value:.6g} {slot.unit}".strip()

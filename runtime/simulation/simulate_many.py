@@ -81,34 +81,42 @@ def simulate_many(
     contour: Any = None,
     audit: bool | str = True,
 ) -> Batch:
-    """Run each of many parameter sets and return the Batch; arguments as in Simulation.simulate_many."""
+    """Check the arguments of Simulation.simulate_many, prepare all runs, integrate them in threads and return the
+    Batch.
+
+    A run with invalid parameters, start, times or step is listed in the failures of the Batch and not run. Raises
+    BadValueError for arguments that no run can use.
+    """
     method, progress = text(method, "method"), function(progress, "progress")
     simulation = simulation.of_method(method, progress)
     compiled, source = simulation.compiled, simulation.source
     names, against = requested_peaks(source, peaks), check_compared_scene(source, against)
-    each = EachRun(compiled, t_end, output, step)
-    worn = read_contours(source, contour, runs=True)
-    starts = _Starts(simulation, parameters, start, each, worn)
+    run_arguments = EachRun(compiled, t_end, output, step)
+    contours = read_contours(source, contour, runs=True)
+    starts = _Starts(simulation, parameters, start, run_arguments, contours)
     stop, side_by_side, level = flag(stop, "stop"), flag(side_by_side, "side_by_side"), audit_level(audit)
     workers = available_threads() if threads is None else threads
     if not is_whole(workers) or workers < 1:
         raise BadValueError(f"threads is {message(threads)}: expected a number of threads, 1 or more")
     workers = int(min(workers, max(len(starts.given), 1)))  # no more than there is to do
-    series = _series_to_store(source, keep)
+    series = _select_stored_series(source, keep)
     selected = method_of(source, method, step is not None)
     tolerance = adaptive.tolerance(rtol, selected, step is not None)
-    requested = Asked(selected, tolerance, workers, progress, stop, side_by_side, series, names, against, level)
-    p, motion, bad = prepare_sets(compiled, starts.given, starts.is_given, selected != "rk4")
-    bad |= starts.bad | starts.unfit(p, bad)
-    times = each.times(p, starts.t, bad)
+    options = _BatchOptions(selected, tolerance, workers, progress, stop, side_by_side, series, names, against, level)
+    p, p_motion, failures = prepare_sets(compiled, starts.given, starts.is_given, selected != "rk4")
+    failures |= starts.failures | starts.find_unfit_runs(p, failures)
+    times = run_arguments.times(p, starts.t, failures)
     check_room(compiled, times.most, len(p), series, evaluation_parts_of(source, series or ()), workers)
-    steps = each.lengths_of_steps(selected, p, times, bad)
-    bad |= each.bad
-    return _run_batch(simulation, starts, (p, motion, steps), times, bad, requested)
+    steps = run_arguments.lengths_of_steps(selected, p, times, failures)
+    failures |= run_arguments.failures
+    return _run_batch(simulation, starts, (p, p_motion, steps), times, failures, options)
 
 
-def _series_to_store(source: KernelSource, keep: str | Iterable[str]) -> tuple[str, ...] | None:
-    """Return the names of the series to be stored, or None if states are stored."""
+def _select_stored_series(source: KernelSource, keep: str | Iterable[str]) -> tuple[str, ...] | None:
+    """Return the checked names of the series to store, without "t"; None if the states are stored (`keep` is "states").
+
+    Raises UnknownNameError or BadValueError for names that the scene does not have.
+    """
     if isinstance(keep, str) and keep == STATES:
         return None
     return tuple(name for name in check_series_names(source, keep, "keep") if name != "t")
@@ -117,47 +125,52 @@ def _series_to_store(source: KernelSource, keep: str | Iterable[str]) -> tuple[s
 def _run_batch(
     simulation: Simulation,
     starts: _Starts,
-    numbers: tuple[Array, Array, Array],
+    arrays: tuple[Array, Array, Array],
     times: Times,
-    bad: dict[int, Any],
-    requested: Asked,
+    failures: dict[int, Any],
+    options: _BatchOptions,
 ) -> Batch:
-    """Run all prepared runs to their ends and return the Batch. A drive that jumps ends its run before the jump."""
-    p, motion, steps = numbers
-    jumps = first_jumps(simulation.source, p, starts.t, times.ends().tolist(), bad)
-    own_times = times.before({i: end_before(jump, starts.t) for i, jump in jumps.items()})
-    kept = None if requested.keep is None else KeptSeries(simulation.source, requested.keep, len(p), times)
+    """Run all prepared runs to their ends and return the Batch with its wall time.
+
+    `arrays`: parameter values (n_runs, …), those of the motion without Baumgarte terms, and fixed steps (s).
+    `failures`: errors by index of the runs that are left out. A drive that jumps ends its run before the jump, with an
+    error.
+    """
+    p, p_motion, steps = arrays
+    jumps = first_jumps(simulation.source, p, starts.t, times.ends().tolist(), failures)
+    run_times = times.before({i: end_before(jump, starts.t) for i, jump in jumps.items()})
+    stored_series = None if options.keep is None else _StoredSeries(simulation.source, options.keep, len(p), times)
     runs = many.Runs(
         simulation.compiled,
         p,
-        motion,
-        own_times,
-        requested.method,
+        p_motion,
+        run_times,
+        options.method,
         steps,
-        requested.rtol,
-        requested.stop,
-        requested.audit,
-        requested.side_by_side,
-        requested.threads,
-        kept is not None,
-        DRIVES.get(requested.method),
+        options.rtol,
+        options.stop,
+        options.audit,
+        options.side_by_side,
+        options.threads,
+        stored_series is not None,
+        DRIVES.get(options.method),
     )
     runs.begin(starts.states)
-    runs.leave_out(bad)
-    runs.looks = searches = starts.searches(p, bad, requested)
-    results = _Results(simulation, runs, starts, requested, kept)
-    before = time.perf_counter()
-    results.run(requested.progress)
+    runs.leave_out(failures)
+    runs.looks = observers = starts.make_observers(p, failures, options)
+    results = _Results(simulation, runs, starts, options, stored_series)
+    time_at_begin = time.perf_counter()
+    results.run(options.progress)
     for i in (i for i in jumps if i not in runs.failures and runs.is_complete(i)):
         runs.failures[i] = jump_failure(simulation.source, jumps[i])
     warn_unfollowed_in_runs(simulation.source, [*runs.unfollowed.values(), *[{}] * (runs.n - len(runs.unfollowed))])
-    results.message = [search.message() if search else Observation() for search in searches]
+    results.message = [search.message() if search else Observation() for search in observers]
     batch = _build_batch(results, times)
-    return replace(batch, seconds=time.perf_counter() - before, threads=requested.threads)
+    return replace(batch, seconds=time.perf_counter() - time_at_begin, threads=options.threads)
 
 
 @dataclass(frozen=True)
-class Asked:
+class _BatchOptions:
     """Hold the checked options that all runs of a batch share."""
 
     method: str
@@ -179,48 +192,62 @@ class _Starts:
     """
 
     def __init__(
-        self, simulation: Simulation, parameters: ParameterSets, start: Any, each: EachRun, worn: dict[str, Array]
+        self,
+        simulation: Simulation,
+        parameters: ParameterSets,
+        start: Any,
+        run_arguments: EachRun,
+        contours: dict[str, Array],
     ) -> None:
-        self.compiled, self.worn = simulation.compiled, worn
-        rows, self.bad = rows_of(parameters)
-        own = next((len(contour) for contour in worn.values() if contour.ndim == 2), len(rows))
-        if own != len(rows) and len(rows) > 1:
+        self.compiled, self.contours = simulation.compiled, contours
+        rows, self.failures = rows_of(parameters)
+        count = next((len(contour) for contour in contours.values() if contour.ndim == 2), len(rows))
+        if count != len(rows) and len(rows) > 1:
             hint = "one contour, or one for every run"
-            raise BadValueError(f"contour has {counted(own, 'row')} for {counted(len(rows), 'run')}", hint=hint)
-        rows = rows if own == len(rows) else list(rows) * own
-        runs = each.length(len(rows))
+            raise BadValueError(f"contour has {counted(count, 'row')} for {counted(len(rows), 'run')}", hint=hint)
+        rows = rows if count == len(rows) else list(rows) * count
+        runs = run_arguments.length(len(rows))
         self.states = checked_states(simulation.source, start, runs)
         if len(rows) == 1:
             rows = list(rows) * max(runs, len(self.states))
         if len(rows) != runs:
-            each.length(len(rows))
+            run_arguments.length(len(rows))
         self.t = self.states[0].t if self.states else 0.0
-        plain = (
-            None if self.states or worn else read_uniform_rows(simulation.source, rows)
+        uniform_values = (
+            None if self.states or contours else read_uniform_rows(simulation.source, rows)
         )  # then none chooses anything
-        self.remarks: list[tuple[str, ...]] = [()] * len(rows) if plain else []
+        self.remarks: list[tuple[str, ...]] = [()] * len(rows) if uniform_values else []
         self.given: Array
         self.is_given: Any
-        self.given, self.is_given = plain or each_of(rows, self._slots)
+        self.given, self.is_given = uniform_values or each_of(rows, self._merge_parameters)
 
-    def _slots(self, i: int, row: Mapping[str, Any]) -> tuple[Array, Array]:
-        """Return values and mask of the parameters that are given for run i, and store its notes."""
+    def _merge_parameters(self, i: int, parameters: Mapping[str, Any]) -> tuple[Array, Array]:
+        """Return values and mask of the parameters given for run i, and append its notes to `remarks`.
+
+        Values of its start state and of its contour are included.
+        """
         given, is_given, remarks = numbers(
-            self.compiled, self.states[i] if self.states else None, row, of_run(self.worn, i)
+            self.compiled, self.states[i] if self.states else None, parameters, of_run(self.contours, i)
         )
         self.remarks.append(remarks)
         return given, is_given
 
-    def unfit(self, p: Array, bad: Mapping[int, Any]) -> dict[int, Any]:
-        """Return the errors of runs whose parameter values do not fit their state or start position, by index."""
+    def find_unfit_runs(self, p: Array, failures: Mapping[int, Any]) -> dict[int, Any]:
+        """Return the errors by index of runs whose parameter values do not fit their state or start position.
+
+        Runs in `failures` are skipped. Without states, journals that the file places are checked; otherwise only runs
+        whose parameters differ from those of their state are checked.
+        """
         found: dict[int, Any] = {}
         source = self.compiled.source
-        placed = (source.start_apart or any(one.at_wall for one in source.clearances)) and not self.states
-        for i in range(len(p) if placed or self.states else 0):
-            if i in bad:
+        has_journal_positions = (
+            source.start_apart or any(joint.at_wall for joint in source.clearances)
+        ) and not self.states
+        for i in range(len(p) if has_journal_positions or self.states else 0):
+            if i in failures:
                 continue
             try:
-                if placed:
+                if has_journal_positions:
                     check_places(self.compiled, p[i])
                 elif self.remarks[i]:
                     check_resumable(self.compiled, self.states[i], p[i])
@@ -228,12 +255,17 @@ class _Starts:
                 found[i] = error
         return found
 
-    def searches(self, p: Array, bad: Mapping[int, Any], requested: Asked) -> list[StepObserver | None]:
-        """Return the step observer of each run, or None for it; an empty list if no peaks are requested."""
-        every = range(len(p) if requested.peaks else 0)
-        numbers = [(p[i], self.given[i], self.is_given[i]) for i in every]
-        expected = (requested.rtol, requested.peaks, requested.against)
-        return [None if i in bad else make_observer(self.compiled, numbers[i], *expected) for i in every]
+    def make_observers(
+        self, p: Array, failures: Mapping[int, Any], options: _BatchOptions
+    ) -> list[StepObserver | None]:
+        """Return the step observer of each run, None for runs in `failures`; an empty list if no peaks are requested.
+
+        `p`: parameter values (n_runs, …).
+        """
+        indices = range(len(p) if options.peaks else 0)
+        numbers = [(p[i], self.given[i], self.is_given[i]) for i in indices]
+        arguments = (options.rtol, options.peaks, options.against)
+        return [None if i in failures else make_observer(self.compiled, numbers[i], *arguments) for i in indices]
 
 
 @dataclass
@@ -243,100 +275,120 @@ class _Results:
     simulation: Simulation
     runs: many.Runs
     starts: _Starts
-    requested: Asked
-    kept: KeptSeries | None
+    requested: _BatchOptions
+    kept: _StoredSeries | None
     message: Sequence[Observation] = ()  # findings of the step observers by run; empty without observers
-    specified: dict[int, tuple[str, ...]] = field(default_factory=dict)  # notes of runs that Python has checked
+    python_notes: dict[int, tuple[str, ...]] = field(default_factory=dict)  # notes of runs that Python has checked
 
     def run(self, progress: Progress | None) -> None:
-        """Integrate all runs."""
+        """Integrate all runs. Finished runs are processed at once where series are stored or Python must check them."""
         self.runs.over = self._take if self.kept or self.runs.drive or left_out(self.runs.compiled) else None
         self.runs.run(progress)
 
-    def _take(self, over: Sequence[int]) -> None:
-        """Check finished runs for errors that C does not find, and store their requested series."""
+    def _take(self, finished: Sequence[int]) -> None:
+        """Process finished runs, by index `finished`: record errors that C does not find, and store their requested
+        series.
+
+        Results of Python time loops are checked in full. Other runs are checked for contradictory constraints where the
+        scene may have them.
+        """
         runs = self.runs
         if runs.drive:
-            for i in over:
-                made = self._check(i)
+            for i in finished:
+                result = self._build_checked_result(i)
                 if self.kept:
-                    self.kept.take_one(runs, i, made)
+                    self.kept.store_run(runs, i, result)
             return
-        for i in over if left_out(runs.compiled) else ():
-            if runs.arrays["done"][i] and (error := contradiction(self._problem(i), runs.trajectory(i))):
+        for i in finished if left_out(runs.compiled) else ():
+            if runs.arrays["done"][i] and (error := contradiction(self._build_problem(i), runs.trajectory(i))):
                 runs.failures.setdefault(i, error)
         if self.kept:
-            self.kept.take(runs, over)
+            self.kept.take(runs, finished)
 
-    def _check(self, i: int) -> Result:
-        """Return the Result of run i, which a Python time loop made, and record a failed check."""
-        problem, trajectory = replace(self._problem(i), take=self.runs.take), self.runs.trajectory(i)
-        made = build_result(problem, trajectory, self.starts.given[i], self.starts.is_given[i])
-        made, error = check_result(problem, trajectory, made)
-        if error is None and made.diagnostics.interrupted:
+    def _build_checked_result(self, i: int) -> Result:
+        """Build and return the Result of run i of a Python time loop; record its notes, and an error or interrupt as
+        failure.
+        """
+        problem, trajectory = replace(self._build_problem(i), take=self.runs.take), self.runs.trajectory(i)
+        result = build_result(problem, trajectory, self.starts.given[i], self.starts.is_given[i])
+        result, error = check_result(problem, trajectory, result)
+        if error is None and result.diagnostics.interrupted:
             error = SolverError(INTERRUPTED, float(trajectory.t[-1]))
         if error is not None:
             self.runs.failures.setdefault(i, error)
-        self.specified[i] = made.diagnostics.notes
-        return made
+        self.python_notes[i] = result.diagnostics.notes
+        return result
 
-    def _problem(self, i: int) -> Problem:
-        """Return the Problem of run i, with the notes on its start."""
+    def _build_problem(self, i: int) -> Problem:
+        """Return the Problem of run i with the notes on its start: choices, violated constraints, deep journals."""
         problem, t0, remarks = self.runs.problem(i), self.starts.t, self.starts.remarks[i]
-        begin = problem.q, problem.v
+        state = problem.q, problem.v
         if self.starts.states:
-            remarks += constraint_violation_notes(problem.compiled, problem.p, t0, *begin)
-        remarks += parting(problem.compiled, problem.p, t0, *begin, problem.memory)
+            remarks += constraint_violation_notes(problem.compiled, problem.p, t0, *state)
+        remarks += parting(problem.compiled, problem.p, t0, *state, problem.memory)
         return replace(problem, remarks=remarks, begun=self.starts.states[i] if self.starts.states else None)
 
     def __call__(self, i: int) -> Result:
-        """Return the Result of run i. Raise the error of a run that failed, with its partial result."""
+        """Build and return the Result of run i from the stored states, with the findings of its step observer.
+
+        Raises the error of a run that failed. A SolverError has the Result up to there as `partial`.
+        """
         runs, error = self.runs, self.runs.failures.get(i)
         if error is not None and not runs.arrays["done"][i]:
             raise error
         given = self.starts.given[i], self.starts.is_given[i]
-        made = build_result(self._problem(i), runs.trajectory(i), *given, soon=False)
+        result = build_result(self._build_problem(i), runs.trajectory(i), *given, soon=False)
         if self.message:
-            self.message[i].to(made)
+            self.message[i].to(result)
         if isinstance(error, SolverError):
-            error.partial = made
+            error.partial = result
         if error is not None:
             raise error
-        return made
+        return result
 
     def notes(self) -> dict[int, tuple[str, ...]]:
-        """Return the notes of all runs that have any, by index, as far as they are known without samples."""
+        """Return the notes of all runs that have any, by index, as far as they are known without evaluating samples.
+
+        They are notes on parameters, left validity ranges, redundant constraints, checks in Python, and step observers.
+        """
         x, source, n = self.runs.arrays, self.simulation.source, self.simulation.compiled.n
         peaks, counted = x["peaks"][:, : len(source.clearances)], counts_of_runs(x["counts"], x["residuals"])
         size = mechanism_sizes(source, x["p"])
-        some = may_leave_range(source, x["p"], size, counted["phi_max"], peaks) & (x["done"] > 0)
+        in_question = may_leave_range(source, x["p"], size, counted["phi_max"], peaks) & (x["done"] > 0)
         found = {i: remarks for i, remarks in enumerate(self.starts.remarks) if remarks}
-        for i in np.flatnonzero(some).tolist():
-            begin, counts, t0 = x["start"][i, :n], self.runs.counts(i), float(self.runs.times.of(i)[0])
-            message = range_notes(self.simulation.compiled, x["p"][i], t0, begin, counts, peaks[i])
+        for i in np.flatnonzero(in_question).tolist():
+            q0, counts, t0 = x["start"][i, :n], self.runs.counts(i), float(self.runs.times.of(i)[0])
+            message = range_notes(self.simulation.compiled, x["p"][i], t0, q0, counts, peaks[i])
             found[i] = (*found.get(i, ()), *message)
         for i in np.flatnonzero(x["done"] > 0).tolist() if source.indeterminate else ():
             found[i] = (*found.get(i, ()), *indeterminate(source))
-        found |= self.specified
-        for i, each in enumerate(self.message):
-            found[i] = (*found.get(i, ()), *each.notes)
+        found |= self.python_notes
+        for i, observation in enumerate(self.message):
+            found[i] = (*found.get(i, ()), *observation.notes)
         return found
 
     def bare(self, i: int, parts: frozenset[str]) -> EvaluatedSamples | None:
-        """Return the samples of run i without diagnostics, as ResultOf needs them; None without samples."""
-        run = bare_of(self.runs, i, parts)
-        return without_start(run) if run and self.runs.times.skipped[i] else run
+        """Return the samples of run i without diagnostics, for evaluating `parts` of its equations; None if it has no
+        samples.
+
+        The start is left out if it was not requested as a sample. Batch evaluates series from it (ResultOf).
+        """
+        samples = _build_samples(self.runs, i, parts)
+        return without_start(samples) if samples and self.runs.times.skipped[i] else samples
 
 
 def _build_batch(results: _Results, times: Times) -> Batch:
-    """Return the Batch of all runs at the requested output times; arrays are not copied."""
-    runs, source, kept = results.runs, results.simulation.source, results.kept
+    """Return the Batch of all runs at the requested output times; arrays are not copied.
+
+    With stored series, the states of all runs are released. Wall time and threads are set by the caller.
+    """
+    runs, source, stored_series = results.runs, results.simulation.source, results.kept
     x, n, joints = runs.arrays, results.simulation.compiled.n, len(source.clearances)
-    alone = np.flatnonzero((x["done"] == 1) & (times.skipped == 1))  # the start is all that they have
-    for rows in kept.arrays.values() if kept else (x["y"], x["state"]):
-        rows[alone, 1:2] = rows[alone, :1]
+    without_samples = np.flatnonzero((x["done"] == 1) & (times.skipped == 1))  # the start is all that they have
+    for rows in stored_series.arrays.values() if stored_series else (x["y"], x["state"]):
+        rows[without_samples, 1:2] = rows[without_samples, :1]
     states = None
-    if kept:
+    if stored_series:
         runs.let_go()
     else:
         y, state = times.without_starts(x["y"]), times.without_starts(x["state"])
@@ -359,13 +411,13 @@ def _build_batch(results: _Results, times: Times) -> Batch:
         threads=0,
         interrupted=runs.interrupted,
         result=results,
-        kept={name: times.without_starts(rows) for name, rows in kept.arrays.items()} if kept else {},
+        kept={name: times.without_starts(rows) for name, rows in stored_series.arrays.items()} if stored_series else {},
         extremes=tuple(message.extremes for message in results.message),
         rubbed=tuple(message.rubbed for message in results.message),
     )
 
 
-class KeptSeries:
+class _StoredSeries:
     """Store requested series as arrays (n, N) by name, and "t"; NaN where a run has no sample."""
 
     def __init__(self, source: KernelSource, names: tuple[str, ...], n: int, times: Times) -> None:
@@ -374,58 +426,72 @@ class KeptSeries:
         known = [catalogue(source)[name] for name in names if name != "t"]
         self.columns = all(one.stored or one.evaluated for one in known)  # none of them reads a run's own numbers
 
-    def take(self, runs: Runs, over: Sequence[int]) -> None:
-        """Store the series of finished runs. A run whose series cannot be computed has failed."""
-        begun = [i for i in over if runs.arrays["done"][i]]
-        if len(begun) > 1 and self.columns:
+    def take(self, runs: Runs, finished: Sequence[int]) -> None:
+        """Store the series of the finished runs with indices `finished`, all at once where their equations allow it.
+
+        Runs without samples are skipped. A run whose series cannot be computed is recorded as failed.
+        """
+        with_samples = [i for i in finished if runs.arrays["done"][i]]
+        if len(with_samples) > 1 and self.columns:
             try:
-                self._take(begun, *_join_samples(runs, begun, self.parts))
+                self._take(with_samples, *_concatenate_samples(runs, with_samples, self.parts))
                 return
             except SolverError:  # of one of them: alone it says which
                 pass
-        for i in begun:
-            if run := bare_of(runs, i, self.parts):
-                self.take_one(runs, i, run)
+        for i in with_samples:
+            if run := _build_samples(runs, i, self.parts):
+                self.store_run(runs, i, run)
 
-    def take_one(self, runs: Runs, i: int, run: Result) -> None:
-        """Store the series of run i, from its Result."""
+    def store_run(self, runs: Runs, i: int, run: Result) -> None:
+        """Store the series of run i from its Result. An error of their evaluation is recorded as the run's failure."""
         try:
             self._take([i], [len(run.t)], run, int(run.start_row is not None))
         except SolverError as error:
             runs.failures.setdefault(i, error)
 
-    def _take(self, begun: Sequence[int], counts: Sequence[int], of: Result, row: int = 0) -> None:
-        """Store the samples of several runs, which follow each other in `of`: counts[k] belong to run begun[k]."""
-        columns, first = [(self.arrays[name], of[name]) for name in self.names], 0
-        for i, count in zip(begun, counts, strict=True):
+    def _take(self, indices: Sequence[int], counts: Sequence[int], result: Result, first_column: int = 0) -> None:
+        """Copy samples of several runs, concatenated in the result `result`, into the rows of the stored arrays.
+
+        counts[k] samples belong to run begun[k]. `first_column`: first column that is filled.
+        """
+        columns, first = [(self.arrays[name], result[name]) for name in self.names], 0
+        for i, count in zip(indices, counts, strict=True):
             for kept, column in columns:
-                kept[i, row : row + count] = column[first : first + count]
+                kept[i, first_column : first_column + count] = column[first : first + count]
             first += count
 
 
-def bare_of(runs: Runs, i: int, parts: frozenset[str]) -> EvaluatedSamples | None:
-    """Return the samples of run i as a Bare result without diagnostics; None if there is none."""
+def _build_samples(runs: Runs, i: int, parts: frozenset[str]) -> EvaluatedSamples | None:
+    """Return the stored samples of run i as a result without diagnostics; None if it has no samples.
+
+    `parts`: names of the evaluated quantities that its series need. Accelerations are those of the method, if stored.
+    """
     if not runs.arrays["done"][i]:
         return None
     n, source, p = runs.compiled.n, runs.compiled.source, runs.arrays["p"][i]
     t, y, memory, state = runs.samples(i)
-    made = bare(source, runs.compiled, p, t, y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], memory, state, parts)
-    made.accelerations = runs.accelerations(i)
-    return made
+    result = bare(source, runs.compiled, p, t, y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], memory, state, parts)
+    result.accelerations = runs.accelerations(i)
+    return result
 
 
-def _join_samples(runs: Runs, begun: Sequence[int], parts: frozenset[str]) -> tuple[list[int], EvaluatedSamples]:
-    """Return the sample counts of these runs, and their samples joined to one Bare result."""
-    compiled, n, each = runs.compiled, runs.compiled.n, [runs.samples(i) for i in begun]
-    counts = [len(own[0]) for own in each]
-    t, y, memory, state = (np.concatenate(arrays) for arrays in zip(*each, strict=True))
+def _concatenate_samples(
+    runs: Runs, indices: Sequence[int], parts: frozenset[str]
+) -> tuple[list[int], EvaluatedSamples]:
+    """Return the sample counts of the runs `indices`, and all their samples concatenated in one result.
+
+    If `parts` is not empty, these quantities are evaluated with each run's parameter values.
+    """
+    compiled, n, samples_of_runs = runs.compiled, runs.compiled.n, [runs.samples(i) for i in indices]
+    counts = [len(samples[0]) for samples in samples_of_runs]
+    t, y, memory, state = (np.concatenate(arrays) for arrays in zip(*samples_of_runs, strict=True))
     q, v = y[:, :n], y[:, n : 2 * n]
-    none = np.full(compiled.n_p, np.nan)
-    made = bare(compiled.source, compiled, none, t, q, v, y[:, 2 * n :], memory, state, parts)
+    no_parameters = np.full(compiled.n_p, np.nan)
+    result = bare(compiled.source, compiled, no_parameters, t, q, v, y[:, 2 * n :], memory, state, parts)
     if parts:
-        numbers = runs.arrays["p"][begun]
+        numbers = runs.arrays["p"][indices]
         if compiled.may_switch:
-            last = zip(each, numbers, strict=True)
+            last = zip(samples_of_runs, numbers, strict=True)
             t = np.concatenate([evaluation_times(compiled, t, y[:, :n], y[:, n : 2 * n], p) for (t, y, *_), p in last])
-        made.evaluation = evaluate_runs(compiled, counts, t, q, v, memory, numbers, parts)
-    return counts, made
+        result.evaluation = evaluate_runs(compiled, counts, t, q, v, memory, numbers, parts)
+    return counts, result

@@ -67,51 +67,61 @@ class Simulation(Shown):
         self._variants: dict[str, Simulation] = {}
 
     def __repr__(self) -> str:
-        """Return a short description: mechanism, scene, number of bodies, joints with play."""
-        joints, of = ", ".join(x.name for x in self.source.clearances), f"{self.source.mechanism}/{self.source.scene}"
-        return f"<Simulation {of}: {self.compiled.n // 3} bodies{f', play in {joints}' if joints else ''}>"
+        """Return a short description: mechanism, scene, number of bodies, and the joints with play if there are any."""
+        joints, scene_name = (
+            ", ".join(x.name for x in self.source.clearances),
+            f"{self.source.mechanism}/{self.source.scene}",
+        )
+        return f"<Simulation {scene_name}: {self.compiled.n // 3} bodies{f', play in {joints}' if joints else ''}>"
 
     @property
     def model(self) -> Model:
-        """Return the scene's equations in SymPy, derived at the first use. Raise InputError if the file was edited
-        since.
+        """Return the scene's equations in SymPy, derived from the file at the first use and cached.
+
+        Raises InputError if the file, a table or a law changed after loading.
         """
         if self._model is None:
             whole(*GENERATOR)
             from gudgeon.generator.pipeline import derive
 
-            self._model = derive(self._loaded_bytes(), str(self.file), self.source.scene, self._overrides)
+            self._model = derive(self._read_unchanged_file(), str(self.file), self.source.scene, self._overrides)
         return self._model
 
     @property
     def full(self) -> Simulation:
-        """Return the same scene in absolute coordinates, with the Jacobian of its state equation.
+        """Return the same scene in the full formulation (absolute coordinates), with the Jacobian of its state
+        equation.
 
-        It is derived from the file at the first use; InputError if the file was edited since it was loaded.
+        Return the simulation itself if it is loaded so. Otherwise the variant is derived from the file at the first use
+        and cached. Raises InputError if the file was edited after loading.
         """
-        return self if self.source.formulation == "full" else self._loaded_as("full")
+        return self if self.source.formulation == "full" else self._load_variant("full")
 
     def of_method(self, method: str, progress: Progress | None = None) -> Simulation:
-        """Return the same scene as a method needs it: in absolute coordinates for cross-checks, with series for
-        `taylor`.
+        """Return the variant of the scene that an integration method needs; the simulation itself if it fits.
 
-        Variants are derived at the first use. Raises BadValueError where the motion is not smooth, InputError as
-        `full`.
+        Cross-checks ("scipy:…", "sundials:…") need the full formulation, `taylor` the series, `rodas5p` and others the
+        stages. A variant is derived at its first use and cached; before the full one, `progress` is called once. Raises
+        BadValueError where the motion is not smooth, InputError as `full`.
         """
         if method in python_driver.NAMES:
             if progress and "full" not in {*self._variants, self.source.formulation}:
                 progress(0.0, "deriving the full formulation")
             return self.full
-        needed = derived_for(self.source, method)
-        return self._loaded_as(needed) if needed else self
+        formulation = derived_for(self.source, method)
+        return self._load_variant(formulation) if formulation else self
 
-    def _loaded_as(self, formulation: str) -> Simulation:
-        """Return the scene loaded in another formulation, from the cached variants if possible."""
+    def _load_variant(self, formulation: str) -> Simulation:
+        """Return the scene loaded in another formulation or variant, with the same overrides; each is loaded once and
+        cached.
+
+        Raises InputError if the file, a table or a law changed after loading.
+        """
         from gudgeon.simulation.from_file import load_bytes
 
         if formulation not in self._variants:
             self._variants[formulation] = load_bytes(
-                self._loaded_bytes(),
+                self._read_unchanged_file(),
                 self.file,
                 self.source.scene,
                 formulation=formulation,
@@ -121,30 +131,38 @@ class Simulation(Shown):
         return self._variants[formulation]
 
     def to_html(self) -> str:
-        """Return the scene's HTML page: its equations, and above them the running mechanism
-        (gudgeon.web.page.write).
+        """Return the text of the scene's HTML page: the running mechanism, and below it the equations; see
+        gudgeon.web.page.write.
         """
         from gudgeon.web.page import write
 
         return write(self)
 
-    def _loaded_bytes(self) -> bytes:
-        """Return the bytes of the mechanism's file. Raise InputError if it, a table or a law changed since loading."""
+    def _read_unchanged_file(self) -> bytes:
+        """Return the bytes of the mechanism's file, from which variants of the scene are derived.
+
+        Raises InputError if the file or one of its tables was edited after loading. The error is also raised if a
+        registered law was replaced or is not registered in this process.
+        """
         from gudgeon.loading.find import laws_now, read_bytes, tables_now
 
         data = read_bytes(self.file)
-        same = sha256(data).hexdigest() == self.source.sha256
-        if not same or tables_now(self.source, self.file) != self.source.tables:
+        is_same_file = sha256(data).hexdigest() == self.source.sha256
+        if not is_same_file or tables_now(self.source, self.file) != self.source.tables:
             raise InputError(
-                f"{'a table of ' * same}{self.file} was edited after it was loaded: equations derived from it now would"
-                " not be those of this simulation",
+                f"{'a table of ' * is_same_file}{self.file} was edited after it was loaded:"
+                " equations derived from it now would not be those of this simulation",
                 hint="load it again with gudgeon.load(…), or put the file back as it was",
             )
-        for (name, then), (_, now) in zip(self.source.laws, laws_now(self.source), strict=True):
-            if now != then:
-                what = "is another one now" if now else "is not registered in this process"
-                hint = "gudgeon.register it as it was" if not now else "load the mechanism again with gudgeon.load(…)"
-                raise InputError(f"the law {name}, with which this simulation was made, {what}", hint=hint)
+        for (name, loaded_key), (_, present_key) in zip(self.source.laws, laws_now(self.source), strict=True):
+            if present_key != loaded_key:
+                difference = "is another one now" if present_key else "is not registered in this process"
+                hint = (
+                    "gudgeon.register it as it was"
+                    if not present_key
+                    else "load the mechanism again with gudgeon.load(…)"
+                )
+                raise InputError(f"the law {name}, with which this simulation was made, {difference}", hint=hint)
         return data
 
     def __getstate__(self) -> dict[str, Any]:
@@ -158,7 +176,9 @@ class Simulation(Shown):
 
     @cached_property
     def _defaults(self) -> Array:
-        """Return the parameter values with the file's defaults."""
+        """Return the parameter values with the file's defaults, run-time ones and derived ones; computed once and
+        cached.
+        """
         return prepare(self.compiled, {})[0]
 
     def rhs(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
@@ -196,7 +216,10 @@ class Simulation(Shown):
         return self.compiled.mass(self._defaults)
 
     def start(self, parameters: Mapping[str, float | str] | None = None) -> Start:
-        """Return the assembled start at t = 0. Raise AssemblyError if the linkage does not close."""
+        """Return the assembled start at t = 0 with the given parameters, else the file's.
+
+        Raise AssemblyError if it does not close.
+        """
         return assemble(self.compiled, prepare(self.compiled, parameters)[0])
 
     def simulate(
@@ -248,8 +271,8 @@ class Simulation(Shown):
         """
         method, progress = text(method, "method"), function(progress, "progress")
         horizon, stop, level = flag(horizon, "horizon"), flag(stop, "stop"), audit_level(audit)
-        if (fitting := self.of_method(method, progress)) is not self:
-            return fitting.simulate(
+        if (variant := self.of_method(method, progress)) is not self:
+            return variant.simulate(
                 t_end,
                 output=output,
                 method=method,
@@ -265,10 +288,12 @@ class Simulation(Shown):
                 contour=contour,
                 audit=audit,
             )
-        names, beside = requested_peaks(self.source, peaks), check_compared_scene(self.source, against)
-        begin = None if start is None else own(self.source, start)
-        given, is_given, remarks = numbers(self.compiled, begin, parameters, read_contours(self.source, contour))
-        p, t0 = prepare_slots(self.compiled, given, is_given), 0.0 if begin is None else begin.t
+        names, compared_scene = requested_peaks(self.source, peaks), check_compared_scene(self.source, against)
+        initial_state = None if start is None else own(self.source, start)
+        given, is_given, remarks = numbers(
+            self.compiled, initial_state, parameters, read_contours(self.source, contour)
+        )
+        p, t0 = prepare_slots(self.compiled, given, is_given), 0.0 if initial_state is None else initial_state.t
         times, from_start = output_times(self.source, p, t0, end_of(self.source, t_end, p), output)
         check_room(self.compiled, len(times))
         if self.source.degrees_of_freedom < 0:
@@ -278,11 +303,15 @@ class Simulation(Shown):
         h = step_of(self.compiled, step, selected, p, float(times[-1] - t0))
         if (times[-1] - t0) / h > MAX_STEPS:
             raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
-        if begin is not None and remarks:
-            check_resumable(self.compiled, begin, p)
-        q, v, memory = self._assembled_start(p) if begin is None else (begin.q, begin.v, begin.memory)
+        if initial_state is not None and remarks:
+            check_resumable(self.compiled, initial_state, p)
+        q, v, memory = (
+            self._assemble_start(p)
+            if initial_state is None
+            else (initial_state.q, initial_state.v, initial_state.memory)
+        )
         check_start(self.compiled, p, t0, q)
-        if begin is not None:
+        if initial_state is not None:
             remarks += constraint_violation_notes(self.compiled, p, t0, q, v)
         remarks += parting(self.compiled, p, t0, q, v, memory)
         problem = Problem(
@@ -294,7 +323,7 @@ class Simulation(Shown):
             memory,
             h,
             progress,
-            None if begin is None else begin.state,
+            None if initial_state is None else initial_state.state,
             selected,
             tolerance,
             without_baumgarte(self.compiled, given, is_given),
@@ -302,10 +331,10 @@ class Simulation(Shown):
             remarks,
             from_start,
             level,
-            begin,
+            initial_state,
         )
-        search = make_observer(self.compiled, (p, given, is_given), tolerance, names, beside)
-        result = self._ran(problem, given, is_given, search)
+        observer = make_observer(self.compiled, (p, given, is_given), tolerance, names, compared_scene)
+        result = self._integrate_problem(problem, given, is_given, observer)
         if horizon and not result.diagnostics.interrupted:
             from gudgeon.simulation.horizon import with_horizon
 
@@ -404,18 +433,25 @@ class Simulation(Shown):
         settings = {"method": method, "rtol": rtol, "step": step}
         return lyapunov(self, t_end, section, by, skip, settings, parameters, start, progress)
 
-    def _ran(self, problem: Problem, given: Array, is_given: Array, search: StepObserver | None) -> Result:
-        """Integrate a prepared run and return its Result with what `search` found. Raise SolverError with `partial`."""
+    def _integrate_problem(
+        self, problem: Problem, given: Array, is_given: Array, observer: StepObserver | None
+    ) -> Result:
+        """Integrate a prepared run, build and check its Result, and return it.
+
+        `given`, `is_given`: values and mask of the run-time parameters. `observer`: step observer whose findings are
+        stored in the diagnostics, or None. A drive that jumps ends the run before the jump. Ctrl-C ends the run, which
+        is marked as interrupted. Raises SolverError with the Result up to there as `partial`.
+        """
         t0 = float(problem.t[0])
         jump = first_jumps(self.source, problem.p[None], t0, [float(problem.t[-1])]).get(0)
         if jump:
             problem = replace(problem, t=problem.t[problem.t < end_before(jump, t0)])
         with CtrlC() as ctrl_c:
-            problem = replace(problem, take=ctrl_c.take, look=search)
+            problem = replace(problem, take=ctrl_c.take, look=observer)
             trajectory = integrate(problem)
             result = build_result(problem, trajectory, given, is_given)
-            if search:
-                search.message().to(result)
+            if observer:
+                observer.message().to(result)
             result, stopped = check_result(problem, trajectory, result)
             if jump and not trajectory.interrupted and not trajectory.t[-1] < problem.t[-1]:  # it came to the jump
                 stopped = stopped or jump_failure(self.source, jump)
@@ -425,8 +461,11 @@ class Simulation(Shown):
             raise stopped
         return result
 
-    def _assembled_start(self, p: Array) -> tuple[Array, Array, Array]:
-        """Return the start that the file describes: q, q̇, and discrete states without contacts."""
+    def _assemble_start(self, p: Array) -> tuple[Array, Array, Array]:
+        """Assemble the start that the file describes; return q, q̇ (n,) and discrete states of NaN (no contacts).
+
+        Warns about guesses that the assembly does not follow. Raises AssemblyError if the linkage does not close.
+        """
         assembled = assemble(self.compiled, p)
         warn_unfollowed(self.compiled, p, assembled.q)
         return assembled.q, assembled.v, np.full(self.compiled.n_memory, np.nan)

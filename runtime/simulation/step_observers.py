@@ -48,17 +48,21 @@ class StepObserver(Protocol):
 def requested_peaks(
     source: KernelSource, peaks: Iterable[str | SlidingRequest] | None
 ) -> tuple[str | SlidingRequest, ...]:
-    """Return the requested peaks: the given names of series, else those of the scene, and requests for wear.
+    """Check the argument `peaks` and return the names of series whose peaks are requested, then the requests for wear.
 
-    Raises UnknownNameError, BadValueError.
+    None gives the series that the scene's file names. Raises UnknownNameError, BadValueError.
     """
     if peaks is None:
         return check_series(source, source.peaks)
-    rubbing = tuple(one for one in peaks if isinstance(one, SlidingRequest)) if isinstance(peaks, tuple) else ()
-    expected = names([one for one in peaks if one not in rubbing] if rubbing else peaks, "peaks", LIST)
-    if "t" in expected:
+    wear_requests = (
+        tuple(item for item in peaks if isinstance(item, SlidingRequest)) if isinstance(peaks, tuple) else ()
+    )
+    series_names = names(
+        [item for item in peaks if item not in wear_requests] if wear_requests else peaks, "peaks", LIST
+    )
+    if "t" in series_names:
         raise BadValueError("peaks: t has no peaks", hint="leave it out: a peak comes with its time")
-    return (*check_series(source, expected), *rubbing)
+    return (*check_series(source, series_names), *wear_requests)
 
 
 @dataclass(frozen=True)
@@ -70,64 +74,76 @@ class Observation:
     rubbed: tuple[SlidingLoads, ...] = ()
 
     def to(self, run: Result) -> None:
-        """Store the findings in the diagnostics of a run."""
+        """Store the findings in the diagnostics of a run, in place; notes are appended."""
         notes = (*run.diagnostics.notes, *self.notes)
         run.diagnostics = replace(run.diagnostics, extremes=self.extremes, notes=notes, rubbed=self.rubbed)
 
 
 def make_observer(
     compiled: CompiledModel,
-    numbers: tuple[Array, Array, Array],
+    parameter_arrays: tuple[Array, Array, Array],
     rtol: float,
-    expected: tuple[str | SlidingRequest, ...],
-    against: Simulation | None,
+    requests: tuple[str | SlidingRequest, ...],
+    compared_simulation: Simulation | None,
 ) -> StepObserver | None:
-    """Return the observer of a run with parameter arrays `numbers` (p, given, is_given); None if nothing is
-    requested.
+    """Return the step observer of a run; None if nothing is requested.
+
+    `parameter_arrays`: parameter values, given values and their mask. `requests`: series and requests for wear.
+    `compared_simulation`: scene for errors of the series, or None.
     """
-    found, series = list[StepObserver](), tuple(one for one in expected if isinstance(one, str))
+    observers, series = list[StepObserver](), tuple(request for request in requests if isinstance(request, str))
     if series:
         from gudgeon.simulation.peaks import Search
 
-        beside = ComparedScene(against, compiled.source, numbers[0], rtol or RTOL) if against else None
-        found.append(Search(compiled, series, numbers, beside))
-    if len(series) < len(expected):
+        compared_scene = (
+            ComparedScene(compared_simulation, compiled.source, parameter_arrays[0], rtol or RTOL)
+            if compared_simulation
+            else None
+        )
+        observers.append(Search(compiled, series, parameter_arrays, compared_scene))
+    if len(series) < len(requests):
         from gudgeon.simulation.wear import WearObserver
 
-        found += [WearObserver(compiled, one, numbers) for one in expected if isinstance(one, SlidingRequest)]
-    return found[0] if len(found) == 1 else CombinedObserver(found) if found else None
+        observers += [
+            WearObserver(compiled, request, parameter_arrays)
+            for request in requests
+            if isinstance(request, SlidingRequest)
+        ]
+    return observers[0] if len(observers) == 1 else CombinedObserver(observers) if observers else None
 
 
 class CombinedObserver:
     """Combine several observers of one run."""
 
-    def __init__(self, lookers: Sequence[StepObserver]) -> None:
-        self.lookers = lookers
+    def __init__(self, observers: Sequence[StepObserver]) -> None:
+        self.observers = observers
 
     def __call__(self, steps: Steps) -> None:
         """Pass the next states to each observer."""
-        for observer in self.lookers:
+        for observer in self.observers:
             observer(steps)
 
     def message(self) -> Observation:
-        """Return the findings of all observers."""
-        message = [observer.message() for observer in self.lookers]
+        """Return the findings of all observers, concatenated field by field."""
+        observations = [observer.message() for observer in self.observers]
         return Observation(
-            *(tuple(one for each in message for one in getattr(each, name.name)) for name in fields(Observation))
+            *(tuple(one for each in observations for one in getattr(each, name.name)) for name in fields(Observation))
         )
 
 
 class ComparedScene:
-    """Follow another scene from t = 0, as its file describes, with the parameter values of the run where it has
+    """Integrate another scene step by step from t = 0, with the parameter values of the observed run where it has
     them.
     """
 
     def __init__(self, simulation: Simulation, source: KernelSource, p: Array, rtol: float) -> None:
         self.compiled = simulation.compiled
         self.scene, self.names = simulation.source.scene, frozenset(catalogue(simulation.source))
-        own = {slot.address for slot in self.compiled.source.slots}
+        addresses = {slot.address for slot in self.compiled.source.slots}
         values = {
-            slot.address: specified(slot, float(p[k])) for k, slot in enumerate(source.slots) if slot.address in own
+            slot.address: specified(slot, float(p[k]))
+            for k, slot in enumerate(source.slots)
+            if slot.address in addresses
         }
         self.numbers = prepare(self.compiled, values)
         self.lost = ""  # reason why it cannot be followed further; "" if it can
@@ -136,7 +152,10 @@ class ComparedScene:
         self.rtol = rtol
 
     def follow(self, t: Array) -> Steps | None:
-        """Return the scene's states at times t (k,), which do not decrease from call to call; None after a failure."""
+        """Return the scene's states at times t (k,), which do not decrease from call to call; None after a failure.
+
+        The first failure is stored as a text in `lost`.
+        """
         if self.lost:
             return None
         try:
@@ -146,8 +165,12 @@ class ComparedScene:
             return None
 
     def _integrate_to(self, t: Array) -> Steps:
-        """Integrate the scene to the times t (k,) and return its states there."""
-        problem = self.problem or self._begin()
+        """Integrate the scene from its last state to the times t (k,) in s; return its states there and store the last
+        one.
+
+        Raises the error that ends the integration.
+        """
+        problem = self.problem or self._build_start_problem()
         times = np.union1d(problem.t[:1], t)
         if self.last is not None and len(times) == 1:
             return self.last[np.zeros(len(t), dtype=int)]
@@ -161,8 +184,8 @@ class ComparedScene:
         self.problem = replace(problem, t=times[-1:], q=x.q[-1], v=x.v[-1], memory=x.memory[-1], state=state)
         return steps[np.searchsorted(x.t, t)]
 
-    def _begin(self) -> Problem:
-        """Return the scene's problem at its start."""
+    def _build_start_problem(self) -> Problem:
+        """Return the Problem of the assembled scene at t = 0, by method "auto" and without discrete states."""
         p, given, is_given = self.numbers
         assembled, method = assemble(self.compiled, p), method_of(self.compiled.source, "auto", False)
         memory = np.full(self.compiled.n_memory, np.nan)
@@ -182,7 +205,10 @@ class ComparedScene:
 
 
 def check_compared_scene(source: KernelSource, against: Simulation | None) -> Simulation | None:
-    """Raise BadValueError unless `against` is a loaded scene of the same mechanism. Return it, or None."""
+    """Check the argument `against` and return it: a loaded scene of the same mechanism, or None.
+
+    Raises BadValueError for anything else.
+    """
     if against is None:
         return None
     if not hasattr(against, "compiled") or not hasattr(against, "simulate"):

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
 
 
-NUDGE = 1e-5  # relative change of δ̇⁻ for the slope of forces, which depend on 1/δ̇⁻
+RELATIVE_STEP = 1e-5  # relative change of δ̇⁻ for the slope of forces, which depend on 1/δ̇⁻
 ROOT = np.sqrt(15.0)
 # nodes of Gauss's method of order 6: E. Hairer, G. Wanner, Solving ODEs II, table IV.5.2
 NODES = np.array([0.5 - ROOT / 10, 0.5, 0.5 + ROOT / 10])
@@ -46,20 +46,19 @@ BUTCHER = np.array(
     ]
 )
 WEIGHTS = np.array([5 / 18, 4 / 9, 5 / 18])
-FIRST, DEEPEST = 2, 16  # initial panels between two contacts, and largest number of halvings
-CLOSE = 1e-8  # largest change of a panel's propagator by halving it
-CARRIED = 1e-4  # of the rates: allowed error of the carried direction of motion
+N_PANELS, MAX_DEPTH = 2, 16  # initial panels between two contacts, and largest number of halvings
+PROPAGATOR_TOL = 1e-8  # largest change of a panel's propagator by halving it
+MAX_CARRY_ERROR = 1e-4  # of the rates: allowed error of the carried direction of motion
 INSIDE = 1e-6  # of the time between two contacts: distance from its ends at which rates are evaluated
-BESIDE = 1e-9  # of the clearance: distance from the surface at which f⁻ and f⁺ are evaluated
-SMALL = 1e-4  # of the clearance: difference for derivatives of gaps
-LARGEST = 30.0  # ln of the growth over one interval: if it is larger, the interval is repeated with half its length
+CLEARANCE_OFFSET = 1e-9  # of the clearance: distance from the surface at which f⁻ and f⁺ are evaluated
+DIFFERENCE_STEP = 1e-4  # of the clearance: difference for derivatives of gaps
+MAX_LOG_GROWTH = (
+    30.0  # ln of the growth over one interval: if it is larger, the interval is repeated with half its length
+)
 
 
 class Flow:
-    """Evaluate the flow of the integrated state y (2m,): m coordinates and their rates, their Jacobian, and gaps.
-
-    `chain` holds the coordinates that drives determine through loops; they follow from y alone.
-    """
+    """Evaluate rates, Jacobian and gaps of the integrated state y (2m,), that is m coordinates and their rates."""
 
     def __init__(self, compiled: CompiledModel, run: Result) -> None:
         source = compiled.source
@@ -77,7 +76,7 @@ class Flow:
         self._allocate_buffers()
 
     def _allocate_buffers(self) -> None:
-        """Allocate the arrays that C reads and fills in tens of thousands of calls, and the pointers to them."""
+        """Allocate the arrays that C reads and fills in tens of thousands of calls, and store C pointers to them."""
         compiled, m, size, p = self.compiled, self.m, self.m + self.chained, self.pointers(self.p)
         self._full = np.zeros(compiled.n), np.zeros(compiled.n)
         self._reduced = np.zeros(max(size, 1)), np.zeros(max(size, 1))
@@ -91,18 +90,26 @@ class Flow:
         self._jacobian = [*self.pointers(*of_node), *p, *self.pointers(self._J, self._f_t, written=True)]
         self._node, self._others = of_node[0], others  # C's views alone would not keep them
 
-    def reduced(self, t: float, full: Array) -> tuple[Array, Array]:
-        """Return y (2m,) and the dependent coordinates with rates (2, n_chain), of (q, q̇) of all bodies (2n,)."""
+    def reduced(self, t: float, qv: Array) -> tuple[Array, Array]:
+        """Convert (q, q̇) of all bodies, (2n,), to the integrated state y (2m,) and the dependent coordinates.
+
+        The second result (2, n_chain) contains the dependent coordinates and their rates. In the full formulation y is
+        a copy, and there are none.
+        """
         if not self.tree:
-            return full.copy(), np.zeros((2, 0))
+            return qv.copy(), np.zeros((2, 0))
         n, m, size = self.compiled.n, self.m, self.m + self.chained
         (own_q, own_v), (q, v) = self._full, self._reduced
-        own_q[:], own_v[:], q[:], v[:] = full[:n], full[n:], 0.0, 0.0
+        own_q[:], own_v[:], q[:], v[:] = qv[:n], qv[n:], 0.0, 0.0
         self.compiled.lib.gudgeon_reduce(t, *self._reduce)
         return np.concatenate([q[:m], v[:m]]), np.stack([q[m:size], v[m:size]])
 
     def expanded(self, t: float, y: Array, chain: Array) -> Array:
-        """Return (q, q̇) of all bodies, (2n,), of the integrated state y and the dependent coordinates."""
+        """Convert the integrated state y (2m,) and the dependent coordinates (2, n_chain) to (q, q̇) of all bodies,
+        (2n,).
+
+        In the full formulation a copy of y is returned.
+        """
         if not self.tree:
             return y.copy()
         q, v = np.zeros(self.compiled.n), np.zeros(self.compiled.n)
@@ -111,11 +118,16 @@ class Flow:
         return np.concatenate([q, v])
 
     def lifted(self, t: float, y: Array, chain: Array, d: Array, h: float) -> Array:
-        """Return the difference (2n,) of all bodies for a difference d (2m,) of y, by central differences with h d."""
+        """Return the difference (2n,) of all bodies for a difference d (2m,) of y, by central differences with the
+        factor h.
+        """
         return (self.expanded(t, y + h * d, chain) - self.expanded(t, y - h * d, chain)) / (2.0 * h)
 
     def rates(self, t: float, y: Array, chain: Array, memory: Array) -> Array:
-        """Return ẏ (2m,) of the integrated state. Raise SingularError."""
+        """Return ẏ (2m,) of the integrated state with dependent coordinates `chain` and discrete states `memory`.
+
+        Raises SingularError where the equations cannot be solved. The C buffers are overwritten.
+        """
         if not self.tree:
             return self.compiled.rhs(t, y, self.p, memory)[: 2 * self.m]
         m, size, (q, v, held) = self.m, self.m + self.chained, self._state
@@ -126,7 +138,10 @@ class Flow:
         return np.concatenate([y[m:], self._a[:m]])
 
     def slopes(self, t: float, y: Array, chain: Array, memory: Array) -> Array:
-        """Return the Jacobian of the rates of (y, δ̇⁻, t), (2m + n_clearances + 1) square; the rows of δ̇⁻ are 0."""
+        """Return the Jacobian of the rates of (y, δ̇⁻, t), (2m + n_clearances + 1) square; the rows of δ̇⁻ and t are 0.
+
+        Columns of y and t come from C. Columns of the approach speeds δ̇⁻ of closed contacts are central differences.
+        """
         m, node, J = self.m, self._node, self._J
         A = np.zeros((2 * m + self.joints + 1,) * 2)
         node[: 2 * m], node[2 * m + N_WORK :], self._state[2][: len(memory)] = y, chain[0], memory
@@ -135,15 +150,19 @@ class Flow:
         A[: 2 * m, : 2 * m], A[: 2 * m, -1] = J[: 2 * m, : 2 * m], self._f_t[: 2 * m]
         for k in (k for k in range(self.joints) if np.isfinite(memory[k])):
             ends = []
-            for share in (1.0 - NUDGE, 1.0 + NUDGE):
-                other = memory.copy()
-                other[k] *= share
-                ends.append(self.rates(t, y, chain, other))
-            A[: 2 * m, 2 * m + k] = (ends[1] - ends[0]) / (2.0 * NUDGE * memory[k])
+            for factor in (1.0 - RELATIVE_STEP, 1.0 + RELATIVE_STEP):
+                changed = memory.copy()
+                changed[k] *= factor
+                ends.append(self.rates(t, y, chain, changed))
+            A[: 2 * m, 2 * m + k] = (ends[1] - ends[0]) / (2.0 * RELATIVE_STEP * memory[k])
         return A
 
     def chain_at(self, t: float, chain: Array) -> Array:
-        """Return the dependent coordinates (2, n_chain) at a time near that of `chain`; drives determine them."""
+        """Return the dependent coordinates and rates (2, n_chain) at t (s), which drives determine, from those at a
+        nearby time.
+
+        Without dependent coordinates, `chain` itself is returned.
+        """
         if not self.chained:
             return chain
         q, rates = chain[0].copy(), np.zeros(3 * self.chained)
@@ -153,7 +172,10 @@ class Flow:
         return np.stack([q, rates[: self.chained]])
 
     def gap(self, joint: int, t: float, y: Array, chain: Array) -> tuple[float, float]:
-        """Return penetration δ (m) and its rate δ̇ (m/s) of a joint with play at the integrated state."""
+        """Return the penetration δ (m) and its rate δ̇ (m/s) of a joint with play at the integrated state.
+
+        `joint`: index of the joint. Corners at walls and bearings with a contour are included.
+        """
         full, n, rows = self.expanded(t, y, chain), self.compiled.n, self.rows[joint]
         if self.compiled.source.clearances[joint].at_wall:
             return corner_gap(self.compiled, self.p, t, full[:n], full[n:], joint)
@@ -165,23 +187,24 @@ class Flow:
         depths = self.depths[joint]
         if depths is None:
             return gap, approach
-        place = self.bearing[joint]
-        theta, omega = (full[place + 2], full[n + place + 2]) if place >= 0 else (0.0, 0.0)
+        index = self.bearing[joint]
+        theta, omega = (full[index + 2], full[n + index + 2]) if index >= 0 else (0.0, 0.0)
         angle = np.arctan2(-e[1], -e[0]) - theta
         turning = float(e[0] * rate[1] - e[1] * rate[0]) / length**2 - omega
-        worn, slope = (float(depth_at(depths, angle, order)) for order in (0, 1))
-        return gap - worn, approach - slope * turning
+        depth, slope = (float(depth_at(depths, angle, order)) for order in (0, 1))
+        return gap - depth, approach - slope * turning
 
     def pointers(self, *arrays: Array, written: bool = False) -> list[Any]:
-        """Return C pointers to arrays; an empty array is replaced by one of one number."""
+        """Return C pointers to arrays, for C to write into them if `written`; an empty array is replaced by one of
+        length 1.
+        """
         return [self.compiled.pointer(array if array.size else np.zeros(1), written=written) for array in arrays]
 
 
 @dataclass(eq=False)
 class Panel:
-    """Hold a panel, s to s + width of 0 to 1, of the time from a to b (s) between contacts, with its propagator P.
-
-    t = a + (b − a) s² (3 − 2 s): forces begin and end with roots of the penetration, which are smooth in s.
+    """Hold a panel, s to s + width within 0 to 1, of the time from a to b (s) between contacts, with its propagator
+    P.
     """
 
     a: float
@@ -190,35 +213,40 @@ class Panel:
     width: float
     depth: int = 0
     P: Array | None = None
-    missed: float = 0.0  # relative error of the carried direction of motion
-    change: float = 0.0  # of the propagator by the last halving
+    carry_error: float = 0.0  # relative error of the carried direction of motion
+    halving_change: float = 0.0  # of the propagator by the last halving
     halves: tuple[Panel, ...] = ()
 
     @property
     def nodes(self) -> list[tuple[float, float]]:
-        """Return the times (s) of the three nodes, with dt/ds times the width."""
+        """Return the times t (s) of the three nodes of the panel, each with dt/ds times the width (s).
+
+        The map t(s) has zero slope at both ends, where contacts begin or end.
+        """
         s = self.s + self.width * NODES
         times, rates = self.a + (self.b - self.a) * s * s * (3.0 - 2.0 * s), 6.0 * (self.b - self.a) * s * (1.0 - s)
         return list(zip(times.tolist(), (self.width * rates).tolist(), strict=True))
 
     @property
     def ends(self) -> list[float]:
-        """Return the times (s) of both ends, kept slightly within the contacts' times."""
+        """Return the times (s) of both ends of the panel, moved slightly inside the times of the contacts."""
         s, length = np.array([self.s, self.s + self.width]), self.b - self.a
         return np.clip(
             self.a + length * s * s * (3.0 - 2.0 * s), self.a + INSIDE * length, self.b - INSIDE * length
         ).tolist()
 
     def halved(self) -> tuple[Panel, Panel]:
-        """Return the two halves of the panel, without propagators."""
+        """Return two new panels, the halves of this one, without propagators."""
         h, one = 0.5 * self.width, (self.a, self.b)
         return Panel(*one, self.s, h, self.depth + 1), Panel(*one, self.s + h, h, self.depth + 1)
 
     def whole(self) -> tuple[Array, float]:
-        """Return the propagator of the panel, from its halves if there are any, and the remaining change."""
+        """Return the propagator of the panel, composed of its halves if there are any, and the sum of the remaining
+        changes.
+        """
         if not self.halves:
             assert self.P is not None
-            return self.P, self.change
+            return self.P, self.halving_change
         (P, first), (Q, second) = (half.whole() for half in self.halves)
         return Q @ P, first + second
 
@@ -238,46 +266,55 @@ class Tangent:
     z: Array = field(init=False)
 
     def __post_init__(self) -> None:
-        """Take the first tangent vector from a randomly drawn neighbour."""
+        """Set the first tangent vector z from the difference to a randomly drawn neighbour of the start, and its
+        norm.
+        """
         t, y = self.state.t, flat(self.state)
         own, _ = self.flow.reduced(t, y)
         other, _ = self.flow.reduced(t, self.measure.drawn(t, y))
         self.z = np.append((other - own) / NEAR, np.zeros(self.flow.joints + 1))
-        self.distance = self._tangent_norm(self.state, self.z)
+        self.distance = self._compute_tangent_norm(self.state, self.z)
 
-    def advance(self, t: float, shortest: bool) -> tuple[Result, float] | None:
+    def advance(self, t: float, is_shortest: bool) -> tuple[Result, float] | None:
         """Advance the run to t (s); return it and ln of the growth of the tangent vector.
 
-        Return None if the interval is too long, unless it is the `shortest`.
+        Return None, with nothing changed, if the growth is too large, unless the interval is the `is_shortest`.
+        Otherwise the vector is scaled back to the norm 1. KeyboardInterrupt is passed on.
         """
-        run = self._run([t])
-        changes = self._contact_changes(run)
-        places = {t_on for t_on, *_ in changes}
-        at = self._samples(sorted(places)) if places else {}
-        z, left = self.z, 0.0
-        for panel in self._compute_panels(sorted({self.state.t, t, *places})):
+        run = self._simulate_to([t])
+        changes = self._list_contact_changes(run)
+        times = {t_on for t_on, *_ in changes}
+        states = self._compute_states(sorted(times)) if times else {}
+        z, error = self.z, 0.0
+        for panel in self._compute_panels(sorted({self.state.t, t, *times})):
             P, change = panel.whole()
-            z, left = P @ z, left + change
+            z, error = P @ z, error + change
             for when, joint, onset, deltadot in changes:
                 if when == panel.b and panel.s + panel.width == 1.0:
-                    z = self._pass_contact(z, when, joint, onset, deltadot, at[when])
+                    z = self._pass_contact(z, when, joint, onset, deltadot, states[when])
         z = self._project_tangent(run, z)
-        distance = self._tangent_norm(run.final, z)
+        distance = self._compute_tangent_norm(run.final, z)
         grown = math.log(distance / self.distance)
-        if abs(grown) > LARGEST and not shortest:
+        if abs(grown) > MAX_LOG_GROWTH and not is_shortest:
             return None
-        self.state, self.z, self.distance, self.unresolved = run.final, z / distance, 1.0, self.unresolved + left
+        self.state, self.z, self.distance, self.unresolved = run.final, z / distance, 1.0, self.unresolved + error
         return run, grown
 
-    def _run(self, times: list[float] | Array) -> Result:
-        """Return the run from the present state at these times (s)."""
+    def _simulate_to(self, times: list[float] | Array) -> Result:
+        """Return the run from the present state with samples at these times (s).
+
+        Raise KeyboardInterrupt after Ctrl-C.
+        """
         run = self.simulation.simulate(output=times, start=self.state, stop=False, peaks=(), **self.settings)
         if run.diagnostics.interrupted:
             raise KeyboardInterrupt
         return run
 
-    def _contact_changes(self, run: Result) -> list[tuple[float, int, bool, float]]:
-        """Return the onsets and ends of contacts within the run, by time: time, joint, is an onset, δ̇⁻."""
+    def _list_contact_changes(self, run: Result) -> list[tuple[float, int, bool, float]]:
+        """Return the onsets and ends of contacts strictly within the run, sorted by time.
+
+        Items are (time in s, index of the joint, whether it is an onset, approach speed δ̇⁻ in m/s).
+        """
         begin, end = self.state.t, float(run.t[-1])
         found = []
         for impact in run.impacts:
@@ -289,114 +326,139 @@ class Tangent:
             ]
         return sorted(found)
 
-    def _samples(self, times: list[float]) -> dict[float, tuple[Array, Array]]:
-        """Return (q, q̇) and discrete states at these times (s)."""
-        run = with_start(self._run([t for t in times if t > self.state.t]))
+    def _compute_states(self, times: list[float]) -> dict[float, tuple[Array, Array]]:
+        """Return (q, q̇), (2n,), and discrete states by time, from a run through these increasing times (s)."""
+        run = with_start(self._simulate_to([t for t in times if t > self.state.t]))
         rows = np.searchsorted(run.t, times)
         return {
             t: (np.concatenate([run.q[k], run.v[k]]), run.memory[k].copy()) for t, k in zip(times, rows, strict=True)
         }
 
-    def _compute_panels(self, places: list[float]) -> list[Panel]:
-        """Return panels from the first to the last of these times, halved until their propagators converge."""
+    def _compute_panels(self, times: list[float]) -> list[Panel]:
+        """Return panels between successive times, halved until their propagators converge or DEEPEST is reached.
+
+        Converged means that halving changes a propagator little, and that it carries the direction of motion along.
+        """
         panels = [
-            Panel(a, b, k / FIRST, 1.0 / FIRST) for a, b in zip(places, places[1:], strict=False) for k in range(FIRST)
+            Panel(a, b, k / N_PANELS, 1.0 / N_PANELS)
+            for a, b in zip(times, times[1:], strict=False)
+            for k in range(N_PANELS)
         ]
         self._compute_propagators(panels)
-        open_ones = panels
-        while open_ones:
-            for one in open_ones:
-                one.halves = one.halved()
-            halves = [half for one in open_ones for half in one.halves]
+        unconverged = panels
+        while unconverged:
+            for panel in unconverged:
+                panel.halves = panel.halved()
+            halves = [half for panel in unconverged for half in panel.halves]
             self._compute_propagators(halves)
             further: list[Panel] = []
-            for one in open_ones:
-                first, second = one.halves
-                assert first.P is not None and second.P is not None and one.P is not None
-                change = self._propagator_difference(second.P @ first.P, one.P)
-                missed = max(first.missed, second.missed)
-                if (change > CLOSE or missed > CARRIED) and first.depth < DEEPEST:
-                    further += one.halves
+            for panel in unconverged:
+                first, second = panel.halves
+                assert first.P is not None and second.P is not None and panel.P is not None
+                change = self._compare_propagators(second.P @ first.P, panel.P)
+                carry_error = max(first.carry_error, second.carry_error)
+                if (change > PROPAGATOR_TOL or carry_error > MAX_CARRY_ERROR) and first.depth < MAX_DEPTH:
+                    further += panel.halves
                 else:
-                    first.change = max(change, missed if missed > CARRIED else 0.0)
-            open_ones = further
+                    first.halving_change = max(change, carry_error if carry_error > MAX_CARRY_ERROR else 0.0)
+            unconverged = further
         return panels
 
     def _compute_propagators(self, panels: list[Panel]) -> None:
-        """Compute the propagators of panels: K = (I − A⊗…)⁻¹ A and P = I + Σ b K; A is J dt/ds times the width."""
+        """Compute propagator P and carry error of each panel by the three-stage Radau IIA method, and store them in the
+        panel.
+
+        K = (I − A⊗…)⁻¹ A and P = I + Σ b K; A is J dt/ds times the width.
+        """
         nodes = [panel.nodes for panel in panels]
-        known = self._samples(sorted({t for panel in nodes for t, _ in panel} | {t for x in panels for t in x.ends}))
-        A = np.array([[rate * self._slopes(t, *known[t]) for t, rate in panel] for panel in nodes])
+        known = self._compute_states(
+            sorted({t for panel in nodes for t, _ in panel} | {t for x in panels for t in x.ends})
+        )
+        A = np.array([[rate * self._compute_jacobian(t, *known[t]) for t, rate in panel] for panel in nodes])
         count, _, size, _ = A.shape
         matrix = np.eye(3 * size) - (BUTCHER[None, :, None, :, None] * A[:, :, :, None, :]).reshape(
             count, 3 * size, 3 * size
         )
         K = np.linalg.solve(matrix, A.reshape(count, 3 * size, size)).reshape(count, 3, size, size)
         for panel, P in zip(panels, np.eye(size) + np.einsum("i,pijk->pjk", WEIGHTS, K), strict=True):
-            panel.P, panel.missed = P, self._carry_error(P, *(self._rates(t, *known[t]) for t in panel.ends))
+            panel.P, panel.carry_error = (
+                P,
+                self._compute_carry_error(P, *(self._compute_rates(t, *known[t]) for t in panel.ends)),
+            )
 
-    def _rates(self, t: float, full: Array, memory: Array) -> Array:
-        """Return ẏ (2m,) at the state (q, q̇) of all bodies."""
-        y, chain = self.flow.reduced(t, full)
+    def _compute_rates(self, t: float, qv: Array, memory: Array) -> Array:
+        """Return ẏ (2m,) at the state (q, q̇), (2n,), of all bodies with discrete states `memory`."""
+        y, chain = self.flow.reduced(t, qv)
         return self.flow.rates(t, y, chain, memory)
 
-    def _carry_error(self, P: Array, first: Array, last: Array) -> float:
-        """Return the relative error with which P carries the rates at a panel's begin to those at its end."""
-        w, size = self._weights(), len(first)
-        carried = P @ np.concatenate([first, np.zeros(self.flow.joints), [1.0]])
-        most = max(float(np.linalg.norm(one / w[:size])) for one in (first, last))
-        return float(np.linalg.norm((carried[:size] - last) / w[:size])) / max(most, 1e-9 / self.measure.crossing)
+    def _compute_carry_error(self, P: Array, first: Array, last: Array) -> float:
+        """Return the relative error with which P carries the rates at a panel's begin (`first`) to those at its end
+        (`last`).
 
-    def _slopes(self, t: float, full: Array, memory: Array) -> Array:
+        Exact propagators carry the rates of an autonomous flow along; slow motions are compared with a least speed.
+        """
+        w, size = self._compute_scales(), len(first)
+        carried = P @ np.concatenate([first, np.zeros(self.flow.joints), [1.0]])
+        largest = max(float(np.linalg.norm(one / w[:size])) for one in (first, last))
+        return float(np.linalg.norm((carried[:size] - last) / w[:size])) / max(largest, 1e-9 / self.measure.crossing)
+
+    def _compute_jacobian(self, t: float, qv: Array, memory: Array) -> Array:
         """Return the Jacobian at the state (q, q̇) of all bodies; see Flow.slopes."""
-        y, chain = self.flow.reduced(t, full)
+        y, chain = self.flow.reduced(t, qv)
         return self.flow.slopes(t, y, chain, memory)
 
-    def _weights(self) -> Array:
+    def _compute_scales(self) -> Array:
         """Return the scales of y and of δ̇⁻, (2m + n_clearances,): differences that count as 1."""
         largest, crossing = float(self.measure.weights[: self.measure.n].max()), self.measure.crossing
         q = largest * np.where(self.flow.is_angle, 1.0 / self.measure.size, 1.0)
         return np.concatenate([q, q / crossing, np.full(self.flow.joints, largest / crossing)])
 
-    def _propagator_difference(self, P: Array, Q: Array) -> float:
-        """Return the scaled relative difference of two propagators."""
-        w = self._weights()
+    def _compare_propagators(self, P: Array, Q: Array) -> float:
+        """Return the norm of the difference of two propagators relative to that of the first, in scaled variables."""
+        w = self._compute_scales()
         P, Q = P[:-1, :-1] * w / w[:, None], Q[:-1, :-1] * w / w[:, None]
         return float(np.linalg.norm(P - Q) / np.linalg.norm(P))
 
     def _pass_contact(
-        self, z: Array, t: float, joint: int, onset: bool, deltadot: float, at: tuple[Array, Array]
+        self, z: Array, t: float, joint: int, is_onset: bool, approach_speed: float, state_at_t: tuple[Array, Array]
     ) -> Array:
-        """Return the tangent vector z after the onset or the end of a contact (saltation matrix)."""
+        """Return the tangent vector z after the onset or the end of a contact at t (s), by its saltation matrix.
+
+        `joint`: index; `is_onset`: whether the contact begins; `approach_speed`: approach speed (m/s); `state_at_t`:
+        (q, q̇) and discrete states at t. At an onset, the component of the approach speed is set; at an end it becomes
+        0.
+        """
         flow, size = self.flow, 2 * self.flow.m
-        (y, chain), d = flow.reduced(t, at[0]), z[:size]
-        closed, free = at[1].copy(), at[1].copy()
-        closed[joint], free[joint] = deltadot, np.nan
+        (y, chain), d = flow.reduced(t, state_at_t[0]), z[:size]
+        closed, free = state_at_t[1].copy(), state_at_t[1].copy()
+        closed[joint], free[joint] = approach_speed, np.nan
         gap, rate = flow.gap(joint, t, y, chain)
-        h = SMALL / self.measure.apart(self._lift_difference(t, y, chain, d))
+        h = DIFFERENCE_STEP / self.measure.apart(self._lift_difference(t, y, chain, d))
         ends = [np.array(flow.gap(joint, t, y + s * h * d, chain)) for s in (1.0, -1.0)]
-        along, along_rate = (ends[0] - ends[1]) / (2.0 * h)
-        later = -along / rate
-        out = (BESIDE * flow.play[joint] + 2.0 * abs(gap)) / abs(rate)  # s
+        gap_slope, rate_slope = (ends[0] - ends[1]) / (2.0 * h)
+        time_shift = -gap_slope / rate
+        offset = (CLEARANCE_OFFSET * flow.play[joint] + 2.0 * abs(gap)) / abs(rate)  # s
         drift = flow.rates(t, y, chain, free)
         drift[flow.m :] = 0.0
         f = [
-            flow.rates(t + s * out, y + s * out * drift, flow.chain_at(t + s * out, chain), memory)
-            for s, memory in ((-1.0, free if onset else closed), (1.0, closed if onset else free))
+            flow.rates(t + s * offset, y + s * offset * drift, flow.chain_at(t + s * offset, chain), memory)
+            for s, memory in ((-1.0, free if is_onset else closed), (1.0, closed if is_onset else free))
         ]
-        passed = z.copy()
-        passed[:size] -= (f[1] - f[0]) * later
-        passed[size + joint] = 0.0
-        if onset and deltadot < rate * (1.0 + 1e-6):  # else the floor of δ̇⁻, which does not move
-            passed[size + joint] = along_rate + self._gap_acceleration(joint, t, y, chain, f[0]) * later
-        return passed
+        z_after = z.copy()
+        z_after[:size] -= (f[1] - f[0]) * time_shift
+        z_after[size + joint] = 0.0
+        if is_onset and approach_speed < rate * (1.0 + 1e-6):  # else the floor of δ̇⁻, which does not move
+            z_after[size + joint] = rate_slope + self._compute_gap_acceleration(joint, t, y, chain, f[0]) * time_shift
+        return z_after
 
-    def _gap_acceleration(self, joint: int, t: float, y: Array, chain: Array, f: Array) -> float:
-        """Return the second derivative g̈ (m/s²) of a gap along the rates f."""
+    def _compute_gap_acceleration(self, joint: int, t: float, y: Array, chain: Array, f: Array) -> float:
+        """Return the second derivative g̈ (m/s²) of the gap of a joint along the rates f (2m,), by central
+        differences in time.
+        """
         flow, n = self.flow, len(y) // 2
         lifted = self._lift_difference(t, y, chain, f)
         lifted[self.measure.n :] = 0.0
-        h = SMALL / max(self.measure.apart(lifted), 1.0 / self.measure.crossing)
+        h = DIFFERENCE_STEP / max(self.measure.apart(lifted), 1.0 / self.measure.crossing)
         rates = [
             flow.gap(
                 joint, t + s, y + s * f + 0.5 * s * s * np.append(f[n:], np.zeros(n)), flow.chain_at(t + s, chain)
@@ -406,7 +468,10 @@ class Tangent:
         return (rates[0] - rates[1]) / (2.0 * h)
 
     def _project_tangent(self, run: Result, z: Array) -> Array:
-        """Return z projected onto the constraints' tangent and, if requested, transverse to the motion."""
+        """Return z projected onto the tangent space of the constraints at the end of the run.
+
+        If `transverse`, its component along the motion is removed first.
+        """
         t, full, size = float(run.t[-1]), flat(run.final), 2 * self.flow.m
         y, chain = self.flow.reduced(t, full)
         d = z[:size]
@@ -421,13 +486,15 @@ class Tangent:
         return np.append((ends[0] - ends[1]) / (2.0 * h), z[size:])
 
     def _lift_difference(self, t: float, y: Array, chain: Array, d: Array) -> Array:
-        """Return the difference (2n,) of all bodies for the difference d (2m,) of the integrated state."""
+        """Return the difference (2n,) of all bodies for the difference d (2m,) of the integrated state; zeros for d
+        = 0.
+        """
         largest = float(np.abs(d).max(initial=0.0))
         if largest == 0.0:
             return np.zeros(2 * self.measure.n)
         return self.flow.lifted(t, y, chain, d, 1e-6 / largest)
 
-    def _tangent_norm(self, state: State, z: Array) -> float:
-        """Return the scaled norm of the tangent vector z at a state."""
+    def _compute_tangent_norm(self, state: State, z: Array) -> float:
+        """Return the scaled norm of the coordinates' part of the tangent vector z at a state."""
         y, chain = self.flow.reduced(state.t, flat(state))
         return self.measure.apart(self._lift_difference(state.t, y, chain, z[: 2 * self.flow.m]))

@@ -102,60 +102,71 @@ def wear(
     return _build_wear(run, again.diagnostics.rubbed[0], rates, law)
 
 
-def _check_request(run: Result, joint: Any, points: Any, since: Any, until: Any, contact: Any) -> SlidingRequest:
-    """Return the checked request for the wear of a joint between `since` and `until` (s)."""
+def _check_request(run: Result, joint: Any, points: Any, since: Any, until: Any, contact_model: Any) -> SlidingRequest:
+    """Check the arguments of `wear` and return the request to observe the joint between `since` and `until` (s).
+
+    None stands for the start or the end of the run. Raises BadValueError, UnknownNameError.
+    """
     check_rubs(run.source, joint)
-    if text(contact, "contact") not in CONTACT:
-        refuse("contact", contact, " or ".join(CONTACT))
+    if text(contact_model, "contact") not in CONTACT:
+        refuse("contact", contact_model, " or ".join(CONTACT))
     first, last = (start_of_run(run).t, float(run.t[-1])) if len(run.t) else (0.0, 0.0)
     begin = first if since is None else number_of(since, "since")
     end = last if until is None else number_of(until, "until")
     if not first <= begin < end <= last:
         message_of = f"wear from {begin:g} to {end:g} s of a run from {first:g} to {last:g} s"
         raise BadValueError(message_of, hint="expected since before until, both within the run")
-    return SlidingRequest(joint, whole(points, "points", 8, MOST_POINTS), begin, end, contact == "overlap")
+    return SlidingRequest(joint, whole(points, "points", 8, MOST_POINTS), begin, end, contact_model == "overlap")
 
 
 def check_rubs(source: KernelSource, joint: Any) -> None:
-    """Raise UnknownNameError unless the joint has play, BadValueError unless its contact force is known."""
-    own = [one for one in source.clearances if isinstance(joint, str) and one.name == joint]
-    if not own:
+    """Raise an error unless wear can be computed for a joint: revolute, with play, dry contact and a known contact
+    force.
+
+    UnknownNameError for a joint without play, BadValueError for the rest.
+    """
+    matching = [one for one in source.clearances if isinstance(joint, str) and one.name == joint]
+    if not matching:
         hint = f"its joints with play: {', '.join(one.name for one in source.clearances) or 'none'}"
         raise UnknownNameError(f"no wear of {message(joint)}: expected a joint with play", hint=hint)
-    if own[0].at_wall:
+    if matching[0].at_wall:
         message_of = f"no wear of {joint}: a corner of a slider, and wear is told of bearings, over their circumference"
         raise BadValueError(message_of, hint="expected a revolute joint with play")
-    if not own[0].dry:
+    if not matching[0].dry:
         raise BadValueError(f"{joint} has a film alone: nothing wears", hint="expected a contact with a normal law")
-    if not has_known_contact_force(source, own[0]):
+    if not has_known_contact_force(source, matching[0]):
         message_of = f"no wear of {joint}: what its film bears is known where all laws are gudgeon's own"
         raise BadValueError(
             message_of, hint=f"without {', '.join(name for name, _ in source.laws)}, or without the film"
         )
 
 
-def rate_of(k: Any, hardness: Any, k_name: str, name: str) -> float:
-    """Return the wear rate k/H (1/Pa) from the arguments of `wear`."""
+def rate_of(k: Any, hardness: Any, k_name: str, hardness_name: str) -> float:
+    """Return the wear rate k/H (1/Pa) from the arguments k and hardness of `wear`; without a hardness, k is k/H itself.
 
-    def number(value: Any, what: str, exponents: tuple[int, int, int]) -> float:
+    `k_name` and `hardness_name` of the arguments are for messages. Raises InputError for values that are not positive.
+    """
+
+    def parse_positive(value: Any, what: str, exponents: tuple[int, int, int]) -> float:
         """Return a positive number from a text with a unit or a number."""
         return positive(number_of_text(value, what, exponents) if isinstance(value, str) else value, what)
 
     if hardness is None:
-        return number(k, k_name, SPECIFIC)
-    return number(k, k_name, NOTHING) / number(hardness, name, PRESSURE)
+        return parse_positive(k, k_name, SPECIFIC)
+    return parse_positive(k, k_name, NOTHING) / parse_positive(hardness, hardness_name, PRESSURE)
 
 
-def _build_wear(run: Result, rubbed: SlidingLoads, rates: tuple[float, float], law: str) -> Wear:
-    """Return the Wear of a run from its friction histories."""
-    hours = (rubbed.end - rubbed.begin) / HOUR
+def _build_wear(run: Result, loads: SlidingLoads, rates: tuple[float, float], law: str) -> Wear:
+    """Build the Wear of a run from the observed loads of bearing and journal, their wear rates k/H (1/Pa) and the
+    law.
+    """
+    hours = (loads.end - loads.begin) / HOUR
     bearing, journal = (
-        Surface(rubbed.depth(side, law, rate), rubbed.radii[side], rubbed.length, hours)
-        for side, rate in enumerate(rates)
+        Surface(loads.depth(side, law, rate), loads.radii[side], loads.length, hours) for side, rate in enumerate(rates)
     )
-    span, title = (rubbed.begin, rubbed.end), f"{one_line(run.source.title)}: {run.source.scene}"
-    angle = cell_angles(rubbed.requested.points)
-    return Wear(rubbed.requested.joint, law, angle, bearing, journal, rubbed.slip, span, title)
+    span, title = (loads.begin, loads.end), f"{one_line(run.source.title)}: {run.source.scene}"
+    angle = cell_angles(loads.requested.points)
+    return Wear(loads.requested.joint, law, angle, bearing, journal, loads.slip, span, title)
 
 
 class WearObserver:
@@ -163,40 +174,45 @@ class WearObserver:
     circumference.
     """
 
-    def __init__(self, compiled: CompiledModel, requested: SlidingRequest, numbers: tuple[Array, Array, Array]) -> None:
-        self.path, self.compiled, self.requested = Path(compiled, numbers, ()), compiled, requested
-        self.number = [one.name for one in compiled.source.clearances].index(requested.joint)
-        self.joint = compiled.source.clearances[self.number]
+    def __init__(
+        self, compiled: CompiledModel, request: SlidingRequest, parameter_arrays: tuple[Array, Array, Array]
+    ) -> None:
+        self.interpolant, self.compiled, self.requested = Path(compiled, parameter_arrays, ()), compiled, request
+        self.joint_index = [one.name for one in compiled.source.clearances].index(request.joint)
+        self.joint = compiled.source.clearances[self.joint_index]
         self.rigid = self.joint.name in compiled.source.rigid
-        self.p = without_oil(compiled, self.path.p) if self.joint.film else self.path.p
-        self.load, self.friction = np.zeros((2, requested.points)), np.zeros((2, requested.points))
-        self.slip, self.first, self.last, self.seen = 0.0, np.nan, np.nan, 0
+        self.p = without_oil(compiled, self.interpolant.p) if self.joint.film else self.interpolant.p
+        self.load, self.friction = np.zeros((2, request.points)), np.zeros((2, request.points))
+        self.slip, self.first, self.last, self.n_states = 0.0, np.nan, np.nan, 0
 
     def __call__(self, steps: Steps) -> None:
-        """Process the next states of the run."""
-        path, before = self.path, min(self.seen, 2)
+        """Process the next states of the run: add the loads of closed intervals within the requested time."""
+        path, before = self.interpolant, min(self.n_states, 2)
         path.take(steps)
-        self.seen += len(steps)
+        self.n_states += len(steps)
         x, k = path.steps, np.arange(max(before - 1, 0), len(path.steps) - 1)
         self.first = float(x.t[0]) if np.isnan(self.first) else self.first
         self.last = float(x.t[-1])
         known = np.asarray(np.isfinite(path.run.a[1:]).all(axis=1))
         begin, end = (np.clip(x.t[rows], self.requested.begin, self.requested.end) for rows in (k, k + 1))
-        kept = path.inner[k] & (x.state[k, self.number] > 0) & known[k] & known[k + 1] & (end > begin)
+        kept = path.inner[k] & (x.state[k, self.joint_index] > 0) & known[k] & known[k + 1] & (end > begin)
         if kept.any():
             self._add_loads(k[kept], begin[kept], end[kept])
 
     def message(self) -> Observation:
-        """Return the loads of the circumference and notes as a Result stores them."""
+        """Return the loads over the circumference, and a note on states without accelerations, as an Observation."""
         begin, end = max(self.first, self.requested.begin), min(self.last, self.requested.end)
-        lost = (f"wear: {self.path.lost} states of steps have no accelerations and are left out",)
-        R_i, R_j, L = (float(self.path.p[k]) for k in bearing_of(self.compiled.source, self.requested.joint))
+        lost = (f"wear: {self.interpolant.lost} states of steps have no accelerations and are left out",)
+        R_i, R_j, L = (float(self.interpolant.p[k]) for k in bearing_of(self.compiled.source, self.requested.joint))
         found = SlidingLoads(self.requested, self.load, self.friction, self.slip, begin, end, (R_i, R_j), L)
-        return Observation(notes=lost if self.path.lost else (), rubbed=(found,))
+        return Observation(notes=lost if self.interpolant.lost else (), rubbed=(found,))
 
     def _add_loads(self, k: Array, begin: Array, end: Array) -> None:
-        """Add the loads between states k and k + 1 (K,), from times `begin` to `end` (K,) in s."""
-        x, h = self.path.steps, (end - begin)[:, None]
+        """Add the loads of the intervals between states k and k + 1 (K,), from times `begin` to `end` (K,) in s.
+
+        The integrals of F_n and F_t over the slip are computed by quadrature of an interpolated motion.
+        """
+        x, h = self.interpolant.steps, (end - begin)[:, None]
         t = begin[:, None] + h * NODES
         s = ((t - x.t[k, None]) / (x.t[k + 1] - x.t[k])[:, None])[:, :, None]
         q, v = self._interpolate_motion(k, s)
@@ -205,7 +221,7 @@ class WearObserver:
         memory[:, :, states] += s * (x.memory[k + 1, states] - x.memory[k, states])[:, None]
         q_flat, v_flat, latched = (array.reshape(t.size, -1) for array in (q, v, memory))
         found = self.compiled.evaluate(t.ravel(), q_flat, v_flat, latched, self.p, parts=("clearance",))
-        columns = dict(zip(CLEARANCE_COLUMNS, found.clearance[:, self.number].T, strict=True))
+        columns = dict(zip(CLEARANCE_COLUMNS, found.clearance[:, self.joint_index].T, strict=True))
         F_n, F_t, e_x, e_y, e, v_t, delta = (
             columns[name].reshape(t.shape) for name in ("Fn", "Ft", "ex", "ey", "e", "vt", "delta")
         )
@@ -216,23 +232,31 @@ class WearObserver:
         slip = w * np.where(touching, np.abs(v_t), 0.0)
         loads = np.stack([slip * np.maximum(F_n, 0.0), slip * np.abs(F_t)]).reshape(2, -1)  # nothing is worn by a pull
         self.slip += float(slip.sum())
-        half = np.arccos(np.clip(1.0 - delta / e, -1.0, 1.0)).ravel() if self.requested.overlap else None
+        half_widths = np.arccos(np.clip(1.0 - delta / e, -1.0, 1.0)).ravel() if self.requested.overlap else None
         for side, body in enumerate((self.joint.first, self.joint.second)):
             index = self.compiled.source.bodies[body].index if body >= 0 else -1
             angle = np.unwrap(np.arctan2(e_y, e_x), axis=1) - (q[:, :, index + 2] if body >= 0 else 0.0)
-            self._distribute(side, angle, half, loads)
+            self._distribute(side, angle, half_widths, loads)
 
-    def _distribute(self, side: int, angle: Array, half: Array | None, loads: Array) -> None:
-        """Distribute each point's loads over its part of the arc that the contact sweeps."""
+    def _distribute(self, side: int, angle: Array, half_widths: Array | None, loads: Array) -> None:
+        """Add each quadrature point's loads to the cells of the arc that the contact sweeps, or overlaps with
+        `half_widths` width.
+
+        `side`: 0 bearing, 1 journal; `angle` (K, points) in rad; `half_widths`: half widths in rad, or None for contact
+        at a point; `loads` (2, K·points).
+        """
         ends = angle @ TO_ENDS.T
         low, high = np.minimum(ends[:, 1:], ends[:, :-1]), np.maximum(ends[:, 1:], ends[:, :-1])
-        worn = spread(self.requested.points, low.ravel(), high.ravel(), loads, half)
+        worn = spread(self.requested.points, low.ravel(), high.ravel(), loads, half_widths)
         self.load[side] += worn[0]
         self.friction[side] += worn[1]
 
     def _interpolate_motion(self, k: Array, s: Array) -> tuple[Array, Array]:
-        """Return q and q̇ (K, points, n) at fractions s of the intervals: Hermite polynomials of degree five."""
-        x, a = self.path.steps, self.path.run.a[1:]
+        """Return q and q̇ (K, points, n) at fractions s (K, points, 1) of the intervals after states k (K,).
+
+        They are Hermite polynomials of degree five through positions, velocities and accelerations.
+        """
+        x, a = self.interpolant.steps, self.interpolant.run.a[1:]
         h = (x.t[k + 1] - x.t[k])[:, None, None]
         q0, q1, v0, v1, a0, a1 = (array[rows][:, None] for array in (x.q, x.v, a) for rows in (k, k + 1))
         way = q1 - q0 - h * v0 - 0.5 * h**2 * a0  # what a parabola from the first state misses at the second

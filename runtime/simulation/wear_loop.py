@@ -50,13 +50,17 @@ class Wearing:
 
     @property
     def rubbing(self) -> tuple[SlidingRequest, ...]:
-        """Return the requests to observe the wear of all joints in a run."""
+        """Return the requests, one per joint, to observe the wear of a run from `begin` (s) on."""
         return tuple(SlidingRequest(joint, self.points, self.begin, np.inf, self.overlap) for joint in self.joints)
 
-    def deeper(self, rubbed: SlidingLoads, slots: int) -> tuple[Array, Array]:
-        """Return the wear depths (m) of a run: (points,) over the cells, (slots,) over the contour."""
-        depth = self.scale * rubbed.depth(0, self.law, self.rate)
-        return depth, smoothed(means_on_slots(depth, slots), self.passes)
+    def deeper(self, loads: SlidingLoads, n_angles: int) -> tuple[Array, Array]:
+        """Return the wear depths (m) of a round from the loads of one run: (points,) over the cells, (slots,) over the
+        contour.
+
+        Depths over the contour are averaged and smoothed.
+        """
+        depth = self.scale * loads.depth(0, self.law, self.rate)
+        return depth, smoothed(means_on_slots(depth, n_angles), self.passes)
 
 
 def wear_loop(
@@ -121,7 +125,7 @@ class Loop:
 
     def __init__(self, simulation: Simulation, wearing: Wearing, contour: Mapping[str, Array]) -> None:
         self.simulation, self.wearing, self.given = simulation, wearing, dict(contour)
-        self.slots = {one.joint: one.count for one in simulation.source.contours}
+        self.n_angles = {one.joint: one.count for one in simulation.source.contours}
         self.contours: dict[str, list[Array]] = {joint: [] for joint in wearing.joints}
         self.depths: dict[str, list[Array]] = {joint: [] for joint in wearing.joints}
         self.journals: dict[str, list[Array]] = {joint: [] for joint in wearing.joints}
@@ -131,7 +135,11 @@ class Loop:
         self.failures: dict[int, str] = {}
 
     def round(self, parameters: ParameterSets, t_end: Any, **options: Any) -> Batch:
-        """Run all runs once with the present contours, deepen these, and return the Batch."""
+        """Run all runs once with the present contours, deepen the contours by the wear, and return the Batch.
+
+        `options`: further arguments of simulate_many. Failed runs are recorded and deepen nothing. Raises
+        KeyboardInterrupt after Ctrl-C.
+        """
         if not any(self.contours.values()):
             self._set_first_contours(parameters)
         batch = self.simulation.simulate_many(
@@ -140,34 +148,39 @@ class Loop:
         if batch.interrupted:
             raise KeyboardInterrupt
         self.failures |= {one.run: str(one.error) for one in batch.failures if one.run not in self.failures}
-        for place, joint in enumerate(self.wearing.joints):
-            self._add_round(batch, place, joint)
+        for index, joint in enumerate(self.wearing.joints):
+            self._add_round(batch, index, joint)
         return batch
 
-    def _add_round(self, batch: Batch, place: int, joint: str) -> None:
-        """Add the results of a round for one joint: depths, works, peaks and the new contour."""
-        n, slots = len(batch), self.slots[joint]
+    def _add_round(self, batch: Batch, index: int, joint: str) -> None:
+        """Append the results of a round for one joint: depths, works, peaks and the new contour; NaN for failed runs.
+
+        `index`: index of the joint among those that wear.
+        """
+        n, n_angles = len(batch), self.n_angles[joint]
         if not self.contours[joint]:
-            self.contours[joint].append(np.array(np.broadcast_to(self.given[joint], (n, slots))))
-        depth, more = np.full((n, self.wearing.points), np.nan), np.full((n, slots), np.nan)
+            self.contours[joint].append(np.array(np.broadcast_to(self.given[joint], (n, n_angles))))
+        depth, contour_depth = np.full((n, self.wearing.points), np.nan), np.full((n, n_angles), np.nan)
         work, journal = np.full(n, np.nan), np.full_like(depth, np.nan)
         sizes = self.sizes.setdefault(joint, np.full((3, n), np.nan))
         for i in (i for i in range(n) if i not in self.failures):
-            rubbed = batch.rubbed[i][place]
-            depth[i], more[i] = self.wearing.deeper(rubbed, slots)
-            work[i] = (rubbed.load if self.wearing.law == LAWS[0] else rubbed.friction)[0].sum()
-            journal[i] = self.wearing.scale * rubbed.depth(1, self.wearing.law, self.wearing.rate)
-            sizes[:, i] = rubbed.radii[0], rubbed.length, rubbed.radii[1]
-        own = [one.name for one in batch.source.clearances].index(joint)
+            loads = batch.rubbed[i][index]
+            depth[i], contour_depth[i] = self.wearing.deeper(loads, n_angles)
+            work[i] = (loads.load if self.wearing.law == LAWS[0] else loads.friction)[0].sum()
+            journal[i] = self.wearing.scale * loads.depth(1, self.wearing.law, self.wearing.rate)
+            sizes[:, i] = loads.radii[0], loads.length, loads.radii[1]
+        joint_index = [one.name for one in batch.source.clearances].index(joint)
         self.depths[joint].append(depth)
         self.journals[joint].append(journal)
         self.works[joint].append(work)
-        self.peaks[joint].append(np.where(np.isnan(work), np.nan, batch.peaks["F"][:, own]))
-        self.contours[joint].append(self.contours[joint][-1] + more)
-        self.given[joint] = np.where(np.isnan(more), 0.0, self.contours[joint][-1])
+        self.peaks[joint].append(np.where(np.isnan(work), np.nan, batch.peaks["F"][:, joint_index]))
+        self.contours[joint].append(self.contours[joint][-1] + contour_depth)
+        self.given[joint] = np.where(np.isnan(contour_depth), 0.0, self.contours[joint][-1])
 
     def _set_first_contours(self, parameters: ParameterSets) -> None:
-        """Set the contours of the first round: those given, else those of the file for each run's parameter values."""
+        """Set the contours of the first round where none are given: those of the file for each run's parameter
+        values.
+        """
         compiled, source = self.simulation.compiled, self.simulation.source
         given, is_given = given_each(source, rows_of(parameters)[0])
         for joint in self.wearing.joints:
@@ -176,7 +189,7 @@ class Loop:
                 self.given.setdefault(joint, own if len(own) > 1 else own[0])
 
     def found(self) -> Worn:
-        """Return the results of all rounds so far."""
+        """Return the results of all rounds so far as a Worn, with arrays over rounds and runs for each joint."""
         source, wearing = self.simulation.source, self.wearing
         joints = {
             joint: WornJoint(
@@ -195,33 +208,49 @@ class Loop:
         return Worn(joints, wearing.law, wearing.rate, wearing.scale, self.failures, title)
 
 
-def means_on_slots(depth: Array, slots: int) -> Array:
-    """Return the means (slots,) of depths (points,) over the arcs around the slots' angles; the total mean is kept."""
+def means_on_slots(depth: Array, n_angles: int) -> Array:
+    """Return the means (slots,) of depths (points,) over the arcs around the contour's equally spaced angles.
+
+    The total mean is kept.
+    """
     points = len(depth)
-    below = np.concatenate([[0.0], np.cumsum(depth)])
-    edges = (np.arange(slots + 1) - 0.5) * (points / slots)
+    cumulative = np.concatenate([[0.0], np.cumsum(depth)])
+    edges = (np.arange(n_angles + 1) - 0.5) * (points / n_angles)
     whole_turns, rest = np.divmod(edges, points)
-    upto = whole_turns * below[-1] + np.interp(rest, np.arange(points + 1), below)
-    return np.asarray(np.diff(upto) * (slots / points))
+    upto = whole_turns * cumulative[-1] + np.interp(rest, np.arange(points + 1), cumulative)
+    return np.asarray(np.diff(upto) * (n_angles / points))
 
 
 def smoothed(depth: Array, passes: int) -> Array:
-    """Return the depths of slots after `passes` averages with a quarter of both neighbours; the sum is kept."""
+    """Return the depths of a contour after `passes` averages of half itself and a quarter of both neighbours.
+
+    The contour is periodic, and the sum is kept.
+    """
     for _ in range(passes):
         depth = 0.5 * depth + 0.25 * (np.roll(depth, 1) + np.roll(depth, -1))
     return depth
 
 
 def _check_joints(simulation: Simulation, joints: str | Iterable[str]) -> tuple[str, ...]:
-    """Return the checked names of joints with a contour. Raise UnknownNameError, BadValueError."""
-    able = [one.joint for one in simulation.source.contours]
+    """Check the argument `joints`, a name or names, and return the names as a tuple: joints with a contour that can
+    wear.
+
+    Raises UnknownNameError for a joint without one, BadValueError for none or repeated names.
+    """
+    joints_with_contour = [one.joint for one in simulation.source.contours]
     names = tuple(joint_names(joints, "joints", "a name or names"))
     if not names:
-        raise BadValueError(f"joints is {message(joints)}: expected a name or names", hint=", ".join(able))
+        raise BadValueError(
+            f"joints is {message(joints)}: expected a name or names", hint=", ".join(joints_with_contour)
+        )
     for joint in names:
         check_rubs(simulation.source, joint)
-        if joint not in able:
-            hint = f"joints with one: {', '.join(able)}" if able else "write contour: 128 into its play"
+        if joint not in joints_with_contour:
+            hint = (
+                f"joints with one: {', '.join(joints_with_contour)}"
+                if joints_with_contour
+                else "write contour: 128 into its play"
+            )
             raise UnknownNameError(f"{joint} has no contour that wear could deepen", hint=hint)
     if len(set(names)) < len(names):
         raise BadValueError("joints: one is named twice", hint="name each once")
@@ -229,7 +258,9 @@ def _check_joints(simulation: Simulation, joints: str | Iterable[str]) -> tuple[
 
 
 def share(progress: Progress | None, k: int, rounds: int) -> Progress | None:
-    """Return the progress function of round k of `rounds`, or None without one."""
+    """Return a progress function for round k of `rounds`, which scales its fraction to all rounds; None without
+    `progress`.
+    """
     if progress is None:
         return None
     return lambda fraction, words: progress((k + fraction) / rounds, f"round {k + 1} of {rounds}: {words}")

@@ -30,10 +30,7 @@ NOISE = 1e-9  # values below this fraction of the largest of their kind are roun
 
 @dataclass(frozen=True)
 class Drawn:
-    """A scene with changed parameter values at the time t (s), with the data that a sheet prints.
-
-    Positions and rates are rounded as printed, in SI; angles are not reduced to one turn.
-    """
+    """Hold a scene with changed parameter values at the time t (s), with the data that an exercise sheet prints."""
 
     numbers: dict[str, str]  # those that differ from the file's, by address, with their units
     t: float
@@ -44,7 +41,11 @@ class Drawn:
     units: Array  # (2n,) value of the last printed digit of q and v
 
     def uncertainty(self, function: Callable[[Array, Array], Array]) -> Array:
-        """Return by how much the data's rounding, half a unit of each last digit, may change function(q, v)."""
+        """Return how much function(q, v) may change by the rounding of the printed data, half a unit of each last
+        digit.
+
+        The result has the shape of the function's value.
+        """
         both, total = np.concatenate([self.q, self.v]), np.asarray(0.0)
         value, n = function(self.q, self.v), len(self.q)
         for k, unit in enumerate(self.units):
@@ -57,24 +58,24 @@ class Drawn:
 def draw_numbers(
     simulation: Simulation, seed: int, at: str | None, units: Mapping[str, tuple[str, float]] | None = None
 ) -> Drawn:
-    """Return parameter values with which the scene assembles and moves; the file's own if no others do.
+    """Draw parameter values from a seed with which the scene assembles and moves, and return them with their run.
 
-    units: unit of the file and its value in SI by address ("rpm", 0.105); other values have SI units. at: text of the
-    time, or None for a drawn one. The time is before an event that ends the motion. Raises BadValueError for `at`,
-    AssemblyError or SolverError if the file's own values fail.
+    The file's own values are used if no others work. units: unit of the file and its value in SI by address ("rpm",
+    0.105); other values have SI units. at: text of the time, or None for a drawn one. The time is before an event that
+    ends the motion. Raises BadValueError for `at`, AssemblyError or SolverError if the file's own values fail.
     """
     rng = np.random.default_rng(seed)
     moment = None if at is None else number_of_text(spaced(at), "--at", (0, 0, 1))
     if moment is not None and not 0.0 <= moment < np.inf:
         raise BadValueError(f"--at is {moment:g} s: the motion starts at 0 s", hint="take a time of the motion")
     failure: Exception | None = None
-    for numbers, share in _attempts(simulation.source, rng, units or {}):
+    for numbers, share in _yield_attempts(simulation.source, rng, units or {}):
         try:
             p = prepare(simulation.compiled, numbers)[0]
             t = moment if moment is not None else float(f"{share * scene_end(simulation.source, p):.2g}")
             run = _run_until(simulation, numbers, t)
             if run.t[-1] < t:
-                t = _time_before_event(run, moment, share)
+                t = _find_time_before_event(run, moment, share)
                 run = _run_until(simulation, numbers, t)
             return _round_data(numbers, t, p, run)
         except (AssemblyError, SolverError, BadValueError) as error:
@@ -83,12 +84,12 @@ def draw_numbers(
     raise failure
 
 
-def _attempts(
+def _yield_attempts(
     source: KernelSource, rng: np.random.Generator, units: Mapping[str, tuple[str, float]]
 ) -> Iterator[tuple[dict[str, str], float]]:
-    """Yield changed values by address, and the fraction of the scene's duration at which the sheet's time is.
+    """Yield changed values as texts by address, and the fraction of the scene's duration at which the sheet's time is.
 
-    The changes decrease from attempt to attempt. The last attempts have the file's values.
+    The changes decrease from attempt to attempt. The last two attempts have the file's values ({}).
     """
     candidates = [
         slot
@@ -106,7 +107,9 @@ def _attempts(
 
 
 def _is_measure(address: str) -> bool:
-    """Return whether the address is a parameter, or a length, mass or inertia of a body."""
+    """Return whether an address is that of a parameter, or of a length, mass or inertia of a body, which may be
+    varied.
+    """
     match address.split("."):
         case ["parameters", _]:
             return True
@@ -116,14 +119,20 @@ def _is_measure(address: str) -> bool:
 
 
 def _change_value(slot: Slot, factor: float, units: Mapping[str, tuple[str, float]]) -> str:
-    """Return the default times a factor with two digits and its unit; "" if it equals the file's value."""
+    """Return the default value times a factor as text, with two digits and its unit; "" if it equals the file's value.
+
+    units: unit and its value in SI by address; others have the unit of the slot.
+    """
     unit, one = units.get(slot.address, (slot.unit, 1.0))
     new = float(f"{slot.default * factor / one:.2g}")
     return "" if math.isclose(new * one, slot.default, rel_tol=1e-12) else f"{new:g} {unit}".rstrip()
 
 
 def _run_until(simulation: Simulation, numbers: dict[str, str], t: float) -> Result:
-    """Return a run to the time t, or to an event that ends it sooner; t = 0 gives a run of 1e-9 s. Ctrl-C raises."""
+    """Return a run to the time t (s), or to an event that ends it sooner; t = 0 gives a run of 1e-9 s.
+
+    Warnings are suppressed. KeyboardInterrupt is raised after Ctrl-C.
+    """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         run = simulation.simulate(t or 1e-9, output=1, parameters=numbers, peaks=(), stop=t > 0.0)
@@ -132,8 +141,11 @@ def _run_until(simulation: Simulation, numbers: dict[str, str], t: float) -> Res
     return run
 
 
-def _time_before_event(run: Result, moment: float | None, share: float) -> float:
-    """Return a time before the event that ended the run. Raises BadValueError if the user's time is after it."""
+def _find_time_before_event(run: Result, moment: float | None, share: float) -> float:
+    """Return a time (s) before the event that ended the run, at the fraction `share` of its duration.
+
+    Raises BadValueError if the user gave the time (`moment`), which is after the event.
+    """
     end, last = float(run.t[-1]), run.source.events[run.events["event"][-1]]
     if moment is None:
         return float(f"{share * end:.2g}")
@@ -142,7 +154,10 @@ def _time_before_event(run: Result, moment: float | None, share: float) -> float
 
 
 def _round_data(numbers: dict[str, str], t: float, p: Array, run: Result) -> Drawn:
-    """Return the data of a sheet from a run that ends at t. Raises SolverError if there is no position."""
+    """Round positions and velocities at the end of a run to the digits that a sheet prints, and return its data.
+
+    Velocities of rounding size become 0. Raises SolverError if the state is not finite.
+    """
     k = -1 if t > 0.0 else 0
     q, v = run.q[k].copy(), run.v[k].copy()
     if not (np.isfinite(q).all() and np.isfinite(v).all()):

@@ -37,14 +37,16 @@ _SIGNS = re.compile(r"([\\`*_{}\[\]<>#|$~])")
 
 
 def notebook(model: Model, mechanism: str) -> str:
-    """Return the JSON of the notebook; mechanism: name or file by which its last cells load the scene.
+    """Return the text (JSON) of a Jupyter notebook that derives a scene's equations with SymPy alone and runs the
+    scene.
 
-    Raises GudgeonError for expressions that plain SymPy cannot represent.
+    mechanism: name or file by which its last cells load the scene. Raises GudgeonError for expressions that plain SymPy
+    cannot represent.
     """
     cells: list[dict[str, Any]] = [
         {"cell_type": kind, "id": f"cell-{k:02d}", "metadata": {}, "source": text.splitlines(keepends=True)}
         | ({"execution_count": None, "outputs": []} if kind == "code" else {})
-        for k, (kind, text) in enumerate(_cells(model, mechanism), 1)
+        for k, (kind, text) in enumerate(_yield_cells(model, mechanism), 1)
     ]
     kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
     document = {
@@ -56,8 +58,8 @@ def notebook(model: Model, mechanism: str) -> str:
     return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
 
 
-def _cells(model: Model, mechanism: str) -> Iterator[Cell]:
-    """Yield kind and text of each cell."""
+def _yield_cells(model: Model, mechanism: str) -> Iterator[Cell]:
+    """Yield kind ("markdown" or "code") and text of each cell of the notebook, in order."""
     scene, notation, names = model.scene, make_notation(model), names_of(model)
     title = plain(one_line(scene.mechanism.title or scene.mechanism.name))
     yield (
@@ -76,13 +78,13 @@ def _cells(model: Model, mechanism: str) -> Iterator[Cell]:
             "x axis of the ground. Lengths are in m, masses in kg, angles in rad."
         ),
     )
-    yield "code", _coordinates_code(model, notation, names)
-    used = _used_parameters(model)
+    yield "code", _write_coordinates_code(model, notation, names)
+    used = _find_used_parameters(model)
     shown = (notation.math(symbol) for symbol in (*model.q, *model.v, *(entry.symbol for entry in used)))
     message = ["## Numbers", "Every number of the file that stands in an equation has a letter."]
     yield "markdown", "\n\n".join((*message, *map(block, primes(notation, shown))))
-    yield "code", _parameters_code(used, notation, names)
-    yield from _constraint_cells(model, names)
+    yield "code", _write_parameters_code(used, notation, names)
+    yield from _yield_constraint_cells(model, names)
     if not scene.mechanism.bodies or not model.rows:
         yield "markdown", "Nothing holds the bodies: Φ has no row."
     else:
@@ -95,24 +97,24 @@ def _cells(model: Model, mechanism: str) -> Iterator[Cell]:
         )
         yield "code", DERIVED
     if not any(body.lacks for body in scene.mechanism.bodies.values()):
-        yield from _motion_cells(model, names)
-    yield from run_cells(model, mechanism)
+        yield from _yield_motion_cells(model, names)
+    yield from _yield_run_cells(model, mechanism)
 
 
 def _define_symbol(symbol: sp.Symbol, notation: Notation, names: dict[sp.Symbol, str]) -> str:
-    """Return the statement that creates a SymPy symbol with its LaTeX name."""
+    """Return the Python statement that creates a SymPy symbol with its LaTeX name."""
     return f"{names[symbol]} = sp.Symbol({notation.math(symbol).latex!r}, real=True)"
 
 
-def _coordinates_code(model: Model, notation: Notation, names: dict[sp.Symbol, str]) -> str:
-    """Return the cell that defines t, q and v."""
+def _write_coordinates_code(model: Model, notation: Notation, names: dict[sp.Symbol, str]) -> str:
+    """Return the Python text of the cell that defines the symbols t, q and v."""
     lines = [_define_symbol(symbol, notation, names) for symbol in (model.t, *model.q, *model.v)]
-    q, v = (_column([names[s] for s in symbols]) for symbols in (model.q, model.v))
+    q, v = (_write_column([names[s] for s in symbols]) for symbols in (model.q, model.v))
     return "\n".join((*lines, "", f"q = {q}", f"v = {v}  # the rates of q"))
 
 
-def _column(items: list[str]) -> str:
-    """Return a column vector of SymPy as text, with as many items in a line as fit."""
+def _write_column(items: list[str]) -> str:
+    """Return the Python text of a column vector of SymPy, with as many items in a line as fit."""
     if sum(len(item) + 2 for item in items) < MAX_LINE_WIDTH:
         return f"sp.Matrix([{', '.join(items)}])"
     lines, line = list[str](), ""
@@ -124,27 +126,31 @@ def _column(items: list[str]) -> str:
     return "\n    ".join(("sp.Matrix([", *(x.rstrip() for x in (*lines, line)))) + "\n])"
 
 
-def _used_parameters(model: Model) -> list[ParameterEntry]:
+def _find_used_parameters(model: Model) -> list[ParameterEntry]:
     """Return the parameters that occur in Φ, M or g."""
     expressions = [*(row.phi for row in model.rows), *model.masses, *model.g]
     used = set().union(*(model.symbols.explicit(sp.sympify(e)).free_symbols for e in expressions))
     return [entry for entry in model.slots.entries.values() if entry.symbol in used]
 
 
-def _parameters_code(entries: list[ParameterEntry], notation: Notation, names: dict[sp.Symbol, str]) -> str:
-    """Return the cell that defines the symbols of parameters and their default values."""
+def _write_parameters_code(entries: list[ParameterEntry], notation: Notation, names: dict[sp.Symbol, str]) -> str:
+    """Return the Python text of the cell that defines the symbols of parameters and the dictionary of their
+    defaults.
+    """
     lines = [_define_symbol(entry.symbol, notation, names) for entry in entries]
-    values = [f"    {names[e.symbol]}: {_default(e.default)},  # {e.address}" for e in entries]
+    values = [f"    {names[e.symbol]}: {_write_default(e.default)},  # {e.address}" for e in entries]
     return "\n".join((*lines, "", "numbers = {", *values, "}"))
 
 
-def _default(value: float) -> str:
-    """Return a default value as Python; simple fractions of π as such."""
+def _write_default(value: float) -> str:
+    """Return a default value as Python text; simple fractions of π as such, other values with all digits."""
     return number_of_code(value) if share_of_pi(value) else repr(value)
 
 
-def _constraint_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
-    """Yield the cells of constraint equations: one for each joint or drive, then the column of all."""
+def _yield_constraint_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
+    """Yield the cells of constraint equations: two for each joint or drive, then the column Phi of all; none without
+    rows.
+    """
     mechanism, parts = model.scene.mechanism, list[str]()
     if not model.rows:
         return
@@ -162,16 +168,19 @@ def _constraint_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cel
             )
             what, text = (
                 f"Joint {owner}, {own.title}: {' and '.join(ends)}",
-                _pivot_code(model, owner, name, rows, names),
+                _write_pivot_code(model, owner, name, rows, names),
             )
         yield "markdown", f"{plain(what)}; {', '.join(f'{plain(row.name)} in {row.unit}' for row in rows)}."
         explicit = [text_of(row.phi, model, names) for row in rows]
-        yield "code", text or f"{name} = {_column_by_lines(explicit)}"
-    yield "code", f"Phi = {_column(parts)}\nPhi"
+        yield "code", text or f"{name} = {_write_column_by_lines(explicit)}"
+    yield "code", f"Phi = {_write_column(parts)}\nPhi"
 
 
-def _pivot_code(model: Model, owner: str, name: str, rows: list[Row], names: dict[sp.Symbol, str]) -> str | None:
-    """Return a pivot as the difference of two points in ground axes; None for other joints and incomplete ones."""
+def _write_pivot_code(model: Model, owner: str, name: str, rows: list[Row], names: dict[sp.Symbol, str]) -> str | None:
+    """Return the Python text of a pivot's equations as the difference of two points in ground axes.
+
+    Return None for other joints, and for pivots of which an equation was dropped.
+    """
     joint = model.scene.mechanism.joints[owner]
     if not joint_types()[joint.kind].is_pivot or len(rows) != 2:
         return None
@@ -179,18 +188,18 @@ def _pivot_code(model: Model, owner: str, name: str, rows: list[Row], names: dic
     for what, ref in (("first", joint.first), ("second", joint.second)):
         frame = model.geometry.point(ref)
         place = [text_of(component, model, names) for component in (frame.x, frame.y)]
-        lines.append(f"{what}_{owner} = {_column_by_lines(place)}  # {ref.body}.{ref.point}")
+        lines.append(f"{what}_{owner} = {_write_column_by_lines(place)}  # {ref.body}.{ref.point}")
     return "\n".join((*lines, f"{name} = first_{owner} - second_{owner}"))
 
 
-def _column_by_lines(items: list[str]) -> str:
+def _write_column_by_lines(items: list[str]) -> str:
     """Return a column vector of SymPy with one item in each line."""
     inside = ",\n    ".join(items)
     return f"sp.Matrix([\n    {inside},\n])"
 
 
-def _motion_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
-    """Yield the cells of M and g; the system is solved numerically later."""
+def _yield_motion_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
+    """Yield the cells of the mass matrix M and the applied forces g; the system is solved numerically later."""
     text = "The joints with play and friction that may stick add to g; the simulator has them."
     more = text if model.clearances or model.frictions else ""
     yield (
@@ -203,11 +212,11 @@ def _motion_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
     )
     masses = [text_of(mass, model, names) for mass in model.masses]
     forces = [text_of(force, model, names) for force in model.g]
-    yield "code", f"M = sp.diag(*{_column(masses)})\ng = {_column(forces)}"
+    yield "code", f"M = sp.diag(*{_write_column(masses)})\ng = {_write_column(forces)}"
 
 
 def markdown(document: Document) -> str:
-    """Return a whole document as Markdown."""
+    """Return a whole document as Markdown: title, facts, and its sections with headings by level."""
     parts = [f"# {plain(document.title)}", *map(line, document.facts)]
     for section in document.sections:
         parts.append(f"{'#' * (section.level + 1)} {plain(section.title)}")
@@ -222,14 +231,14 @@ def block(shown: Block) -> str:
     if isinstance(shown, Equation):
         return f"$$ {shown.left.latex} = {' '.join(term.latex for term in shown.terms)} $$"
     if isinstance(shown, Table):
-        return _markdown_table(shown)
+        return _format_table(shown)
     if isinstance(shown, EmbeddedHtml):
         return ""
     return "\n".join(("```text", *shown.lines, "```"))
 
 
 def line(text: Text) -> str:
-    """Return words and formulas as Markdown."""
+    """Return words and formulas as Markdown: formulas in $…$, other characters escaped."""
     return "".join(f"${part.latex.strip()}$" if isinstance(part, Name) else plain(part) for part in text)
 
 
@@ -238,7 +247,7 @@ def plain(text: str) -> str:
     return _SIGNS.sub(r"\\\1", text)
 
 
-def _markdown_table(shown: Table) -> str:
+def _format_table(shown: Table) -> str:
     """Return a table as Markdown."""
 
     def row(cells: tuple[Text, ...]) -> str:
@@ -248,8 +257,11 @@ def _markdown_table(shown: Table) -> str:
     return "\n".join((row(shown.header), "|" + " --- |" * len(shown.header), *map(row, shown.rows)))
 
 
-def run_cells(model: Model, mechanism: str) -> Iterator[Cell]:
-    """Yield the cells that compare NumPy and the simulator with the derivation; each comparison asserts."""
+def _yield_run_cells(model: Model, mechanism: str) -> Iterator[Cell]:
+    """Yield the cells that load and run the scene, and compare NumPy and the simulator with the derivation.
+
+    Each comparison is an assertion; without constraint equations there is none.
+    """
     massless = any(body.lacks for body in model.scene.mechanism.bodies.values())
     plain = not (model.clearances or model.frictions)
     yield (
@@ -260,18 +272,21 @@ def run_cells(model: Model, mechanism: str) -> Iterator[Cell]:
         ),
     )
     if model.rows:
-        yield "code", _functions_code(model, massless)
-        yield "code", _compare_numpy_code(model, mechanism)
+        yield "code", _write_functions_code(model, massless)
+        yield "code", _write_numpy_comparison(model, mechanism)
     else:
-        yield "code", _load_code(model, mechanism)
+        yield "code", _write_load_code(model, mechanism)
     yield "markdown", "## The compiled simulator\n\nThe same equations as C, integrated or solved at each sample."
     yield "code", "run = simulation.simulate()\nrun"
     if model.rows:
-        yield "code", _compare_run_code(model, massless, plain)
+        yield "code", _write_run_comparison(model, massless, plain)
 
 
-def _functions_code(model: Model, massless: bool) -> str:
-    """Return the cell that compiles the derived matrices to NumPy functions."""
+def _write_functions_code(model: Model, massless: bool) -> str:
+    """Return the Python text of the cell that compiles the derived matrices to NumPy functions.
+
+    massless: without M and g.
+    """
     parts = ["Phi", "Phi_q", "nu", "gamma"] if massless else ["Phi", "Phi_q", "nu", "gamma", "M", "g"]
     return (
         "def function(matrix):\n"
@@ -283,8 +298,8 @@ def _functions_code(model: Model, massless: bool) -> str:
     )
 
 
-def _load_code(model: Model, mechanism: str) -> str:
-    """Return the cell that loads the scene without a comparison."""
+def _write_load_code(model: Model, mechanism: str) -> str:
+    """Return the Python text of the cell that loads the scene and prints its NumPy functions, without a comparison."""
     return (
         "import gudgeon\n\n"
         f"simulation = gudgeon.load({mechanism!r}, {model.scene.name!r})\n"
@@ -293,8 +308,8 @@ def _load_code(model: Model, mechanism: str) -> str:
     )
 
 
-def _compare_numpy_code(model: Model, mechanism: str) -> str:
-    """Return the cell that compares the derivation with `model.numpy()`.
+def _write_numpy_comparison(model: Model, mechanism: str) -> str:
+    """Return the Python text of the cell that loads the scene and compares the derivation with `model.numpy()`.
 
     NumPy's constraint equations are those of the closed linkage: with joints that have play here, and redundant ones.
     """
@@ -319,8 +334,12 @@ def _compare_numpy_code(model: Model, mechanism: str) -> str:
     )
 
 
-def _compare_run_code(model: Model, massless: bool, plain: bool) -> str:
-    """Return the cell that compares the derivation with the end of a run of the compiled simulator."""
+def _write_run_comparison(model: Model, massless: bool, plain: bool) -> str:
+    """Return the Python text of the cell that compares the derivation with the end of a run of the compiled simulator.
+
+    Accelerations are compared; if the scene has play or friction (not `plain`), only the Jacobian. massless: drives
+    alone determine the accelerations.
+    """
     head = (
         "end = float(run.t[-1])\n"
         'entries, right = derived["Phi_q"](end, run.q[-1], run.v[-1]), derived["gamma"](end, run.q[-1], run.v[-1])\n'

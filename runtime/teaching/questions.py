@@ -36,7 +36,10 @@ MAX_SHOWN_ROWS = 40  # largest number of equations that a solution shows
 
 
 def make_questions(subject: Subject) -> list[Question]:
-    """Return the questions that apply to the scene."""
+    """Return the questions of an exercise sheet that apply to the scene, in order.
+
+    Without chosen constraint equations, only those on degrees of freedom and play remain.
+    """
     found = [_ask_freedoms(subject)]
     if subject.rows:
         found += [_ask_constraints(subject), _ask_jacobian(subject), _ask_gamma(subject)]
@@ -47,7 +50,10 @@ def make_questions(subject: Subject) -> list[Question]:
 
 
 def _ask_freedoms(subject: Subject) -> Question:
-    """Return the question for the degrees of freedom by Grübler's count, and by the rank of Φ_q."""
+    """Build the question for the degrees of freedom by Grübler's count, and by the rank of Φ_q.
+
+    The solution explains redundant constraints if there are any.
+    """
     model = subject.model
     mechanism, play = model.scene.mechanism, model.scene.play
     rows, count, n = [], 0, 3 * len(mechanism.bodies)
@@ -79,17 +85,17 @@ def _ask_freedoms(subject: Subject) -> Question:
     return Question("Count the freedoms", (requested,), tuple(solved), numbers)
 
 
-def _owner_names(subject: Subject) -> str:
-    """Return the chosen joints and drives as text."""
+def _format_owners(subject: Subject) -> str:
+    """Return the names of the chosen joints and drives as text: "A, B and motor"."""
     return ", ".join(subject.owners[:-1]) + (" and " if len(subject.owners) > 1 else "") + subject.owners[-1]
 
 
 def _ask_constraints(subject: Subject) -> Question:
-    """Return the question for the constraint equations of the chosen joints and drives."""
+    """Build the question for the constraint equations of the chosen joints and drives."""
     requested = paragraph(
         "Write the rows of ",
         PHI,
-        f" of {_owner_names(subject)}, in the coordinates of the centres of mass, with the "
+        f" of {_format_owners(subject)}, in the coordinates of the centres of mass, with the "
         "letters given above. A joint's points are written from its first body to its second.",
     )
     solved: list[Block] = [
@@ -97,24 +103,29 @@ def _ask_constraints(subject: Subject) -> Question:
         for k, row in subject.rows
         for block in (paragraph(f"{row.name}, {row.unit}:"), subject.equation(indexed("Phi", k), row.phi))
     ]
-    return Question("Write Φ", (requested,), tuple(_new_letters(subject, "phi") + solved))
+    return Question("Write Φ", (requested,), tuple(_define_new_abbreviations(subject, "phi") + solved))
 
 
-def _new_letters(subject: Subject, of: str) -> list[Block]:
-    """Return definitions of the abbreviations in "phi", "phi_q" or "gamma" that earlier solutions do not explain."""
+def _define_new_abbreviations(subject: Subject, quantity: str) -> list[Block]:
+    """Return the definitions of the abbreviations in "phi", "phi_q" or "gamma" that earlier solutions do not
+    explain.
+    """
     expressions_of = {
         "phi": [row.phi for _, row in subject.rows],
         "phi_q": [entry for _, row in subject.rows for entry in row.phi_q.values()],
         "gamma": [row.gamma for _, row in subject.rows],
     }
     known = set[sp.Symbol]()
-    for before in takewhile(lambda what: what != of, expressions_of):
+    for before in takewhile(lambda what: what != quantity, expressions_of):
         known |= set(letters_of(subject, expressions_of[before]))
-    return abbreviations(subject, [s for s in letters_of(subject, expressions_of[of]) if s not in known])
+    return abbreviations(subject, [s for s in letters_of(subject, expressions_of[quantity]) if s not in known])
 
 
 def _ask_jacobian(subject: Subject) -> Question:
-    """Return the question for the entries of Φ_q at a position."""
+    """Build the question for the entries of Φ_q in the chosen constraint equations at the sheet's position.
+
+    Long formulas are shown below the table, very long ones not at all.
+    """
     model, drawn = subject.model, subject.drawn
     compiled = subject.simulation.compiled
     values = compiled.phi_q(drawn.t, drawn.q, drawn.p)
@@ -133,33 +144,36 @@ def _ask_jacobian(subject: Subject) -> Question:
                 below.append(subject.equation(left, entry))
                 formula = "below"
             shown = subject.number(x, off=off[k - 1, place[q]])
-            rows.append(cells(left, formula, shown, _entry_unit(row.unit, place[q] % 3)))
+            rows.append(cells(left, formula, shown, _find_entry_unit(row.unit, place[q] % 3)))
     requested = [
         paragraph(f"At {drawn.t:g} s the bodies are at"),
         *position(subject, rates=False),
         paragraph(
             "What entries of ",
             PHI_Q,
-            f" do the rows of {_owner_names(subject)} have there? Check one by moving its coordinate by a little.",
+            f" do the rows of {_format_owners(subject)} have there? Check one by moving its coordinate by a little.",
         ),
     ]
-    solved = [*_new_letters(subject, "phi_q"), *table(cells("entry", "", "value", "unit"), rows), *below]
+    solved = [*_define_new_abbreviations(subject, "phi_q"), *table(cells("entry", "", "value", "unit"), rows), *below]
     return Question("The Jacobian at a position", tuple(requested), tuple(solved), numbers)
 
 
-def _entry_unit(row: str, axis: int) -> str:
-    """Return the unit of an entry of Φ_q; row: unit of the constraint equation; axis: 2 for an angle."""
+def _find_entry_unit(row: str, axis: int) -> str:
+    """Return the unit of an entry of Φ_q; row: unit of the constraint equation; axis: 0 x, 1 y, 2 angle."""
     return {("m", 2): "m/rad", ("rad", 0): "rad/m", ("rad", 1): "rad/m"}.get((row, axis), "1")
 
 
 def _ask_gamma(subject: Subject) -> Question:
-    """Return the question for γ, the right-hand side of the acceleration constraints."""
+    """Build the question for γ, the right-hand side of the acceleration constraints, in the chosen equations.
+
+    Very long formulas are left out of the solution.
+    """
     drawn = subject.drawn
     compiled = subject.simulation.compiled
     values = compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
     off = drawn.uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
     scale = float(np.abs(values).max())
-    numbers, solved = dict[str, float](), _new_letters(subject, "gamma")
+    numbers, solved = dict[str, float](), _define_new_abbreviations(subject, "gamma")
     for k, row in subject.rows:
         numbers[row.name] = float(values[k - 1])
         gamma = gamma_of(row, subject.model, subject.notation)
@@ -173,13 +187,13 @@ def _ask_gamma(subject: Subject) -> Question:
     requested = [
         paragraph(f"At the same {drawn.t:g} s the rates are"),
         *position(subject, rates=True),
-        paragraph("Find ", GAMMA, f" in the rows of {_owner_names(subject)}: its formula, and its value."),
+        paragraph("Find ", GAMMA, f" in the rows of {_format_owners(subject)}: its formula, and its value."),
     ]
     return Question("γ", tuple(requested), tuple(solved), numbers)
 
 
 def _ask_play(subject: Subject) -> Iterator[Question]:
-    """Yield the question for the eccentricity of one joint with play, if there is one."""
+    """Yield the question for the eccentricity of one randomly chosen revolute joint with play; nothing without one."""
     drawn = subject.drawn
     journals = [c.name for c in subject.model.clearances if c.wall is None]
     if not journals:
@@ -209,7 +223,7 @@ def _ask_play(subject: Subject) -> Iterator[Question]:
 
 
 def letters_of(subject: Subject, expressions: Iterable[sp.Expr]) -> list[sp.Symbol]:
-    """Return the abbreviations of expressions, each after those that its definition contains."""
+    """Return the abbreviations that occur in expressions, each after those that its definition contains."""
     notation, definitions, found = subject.notation, subject.model.symbols.definitions, list[sp.Symbol]()
 
     def add(expression: sp.Expr) -> None:
@@ -226,13 +240,15 @@ def letters_of(subject: Subject, expressions: Iterable[sp.Expr]) -> list[sp.Symb
 
 
 def abbreviations(subject: Subject, symbols: list[sp.Symbol]) -> list[Block]:
-    """Return the definitions of abbreviations as blocks; empty if there are none."""
+    """Return the definitions of abbreviations as blocks after the word "With"; [] if there are none."""
     found = [block for symbol in symbols for block in _define_symbol(subject, symbol)]
     return [paragraph("With"), *found] if found else []
 
 
 def _define_symbol(subject: Subject, symbol: sp.Symbol) -> list[Block]:
-    """Return the definition of one abbreviation; that of a drive with steps shows the progress of its steps."""
+    """Return the definition of one abbreviation as blocks; that of a drive with steps shows the progress of its
+    steps.
+    """
     value = subject.notation.expand(subject.model.symbols.definitions[symbol])
     for driven in subject.model.constraints.drive_angles.values():
         if symbol in driven:
@@ -242,13 +258,14 @@ def _define_symbol(subject: Subject, symbol: sp.Symbol) -> list[Block]:
 
 
 def _define_by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbol, ...]) -> list[Block]:
-    """Return the definition of a driven quantity by the progress s of its steps from 0 to 1; empty for other drives.
+    """Return the definition of a driven quantity by the progress s of its steps from 0 to 1; [] for other drives.
 
-    It shows s for min(max(…, 0), 1), and the rates while s is between 0 and 1.
+    It shows s for min(max(…, 0), 1), and the rates while s is between 0 and 1. `driven`: symbols of the drive's value
+    and its time derivatives, of which `symbol` is one.
     """
     notation, t = subject.notation, subject.model.t
     value = notation.expand(subject.model.symbols.definitions[driven[0]])
-    shares = {found: share for found in value.atoms(sp.Max) if (share := _clamped_progress(found)) is not None}
+    shares = {found: share for found in value.atoms(sp.Max) if (share := _find_clamped_progress(found)) is not None}
     used = {name.text for name in notation.names.values()}
     base = next(sign for sign in ("s", "u", "w", "z") if not {sign, f"{sign}_1"} & used)
     steps = {found: sp.Symbol(base if len(shares) == 1 else f"{base}_{k}") for k, found in enumerate(shares, 1)}
@@ -257,7 +274,7 @@ def _define_by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbo
         return []
     rates = {steps[found]: sp.diff(share, t) for found, share in shares.items()}
     for _ in range(driven.index(symbol)):
-        inside = sp.Add(*(_time_derivative(term, rates, t) for term in sp.Add.make_args(inside)))
+        inside = sp.Add(*(_differentiate_in_time(term, rates, t) for term in sp.Add.make_args(inside)))
     names = {s: Name(s.name if "_" not in s.name else f"{base}_{{{s.name[2:]}}}", s.name) for s in rates}
     own = notation.called(names)
     shown = [Equation(own.math(steps[found]), own.terms(share)) for found, share in shares.items()]
@@ -266,7 +283,7 @@ def _define_by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbo
     return [*shown, paragraph(f"which goes from 0 to 1{still}:"), Equation(own.math(symbol), terms)]
 
 
-def _clamped_progress(expression: sp.Max) -> sp.Expr | None:
+def _find_clamped_progress(expression: sp.Max) -> sp.Expr | None:
     """Return u if the expression is min(max(u, 0), 1), otherwise None."""
     inner = [x for x in expression.args if isinstance(x, sp.Min)]
     if len(expression.args) != 2 or sp.Integer(0) not in expression.args or len(inner) != 1:
@@ -275,27 +292,29 @@ def _clamped_progress(expression: sp.Max) -> sp.Expr | None:
     return others[0] if len(inner[0].args) == 2 and len(others) == 1 else None
 
 
-def _time_derivative(term: sp.Expr, rates: dict[sp.Symbol, sp.Expr], t: sp.Symbol) -> sp.Expr:
-    """Return the time derivative of a product, with constant factors first."""
+def _differentiate_in_time(term: sp.Expr, rates: dict[sp.Symbol, sp.Expr], t: sp.Symbol) -> sp.Expr:
+    """Return the time derivative of a product in which the symbols of `rates` have these rates, constant factors
+    first.
+    """
     factor, rest = term.as_independent(*rates, as_Add=False)
     own = (factor * rate * sp.expand(sp.diff(rest, s)) for s, rate in rates.items())
     return sp.Add(sp.diff(factor, t) * rest, *own)
 
 
 def _expand_progress(term: sp.Expr, steps: list[sp.Symbol]) -> sp.Expr:
-    """Return a product as a factor times the expanded polynomial in the progress of steps."""
+    """Return a product as a factor times the expanded polynomial in the progress symbols `steps`."""
     factor, rest = term.as_independent(*steps, as_Add=False)
     return sp.Mul(factor, sp.expand(rest), evaluate=False) if rest != 1 else term
 
 
-def indexed(of: str, k: int) -> Name:
-    """Return the symbol of a quantity with an index."""
-    name = letter(of)
+def indexed(quantity: str, k: int) -> Name:
+    """Return the symbol of a quantity with the index k, in LaTeX and as text; `quantity`: key of its letter."""
+    name = letter(quantity)
     return Name(f"{name.latex}_{{{k}}}", f"{name.text}_{k}")
 
 
 def position(subject: Subject, rates: bool, others: bool = False) -> list[Block]:
-    """Return a table of positions or rates at the sheet's time.
+    """Return a table of the positions, or of the rates, of bodies at the sheet's time.
 
     others: of the bodies that do not occur in the chosen constraint equations, instead of those that do.
     """
@@ -314,8 +333,10 @@ def position(subject: Subject, rates: bool, others: bool = False) -> list[Block]
 
 
 def acceleration(subject: Subject) -> Question:
-    """Return the question for the largest angular acceleration, or for the largest acceleration if nothing turns
-    unevenly.
+    """Build the question for the largest angular acceleration in a scene that drives determine.
+
+    If nothing turns unevenly, the largest acceleration of a coordinate is asked for. Coordinates that a drive
+    prescribes directly are not.
     """
     model, drawn, compiled = subject.model, subject.drawn, subject.simulation.compiled
     a, driven = drawn.run.a[-1], {q for row in model.rows if len(row.phi_q) == 1 for q in row.phi_q}
@@ -340,27 +361,32 @@ def acceleration(subject: Subject) -> Question:
     shown = range(len(gamma)) if len(gamma) <= MAX_SHOWN_ROWS else [r for r in range(len(gamma)) if phi_q[r, k]]
     scale, off = float(np.abs(gamma).max()), drawn.uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
     solved = [
-        paragraph("Row by row ", ACCELERATIONS, _omission_text(len(gamma)), " is, in m/s² and rad/s²,"),
-        *(_linear_equation(subject, subject.number(gamma[r], scale=scale, off=off[r]), phi_q[r], signs) for r in shown),
+        paragraph("Row by row ", ACCELERATIONS, _format_omission(len(gamma)), " is, in m/s² and rad/s²,"),
+        *(
+            _make_linear_equation(subject, subject.number(gamma[r], scale=scale, off=off[r]), phi_q[r], signs)
+            for r in shown
+        ),
         paragraph("The accelerations, of centres of mass and of angles, are"),
-        *_table_by_body(subject, a, "x, m/s²", "y, m/s²", "angle, rad/s²"),
+        *_tabulate_by_body(subject, a, "x, m/s²", "y, m/s²", "angle, rad/s²"),
         subject.value(signs[k], float(a[k]), "rad/s²" if k % 3 == 2 else "m/s²"),
     ]
     coordinate = subject.simulation.source.coordinates[k]
     return Question("Accelerations", tuple(requested), tuple(solved), {coordinate: float(a[k])})
 
 
-def _omission_text(rows: int) -> str:
-    """Return a remark if not all rows are shown."""
+def _format_omission(rows: int) -> str:
+    """Return a remark that only some of the `rows` equations are shown; "" if all are."""
     return "" if rows <= MAX_SHOWN_ROWS else f", of whose {rows} rows those with what is asked stand here,"
 
 
-def _linear_equation(subject: Subject, left: Name, factors: Array, of: list[Name]) -> Equation:
-    """Return the equation left = sum of factors times symbols; small factors are left out."""
-    symbols = [sp.Symbol(name.text) for name in of]
+def _make_linear_equation(subject: Subject, left: Name, factors: Array, symbols_of_terms: list[Name]) -> Equation:
+    """Return the equation left = sum of factors times the symbols `symbols_of_terms`; factors of rounding size are
+    left out.
+    """
+    symbols = [sp.Symbol(name.text) for name in symbols_of_terms]
     notation = replace(
         subject.notation,
-        names=dict(zip(symbols, of, strict=True)),
+        names=dict(zip(symbols, symbols_of_terms, strict=True)),
         order={symbol: k for k, symbol in enumerate(symbols)},
     )
     scale = float(np.abs(factors).max())
@@ -369,7 +395,10 @@ def _linear_equation(subject: Subject, left: Name, factors: Array, of: list[Name
 
 
 def force(subject: Subject) -> Iterator[Question]:
-    """Yield the question for the reaction of a joint; none without masses, or if redundancy leaves it indeterminate."""
+    """Yield the question for the reaction of a randomly chosen joint without play.
+
+    Nothing is yielded without masses, or if redundancy leaves all reactions undetermined.
+    """
     source, drawn, mechanism = subject.simulation.source, subject.drawn, subject.model.scene.mechanism
     open_ = {*source.indeterminate, *(joint.joint for joint in source.clearances)}
     known = [row.owner for row in subject.model.rows if row.kind == "joint" and row.owner not in open_]
@@ -382,18 +411,20 @@ def force(subject: Subject) -> Iterator[Question]:
     message: list[Block] = []
     if subject.model.degrees_of_freedom:
         message.append(paragraph(f"The accelerations at {drawn.t:g} s, of centres of mass and of angles, are"))
-        message += _table_by_body(subject, drawn.run.a[-1], "x, m/s²", "y, m/s²", "angle, rad/s²")
+        message += _tabulate_by_body(subject, drawn.run.a[-1], "x, m/s²", "y, m/s²", "angle, rad/s²")
     else:
         message.append(paragraph("Take the accelerations of all bodies from the question before."))
     if source.clearances or source.frictions:
         message.append(paragraph("Gravity, forces, friction and joints with play add up to the components of g"))
-        message += _table_by_body(subject, _applied_forces(subject), "x, N", "y, N", "angle, N m")
+        message += _tabulate_by_body(subject, _compute_applied_forces(subject), "x, N", "y, N", "angle, N m")
     message.append(paragraph("By ", KKT, f": what force does {name} put on {second.body}, in ground axes?"))
     lambdas = [(k, row) for k, row in enumerate(subject.model.rows, 1) if row.owner == name]
     solved: list[Block] = [
-        *_balance(subject, [k - 1 for k, _ in lambdas]),
+        *_write_balance(subject, [k - 1 for k, _ in lambdas]),
         *(
-            subject.value(indexed("lambda", k), _multiplier(subject, row.name), "N" if row.unit == "m" else "N m", F[2])
+            subject.value(
+                indexed("lambda", k), _get_multiplier(subject, row.name), "N" if row.unit == "m" else "N m", F[2]
+            )
             for k, row in lambdas
         ),
         paragraph(f"The force on {second.body} is what these multipliers put on it, ", FORCE, ":"),
@@ -403,41 +434,42 @@ def force(subject: Subject) -> Iterator[Question]:
     yield Question("The force in a joint", tuple(message), tuple(solved), dict(zip(("Fx", "Fy", "F"), F, strict=True)))
 
 
-def _balance(subject: Subject, requested: list[int]) -> list[Block]:
-    """Return the equations of motion of each coordinate, from which the multipliers follow.
+def _write_balance(subject: Subject, requested: list[int]) -> list[Block]:
+    """Return the equations of motion of each coordinate as blocks, from which the multipliers follow.
 
-    asked: indices of the constraint equations of the joint in question.
+    requested: indices of the constraint equations of the joint in question; in large systems only their coordinates are
+    shown.
     """
     model, drawn, compiled = subject.model, subject.drawn, subject.simulation.compiled
     phi_q = compiled.phi_q(drawn.t, drawn.q, drawn.p)
-    left = _applied_forces(subject) - np.asarray(compiled.mass(drawn.p)) * drawn.run.a[-1]
+    left = _compute_applied_forces(subject) - np.asarray(compiled.mass(drawn.p)) * drawn.run.a[-1]
     signs = [indexed("lambda", k) for k in range(1, len(model.rows) + 1)]
     n, scale = len(model.q), float(np.abs(left).max())
     shown = [k for k in range(n) if phi_q[:, k].any() and (n <= MAX_SHOWN_ROWS or phi_q[requested, k].any())]
-    blocks: list[Block] = [paragraph("Coordinate by coordinate ", BALANCE, _omission_text(n), " is, in N and N m,")]
+    blocks: list[Block] = [paragraph("Coordinate by coordinate ", BALANCE, _format_omission(n), " is, in N and N m,")]
     for k in shown:
         q, number = subject.notation.math(model.q[k]), subject.number(float(left[k]), scale=scale)
         what = Name(rf"(g - M \ddot{{q}})_{{{q.latex}}} = {number.latex}", f"(g - M·q̈)_{q.text} = {number.text}")
-        blocks.append(_linear_equation(subject, what, phi_q[:, k], signs))
+        blocks.append(_make_linear_equation(subject, what, phi_q[:, k], signs))
     return [*blocks, paragraph("and solved for the multipliers")]
 
 
-def _multiplier(subject: Subject, row: str) -> float:
+def _get_multiplier(subject: Subject, row: str) -> float:
     """Return the multiplier of a constraint equation at the end of the run, in N or N·m."""
     return float(subject.drawn.run[f"lambda.{row}"][-1])
 
 
-def _applied_forces(subject: Subject) -> Array:
+def _compute_applied_forces(subject: Subject) -> Array:
     """Return the generalized applied forces g (n,) of the run, M q̈ + Φ_qᵀ λ, in N and N·m."""
     drawn, compiled = subject.drawn, subject.simulation.compiled
     last, rows = drawn.run, [row.name for row in subject.model.rows]
-    multipliers = np.array([_multiplier(subject, row) for row in rows])
+    multipliers = np.array([_get_multiplier(subject, row) for row in rows])
     held = compiled.phi_q(last.t[-1], last.q[-1], drawn.p).T @ multipliers if rows else 0.0
     return np.asarray(compiled.mass(drawn.p) * last.a[-1] + held)
 
 
-def _table_by_body(subject: Subject, values: Array, *header: str) -> list[Block]:
-    """Return a table with three values for each body."""
+def _tabulate_by_body(subject: Subject, values: Array, *header: str) -> list[Block]:
+    """Return a table with three values (x, y, angle) for each body; header: titles of these columns."""
     apart = values.reshape(-1, 3)
     scales = [*2 * [float(np.abs(apart[:, :2]).max())], float(np.abs(apart[:, 2]).max())]
     rows = [

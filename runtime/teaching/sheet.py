@@ -45,7 +45,7 @@ LONGEST = 60  # largest number of operations of an expression that a solution sh
 
 @dataclass(frozen=True)
 class Question:
-    """A question and its solution; `numbers` are the answers in SI by name."""
+    """Hold a question and its solution; `numbers` are the answers in SI units by name."""
 
     title: str
     requested: tuple[Block, ...]
@@ -55,7 +55,7 @@ class Question:
 
 @dataclass(frozen=True)
 class Subject:
-    """What questions refer to: a scene's equations and notation, parameter values, chosen constraint equations."""
+    """Hold what questions refer to: a scene's equations and notation, parameter values, chosen constraint equations."""
 
     model: Model
     notation: Notation
@@ -70,7 +70,7 @@ class Subject:
         return [(k, row) for k, row in enumerate(self.model.rows, 1) if row.owner in self.owners]
 
     def number(self, x: float, digits: int = 4, scale: float = 0.0, off: float = 0.0) -> Name:
-        """Return a number as printed.
+        """Return a number as it is printed, rounded to significant digits.
 
         scale: size of similar numbers; values below its rounding errors are 0. off: uncertainty from the rounding of
         the data, which limits the printed digits.
@@ -94,7 +94,7 @@ class Subject:
 
 
 def make_subject(model: Model, simulation: Simulation, drawn: Drawn, seed: int) -> Subject:
-    """Return the subject with at most two joints and one drive, drawn from the seed."""
+    """Build the subject of a sheet, with at most two joints and one drive drawn from the seed."""
     rng = np.random.default_rng([seed, 1])
     of = {kind: list(dict.fromkeys(r.owner for r in model.rows if r.kind == kind)) for kind in ("joint", "drive")}
     selected = [
@@ -106,7 +106,10 @@ def make_subject(model: Model, simulation: Simulation, drawn: Drawn, seed: int) 
 
 
 def units_of(scene: Scene) -> dict[str, tuple[str, float]]:
-    """Return the file's unit and its value in SI by address, of parameters, masses, inertias and lengths."""
+    """Return the unit in the file and its value in SI, by address, of parameters, masses, inertias and lengths.
+
+    Values without a unit, zeros and expressions are left out.
+    """
     bodies, found = scene.mechanism.bodies.values(), dict[str, tuple[str, float]]()
     for quantity in (*scene.parameters.values(), *(x for b in bodies for x in (b.mass, b.inertia, b.length))):
         number = quantity.value if quantity is not None else None
@@ -116,38 +119,40 @@ def units_of(scene: Scene) -> dict[str, tuple[str, float]]:
 
 
 def make_sheets(subject: Subject, questions: Sequence[Question], seed: int) -> tuple[Document, Document]:
-    """Return the sheet, and the sheet with its solutions."""
+    """Build two documents: the sheet of questions, and the same with solutions and the command that repeats its
+    numbers.
+    """
     mechanism, scene = subject.model.scene.mechanism, subject.model.scene.name
     facts = (("mechanism ", mechanism.name, f", scene {scene}, seed {seed}"),)
     title = one_line(mechanism.title or mechanism.name)
-    given = tuple(_given_sections(subject))
+    given = tuple(_build_given_sections(subject))
     requested = tuple(Section(f"{k}. {x.title}", x.requested) for k, x in enumerate(questions, 1))
-    solved = tuple(_solution_sections(k, question) for k, question in enumerate(questions, 1))
-    last = Section("These numbers again", tuple(_repetition_blocks(subject)))
+    solved = tuple(_build_solution_sections(k, question) for k, question in enumerate(questions, 1))
+    last = Section("These numbers again", tuple(_build_repetition_blocks(subject)))
     notation = subject.notation
     sheet = Document(f"Exercise: {title}", facts, with_paper(with_letters((*given, *requested), notation)))
     sections = with_paper(with_letters((*given, *sum(solved, ()), last), notation))
     return sheet, replace(sheet, title=f"Solutions: {title}", sections=sections)
 
 
-def _solution_sections(k: int, question: Question) -> tuple[Section, ...]:
+def _build_solution_sections(k: int, question: Question) -> tuple[Section, ...]:
     """Return the sections of question k and of its solution."""
     return Section(f"{k}. {question.title}", question.requested), Section("Solution", question.solved, 2)
 
 
-def _given_sections(subject: Subject) -> list[Section]:
-    """Return the sections with bodies, points, joints, drives and parameters, each with its symbol."""
+def _build_given_sections(subject: Subject) -> list[Section]:
+    """Return the sections with bodies, points, joints, drives, forces and parameters, each with its symbol."""
     model, notation = subject.model, subject.notation
     sections = {section.title: section for section in part_sections(model, notation) if section.title in GIVEN}
-    joints = Section("Joints and drives", tuple(_joint_blocks(subject)))
-    forces = [Section("Gravity and forces", blocks)] if (blocks := tuple(_force_blocks(subject))) else []
+    joints = Section("Joints and drives", tuple(_build_joint_blocks(subject)))
+    forces = [Section("Gravity and forces", blocks)] if (blocks := tuple(_build_force_blocks(subject))) else []
     last = [title for title in ("Curves", "Parameters") if title in sections]
     first = [sections[title] for title in sections if title not in last]
     return [*first, joints, *forces, *(sections[title] for title in last)]
 
 
-def _joint_blocks(subject: Subject) -> list[Block]:
-    """Return tables of joints and drives, without the numbers of their constraint equations."""
+def _build_joint_blocks(subject: Subject) -> list[Block]:
+    """Return tables of joints and drives, and a sketch of each type of joint, without constraint equations."""
     model, values = subject.model, Values(subject.model, subject.notation)
     mechanism, rows = model.scene.mechanism, []
     for joint in mechanism.joints.values():
@@ -158,7 +163,7 @@ def _joint_blocks(subject: Subject) -> list[Block]:
     fields = [row for joint in mechanism.joints.values() for row in field_rows(joint, values)]
     blocks += table(cells("joint", "field", "value"), fields)
     driven = [
-        cells(drive.name, _driven_quantity(drive), driven_value(model, subject.notation, drive.name))
+        cells(drive.name, _format_driven_quantity(drive), driven_value(model, subject.notation, drive.name))
         for drive in mechanism.drives.values()
     ]
     blocks += table(cells("drive", "prescribes", "value"), driven, (2,)) + values.below()
@@ -168,8 +173,8 @@ def _joint_blocks(subject: Subject) -> list[Block]:
     return blocks
 
 
-def _force_blocks(subject: Subject) -> list[Block]:
-    """Return gravity and tables of the force elements."""
+def _build_force_blocks(subject: Subject) -> list[Block]:
+    """Return gravity and tables of the force elements as blocks; [] without both."""
     model, values = subject.model, Values(subject.model, subject.notation)
     gravity, elements = model.scene.mechanism.gravity, [e.element for e in model.elements.values()]
     blocks = table(cells("gravity"), [cells(values.vector(gravity))]) if gravity is not None else []
@@ -183,8 +188,8 @@ def _force_blocks(subject: Subject) -> list[Block]:
     return blocks + values.below()
 
 
-def _driven_quantity(drive: Drive) -> str:
-    """Return what a drive prescribes, as text."""
+def _format_driven_quantity(drive: Drive) -> str:
+    """Return what a drive prescribes, as text: "angle of crank against frame" or "distance of A.P and B.Q"."""
     kind, points = drive.kind, drive.points
     if kind == "distance":
         return "distance of " + " and ".join(f"{p.body}.{p.point}" for p in points)
@@ -193,8 +198,8 @@ def _driven_quantity(drive: Drive) -> str:
     return f"{what} of {drive.body}" + (f" against {against}" if against else "")
 
 
-def _repetition_blocks(subject: Subject) -> list[Block]:
-    """Return a paragraph on how to set the drawn values on the command line."""
+def _build_repetition_blocks(subject: Subject) -> list[Block]:
+    """Return a paragraph that lists the drawn values and the time of the sheet, to be used again."""
     drawn = subject.drawn
     if not drawn.numbers:
         return [paragraph(f"All numbers are the file's own; the moment is {drawn.t:g} s.")]

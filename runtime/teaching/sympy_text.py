@@ -42,7 +42,7 @@ _PLAIN = frozenset((*IN_SYMPY, "Heaviside"))
 
 
 class Printer(StrPrinter):
-    """Printer of SymPy expressions with functions after `sp.`."""
+    """Print SymPy expressions as Python text, with functions after `sp.`."""
 
     def __init__(self, names: Mapping[sp.Symbol, str]) -> None:
         """Use `names` for symbols."""
@@ -58,7 +58,7 @@ class Printer(StrPrinter):
         return number_of_code(float(expr))
 
     def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
-        """Return the text, in parentheses for a fraction of π in a product."""
+        """Return the text of an item, in parentheses too if it is a fraction of π in a product."""
         text = str(super().parenthesize(item, level, strict))
         return f"({text})" if item.is_Float and "sp.pi" in text and level >= PRECEDENCE["Mul"] else text
 
@@ -79,7 +79,7 @@ class Printer(StrPrinter):
         return str(super()._print_Pow(expr, rational=True))
 
     def _print_Function(self, expr: sp.Expr) -> str:
-        """Return a function call. Raises GudgeonError for functions that SymPy does not have."""
+        """Return a function call as Python text. Raise GudgeonError for functions that SymPy does not have."""
         name = type(expr).__name__
         if name not in _PLAIN:
             raise GudgeonError(f"a notebook has no word for {name}\n  write a .tex, .txt or .html")
@@ -110,7 +110,7 @@ class Printer(StrPrinter):
 
 
 def number_of_code(value: float) -> str:
-    """Return a number as Python code that is read back exactly; simple fractions of π as such."""
+    """Return a number as Python text that is read back exactly; simple fractions of π as such ("sp.pi/2")."""
     share = share_of_pi(value)
     if share is None:
         return repr(value).removesuffix(".0")
@@ -120,7 +120,10 @@ def number_of_code(value: float) -> str:
 
 
 def names_of(model: Model) -> dict[sp.Symbol, str]:
-    """Return the Python name of each symbol of the constraint equations, masses and forces."""
+    """Return a unique Python name for each symbol of the constraint equations, masses and forces.
+
+    Names that the notebook uses otherwise get the prefix "its_".
+    """
     symbols = (model.t, *model.q, *model.v, *(entry.symbol for entry in model.slots.entries.values()))
     names: dict[sp.Symbol, str] = {}
     for symbol in symbols:

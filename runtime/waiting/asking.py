@@ -30,21 +30,23 @@ _teller: ContextVar[Teller | None] = ContextVar("teller", default=None)
 
 
 class Asker:
-    """Receive the polls of C: `look` is called, and its exception is stored until Python is back from C (`check`)."""
+    """Poll for cancellation while C runs: C calls `look`, whose exception is stored until `check` raises it in
+    Python.
+    """
 
     def __init__(self, compiled: CompiledModel, look: Callable[[], object]) -> None:
         self.look = look
         self.raised: BaseException | None = None
-        self.function = _callback(compiled)
+        self.function = _get_callback(compiled)
         self.handle = compiled.ffi.new_handle(self)
 
     @property
     def arguments(self) -> tuple[Any, Any, float]:
-        """Return the arguments for C: function, handle, seconds."""
+        """Return the arguments for C: callback function, handle of this object, seconds between polls."""
         return self.function, self.handle, EVERY
 
     def answer(self) -> int:
-        """Return 1 if C shall stop, else 0."""
+        """Call `look`; return 0, or 1 if it raised an exception, which is stored and makes C stop. C calls this."""
         try:
             self.look()
         except BaseException as error:  # nothing may pass through C
@@ -53,7 +55,7 @@ class Asker:
         return 0
 
     def check(self, stopped: bool) -> None:
-        """Raise the exception that occurred in a poll; KeyboardInterrupt if C has `stopped`."""
+        """Raise the exception that a poll stored, else KeyboardInterrupt if C has `stopped`; called after C returns."""
         raised, self.raised = self.raised, None
         if raised is not None:
             raise raised
@@ -61,8 +63,11 @@ class Asker:
             raise KeyboardInterrupt
 
 
-def _callback(compiled: CompiledModel) -> Any:
-    """Return the callback from C to Python; an exception on the way there stops the run too."""
+def _get_callback(compiled: CompiledModel) -> Any:
+    """Return the callback from C to `Asker.answer`, created once per cffi interface and cached.
+
+    An exception of a signal handler outside `answer` is stored in the Asker, and stops the run too.
+    """
     ffi = compiled.ffi
     if id(ffi) not in _functions:
 
@@ -80,10 +85,10 @@ def _callback(compiled: CompiledModel) -> Any:
 
 
 def apart(work: Callable[[], Result]) -> Result:
-    """Call `work` in another thread, and return its result or raise its exception; Ctrl-C is raised at once.
+    """Call `work` in another thread, and return its result or raise its exception, so that Ctrl-C is raised at once.
 
-    The thread then ends on its own; a process that ends meanwhile waits for it. Thread.join is not used: if a signal
-    interrupts it, its lock may stay taken. `work` must hold no resources but memory.
+    After Ctrl-C the thread ends on its own; a process that ends meanwhile waits for it. Thread.join is not used: if a
+    signal interrupts it, its lock may stay locked. `work` must hold no resources but memory.
     """
     results: list[Result] = []
     errors: list[BaseException] = []
@@ -107,14 +112,14 @@ def apart(work: Callable[[], Result]) -> Result:
 
 
 def report_work(text: str) -> AbstractContextManager[None]:
-    """Return a context for something that takes a while, which reports `text` if someone listens."""
+    """Return a context for work that takes a while; it shows `text` by the reporter of this thread, if there is one."""
     teller = _teller.get()
     return teller(text) if teller else nullcontext()
 
 
 @contextmanager
 def report_through(teller: Teller) -> Iterator[None]:
-    """Report through `teller` what takes a while within the with block, in this thread."""
+    """Set the reporter of this thread, which `report_work` calls with a text, within the with block."""
     token = _teller.set(teller)
     try:
         yield

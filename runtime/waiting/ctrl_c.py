@@ -21,18 +21,14 @@ _whole: list[bool] = []  # not empty if the process is the command `gudgeon` onl
 
 
 class CtrlC:
-    """Delay SIGINT within a with block until `take`, which calls the handler that was there before.
-
-    In other threads than the main one nothing is done, because Python raises no signals there. Handlers that are not
-    Python functions (SIG_DFL, SIG_IGN) stay as they are.
-    """
+    """Delay SIGINT within a with block until `take`, which calls the handler that was installed before."""
 
     def __init__(self) -> None:
         self.since, self.frame = 0.0, None  # s, when Ctrl-C came; 0: none waits
         self._handler: Callable[[int, FrameType | None], Any] | None = None
 
     def __enter__(self) -> CtrlC:
-        """Install the delaying handler."""
+        """Install the delaying handler; do nothing outside the main thread or if SIGINT is ignored."""
         if threading.current_thread() is threading.main_thread():
             handler = signal.getsignal(signal.SIGINT)
             if callable(handler):
@@ -46,7 +42,7 @@ class CtrlC:
             signal.signal(signal.SIGINT, self._handler)
 
     def _record(self, number: int, frame: FrameType | None) -> None:
-        """Record a Ctrl-C; pass on a second one that comes later than PATIENCE."""
+        """Record a Ctrl-C; call the former handler for a second one that comes more than PATIENCE seconds later."""
         now = monotonic()
         if not self.since:
             self.since = now
@@ -54,7 +50,9 @@ class CtrlC:
             self._handler(number, frame)
 
     def take(self) -> None:
-        """Call the former handler if Ctrl-C waits; it usually raises KeyboardInterrupt."""
+        """Call the former handler if a Ctrl-C is recorded, and forget it; the handler usually raises
+        KeyboardInterrupt.
+        """
         if self.since and self._handler is not None:
             self.since = 0.0
             self._handler(signal.SIGINT, None)
@@ -68,7 +66,10 @@ class EndingSignals:
     """
 
     def __enter__(self) -> None:
-        """Install handlers for the signals that have none."""
+        """Install handlers for SIGTERM and SIGHUP if they have the default ones.
+
+        Do nothing outside the main thread or if SIGINT has a handler of the user.
+        """
         self._ended: list[int] = []
         self._replaced: list[int] = []
         if threading.current_thread() is not threading.main_thread():
@@ -81,7 +82,7 @@ class EndingSignals:
                 signal.signal(number, self._interrupt)
 
     def __exit__(self, *_: object) -> None:
-        """Restore the handlers, and raise the signal that came."""
+        """Restore the default handlers, and raise the first signal that came, which ends the process."""
         for number in self._replaced:
             signal.signal(number, signal.SIG_DFL)
         for number in self._ended[:1]:
@@ -99,7 +100,7 @@ def declare_program() -> None:
 
 
 def ignore_ctrl_c() -> None:
-    """Ignore Ctrl-C from now on, if the process is the command only: it ends anyway."""
+    """Ignore Ctrl-C from now on, if the process was declared to be the command `gudgeon` only; else do nothing."""
     if _whole:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
 

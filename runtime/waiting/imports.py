@@ -23,20 +23,23 @@ _frozen = False  # whether other code froze objects; counting them takes ten mil
 
 
 def whole(*names: str) -> None:
-    """Import modules completely; Ctrl-C is raised meanwhile, but leaves no module half imported."""
+    """Import modules completely in another thread; return at once if they are imported already.
+
+    Ctrl-C is raised meanwhile, but leaves no module half imported. An error of the import is raised here.
+    """
     if all(map(_is_imported, names)):
         return
     failed: list[BaseException] = []
     done = threading.Event()
-    threading.Thread(target=_import, args=(names, failed, done), name="imports", daemon=True).start()
+    threading.Thread(target=_import_modules, args=(names, failed, done), name="imports", daemon=True).start()
     while not done.wait(LOOK):  # a signal may wake the other thread and not this one
         pass
     if failed:
         raise failed[0]
 
 
-def _import(names: tuple[str, ...], failed: list[BaseException], done: threading.Event) -> None:
-    """Import modules in this thread; store an error and signal the end."""
+def _import_modules(names: tuple[str, ...], failed: list[BaseException], done: threading.Event) -> None:
+    """Import modules in this thread; append an exception to `failed`, and set `done` at the end."""
     try:
         with (
             pause_garbage_collector()
@@ -57,9 +60,9 @@ def _is_imported(name: str) -> bool:
 
 @contextmanager
 def pause_garbage_collector() -> Iterator[None]:
-    """Stop the garbage collector within a with block, and count new objects as old ones afterwards.
+    """Disable the garbage collector within a with block, and count the objects made there as old ones afterwards.
 
-    As new objects they would be searched at once.
+    As new objects they would be searched at once. Nothing is frozen if other code has frozen objects.
     """
     global _frozen
     collects = gc.isenabled()

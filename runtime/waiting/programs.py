@@ -22,7 +22,7 @@ _given_up: ContextVar[Callable[[], bool] | None] = ContextVar("whether nobody wa
 
 @contextmanager
 def until(given_up: Callable[[], bool]) -> Iterator[None]:
-    """Let waiting for programs in this thread end by KeyboardInterrupt once `given_up()` is true.
+    """Let `Programs.wait` in this thread raise KeyboardInterrupt once `given_up()` is true, within the with block.
 
     Python raises no signals in other threads than the main one; the thread that received Ctrl-C tells them.
     """
@@ -44,7 +44,11 @@ class Programs:
         return self
 
     def begin(self, line: list[str], folder: Path | None, environment: dict[str, str]) -> subprocess.Popen[str]:
-        """Start a program in a folder (None: the current one). Raise OSError if it cannot be run."""
+        """Start a program in a folder (None: the current one) and return its process. Raise OSError if it cannot be
+        run.
+
+        Its output is captured, and it gets no Ctrl-C of the terminal.
+        """
         import subprocess
 
         with CtrlC() as ctrl_c:  # not between the start of a process and the note of it
@@ -64,7 +68,10 @@ class Programs:
         return process
 
     def wait(self, process: subprocess.Popen[str]) -> tuple[str, str]:
-        """Return output and errors of a program after its end. Raise KeyboardInterrupt soon after Ctrl-C or `until`."""
+        """Wait for a program to end, and return its standard output and error as texts.
+
+        Raises KeyboardInterrupt soon after Ctrl-C, or once the condition of `until` is true.
+        """
         import subprocess
 
         message: tuple[str, str] | None = None
@@ -81,7 +88,7 @@ class Programs:
         return message
 
     def stop(self, *given_up: subprocess.Popen[str]) -> None:
-        """Kill those of these programs that are still running."""
+        """Kill those of these programs that are still running, with their child processes, and wait for their ends."""
         left = [process for process in given_up if process.returncode is None]
         for process in left:
             try:

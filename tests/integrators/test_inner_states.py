@@ -126,7 +126,7 @@ def test_runs_side_by_side(
         for name in ("A.z", "B.z", place, "A.Ft"):
             assert (run[name] == batch[name][k]).all(), (k, name)
     assert abs(batch["A.z"]).max() > 1e-6
-    monkeypatch.setattr(lanes, "WORTH", 0.0)
+    monkeypatch.setattr(lanes, "MIN_REMAINING_S", 0.0)
     c = np.linspace(2.5e-4, 5e-4, 17)
     for method in ("dop853", "rodas5p"):
         batches = [

@@ -31,7 +31,7 @@ def test_every_number_that_a_start_hangs_on_is_heeded(
     mechanism: str | Path, scene: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """Each number another one, between runs without: starts are, to the bit, those of single runs."""
-    monkeypatch.setattr(lanes, "WORTH", 0.0)
+    monkeypatch.setattr(lanes, "MIN_REMAINING_S", 0.0)
     simulation = gudgeon.load(without_chain(tmp_path) if mechanism == EVERY_KIND else mechanism, scene)
     source = simulation.source
     numbers: list[dict[str, float]] = []
@@ -39,7 +39,7 @@ def test_every_number_that_a_start_hangs_on_is_heeded(
         value = 1.001 * slot.default if slot.default else 1e-3
         if not slot.words and alone(simulation, {slot.address: value}):
             numbers += [{slot.address: value}, {}]
-    assert len(numbers) > lanes.FEW
+    assert len(numbers) > lanes.MIN_RUNS
     singly = [alone(simulation, number) for number in numbers]
     starts = {run.q[0].tobytes() + run.v[0].tobytes() for run in singly if run}
     assert 1 < len(starts) < len(numbers) / 2

@@ -18,7 +18,7 @@ from tests.slow import slow_but
 
 pytestmark = needs_compiler
 HERE = Path(__file__).parent.parent / "mechanisms"
-COUNT = lanes.MOST + 3  # more than are under way at once, divisible by no number of lanes
+COUNT = lanes.MAX_LANES + 3  # more than are under way at once, divisible by no number of lanes
 # mechanism, scene, column (address, from, to), end and step in s
 Case = tuple[str | Path, str, tuple[str, float, float], float, float]
 EVERY_KIND = HERE / "valid" / "every_kind.yaml"
@@ -57,8 +57,8 @@ class Seen:
 @pytest.fixture(autouse=True)
 def at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """However short a batch is."""
-    monkeypatch.setattr(lanes, "WORTH", 0.0)
-    monkeypatch.setattr(lanes, "FEW", 2)
+    monkeypatch.setattr(lanes, "MIN_REMAINING_S", 0.0)
+    monkeypatch.setattr(lanes, "MIN_RUNS", 2)
 
 
 def both(simulation: gudgeon.Simulation, sets: Any, t_end: float, **options: Any) -> tuple[Batch, Batch]:
@@ -250,14 +250,14 @@ def test_the_library_is_made_where_it_is_worth_it(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(lanes, "_is_compiled", lambda _: False)
     press = gudgeon.load("nine_bar_press", "lubricated")
     sets = {"c": np.linspace(3e-4, 8e-4, 4 * COUNT)}
-    monkeypatch.setattr(lanes, "WORTH", 1e9)
+    monkeypatch.setattr(lanes, "MIN_REMAINING_S", 1e9)
     alone = press.simulate_many(sets, 0.01, output=3, threads=2)
     press.simulate_many({"c": sets["c"][:1]}, 0.01, output=3, threads=2)
     assert not made
     with lanes.followed_by(10**18):  # blocks of a study: what one takes is little, all of them are not
         gudgeon.load("nine_bar_press", "lubricated").simulate_many(sets, 0.01, output=3, threads=2)
     assert made == [True]
-    monkeypatch.setattr(lanes, "WORTH", 1e-9)
+    monkeypatch.setattr(lanes, "MIN_REMAINING_S", 1e-9)
     for _ in range(2):  # once a library, whatever batches there are
         beside = press.simulate_many(sets, 0.01, output=3, threads=2)
         assert made == [True, True]

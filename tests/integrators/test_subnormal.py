@@ -49,7 +49,7 @@ def test_impulse_of_a_force_that_begins_subnormal(tmp_path: Path, method: str) -
 
 
 def test_the_same_in_a_batch(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(lanes, "WORTH", 0.0)  # side by side however short it is
+    monkeypatch.setattr(lanes, "MIN_REMAINING_S", 0.0)  # side by side however short it is
     runs = load(tmp_path, PULSE, "1 m/s").simulate_many([{"c": c} for c in np.linspace(8.05, 8.15, 9)], 12.0, output=20)
     assert np.abs(runs["blk.vx"][:, -1] - 2.0).max() < 1e-7
 

@@ -200,7 +200,7 @@ def test_events_on_the_way(at_once: Seen, tmp_path: Path) -> None:
 @pytest.fixture
 def at_once(monkeypatch: pytest.MonkeyPatch) -> Seen:
     """Runs go side by side however short their batch is; those that do."""
-    monkeypatch.setattr(lanes, "WORTH", 0.0)
+    monkeypatch.setattr(lanes, "MIN_REMAINING_S", 0.0)
     return Seen(monkeypatch)
 
 

@@ -17,7 +17,7 @@ from gudgeon.contract.kernel_source import ENGINE_PART, KernelSource
 from gudgeon.errors import BuildError, InputError
 from gudgeon.loading import ahead, build
 from gudgeon.loading.ahead import BackgroundCompilation, own_command_lines
-from gudgeon.loading.cache import LIST, _seal
+from gudgeon.loading.cache import LIST, _write_checksums
 from gudgeon.waiting.programs import Programs
 
 ROD = """\
@@ -90,7 +90,7 @@ def test_what_does_not_link_is_compiled_again_where_that_is_asked_for(own_folder
     (entry,) = (own_folders / "cache" / "engines").iterdir()
     (entry / ENGINE).write_bytes(b"no object")
     (entry / LIST).unlink()
-    _seal(entry, entry)
+    _write_checksums(entry, entry)
     build._libraries.clear()
     (own_folders / "rod.yaml").write_text(ROD.replace("0.3, mass", "0.4, mass"))
     with pytest.raises(BuildError, match=ENGINE):

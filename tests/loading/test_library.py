@@ -63,12 +63,12 @@ def test_declarations_that_are_being_edited_are_parsed(monkeypatch: pytest.Monke
     compiled = gudgeon.load("pendulum").compiled
     file = next(each.file for each in _libraries() if each.lib is compiled.lib)
     monkeypatch.setattr(declared, "OF", "another")
-    library._engine_interface.cache_clear()
+    library._get_engine_interface.cache_clear()
     try:
         parsed = library.opened(file)
     finally:
         monkeypatch.undo()
-        library._engine_interface.cache_clear()
+        library._get_engine_interface.cache_clear()
     assert parsed.ffi is not declared.ffi and compiled.ffi is declared.ffi
     for name in ("gudgeon_ensemble", "gudgeon_evaluate"):
         kept, message = (each.ffi.typeof(getattr(each.lib, name)).cname for each in (compiled, parsed))

@@ -279,10 +279,10 @@ def test_what_a_batch_compiles_meanwhile_ends_with_it(monkeypatch: pytest.Monkey
         if begun:
             raise KeyboardInterrupt
 
-    monkeypatch.setattr(lanes, "WORTH", 1e-9)
+    monkeypatch.setattr(lanes, "MIN_REMAINING_S", 1e-9)
     monkeypatch.setattr(lanes, "_made", WeakKeyDictionary())
     monkeypatch.setattr(lanes, "_is_compiled", lambda _: False)
-    monkeypatch.setattr(lanes, "_lanes_of", compiled)
+    monkeypatch.setattr(lanes, "_load_lanes", compiled)
     batch = press.simulate_many({"c": np.full(40, 3e-4)}, 0.01, output=2, rtol=1e-4, threads=1, progress=progress)
     assert batch.interrupted and begun[0].returncode == -signal.SIGKILL
     assert 0 < (batch.samples == 3).sum() < 40

@@ -162,7 +162,7 @@ def test_a_sample_that_has_no_accelerations_is_a_failure_of_its_own_run(monkeypa
         raise SingularError("a pivot vanished", 0.0, "A.x")
 
     monkeypatch.setattr(simulate_many, "evaluate_runs", singular)
-    monkeypatch.setattr(lanes, "WORTH", 0.0)
+    monkeypatch.setattr(lanes, "MIN_REMAINING_S", 0.0)
     kept, whole = (
         press().simulate_many({"omega": speeds}, 0.004, output=9, keep=keep) for keep in (["S9.ay"], "states")
     )

@@ -153,7 +153,7 @@ def carried(simulation: Simulation, t: float, difference: Any) -> tuple[np.ndarr
     pair = Tangent(simulation, Neighbours.of(run, simulation.compiled), {"rtol": 1e-12}, start, False, flow)
     y, chain = flow.reduced(0.0, np.concatenate([start.q, start.v]))
     pair.z = np.append(difference(flow.rates(0.0, y, chain, start.memory)), [0.0, 0.0])
-    pair.distance = scale = pair._tangent_norm(start, pair.z)
+    pair.distance = scale = pair._compute_tangent_norm(start, pair.z)
     ended = pair.advance(t, True)
     assert ended is not None
     run, grown = ended

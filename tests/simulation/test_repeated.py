@@ -10,7 +10,7 @@ import pytest
 
 import gudgeon
 from gudgeon.results.results import Result
-from gudgeon.simulation.examine import STORED, repeat_exactly
+from gudgeon.simulation.examine import NOTE_STORED_SAMPLES, repeat_exactly
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
 
@@ -75,7 +75,7 @@ def test_a_run_that_an_event_ended(tmp_path: Path, options: dict[str, Any]) -> N
     run.save(tmp_path / "run.nc")
     assert volume(simulation, Result.load(tmp_path / "run.nc")) == volume(simulation, run)
     check = run.check()
-    assert check and STORED not in check.notes and check.samples > 1000
+    assert check and NOTE_STORED_SAMPLES not in check.notes and check.samples > 1000
     batch = simulation.simulate_many([{}], 0.5, output=20, **options)
     assert volume(simulation, batch[0]) == volume(simulation, run)
 
@@ -95,4 +95,4 @@ def test_a_run_that_goes_on_along_an_inclined_slide(tmp_path: Path) -> None:
     batch = simulation.simulate_many([{}, {}], 0.03, output=10, start=first.final)
     assert volume(simulation, batch[1]) == alone
     check = run.check()
-    assert check and STORED not in check.notes
+    assert check and NOTE_STORED_SAMPLES not in check.notes

@@ -38,7 +38,9 @@ ROUNDED = 1e-7  # of the bearing's radius, in addition
 
 @dataclass(frozen=True)
 class Piece:
-    """Hold one accepted step: the method's interpolant `at`, and the same projected onto the constraints."""
+    """Hold one accepted step: the solver's interpolant `at`, and `projected`, the same projected onto the
+    constraints.
+    """
 
     t0: float
     t1: float
@@ -46,7 +48,7 @@ class Piece:
     projected: Callable[[float], Array]
 
     def nodes(self) -> Array:
-        """Return the times (s) at which the step is sampled, including both ends."""
+        """Return the times (s) at which the step is sampled for events, both ends included."""
         t = self.t0 + NODES * (self.t1 - self.t0)
         t[-1] = self.t1
         return t
@@ -71,7 +73,7 @@ class Contacts:
         self.count = len(joints)
         self.c = p[[joint.clearance for joint in joints]]
         self.R = p[[joint.constants["R_i"] for joint in joints]]
-        self.floor = _velocity_floor(compiled, p)
+        self.floor = _find_velocity_floor(compiled, p)
         self.memory = np.array(memory[: self.count], dtype=np.float64)
         self.compressing = np.zeros(self.count, dtype=bool) if state is None else np.asarray(state) == CODE_IMPACT
         self.open = [(np.nan, 0.0, np.nan)] * self.count  # onset, largest force and its time of the present contact
@@ -93,28 +95,36 @@ class Contacts:
         return np.where(self.closed, touching, CODE_FREE).astype(np.int8)
 
     def view(self, t: Array, y: Array) -> View:
-        """Return the quantities of joints with play at times (N,) and states (N, 2n or more)."""
+        """Evaluate the quantities of joints with play at times t (N,) and states y (N, 2n or more), for the present
+        contacts.
+        """
         n = self.compiled.n
         memory = np.broadcast_to(self.memory, (len(t), self.count))
         found = self.compiled.evaluate(t, y[:, :n], y[:, n : 2 * n], memory, self.p).clearance
         force = np.hypot(found[..., CLEARANCE_Fn], found[..., CLEARANCE_Ft])
         return View(found[..., CLEARANCE_delta], found[..., CLEARANCE_deltadot], force, found[..., CLEARANCE_e])
 
-    def begin(self, t: float, y: Array, onsets: Callable[[], Array]) -> None:
-        """Close contacts that the start lies in, and resume those of an earlier run. `onsets` returns their δ̇⁻."""
+    def begin(self, t: float, y: Array, compute_onset_speeds: Callable[[], Array]) -> None:
+        """Close the contacts that the start y lies in, and resume those that are closed already.
+
+        `compute_onset_speeds` returns the approach speeds δ̇⁻ (n_memory,) of the former; it is called only if there are
+        any.
+        """
         now = self.view(np.array([t]), y[None])
         self.open = [(t, 0.0, t)] * self.count
         began = np.flatnonzero(~self.closed & (now.delta[0] >= 0.0)).tolist()
-        known = onsets() if began else self.memory
+        known = compute_onset_speeds() if began else self.memory
         for k in began:
             self._close_contact(k, t, float(known[k]))
 
-    def change(self, t: float, y: Array, event: int) -> None:
-        """Switch joint `event` between free and contact, and every other joint that is past its switching point."""
+    def change(self, t: float, y: Array, joint: int) -> None:
+        """Switch joint `joint` between free and contact at t (s), and every other joint that is past its switching
+        point.
+        """
         now = self.view(np.array([t]), y[None])
         sign = np.where(self.closed, 1.0, -1.0)
         over = (sign * now.delta[0] < 0.0) & (sign * now.deltadot[0] < 0.0)
-        over[event] = True
+        over[joint] = True
         for k in np.flatnonzero(over):
             if self.closed[k]:
                 self._open_contact(int(k), t)
@@ -122,7 +132,9 @@ class Contacts:
                 self._close_contact(int(k), t, float(now.deltadot[0, k]))
 
     def _close_contact(self, k: int, t: float, deltadot: float) -> None:
-        """Close the contact of joint k at t (s) with the approach speed `deltadot` (m/s)."""
+        """Close the contact of joint k at t (s) with the approach speed `deltadot` (m/s), or the smallest allowed
+        one.
+        """
         self.memory[k] = max(deltadot, self.floor)
         self.compressing[k] = True
         self.onsets += 1
@@ -134,8 +146,10 @@ class Contacts:
         self.impacts.append((k, onset, t, float(self.memory[k]), F, t_peak))
         self.memory[k] = np.nan
 
-    def note(self, t: Array, view: View) -> None:
-        """Update the peaks by accepted states."""
+    def update_peaks(self, t: Array, view: View) -> None:
+        """Update the largest forces and eccentricities of all joints by the quantities `view` at accepted states at
+        times t.
+        """
         for k in range(self.count):
             i = int(np.argmax(view.F[:, k]))
             self._update_peak(k, float(t[i]), float(view.F[i, k]))
@@ -149,9 +163,13 @@ class Contacts:
             self.open[k] = (self.open[k][0], F, t)
 
     def end_of_step(self, t: float, y: Array) -> int | None:
-        """Update ratios and peaks at an accepted state; return a joint whose contact was lost, or None."""
+        """Update velocity ratios and peaks at an accepted state y at t (s); return the index of a lost contact, or
+        None.
+
+        A contact is lost if a joint that counts as free lies clearly beyond its wall.
+        """
         now = self.view(np.array([t]), y[None])
-        self.note(np.array([t]), now)
+        self.update_peaks(np.array([t]), now)
         closed = self.closed
         for ratio in (now.deltadot[0] / self.memory)[closed]:
             self.ratio = min(self.ratio[0], float(ratio)), max(self.ratio[1], float(ratio))
@@ -160,77 +178,94 @@ class Contacts:
         lost = np.flatnonzero(~closed & (now.delta[0] > LOST * self.c + ROUNDED * self.R))
         return int(lost[0]) if len(lost) else None
 
-    def inner_peaks(self, piece: Piece, t: Array, view: View) -> None:
-        """Refine the peaks of forces inside a step, from its samples at times t before the step's end."""
+    def inner_peaks(self, step: Piece, t: Array, quantities: View) -> None:
+        """Refine the largest forces inside a step by minimisation, from the samples `quantities` at times t before the
+        step's end.
+
+        Joints whose samples are well below their known peak are skipped.
+        """
         from scipy.optimize import minimize_scalar
 
         for k in range(self.count):
-            i = int(np.argmax(view.F[:, k]))
+            i = int(np.argmax(quantities.F[:, k]))
             known = self.open[k][1] if self.closed[k] else self.peaks[k, PEAK_F]
             bounds = (t[max(i - 1, 0)], t[min(i + 1, len(t) - 1)])
-            if bounds[0] < bounds[1] and view.F[i, k] > KEPT * known:
+            if bounds[0] < bounds[1] and quantities.F[i, k] > KEPT * known:
                 top = minimize_scalar(
-                    lambda x, k=k: -self._view_at(piece.at, x).F[0, k],
+                    lambda x, k=k: -self._evaluate_at(step.at, x).F[0, k],
                     bounds=bounds,
                     method="bounded",
                     options={"xatol": 1e-5 * (bounds[1] - bounds[0])},
                 )
                 self._update_peak(k, float(top.x), -float(top.fun))
 
-    def _view_at(self, state: Callable[[float], Array], t: float) -> View:
+    def _evaluate_at(self, state_function: Callable[[float], Array], t: float) -> View:
         """Return the quantities of joints with play at time t, for the state given by a function of time."""
-        return self.view(np.array([t]), state(t)[None])
+        return self.view(np.array([t]), state_function(t)[None])
 
-    def first_event(self, piece: Piece, t: Array, view: View) -> tuple[float, int] | None:
-        """Return time (s) and joint of the first contact that begins or ends inside a step; None without one."""
+    def first_event(self, step: Piece, t: Array, quantities: View) -> tuple[float, int] | None:
+        """Return time (s) and joint index of the first contact that begins or ends inside a step; None without one.
+
+        `quantities`: quantities at the sampled times t of the step.
+        """
         sign = np.where(self.closed, 1.0, -1.0)
         found = [
-            (self._first_zero(piece, k, t, sign[k] * view.delta[:, k], sign[k] * view.deltadot[:, k]), k)
+            (
+                self._find_first_zero(
+                    step, k, t, sign[k] * quantities.delta[:, k], sign[k] * quantities.deltadot[:, k]
+                ),
+                k,
+            )
             for k in range(self.count)
         ]
         times = [(at, k) for at, k in found if at is not None]
         return min(times) if times else None
 
-    def _first_zero(self, piece: Piece, k: int, t: Array, margin: Array, rate: Array) -> float | None:
-        """Return the first time at which joint k's event function becomes negative, or None.
+    def _find_first_zero(self, step: Piece, k: int, t: Array, event_function: Array, rate: Array) -> float | None:
+        """Return the first time (s) in the step at which joint k's event function becomes negative, or None.
 
-        `margin` and `rate` are the samples of the function and its rate at times t.
+        `event_function` and `rate`: samples (N,) of the function and its rate at times t. A minimum between two
+        positive samples is located too. A function that begins negative and falls counts at once.
         """
         for i in range(1, len(t)):
             low, high = float(t[i - 1]), float(t[i])
-            if margin[i - 1] < 0.0:  # begun on the wrong side: over, unless it is coming back
-                if margin[i] < 0.0 and rate[i] < 0.0:
+            if event_function[i - 1] < 0.0:  # begun on the wrong side: over, unless it is coming back
+                if event_function[i] < 0.0 and rate[i] < 0.0:
                     return low
                 continue
-            if margin[i] >= 0.0:
+            if event_function[i] >= 0.0:
                 if not rate[i - 1] < 0.0 < rate[i]:
                     continue
-                high = self._locate_zero(piece, k, low, high, rate=True) or high  # where the margin is least
-            at = self._locate_zero(piece, k, low, high)
+                high = self._locate_zero(step, k, low, high, of_rate=True) or high  # where the margin is least
+            at = self._locate_zero(step, k, low, high)
             if at is not None:
                 return at
         return None
 
-    def _locate_zero(self, piece: Piece, k: int, low: float, high: float, rate: bool = False) -> float | None:
-        """Return the time at which the projected event function of joint k (or its rate) changes sign, or None."""
+    def _locate_zero(self, step: Piece, k: int, low: float, high: float, of_rate: bool = False) -> float | None:
+        """Return the time (s) between low and high at which the event function of joint k, projected, becomes negative,
+        or None.
+
+        With `of_rate`, it is the time at which its rate becomes positive. Brent's method is used.
+        """
         from scipy.optimize import brentq
 
         def value(t: float) -> float:
             """Return the projected event function, or its rate, at t."""
-            view = self._view_at(piece.projected, t)
-            number = view.deltadot[0, k] if rate else view.delta[0, k]
+            view = self._evaluate_at(step.projected, t)
+            number = view.deltadot[0, k] if of_rate else view.delta[0, k]
             return float(number if self.closed[k] else -number)
 
         at_low, at_high = value(low), value(high)
-        if rate and not at_low < 0.0 < at_high or not rate and at_high >= 0.0:
+        if of_rate and not at_low < 0.0 < at_high or not of_rate and at_high >= 0.0:
             return None
-        if not rate and at_low < 0.0:  # by less than what projection moves
+        if not of_rate and at_low < 0.0:  # by less than what projection moves
             return low
-        close = max(CLOSE * (high - low), 2.0 * np.spacing(abs(high)))
-        return float(brentq(value, low, high, xtol=close, rtol=1e-15))
+        time_tolerance = max(CLOSE * (high - low), 2.0 * np.spacing(abs(high)))
+        return float(brentq(value, low, high, xtol=time_tolerance, rtol=1e-15))
 
 
-def _velocity_floor(compiled: CompiledModel, p: Array) -> float:
+def _find_velocity_floor(compiled: CompiledModel, p: Array) -> float:
     """Return the smallest δ̇⁻ (m/s) that an onset stores: the smallest of the scene's contacts, which rarely differ."""
     slots = enumerate(compiled.source.slots)
     return min((float(p[k]) for k, slot in slots if slot.address.endswith(".velocity_floor")), default=0.0)

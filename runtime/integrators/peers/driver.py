@@ -40,7 +40,7 @@ GROWN = 2.0  # growth of the speed after which the tolerances are set anew
 
 
 def unfit(source: KernelSource) -> str:
-    """Return why the reference solvers do not fit a scene; "" if they do."""
+    """Return the reason why the reference solvers cannot integrate a scene; "" if they can."""
     if source.degrees_of_freedom == 0:
         return "nothing is integrated"
     if source.frictions:
@@ -53,7 +53,10 @@ def unfit(source: KernelSource) -> str:
 
 
 def run(problem: Problem) -> Trajectory:
-    """Integrate over the output times with the integrator that problem.method names."""
+    """Integrate a run with the reference solver that problem.method names, and return its Trajectory.
+
+    Raises BadValueError for a scene that does not fit, for events that would end the run, and for a fixed step.
+    """
     if reason := unfit(problem.compiled.source):
         raise BadValueError(
             f"method {problem.method!r}: {reason}",
@@ -71,7 +74,10 @@ def run(problem: Problem) -> Trajectory:
 
 
 def _make_stepper(equations: Equations, problem: Problem) -> Stepper:
-    """Return the solver that problem.method names."""
+    """Return the solver that problem.method names: "scipy:…" or "sundials:…".
+
+    Raise GudgeonError if it is not installed.
+    """
     package, _, name = problem.method.partition(":")
     t_end = float(problem.t[-1])
     if package == "scipy":
@@ -98,20 +104,20 @@ class _Driver:
         self.angle = np.array([name.endswith(".theta") for name in problem.compiled.source.coordinates])
         self.t, self.y = float(problem.t[0]), np.concatenate([problem.q, problem.v, np.zeros(N_WORK)])
         self.speed, self.controlled = np.zeros(2), np.zeros(2)
-        self.steps = self.stuck = 0
+        self.steps = self.n_events_at_one_time = 0
         self.shown = Shown(problem.compiled, problem.look)
-        self.began_anew = True  # whether this is the first step, or something changed at the end of the last one
+        self.is_after_change = True  # whether this is the first step, or something changed at the end of the last one
         self.worst = np.zeros(2)  # largest |Φ|, |Φ̇|
         self.times: list[float] = []
         self.samples: list[tuple[NDArray[Any], ...]] = []  # y, a, memory, codes
 
     def run(self) -> Trajectory:
-        """Integrate to the end, and return the Trajectory; after Ctrl-C or an error, what was reached.
+        """Integrate to the end and return the Trajectory; after Ctrl-C or a SolverError, that of the samples reached.
 
         The start is stored before packages are imported, so that Ctrl-C may interrupt the import.
         """
         interrupted, stopped = False, None
-        self._begin()
+        self._store_start()
         try:
             self.stepper = _make_stepper(self.equations, self.problem)
             self.began = perf_counter()
@@ -124,27 +130,27 @@ class _Driver:
             self._store_last()
         except SolverError as error:
             stopped = error
-        return self._trajectory(interrupted, stopped)
+        return self._build_trajectory(interrupted, stopped)
 
     def _store_last(self) -> None:
-        """Store the present state as the last sample; samples at later times are removed."""
+        """Store the present state as the last sample, after Ctrl-C; samples at its time or later are removed."""
         while self.times and self.times[-1] >= self.t:
             self.times.pop()
             self.samples.pop()
-        self._sample(self.t, self.y)
+        self._store_sample(self.t, self.y)
 
-    def _approach_speeds(self) -> Array:
+    def _compute_approach_speeds(self) -> Array:
         """Return δ̇⁻ (n_memory,) of contacts that the run begins in, from the C loop; this is not cross-checked."""
         start = replace(self.problem, method="rk4", t=self.problem.t[:1], step=1.0, progress=None)
         return np.asarray(integrate(start).memory[0])
 
-    def _begin(self) -> None:
+    def _store_start(self) -> None:
         """Set the contacts of the start, and store it if it is a sample."""
-        self.contacts.begin(self.t, self.y, self._approach_speeds)
+        self.contacts.begin(self.t, self.y, self._compute_approach_speeds)
         self._update_state()
-        self._sample_present()
+        self._store_present_sample()
 
-    def _absolute_tolerances(self) -> Array:
+    def _compute_absolute_tolerances(self) -> Array:
         """Return the absolute tolerances (2n + 3,) for the largest speeds so far."""
         self.controlled = self.speed.copy()
         speed = (self.speed + self.speed_floor)[self.angle.astype(int)]
@@ -152,7 +158,7 @@ class _Driver:
 
     def _restart(self) -> None:
         """Restart the solver at the present state with new tolerances."""
-        self.atol = self._absolute_tolerances()
+        self.atol = self._compute_absolute_tolerances()
         self.stepper.restart(self.t, self.y, self.atol)
 
     def _step(self) -> None:
@@ -164,45 +170,50 @@ class _Driver:
             raise self.equations.failure or NonFiniteError(f"the motion is no longer finite at t = {t1:.9g} s", t1)
         event = self._find_event(piece)
         t_new = t1 if event is None else event[0]
-        self._sample_before(piece, t_new)
-        self._show_step(piece, t_new)
+        self._store_samples_before(piece, t_new)
+        self._pass_step(piece, t_new)
         y = piece.projected(t_new)
-        self.stuck = self.stuck + 1 if t_new - self.t < 1e-9 * (t1 - self.t) else 0
+        self.n_events_at_one_time = self.n_events_at_one_time + 1 if t_new - self.t < 1e-9 * (t1 - self.t) else 0
         self.t, self.y = t_new, y
         self.steps += 1
         self._update_state()
         if event is not None:
-            if self.stuck > MAX_STUCK:
+            if self.n_events_at_one_time > MAX_STUCK:
                 raise SolverError(f"contacts change without end near t = {t_new:.9g} s", t_new)
             self.contacts.change(t_new, y, event[1])
-            self.began_anew = True
+            self.is_after_change = True
         self._continue_solver(event is not None, end)
-        self._sample_present()
+        self._store_present_sample()
         if self.problem.progress:
             t = self.problem.t
             self.problem.progress((t_new - t[0]) / max(t[-1] - t[0], 1e-300), "integrating")
 
-    def _show_step(self, piece: Piece, t_new: float) -> None:
-        """Pass the sampled states of this step to the observer, with the contacts that it began with."""
-        if self.problem.look:
-            nodes = piece.nodes()
-            nodes = nodes if self.began_anew else nodes[1:]
-            times = np.append(nodes[nodes < t_new], t_new)
-            states = [piece.projected(t) for t in times.tolist()]
-            self.shown.add(times, np.array(states), self.contacts.memory, self.contacts.codes, self.began_anew)
-        self.began_anew = False
+    def _pass_step(self, step: Piece, t_new: float) -> None:
+        """Pass the sampled states of this step, up to t_new (s), to the observer, with the contacts that it began with.
 
-    def _find_event(self, piece: Piece) -> tuple[float, int] | None:
-        """Return the event that ends the step, or None, and update the peaks before it."""
+        Do nothing without an observer. The first state is included only after a change.
+        """
+        if self.problem.look:
+            nodes = step.nodes()
+            nodes = nodes if self.is_after_change else nodes[1:]
+            times = np.append(nodes[nodes < t_new], t_new)
+            states = [step.projected(t) for t in times.tolist()]
+            self.shown.add(times, np.array(states), self.contacts.memory, self.contacts.codes, self.is_after_change)
+        self.is_after_change = False
+
+    def _find_event(self, step: Piece) -> tuple[float, int] | None:
+        """Return time and joint of the contact event that ends the step, or None; update the peaks of forces before
+        it.
+        """
         if not self.contacts.count:
             return None
-        t = piece.nodes()
-        view = self.contacts.view(t, np.array([piece.at(x) for x in t.tolist()]))
-        event = self.contacts.first_event(piece, t, view)
+        t = step.nodes()
+        view = self.contacts.view(t, np.array([step.at(x) for x in t.tolist()]))
+        event = self.contacts.first_event(step, t, view)
         before = t < (math.inf if event is None else event[0])
         if before.any():
             part = type(view)(*(array[before] for array in vars(view).values()))
-            self.contacts.inner_peaks(piece, t[before], part)
+            self.contacts.inner_peaks(step, t[before], part)
         return event
 
     def _update_state(self) -> None:
@@ -217,35 +228,45 @@ class _Driver:
             name = self.problem.compiled.source.clearances[lost].name
             raise SolverError(f"a contact was lost at t = {self.t:.9g} s: {name}, free, is beyond its wall", self.t)
 
-    def _continue_solver(self, event: bool, end: Array) -> None:
-        """Restart the solver, move it onto the constraints, or leave it as it is."""
+    def _continue_solver(self, is_event: bool, solver_state: Array) -> None:
+        """Restart the solver after an event or a growth of speed, move it onto the constraints if it is far off, or
+        leave it.
+
+        `solver_state`: the solver's state at the end of the step. At the end of the run nothing is done.
+        """
         if self.t >= self.problem.t[-1]:
             return
-        moved = float((np.abs(self.y - end) / self.atol).max())
-        if event or (self.speed > GROWN * (self.controlled + self.speed_floor)).any():
+        distance = float((np.abs(self.y - solver_state) / self.atol).max())
+        if is_event or (self.speed > GROWN * (self.controlled + self.speed_floor)).any():
             self._restart()
-        elif moved > self.stepper.patience:
+        elif distance > self.stepper.patience:
             self.stepper.move(self.t, self.y, self.atol)
 
-    def _sample_before(self, piece: Piece, t_new: float) -> None:
-        """Store the samples inside the step, projected, with the contacts that it began with."""
+    def _store_samples_before(self, step: Piece, t_new: float) -> None:
+        """Store the samples at output times before t_new (s), projected, with the contacts that the step began with."""
         times = self.problem.t
         while len(self.samples) < len(times) and times[len(self.samples)] < t_new:
-            self._sample(float(times[len(self.samples)]), piece.projected(float(times[len(self.samples)])))
+            self._store_sample(float(times[len(self.samples)]), step.projected(float(times[len(self.samples)])))
 
-    def _sample_present(self) -> None:
+    def _store_present_sample(self) -> None:
         """Store the present state if it is a sample."""
         if len(self.samples) < len(self.problem.t) and self.problem.t[len(self.samples)] <= self.t:
-            self._sample(self.t, self.y)
+            self._store_sample(self.t, self.y)
 
-    def _sample(self, t: float, y: Array) -> None:
-        """Store a sample. Its right-hand side is output and is not counted."""
+    def _store_sample(self, t: float, y: Array) -> None:
+        """Store a sample: state y, accelerations, discrete states and codes at t (s).
+
+        Its right-hand side is evaluated for output and is not counted.
+        """
         dy = self.problem.compiled.rhs(t, y, self.equations.p, self.contacts.memory)
         self.times.append(t)
         self.samples.append((y, dy[self.n : 2 * self.n], self.contacts.memory.copy(), self.contacts.codes))
 
-    def _trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
-        """Return the samples and counts as a Trajectory."""
+    def _build_trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
+        """Return the samples and counts as a Trajectory; contacts that are still closed are added to the list.
+
+        Without samples, the present state becomes one.
+        """
         from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
         contacts, equations, n = self.contacts, self.equations, self.n
@@ -254,11 +275,11 @@ class _Driver:
             self.times.append(self.t)
             self.samples.append((self.y, np.full(n, np.nan), contacts.memory.copy(), contacts.codes))
         count = len(self.samples)
-        going_on = [
+        closed_contacts = [
             (k, contacts.open[k][0], math.nan, float(contacts.memory[k]), *contacts.open[k][1:])
             for k in np.flatnonzero(contacts.closed)
         ]
-        impacts = np.array([*contacts.impacts, *going_on], dtype=IMPACT_DTYPE)
+        impacts = np.array([*contacts.impacts, *closed_contacts], dtype=IMPACT_DTYPE)
         y, a, memory, state = (np.array([row[i] for row in self.samples]).reshape(count, -1) for i in range(4))
         ratio = contacts.ratio if contacts.ratio[0] <= contacts.ratio[1] else (math.nan, math.nan)
         counts = Counts(

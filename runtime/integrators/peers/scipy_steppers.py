@@ -46,7 +46,10 @@ class ScipyStepper(Stepper):
         self.solver = self.kind(self.equations.rates, t, y.copy(), self.t_end, **controlled, **options)
 
     def step(self) -> float:
-        """Make one step and return its end (s). Raise SolverError with SciPy's message if no step is small enough."""
+        """Make one step and return its end (s). Raise SolverError, with SciPy's message, if no step is small enough.
+
+        An error of the right-hand side is raised in place of it.
+        """
         self.equations.failure = None
         with np.errstate(invalid="ignore", over="ignore"):  # a step far too long is tried, and rejected
             message = self.solver.step()
@@ -57,11 +60,13 @@ class ScipyStepper(Stepper):
         return float(self.solver.t)
 
     def at(self, t: float) -> Array:
-        """Return the state at t inside the last step; at its end exactly, since the interpolant is rounded there."""
+        """Return the state (2n + 3,) at t (s) inside the last step, by SciPy's interpolant; at its end the exact
+        state.
+        """
         return np.array(self.solver.y if t == self.solver.t else self.dense(t), dtype=np.float64)
 
     def move(self, t: float, y: Array, atol: Array) -> None:
-        """Continue from y. A one-step method only needs the new state and its rates; others restart."""
+        """Continue from the projected state y at t (s). A one-step method gets new state and rates; others restart."""
         if self.name not in ONE_STEP:
             self.restart(t, y, atol)
             return

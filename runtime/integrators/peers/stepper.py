@@ -31,7 +31,11 @@ class Equations:
         self.jacobian: Callable[[float, Array], Array] | None = self._jacobian if exact else None  # None: differences
 
     def rates(self, t: float, y: Array) -> Array:
-        """Return ẏ (2n + 3,); NaN where the equations cannot be solved, so that a smaller step is tried."""
+        """Return ẏ (2n + 3,), and count the call; NaN where the equations cannot be solved, so that a smaller step is
+        tried.
+
+        The error is stored in `failure`. KeyboardInterrupt is raised where the solver passes exceptions on.
+        """
         self.calls += 1
         if self.take:
             self.take()

@@ -54,7 +54,10 @@ class CvodeStepper(Stepper):
         out[:] = self.equations.jacobian(t, y)
 
     def step(self) -> float:
-        """Make one internal step and return its end (s). After an interpolation, CVODE first returns the old end."""
+        """Make one internal step of CVODE and return its end (s). Raise SolverError if time does not advance.
+
+        After an interpolation, CVODE first returns the old end; then it is called again.
+        """
         self.equations.failure = None
         before = self.t
         for _ in range(2):
@@ -64,7 +67,9 @@ class CvodeStepper(Stepper):
         raise SolverError(f"CVODE made no step at t = {before:.9g} s: {found.message}", before)
 
     def at(self, t: float) -> Array:
-        """Return the state at t inside the last step, from the method's own polynomial."""
+        """Return the state (2n + 3,) at t (s) inside the last step, from CVODE's polynomial; at its end a copy of
+        the state.
+        """
         if t == self.t:
             return self.y.copy()
         end, y = self.t, self.y
@@ -76,9 +81,13 @@ class CvodeStepper(Stepper):
         """Restart at the projected end of the last step."""
         self.restart(t, y, atol)
 
-    def _call_solver(self, t: float, how: str) -> Any:
-        """Call CVODE once and return its time and state. Raise SolverError if it fails."""
-        found = self.solver.step(t, method=how, tstop=self.t_end)
+    def _call_solver(self, t: float, mode: str) -> Any:
+        """Call CVODE once towards t (s) in the mode `mode` ("onestep" or "normal"), store time and state, and return
+        its result.
+
+        Raises SolverError, or the error of the right-hand side, if it fails.
+        """
+        found = self.solver.step(t, method=mode, tstop=self.t_end)
         if not found.success:
             raise self.equations.failure or SolverError(f"CVODE stopped at t = {self.t:.9g} s: {found.message}", self.t)
         self.t, self.y = float(np.ravel(found.t)[-1]), np.array(found.y, dtype=np.float64).reshape(-1)
