@@ -1,4 +1,4 @@
-"""Run the press at points of a box of parameters; no point may fail.
+"""Run the nine-bar press at points of a box of parameters; no point may fail.
 
     python -m benchmarks.box                      # all corners and 1000 Sobol points, dry and lubricated: an hour
     python -m benchmarks.box --sobol 64           # a sample
@@ -24,9 +24,9 @@ from functools import cache
 from pathlib import Path
 
 import gudgeon
-from gudgeon.loading.find import generator_hash
+from gudgeon.loading.kernel_sources import compute_generator_hash
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.box import Range, corners, judge_point, sobol
+from gudgeon.studies.box import Range, judge_point, list_corners, sample_sobol_points
 from gudgeon.studies.runs import Setting
 from gudgeon.studies.verdicts import Cell, Status
 
@@ -90,7 +90,7 @@ def points(scene: str, count: int) -> list[Point]:
     """Return the corners of the box, then Sobol points."""
     edges = ranges(scene)
     found = []
-    for index, point in enumerate([*corners(edges), *sobol(edges, count)]):
+    for index, point in enumerate([*list_corners(edges), *sample_sobol_points(edges, count)]):
         geometry = GEOMETRY[point.pop("geometry") > math.sqrt(2.0)]
         found.append(Point(scene, index, geometry, point))
     return found
@@ -113,7 +113,7 @@ def load_scenes(scenes: list[str]) -> dict[tuple[str, str], Simulation]:
 @cache
 def code_digest() -> str:
     """Return the digest of generator and templates to which verdicts belong."""
-    return generator_hash()[:12]
+    return compute_generator_hash()[:12]
 
 
 def row(point: Point, cell: Cell) -> dict[str, object]:
@@ -132,7 +132,9 @@ def judge_points(todo: list[Point], threads: int, rtol: float) -> Iterator[tuple
     def one(point: Point) -> Cell:
         """Run and classify one point."""
         simulation = simulations[point.scene, point.geometry]
-        return judge_point(simulation, point.parameters, point.t_end, Setting("auto", rtol), limit=PATIENCE * PERIODS)
+        return judge_point(
+            simulation, point.parameters, point.t_end, Setting("auto", rtol), cpu_limit=PATIENCE * PERIODS
+        )
 
     with ThreadPoolExecutor(threads) as pool:
         futures = {pool.submit(one, point): point for point in todo}

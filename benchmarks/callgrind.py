@@ -1,4 +1,4 @@
-"""Count the instructions of one call by callgrind, independent of the machine and its load.
+"""Count the instructions of one function call by valgrind's callgrind, independent of the machine's load.
 
 A small C driver makes `count` calls. It is run with two counts under valgrind. The difference of instructions over the
 difference of counts is one call, since the start of the process, the loader and `atol` cancel. Values are written in
@@ -22,7 +22,7 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.loading import compiler
-from gudgeon.loading.engine import UNIT, declarations, include_flags
+from gudgeon.loading.engine import UNIT, build_include_flags, select_declarations
 
 COUNTS = (100, 1100)
 PORTABLE = ("-march=x86-64-v3",) if os.uname().machine == "x86_64" else ()
@@ -56,7 +56,14 @@ class Call:
 
 def of_scene(source: KernelSource, call: str, arrays: Mapping[str, np.ndarray]) -> Call:
     """Return a call of a function in a scene's library."""
-    return Call(source.files, (source.main, str(UNIT)), declarations(source), call, arrays, (*FLAGS, *include_flags()))
+    return Call(
+        source.files,
+        (source.main, str(UNIT)),
+        select_declarations(source),
+        call,
+        arrays,
+        (*FLAGS, *build_include_flags()),
+    )
 
 
 def available() -> bool:

@@ -27,7 +27,7 @@ from pathlib import Path
 from time import perf_counter
 
 from benchmarks.rhs import machine
-from gudgeon.loading.shipped import shipped_file
+from gudgeon.loading.shipped import find_shipped_file
 
 # (mechanism, scene, required time in s)
 SCENES = (
@@ -51,7 +51,7 @@ print(json.dumps({
     "source": stages.source, "compile": stages.compile,
     "python": process_time(), "compiler": children.ru_utime + children.ru_stime,
 }), flush=True)
-simulation.compiled.lib.best()
+simulation.compiled.lib.wait_for_optimized()
 """
 COLUMNS = ("source", "compile", "all", "optimized", "asked", "python", "compiler")
 
@@ -77,7 +77,7 @@ def start(name: str, scene: str, kind: str, folder: str) -> dict[str, float]:
 def _copy_edited(name: str, folder: str) -> str:
     """Return a copy of a shipped mechanism's file with a title that no other start has used."""
     file = Path(tempfile.mkdtemp(dir=folder), f"{name}.yaml")
-    text = shipped_file(name).read_text(encoding="utf-8")
+    text = find_shipped_file(name).read_text(encoding="utf-8")
     file.write_text(text.replace("title: ", f"title: {file.parent.name} ", 1), encoding="utf-8")
     return str(file)
 
@@ -93,7 +93,7 @@ def main() -> None:
     """Run the benchmark from the command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--repeats", type=int, default=3)
-    repeats = parser.parse_args().repeats
+    repeats = parser.parse_args().is_periodic
     print(f"{machine()}; s, the fastest of {repeats}; wall, and processor time of Python and of the compiler\n")
     for kind in KINDS:
         print(f"{kind:<28}" + "".join(f"{name:>16}" for name in COLUMNS))

@@ -16,14 +16,14 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from gudgeon.commands.law_plot import chosen_numbers
+from gudgeon.commands.law_plot import list_default_parameters
 from gudgeon.generator.kernels.program import Program, make_program
 from gudgeon.generator.kernels.shared import SharedFunctionCall
-from gudgeon.generator.kinds.laws.law import RESULTS, Law, bundled_laws
-from gudgeon.generator.pipeline import derive, in_c
-from gudgeon.generator.targets.c.functions import shared_call, statements
-from gudgeon.loading.compiler import find_compiler, flags
-from gudgeon.loading.engine import include_flags
+from gudgeon.generator.kinds.laws.law import RESULTS, Law, find_bundled_laws
+from gudgeon.generator.pipeline import derive_scene, generate_c
+from gudgeon.generator.targets.c.functions import print_shared_call, print_statements
+from gudgeon.loading.compiler import build_flags, find_compiler
+from gudgeon.loading.engine import build_include_flags
 
 SCENE = """
 format: gudgeon/1
@@ -96,7 +96,7 @@ int main(void)
 
 def contact(law: Law) -> str:
     """Return the YAML text of a contact with the law; friction and mixed laws get the other laws that they need."""
-    keys = "".join(f", {name}: {value!r}" for name, value in chosen_numbers(law).items())
+    keys = "".join(f", {name}: {value!r}" for name, value in list_default_parameters(law).items())
     below = "normal: {law: hertz, stiffness: 1e9}, " if law.role in ("friction", "mixed") else ""
     below += "film: {law: ocvirk, viscosity: 0.1}, " if law.role == "mixed" else ""
     return f"{below}{law.role}: {{law: {law.name}{keys}}}"
@@ -109,13 +109,13 @@ def scene(law: Law) -> bytes:
 
 def call_of(program: Program, law: Law) -> tuple[str, list[str]]:
     """Return the call in C with arguments from `at`, and the names of these variables."""
-    pin = program.pins[0]
+    pin = program.joints[0]
     if law.role == "mixed":
-        return f"const double delta = at[0];\n{statements(pin.share)}\nout[0] = share;", ["delta"]
+        return f"const double delta = at[0];\n{print_statements(pin.share)}\nout[0] = share;", ["delta"]
     own: SharedFunctionCall = pin.laws[law.role]
     names = [a.name for a in own.kernel.arguments if a.name in law.variables]
     results = [f"&out[{k}]" for k in range(len(law.results))]
-    return shared_call(own, [f"at[{k}]" for k in range(len(names))], results), names
+    return print_shared_call(own, [f"at[{k}]" for k in range(len(names))], results), names
 
 
 def harness(call: str, names: list[str], results: int, slots: int) -> str:
@@ -136,15 +136,23 @@ def harness(call: str, names: list[str], results: int, slots: int) -> str:
 
 def timed(law: Law, folder: Path) -> tuple[float, float]:
     """Return the ns of one evaluation, and of the loop without it. Raises RuntimeError for non-finite results."""
-    model = derive(scene(law), f"{law.name}.yaml", "alone")
-    source, program = in_c(model), make_program(model)
+    model = derive_scene(scene(law), f"{law.name}.yaml", "alone")
+    source, program = generate_c(model), make_program(model)
     for name, text in source.files.items():
         (folder / name).write_text(text, encoding="utf-8")
     call, names = call_of(program, law)
     found = []
     for what, results in ((call, len(law.results)), ("out[0] = at[0];", 1)):
         (folder / "time.c").write_text(harness(what, names, results, len(source.slots)), encoding="utf-8")
-        message = [*find_compiler(), *flags(portable=False), *include_flags(), "time.c", "-lm", "-o", "time"]
+        message = [
+            *find_compiler(),
+            *build_flags(portable=False),
+            *build_include_flags(),
+            "time.c",
+            "-lm",
+            "-o",
+            "time",
+        ]
         subprocess.run(message, cwd=folder, check=True, capture_output=True, text=True)
         done = subprocess.run([str(folder / "time")], check=True, capture_output=True, text=True)
         spent, total = map(float, done.stdout.split())
@@ -162,7 +170,7 @@ def has_function(law: Law) -> bool:
 def lines(names: list[str]) -> Iterator[str]:
     """Yield the lines of the table by role."""
     yield f"  {'role':<9}{'law':<24}{'ns':>7}{'nothing':>9}"
-    some = [law for law in bundled_laws().values() if (not names or law.name in names) and has_function(law)]
+    some = [law for law in find_bundled_laws().values() if (not names or law.name in names) and has_function(law)]
     for law in sorted(some, key=lambda one: ([*RESULTS].index(one.role), one.name)):
         with tempfile.TemporaryDirectory() as folder:
             own, nothing = timed(law, Path(folder))

@@ -1,4 +1,4 @@
-"""Measure one right-hand side: reduced, full and hand-written, with time, operations and results.
+"""Measure one evaluation of the right-hand side, derived in two formulations and hand-written: time and operations.
 
     python -m benchmarks.rhs                # from the repository's root, with gudgeon installed
     python -m benchmarks.rhs --callgrind    # instructions too, counted by valgrind
@@ -28,7 +28,7 @@ import gudgeon
 from benchmarks import callgrind
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.methods import operations
+from gudgeon.studies.methods import count_operations
 from tests.oracles import press_dense
 from tests.oracles.press_dense import Press
 
@@ -70,7 +70,7 @@ class Work:
     def operations(self) -> tuple[int, int]:
         """Return the operations of the full and of the reduced right-hand side at this state, with force laws."""
         counts = self.simulation.source.operations
-        full = operations(self.simulation, list(self.closed))
+        full = count_operations(self.simulation, list(self.closed))
         return full, full - counts["dynamics"] + counts["reduced_dynamics"]
 
 
@@ -92,7 +92,7 @@ def _work_at(name: str, simulation: Simulation, t: float, peer: Press | None) ->
     run = simulation.simulate(t, output=1, rtol=1e-10)
     joints = simulation.source.clearances
     closed = tuple(j.name for j, code in zip(joints, run.state[-1], strict=True) if code) if joints else ()
-    memory = simulation.compiled.memory_array(run.memory[-1] if joints else None)
+    memory = simulation.compiled.as_discrete_states(run.memory[-1] if joints else None)
     return Work(name, simulation, t, run.q[-1].copy(), run.v[-1].copy(), memory, closed, peer)
 
 

@@ -1,4 +1,4 @@
-"""Measure how derivation, emitted code, compilation and right-hand side grow with the number of joints: N-four-bar.
+"""Measure how derivation, size of the C, compilation and run time grow with the number of joints of an N-four-bar.
 
     python -m benchmarks.scaling [--largest 64] [--long 40] [--formulation reduced full]
     python -m benchmarks.scaling --largest 0 --long 0 --tight 5 10 20 40
@@ -23,9 +23,9 @@ import numpy as np
 from sympy.core.cache import clear_cache
 
 import gudgeon
-from gudgeon.generator.pipeline import derive, in_c
+from gudgeon.generator.pipeline import derive_scene, generate_c
 from gudgeon.loading.build import compile_kernels
-from gudgeon.loading.find import FORMULATIONS
+from gudgeon.loading.kernel_sources import FORMULATIONS
 from gudgeon.mechanisms.n_four_bar import text as yaml_text
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.results.results import Result
@@ -60,10 +60,10 @@ def measure(n: int, formulation: str, folder: Path) -> tuple[float, ...]:
     data, file = yaml_text(n).encode(), folder / f"n_four_bar_{n}.yaml"
     file.write_bytes(data)
     repeats = 2 if n <= 16 else 1
-    derived = least(lambda: derive(data, file.name, "ideal"), 3)
-    model = derive(data, file.name, "ideal")
-    emitted = least(lambda: in_c(model, formulation), repeats)
-    source = in_c(model, formulation)
+    derived = least(lambda: derive_scene(data, file.name, "ideal"), 3)
+    model = derive_scene(data, file.name, "ideal")
+    emitted = least(lambda: generate_c(model, formulation), repeats)
+    source = generate_c(model, formulation)
     compiled = least(lambda: compile_kernels(source, rebuild=True), repeats)
     simulation = Simulation(CompiledModel(source, compile_kernels(source)), file)
     kernel = "reduced_dynamics" if formulation == "reduced" else "dynamics"

@@ -1,10 +1,11 @@
-"""Measure a study of 10,000 lubricated runs with results on disk: time per run, two threads, memory.
+"""Measure a study of 10,000 runs of a lubricated mechanism, stored on disk: time per run, two threads, memory.
 
     python -m benchmarks.studies [--repeats 3] [--batches | --large]
 
 studies/lubricated_10000.yaml and a tenth of it (fewer viscosities) run in separate processes. The tenth runs by one and
 by two threads in turns, and the smallest times are printed with the speedup of two independent threads. The whole study
-runs by one and by two threads. `alone` is the processor time of the same runs as one batch without samples; the rest is
+runs by one and by two threads. `alone` is the processor time of the same runs as one batch without
+samples; the rest is
 the cost of the study: series, measures and files. On a loaded machine, compare that ratio and processor times. Memory
 is the maximum of a process.
 
@@ -35,7 +36,7 @@ from ruamel.yaml import YAML
 import gudgeon
 from benchmarks.many import machine
 from gudgeon.integrators import lanes
-from gudgeon.studies.ensemble.study import plans_of, run_plans
+from gudgeon.studies.ensemble.study import resolve_plans, run_plans
 
 FILE = Path(__file__).parents[1] / "studies" / "lubricated_10000.yaml"
 PRESS = {"l5": 0.25, "gravity.y": 0.0, "omega": 2.0 * np.pi}  # of all batches
@@ -48,10 +49,10 @@ def one(viscosities: int, threads: int) -> dict[str, float]:
     MB."""
     study = YAML(typ="safe").load(FILE)
     study["parameters"][VISCOSITY]["count"] = viscosities
-    plans, alone = plans_of(study), math.nan
+    plans, alone = resolve_plans(study), math.nan
     (plan,) = plans.each.values()
     if viscosities == TENTH:
-        simulation, columns = plan.parts[0].simulation, plan.job_of(0, 0, np.arange(plan.runs), 1).columns
+        simulation, columns = plan.parts[0].simulation, plan.make_job(0, 0, np.arange(plan.runs), 1).columns
         before = process_time()
         simulation.simulate_many(dict(columns), study["t_end"], output=1, rtol=study["rtol"], threads=1, keep=[])
         alone = process_time() - before
@@ -140,10 +141,10 @@ def main() -> None:
     parser.add_argument("--batches", action="store_true", help="runs in batches, without a study")
     parser.add_argument("--large", action="store_true", help="batches of 100,000 on two threads")
     options = parser.parse_args()
-    for scene, (t_end, required) in (*LARGE.items(),) * options.repeats if options.large else ():
+    for scene, (t_end, required) in (*LARGE.items(),) * options.is_periodic if options.large else ():
         print(f"  100,000 {scene} presses of {t_end} s: {large(scene):.1f} s (asked: at most {required:g})", flush=True)
     if options.batches:
-        batches(options.repeats)
+        batches(options.is_periodic)
     if options.batches or options.large:
         return
     if options.one:
@@ -151,7 +152,7 @@ def main() -> None:
         return
     least = {of: {1: math.inf, 2: math.inf} for of in (TENTH, WHOLE)}
     print("  threads    runs  failed   ms a run: wall    CPU  alone    MB: before  most")
-    for of, threads in [(TENTH, 1), (TENTH, 2)] * options.repeats + [(WHOLE, 1), (WHOLE, 2)]:
+    for of, threads in [(TENTH, 1), (TENTH, 2)] * options.is_periodic + [(WHOLE, 1), (WHOLE, 2)]:
         found = run_separately(of, threads)
         each = [1e3 * found[name] / found["runs"] for name in ("wall", "cpu", "alone")]
         text = f"{each[0]:16.3f}{each[1]:7.3f}{each[2]:7.3f}{found['before']:14.0f}{found['most']:6.0f}"

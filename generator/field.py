@@ -1,4 +1,4 @@
-"""Declares what one key of a mechanism file may hold.
+"""Declares what one key of a mechanism file may hold: kind of value, dimension, bounds.
 
 The reader, `--set`, the JSON Schema and the tables of docs/format.md all use these declarations. Sections are declared
 in generator/format/sections.py, joints, drives, forces and laws in generator/kinds.
@@ -58,7 +58,7 @@ class Bound(NamedTuple):
     limit: float | str
     why: str = ""  # text of the message, "a mass is positive"; {name} is the field's name. "": its meaning
 
-    def reason(self, field: Field, owner_name: str) -> str:
+    def format_reason(self, field: Field, owner_name: str) -> str:
         """Return the reason that an error gives for a number that violates the bound.
 
         `owner_name` names the law or mapping.
@@ -117,22 +117,27 @@ class Field:
         return self.dimension is None
 
     @property
-    def choice(self) -> str | bool:
+    def default_option(self) -> str | bool:
         """Return the default of a word, a flag or a body."""
         assert isinstance(self.default, (str, bool)), self.name
         return self.default
 
-    def below(self, name: str, node: Any = ()) -> Field | None:
+    def find_field(self, name: str, node: Any = ()) -> Field | None:
         """Return the field for the key `name` in a mapping, None if there is no such key.
 
         `node`, the mapping's contents, shows the kind, if the keys depend on it.
         """
         if self.kind == MAPPING:
             return self.entry
-        return next((field for field in self.known(node) if field.name == name), None)
+        return next((field for field in self.list_fields(node) if field.name == name), None)
 
-    def known(self, node: Any = ()) -> tuple[Field, ...]:
-        """Return the allowed keys of a mapping: those of the kinds that `node` names, of all kinds if it names none."""
+    def list_fields(self, node: Any = ()) -> tuple[Field, ...]:
+        """Return the fields of the allowed keys of a mapping.
+
+        A field without kinds returns its own `fields`. Otherwise the fields are those of the kinds that `node` names:
+        by its key `law` if the field is a law and has this key, else by all its keys. If `node` names no known kind,
+        the fields of all kinds are returned.
+        """
         if self.kinds is None:
             return self.fields
         kinds = self.kinds()
@@ -144,7 +149,7 @@ class Field:
         )
 
 
-def with_dimensions(fields: Iterable[Field], node: Mapping[str, Any]) -> list[Field]:
+def resolve_dimensions(fields: Iterable[Field], node: Mapping[str, Any]) -> list[Field]:
     """Return fields in which those with `per` have the dimension N/m^n; n is the number in `node` or its default.
 
     The dimension is any (None) if n is not a plain number or has exponents finer than halves. Other fields are
@@ -187,7 +192,9 @@ def body_or_ground(name: str, meaning: str) -> Field:
     return Field(name, BODY, meaning, default="ground")
 
 
-def name_in(names: str, name: str, meaning: str, required: bool = True, either: str = "", otherwise: str = "") -> Field:
+def name_of_entry(
+    names: str, name: str, meaning: str, required: bool = True, either: str = "", otherwise: str = ""
+) -> Field:
     """Declare a name of an entry of the section `names`; `either` is a key that may stand in its place.
 
     `otherwise` says what applies if the key is missing.

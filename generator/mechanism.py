@@ -11,8 +11,8 @@ from dataclasses import dataclass, field, fields, is_dataclass, replace
 
 from gudgeon.errors import Location
 from gudgeon.language.curves import Curve
-from gudgeon.language.names import unknown_name
-from gudgeon.language.tree import Expr, Name, Number, replaced
+from gudgeon.language.names import make_unknown_name_error
+from gudgeon.language.tree import Expr, Name, Number, replace_names
 from gudgeon.language.units import Dimension
 
 GROUND = "ground"
@@ -26,20 +26,22 @@ class Quantity:
     value: Expr
     dimension: Dimension
     where: Location
-    of: tuple[Quantity, ...] = ()  # quantities that `value` names by their addresses
-    kept: bool = False  # a run-time parameter even if it is written as 0
-    written: Expr | None = None  # of a named expression: with the names of others, for which `value` has their trees
+    operands: tuple[Quantity, ...] = ()  # quantities that `value` names by their addresses
+    is_always_parameter: bool = False  # a run-time parameter even if it is written as 0
+    source_tree: Expr | None = (
+        None  # of a named expression: with the names of others, for which `value` has their trees
+    )
 
     @property
     def is_zero(self) -> bool:
         """Return whether the number is a literal zero that is not `kept`; a parameter is never assumed to be zero."""
-        return not self.kept and isinstance(self.value, Number) and self.value.value == 0.0
+        return not self.is_always_parameter and isinstance(self.value, Number) and self.value.value == 0.0
 
 
 Vector = tuple[Quantity, Quantity]
 
 
-def following(address: str, source: Quantity, location: Location) -> Quantity:
+def make_dependent_quantity(address: str, source: Quantity, location: Location) -> Quantity:
     """Return a quantity at an address whose value is that of another quantity, unless a run sets it.
 
     It has the other quantity's dimension and is located at `location`.
@@ -47,13 +49,13 @@ def following(address: str, source: Quantity, location: Location) -> Quantity:
     return Quantity(address, Name(source.address), source.dimension, location, (source,))
 
 
-def value_at_onset(force: Quantity) -> Quantity:
+def make_onset_value(force: Quantity) -> Quantity:
     """Return the value of a contact force, an expression of the penetration, at δ = 0 as a quantity of its own.
 
     Its address ends with "_at_0".
     """
-    value = replaced(force.value, {"delta": Number(0.0, "0")})
-    return Quantity(f"{force.address}_at_0", value, force.dimension, force.where, kept=True)
+    value = replace_names(force.value, {"delta": Number(0.0, "0")})
+    return Quantity(f"{force.address}_at_0", value, force.dimension, force.where, is_always_parameter=True)
 
 
 @dataclass(frozen=True)
@@ -81,14 +83,15 @@ class Body:
     com: Vector | None
     points: Mapping[str, Vector]  # declared points; tail, head, origin, com are implied
     where: Location
-    lacks: tuple[str, ...] = ()  # keys that dynamics needs and that are missing
+    missing_keys: tuple[str, ...] = ()  # keys that dynamics needs and that are missing
 
 
 @dataclass(frozen=True)
 class Joint:
     """Represent a joint between a point of the first and a point of the second body; `ground` may be either.
 
-    `kind` is a file in generator/kinds/joints, which defines the meaning of `quantities`, `vectors` and `options`.
+    `kind` is a file in generator/kinds/joints, which defines the meaning of `iterate_quantities`, `vectors` and
+    `options`.
     """
 
     name: str
@@ -309,10 +312,10 @@ class Mechanism:
 
 def is_massless(mechanism: Mechanism) -> bool:
     """Return whether any body has no mass or no inertia, so that only kinematics is possible."""
-    return any(body.lacks for body in mechanism.bodies.values())
+    return any(body.missing_keys for body in mechanism.bodies.values())
 
 
-def quantities(value: object) -> Iterator[Quantity]:
+def iterate_quantities(value: object) -> Iterator[Quantity]:
     """Yield all quantities in a frozen value and in its parts, recursively; curves are skipped."""
     if isinstance(value, Quantity):
         yield value
@@ -327,7 +330,7 @@ def quantities(value: object) -> Iterator[Quantity]:
     elif isinstance(value, (tuple, list)):
         inner_values = value
     for inner_value in inner_values:
-        yield from quantities(inner_value)
+        yield from iterate_quantities(inner_value)
 
 
 @dataclass(frozen=True)
@@ -345,7 +348,7 @@ class Scene:
     events: Mapping[str, EventSpec]
     peaks: tuple[str, ...]
     materials: Mapping[str, str]  # address of each choice -> the material of this scene
-    instead: Mapping[str, Quantity]  # by address: properties that follow the material of this scene
+    chosen_properties: Mapping[str, Quantity]  # by address: properties that follow the material of this scene
 
 
 def make_scene(mechanism: Mechanism, name: str) -> Scene:
@@ -354,7 +357,7 @@ def make_scene(mechanism: Mechanism, name: str) -> Scene:
     Raises UnknownNameError, which lists the scenes that exist.
     """
     if name not in mechanism.scenes:
-        raise unknown_name("scene", name, mechanism.scenes, None)
+        raise make_unknown_name_error("scene", name, mechanism.scenes, None)
     spec = mechanism.scenes[name]
     parameters = {
         key: replace(quantity, value=spec.parameters[key].value, where=spec.parameters[key].where)
@@ -366,7 +369,7 @@ def make_scene(mechanism: Mechanism, name: str) -> Scene:
         address: spec.materials.get(address, choice.material) for address, choice in mechanism.choices.items()
     }
     replaced_properties = {
-        quantity.address: following(
+        quantity.address: make_dependent_quantity(
             quantity.address, mechanism.materials[material_names[address]].numbers[property_name], quantity.where
         )
         for address, choice in mechanism.choices.items()

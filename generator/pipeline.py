@@ -1,4 +1,4 @@
-"""Runs the stages of the compiler: YAML → Mechanism → Scene → Model → Program → KernelSource, one call each.
+"""Runs the stages from YAML to C: Mechanism (data), Model (equations), Program (functions), KernelSource (C).
 
 If `seconds` is given, each stage stores its duration there; `begun` is called with parts that can be compiled already.
 """
@@ -14,16 +14,16 @@ from gudgeon.generator.equations.model import Model, make_model
 from gudgeon.generator.equations.notes import check_masses
 from gudgeon.generator.kernels.program import make_program
 from gudgeon.generator.mechanism import Mechanism, Scene, make_scene
-from gudgeon.generator.reader.read import Overrides, Seconds, read_scene, stage
-from gudgeon.generator.redundancy import find_redundancy, refuse_singular_masses
-from gudgeon.generator.targets.c.describe import describe
-from gudgeon.generator.targets.c.emit import Begun, emit
+from gudgeon.generator.reader.read import Overrides, Seconds, measure_stage, read_scene
+from gudgeon.generator.redundancy import check_mass_matrix, find_redundancy
+from gudgeon.generator.targets.c.describe import describe_scene
+from gudgeon.generator.targets.c.emit import PartCallback, emit_scene
 from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
 from gudgeon.generator.targets.numpy.module import NumPyModel
-from gudgeon.generator.targets.numpy.reference import reference_values
+from gudgeon.generator.targets.numpy.reference import compute_reference_values
 
 
-def derive(
+def derive_scene(
     data: bytes, file: str, scene: str, overrides: Overrides | None = None, seconds: Seconds | None = None
 ) -> Model:
     """Read one scene of a mechanism file and derive its equations, without redundant constraint equations.
@@ -31,25 +31,25 @@ def derive(
     Raises InputError. overrides: address -> value in place of the file's; seconds: a dict that gets the duration of
     each stage (s), or None.
     """
-    return equations(read_scene(data, file, scene, overrides, seconds), seconds)
+    return derive_equations(read_scene(data, file, scene, overrides, seconds), seconds)
 
 
-def equations(scene: Scene, seconds: Seconds | None = None) -> Model:
+def derive_equations(scene: Scene, seconds: Seconds | None = None) -> Model:
     """Derive the equations of a scene that was read, without redundant constraint equations.
 
     Raises BadValueError if masses make the motion undetermined. `seconds` gets the duration of each stage (s), unless
     None.
     """
-    with stage("equations", seconds):
+    with measure_stage("equations", seconds):
         model = replace(make_model(scene), targets=TARGETS)
-    with stage("rank of the rows", seconds):
-        model = model.without(find_redundancy(model, describe(model)))
+    with measure_stage("rank of the rows", seconds):
+        model = model.remove_redundant_rows(find_redundancy(model, describe_scene(model)))
     check_masses(model)
-    refuse_singular_masses(model, describe(model))
+    check_mass_matrix(model, describe_scene(model))
     return model
 
 
-def closed_linkage(
+def build_closed_linkage(
     mechanism: Mechanism, scene: str, parameters: Mapping[str, float | str] | None = None
 ) -> tuple[NumPyLinkage, list[int]]:
     """Return the closed linkage of a scene in NumPy, and the indices of its rows that the scene with play keeps.
@@ -58,7 +58,7 @@ def closed_linkage(
     """
     model = make_model(make_scene(mechanism, scene))
     names_of_remaining_rows = {row.name for row in model.rows}
-    linkage = NumPyLinkage(model, describe(model), parameters)
+    linkage = NumPyLinkage(model, describe_scene(model), parameters)
     return linkage, [r for r, row in enumerate(model.all_rows) if row.name in names_of_remaining_rows]
 
 
@@ -67,9 +67,9 @@ def _make_document_symbols(model: Model) -> Any:
 
     Imports the LaTeX target.
     """
-    from gudgeon.generator.targets.latex.to_html import Letters
+    from gudgeon.generator.targets.latex.to_html import FormulaWriter
 
-    return Letters(model)
+    return FormulaWriter(model)
 
 
 # Targets of `Model.written` by name, for the full formulation; "letters": how documents write the equations.
@@ -79,24 +79,27 @@ TARGETS: Mapping[str, Callable[[Model], Any]] = {
 }
 
 
-def in_c(
-    model: Model, formulation: str = "reduced", seconds: Seconds | None = None, on_part_ready: Begun | None = None
+def generate_c(
+    model: Model,
+    formulation: str = "reduced",
+    seconds: Seconds | None = None,
+    on_part_ready: PartCallback | None = None,
 ) -> KernelSource:
     """Return the C code of a model, with the description of its contents and reference values.
 
     formulation: "reduced" or "full". `on_part_ready` is called with parts of the code that can be compiled already.
     `seconds` gets the duration of each stage (s), unless None.
     """
-    with stage("functions", seconds):
+    with measure_stage("functions", seconds):
         program = make_program(model, formulation)
-    with stage("C", seconds):
-        source = emit(program, on_part_ready)
-    with stage("reference values", seconds):
-        return replace(source, reference=reference_values(program, source))
+    with measure_stage("C", seconds):
+        source = emit_scene(program, on_part_ready)
+    with measure_stage("reference values", seconds):
+        return replace(source, reference=compute_reference_values(program, source))
 
 
 def generate(
     data: bytes, file: str, scene: str, overrides: Overrides | None = None, formulation: str = "reduced"
 ) -> KernelSource:
-    """Return the C code of one scene of a mechanism file; as `derive`, then `in_c`."""
-    return in_c(derive(data, file, scene, overrides), formulation)
+    """Return the C code of one scene of a mechanism file; as `derive_scene`, then `generate_c`."""
+    return generate_c(derive_scene(data, file, scene, overrides), formulation)

@@ -12,10 +12,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.assembly.linkage import scaled_rows
-from gudgeon.assembly.mobility import check_freedoms, find_mobility
-from gudgeon.assembly.rank import RANK, SAMPLES, configurations, rank, tied
-from gudgeon.assembly.start import search
+from gudgeon.assembly.linkage import scale_rows
+from gudgeon.assembly.mobility import check_degrees_of_freedom, find_mobility
+from gudgeon.assembly.rank import RANK, SAMPLES, compute_dependence_shares, compute_rank, find_nearby_configurations
+from gudgeon.assembly.start import search_start
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.generator.equations.constraints import Row
@@ -39,21 +39,23 @@ def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
     rows_of_scene = [r for r, row in enumerate(model.all_rows) if row.name in names]
     try:
         with np.errstate(all="ignore"):
-            q = search(linkage, linkage.p).q
-            start = scaled_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, q, linkage.p)[rows_of_scene])
-            configurations_near_start = configurations(
-                linkage, linkage.p, q, rows_of_scene, SAMPLES if rank(start) < len(rows_of_scene) else 0
+            q = search_start(linkage, linkage.p).q
+            start = scale_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, q, linkage.p)[rows_of_scene])
+            configurations_near_start = find_nearby_configurations(
+                linkage, linkage.p, q, rows_of_scene, SAMPLES if compute_rank(start) < len(rows_of_scene) else 0
             )
             matrices = [
-                scaled_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, configuration, linkage.p)[rows_of_scene])
+                scale_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, configuration, linkage.p)[rows_of_scene])
                 for configuration in configurations_near_start
             ]
-        ranks = [rank(matrix) for matrix in matrices]
+        ranks = [compute_rank(matrix) for matrix in matrices]
     except (GudgeonError, ArithmeticError, ValueError):  # not assembled, or not finite: the run reports the reason
         return Redundancy()
     expected_freedoms = model.scene.mechanism.freedoms
     if expected_freedoms is not None and isinstance(expected_freedoms.value, Number):
-        check_freedoms(expected_freedoms.value.value, expected_freedoms.where, find_mobility(linkage, linkage.p, q))
+        check_degrees_of_freedom(
+            expected_freedoms.value.value, expected_freedoms.where, find_mobility(linkage, linkage.p, q)
+        )
     index_of_largest_rank = int(np.argmax(ranks))
     if ranks[index_of_largest_rank] == len(rows_of_scene):
         return Redundancy()
@@ -62,7 +64,7 @@ def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
     )
 
 
-def refuse_singular_masses(model: Model, source: KernelSource) -> None:
+def check_mass_matrix(model: Model, source: KernelSource) -> None:
     """Raise BadValueError if bodies without moment of inertia can turn freely, so that the mass matrix is singular.
 
     The motion is tested at the start and near it; a motion that constraints determine needs no inertia. Nothing is
@@ -70,7 +72,7 @@ def refuse_singular_masses(model: Model, source: KernelSource) -> None:
     """
     bodies = model.scene.mechanism.bodies
     bodies_without_inertia = {
-        body.name: body.index + 2 for body in model.bodies if not model.slots.default(body.inertia)
+        body.name: body.index + 2 for body in model.bodies if not model.parameter_table.compute_default(body.inertia)
     }
     if not bodies_without_inertia or model.degrees_of_freedom <= 0:
         return
@@ -78,12 +80,12 @@ def refuse_singular_masses(model: Model, source: KernelSource) -> None:
     names = {row.name for row in model.rows}
     rows_of_scene = [r for r, row in enumerate(model.all_rows) if row.name in names]
     try:
-        configurations_near_start = configurations(
-            linkage, linkage.p, search(linkage, linkage.p).q, rows_of_scene, SAMPLES
+        configurations_near_start = find_nearby_configurations(
+            linkage, linkage.p, search_start(linkage, linkage.p).q, rows_of_scene, SAMPLES
         )
         has_mass = linkage.mass(linkage.p) > 0.0
         matrices = [
-            scaled_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, q, linkage.p)[rows_of_scene])
+            scale_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, q, linkage.p)[rows_of_scene])
             for q in configurations_near_start
         ]
         lightest_motions = [_find_lightest_motion(matrix, has_mass) for matrix in matrices]
@@ -136,6 +138,6 @@ def _select_redundant_rows(rows: Sequence[Row], matrix: Array, rank_of_matrix: i
             basis = np.vstack([basis, remainder / np.linalg.norm(remainder)])
         else:
             redundant.append(r)
-    is_undetermined = tied(matrix) > 1e-7
+    is_undetermined = compute_dependence_shares(matrix) > 1e-7
     owners = dict.fromkeys(rows[r].owner for r in range(len(rows)) if is_undetermined[r])
     return Redundancy(tuple(rows[r].name for r in sorted(redundant)), tuple(owners))

@@ -28,12 +28,12 @@ from ruamel.yaml.events import (
 )
 from ruamel.yaml.reader import ReaderError
 
-from gudgeon.errors import InputError, LimitError, Location, NotYamlError, UnknownKeyError, together
+from gudgeon.errors import InputError, LimitError, Location, NotYamlError, UnknownKeyError, combine_errors
 from gudgeon.files.reading import MAX_BYTES
 from gudgeon.language.names import YAML_NULL
 
-MOST_PIECES = 512  # texts that are joined: more than an expression of 1000 characters can contain
-MOST_OPEN = 60  # open parentheses in a list: bounds the time for long lists
+MAX_PIECES = 512  # texts that are joined: more than an expression of 1000 characters can contain
+MAX_OPEN_PARENTHESES = 60  # open parentheses in a list: bounds the time for long lists
 
 
 class Events:
@@ -60,7 +60,7 @@ class Events:
         if not _is_plain_scalar(event) or _count_open_parentheses(event.value) <= 0:
             return event
         n_open, n_pieces, last_piece = _count_open_parentheses(event.value), 0, event
-        for _ in range(MOST_PIECES):
+        for _ in range(MAX_PIECES):
             piece = self._peek(n_pieces)
             if not _is_plain_scalar(piece) or in_mapping and not _is_missing_value(self._peek(n_pieces + 1)):
                 break
@@ -69,7 +69,7 @@ class Events:
                 piece,
                 n_pieces + 1 + in_mapping,
             )
-            if n_open <= 0 or n_open > MOST_OPEN and not in_mapping:
+            if n_open <= 0 or n_open > MAX_OPEN_PARENTHESES and not in_mapping:
                 break
         if n_open > 0 and not in_mapping:  # these may be the components of a vector, one of them broken
             return event
@@ -105,11 +105,11 @@ def _count_open_parentheses(text: str) -> int:
 
 
 NO_MERGE = "merge keys ('<<') are no part of the format"
-MERGED = "write the keys out; a contact, or a scene, takes those of another one by extends: NAME"
+MERGE_HINT = "write the keys out; a contact, or a scene, takes those of another one by extends: NAME"
 MAX_DEPTH = 24
 MAX_NODES = 100_000  # aliases count as the nodes that they stand for
 MAX_TAG = 10_000  # characters: the time that ruamel takes for one grows with their square
-MOST_TWICE = 50  # reported keys that are given twice
+MAX_DUPLICATES = 50  # reported keys that are given twice
 _TAG = re.compile(rf"!\S{{{MAX_TAG}}}")
 # errors that ruamel raises on hostile text in addition to its own: "%YAML 1.13" fails an assertion
 _OF_RUAMEL = (ValueError, RecursionError, LookupError, AttributeError, TypeError, AssertionError, ArithmeticError)
@@ -130,7 +130,7 @@ class Text(str):
         return node
 
     @property
-    def is_nothing(self) -> bool:
+    def is_null(self) -> bool:
         """Return whether YAML reads the text as null: a plain scalar that is empty, ~ or null."""
         return self.plain and self in YAML_NULL
 
@@ -147,22 +147,22 @@ class Map(dict[str, Any]):
         node.where = location
         return node
 
-    def key(self, name: str) -> Text:
+    def find_key(self, name: str) -> Text:
         """Return the key itself as it stands in the file, with its location.
 
         Raises StopIteration if there is no such key.
         """
-        return next(key for key in self.names() if key == name)
+        return next(key for key in self.list_keys() if key == name)
 
-    def pairs(self) -> list[tuple[Text, Any]]:
+    def list_entries(self) -> list[tuple[Text, Any]]:
         """Return keys and values as a list, in the order of the file."""
-        return [(key, self[key]) for key in self.names()]
+        return [(key, self[key]) for key in self.list_keys()]
 
-    def part(self, name: str) -> Map:
+    def get_mapping(self, name: str) -> Map:
         """Return the mapping at a key; an empty one if there is no such key."""
         return self[name] if name in self else Map.make((), self.where)
 
-    def names(self) -> list[Text]:
+    def list_keys(self) -> list[Text]:
         """Return the keys as Text, in the order of the file; keys that are plain strings are left out."""
         return [key for key in self if isinstance(key, Text)]
 
@@ -195,7 +195,7 @@ def parse_yaml(
         raise LimitError(f"a file of {len(data)} bytes", Location(file, 1, 1), f"expected at most {MAX_BYTES}")
     text = _decode_file(data, file)
     if long_tag := _TAG.search(text):
-        hint, location = "expected plain text, lists and mappings", _location_after(text[: long_tag.start()], file)
+        hint, location = "expected plain text, lists and mappings", _find_location_after(text[: long_tag.start()], file)
         raise LimitError(f"a tag of more than {MAX_TAG} characters", location, hint)
     composer = _Composer(text, file)
     try:
@@ -205,26 +205,26 @@ def parse_yaml(
     except _OF_RUAMEL:
         hint = "look at what stands behind % and behind backslashes in double quotes"
         raise NotYamlError("not YAML: a directive or an escape cannot be read", Location(file, 1, 1), hint) from None
-    duplicates = composer.duplicates[:MOST_TWICE]
+    duplicates = composer.duplicates[:MAX_DUPLICATES]
     if duplicate_errors is not None:
         duplicate_errors += duplicates
     elif duplicates:
-        raise together(duplicates)
+        raise combine_errors(duplicates)
     hint = f"expected a mapping that begins with format: {expected_format}"
-    if root is None or isinstance(root, Text) and root.is_nothing:
+    if root is None or isinstance(root, Text) and root.is_null:
         raise NotYamlError("the file is empty", Location(file, 1, 1), hint)
     if not isinstance(root, Map):
-        raise NotYamlError(f"the file holds {kind_of(root)}", root.where, hint)
+        raise NotYamlError(f"the file holds {describe_node(root)}", root.where, hint)
     return root
 
 
-def kind_of(node: object) -> str:
+def describe_node(node: object) -> str:
     """Return a phrase for a node: "a mapping", "a list", "nothing" for null and other objects, or its quoted text."""
     if isinstance(node, Map):
         return "a mapping"
     if isinstance(node, Items):
         return "a list"
-    if isinstance(node, Text) and not node.is_nothing:
+    if isinstance(node, Text) and not node.is_null:
         return repr(str(node)[:60])
     return "nothing"
 
@@ -237,13 +237,13 @@ def _decode_file(data: bytes, file: str) -> str:
     try:
         return data.decode("utf-8").removeprefix("\ufeff")
     except UnicodeDecodeError as error:
-        location = _location_after(data[: error.start].decode("utf-8"), file)
+        location = _find_location_after(data[: error.start].decode("utf-8"), file)
         raise NotYamlError(
             f"byte 0x{data[error.start]:02x} is no UTF-8", location, "expected a UTF-8 text file"
         ) from None
 
 
-def _location_after(leading_text: str, file: str) -> Location:
+def _find_location_after(leading_text: str, file: str) -> Location:
     """Return the location directly after the text with which a file begins."""
     return Location(file, leading_text.count("\n") + 1, len(leading_text.rpartition("\n")[2]) + 1)
 
@@ -251,10 +251,11 @@ def _location_after(leading_text: str, file: str) -> Location:
 def _translate_error(error: YAMLError, text: str, file: str) -> NotYamlError:
     """Return ruamel's error as a NotYamlError with its location, in gudgeon's words for tabs.
 
-    text: the file's text, for the location of a character that YAML does not allow.
+    text: the file's text, for the location of a character that YAML does not allow. An error without a location is
+    located at the begin of the file. Messages are cut at 500 characters.
     """
     if isinstance(error, ReaderError):
-        location = _location_after(text[: error.position], file)
+        location = _find_location_after(text[: error.position], file)
         return NotYamlError(f"character {text[error.position : error.position + 1]!r} is not allowed in YAML", location)
     if not isinstance(error, MarkedYAMLError):
         return NotYamlError(f"not YAML: {error}"[:500], Location(file, 1, 1))
@@ -378,7 +379,7 @@ class _Composer:
         while not isinstance(key_event := next(self.events), MappingEndEvent):
             key = self.compose_node(key_event, depth + 1)
             if not isinstance(key, Text):
-                raise NotYamlError(f"{kind_of(key)} as a key", key.where, "expected a name as the key")
+                raise NotYamlError(f"{describe_node(key)} as a key", key.where, "expected a name as the key")
             value_event = next(self.events)
             value = self.compose_node(
                 self.events.join_pieces(value_event, True) if event.flow_style else value_event, depth + 1
@@ -388,10 +389,10 @@ class _Composer:
                     key_event
                 )  # an empty value has the location of the next node
             if key == "<<":
-                self.duplicates.append(UnknownKeyError(NO_MERGE, key.where, MERGED))
+                self.duplicates.append(UnknownKeyError(NO_MERGE, key.where, MERGE_HINT))
                 merged_entries = value if isinstance(value, Map) else {}  # the entries are merged as intended
             elif key in node:
-                first = node.key(key).where
+                first = node.find_key(key).where
                 self.duplicates.append(
                     UnknownKeyError(
                         f"{str(key)!r} is given twice", key.where, f"expected once; the first is at {first}"

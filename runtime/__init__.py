@@ -101,11 +101,11 @@ def __getattr__(name: str) -> object:
     """
     if name not in _HOME:
         raise AttributeError(f"module 'gudgeon' has no attribute {name!r}")
-    from gudgeon.waiting.ctrl_c import CtrlC
+    from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
-    with CtrlC() as ctrl_c:  # NumPy half imported could not be imported again
+    with DelayedCtrlC() as ctrl_c:  # NumPy half imported could not be imported again
         value = getattr(import_module(f"gudgeon.{_HOME[name]}"), name)
-    ctrl_c.take()
+    ctrl_c.raise_delayed()
     globals()[name] = value
     return value
 

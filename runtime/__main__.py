@@ -1,4 +1,4 @@
-"""Run the command by `python -m gudgeon`, where its script is not on the path."""
+"""Run the command line by `python -m gudgeon`, where the script `gudgeon` is not on the PATH."""
 
 from gudgeon.entry import main
 

@@ -1,4 +1,4 @@
-"""The command line: how each command is called. What it does is in `gudgeon.commands`.
+"""Define the command line: arguments and options of each command of `gudgeon`. What it does is in `gudgeon.commands`.
 
 Only typer is imported here: `gudgeon run` waits for nothing that it may not need.
 Exit codes: 0 success, 1 a run failed, 2 bad input, 130 interrupted.
@@ -32,7 +32,9 @@ class Commands(TyperGroup):
         out.
         """
         every = ((name, self.get_command(ctx, name)) for name in self.list_commands(ctx))
-        message = [(name, one.get_short_help_str(WHOLE)) for name, one in every if one and not one.hidden]
+        message = [
+            (name, command.get_short_help_str(WHOLE)) for name, command in every if command and not command.hidden
+        ]
         with formatter.section("Commands"):
             formatter.write_dl(message)
 
@@ -49,7 +51,7 @@ app = typer.Typer(
 
 
 @app.callback()
-def _root(version: opt.Version = False) -> None:
+def _define_root_options(version: opt.Version = False) -> None:
     """Define the options of the command without a subcommand."""
     pass
 
@@ -64,7 +66,10 @@ def run(
     output: opt.Intervals = None,
     step: Annotated[str | None, typer.Option(help="Fixed step, in s or with a unit: 5us; auto takes rk4.")] = None,
     method: Annotated[
-        str, typer.Option(help=f"{', '.join(OFFERED)}, {KINEMATIC}, scipy:Radau …", autocompletion=completion.methods)
+        str,
+        typer.Option(
+            help=f"{', '.join(OFFERED)}, {KINEMATIC}, scipy:Radau …", autocompletion=completion.complete_methods
+        ),
     ] = "auto",
     rtol: Annotated[str | None, typer.Option(help=f"Tolerance of a step of auto, {', '.join(CHOOSING)}: 1e-8.")] = None,
     watch: opt.Watch = None,
@@ -133,9 +138,9 @@ def check(
 
     Example: gudgeon check engine.yaml -v
     """
-    from gudgeon.commands.check import check_file
+    from gudgeon.commands.check import check_mechanism
 
-    return check_file(file, verbose, json, branches, tuple(set_ or ()))
+    return check_mechanism(file, verbose, json, branches, tuple(set_ or ()))
 
 
 @app.command()
@@ -143,7 +148,8 @@ def check(
 def emit(
     file: opt.File,
     folder: Annotated[
-        Path, typer.Option("--out", "-o", parser=opt.path, metavar="PATH", help="Folder for C, one a scene; or x.fmu.")
+        Path,
+        typer.Option("--out", "-o", parser=opt.parse_path, metavar="PATH", help="Folder for C, one a scene; or x.fmu."),
     ],
     scene: opt.Scenes = None,
     files_as_json: opt.FilesJson = False,
@@ -193,9 +199,9 @@ def force_laws(
 
     Example: gudgeon laws flores --plot flores.svg --set restitution=.5
     """
-    from gudgeon.commands.laws import Asked, show_laws
+    from gudgeon.commands.laws import LawsRequest, show_laws
 
-    return show_laws(Asked(name, json, plot, tuple(set_ or ())))
+    return show_laws(LawsRequest(name, json, plot, tuple(set_ or ())))
 
 
 @app.command()
@@ -332,7 +338,9 @@ def verdicts(
     file: opt.File,
     scene: opt.Scenes = None,
     set_: opt.Set = None,
-    method: Annotated[str, typer.Option(help=f"{', '.join(OFFERED)}.", autocompletion=completion.methods)] = "auto",
+    method: Annotated[
+        str, typer.Option(help=f"{', '.join(OFFERED)}.", autocompletion=completion.complete_methods)
+    ] = "auto",
     at: opt.Rest = None,
     axis: opt.Axis = None,
     box: opt.Box = None,
@@ -355,13 +363,13 @@ def verdicts(
 
     Example: gudgeon map engine.yaml --box 64 --range c=.05mm..1mm --range stiffness=1GPa..400GPa
     """
-    from gudgeon.commands.map import Asked, map_file
+    from gudgeon.commands.map import MapOptions, map_file
     from gudgeon.commands.studies import Request
 
     if context.info_name == "stress":
         typer.echo(f"warning: {STRESS}", err=True)
     request = Request(file, tuple(scene or ()), tuple(set_ or ()), t_end, out, csv, quick, mark, json)
-    return map_file(request, Asked(method, at, tuple(axis or ()), box, tuple(range_ or ())))
+    return map_file(request, MapOptions(method, at, tuple(axis or ()), box, tuple(range_ or ())))
 
 
 @app.command()
@@ -393,17 +401,17 @@ def study(
     return study_file(Request(file, out, threads, restart, set_, runs, json, finished, workers, dask, starts, seed))
 
 
-def name_of(one: CommandInfo) -> str:
+def get_command_name(one: CommandInfo) -> str:
     """Return the name by which a registered command is called: its own, else that of its function."""
     return str(one.name or getattr(one.callback, "__name__", ""))
 
 
-def asked_for(app: typer.Typer) -> typer.Typer:
+def select_called_command(app: typer.Typer) -> typer.Typer:
     """Return a copy of the app with only the command named in sys.argv; reading the options of all takes 30 ms.
 
     If the first argument names no command, the copy has all of them.
     """
-    named = [one for one in app.registered_commands if sys.argv[1:2] == [name_of(one)]]
+    named = [command for command in app.registered_commands if sys.argv[1:2] == [get_command_name(command)]]
     alone = copy(app)
     alone.registered_commands = named or app.registered_commands
     return alone
@@ -412,4 +420,4 @@ def asked_for(app: typer.Typer) -> typer.Typer:
 def main() -> None:
     """Run the command line: print each warning once, and call the command that sys.argv names."""
     print_warnings_once()
-    asked_for(app)()
+    select_called_command(app)()

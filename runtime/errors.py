@@ -23,7 +23,7 @@ class Location:
 
     def __str__(self) -> str:
         """Return "file:line:column"."""
-        return f"{in_a_line(self.file)}:{self.line}:{self.column}"
+        return f"{escape_line_breaks(self.file)}:{self.line}:{self.column}"
 
 
 class GudgeonError(Exception):
@@ -51,8 +51,8 @@ class InputError(GudgeonError):
 
     def __init__(self, message: str, where: Location | None = None, hint: str = "") -> None:
         self.message, self.where, self.hint = message, where, hint
-        place = f"{where}: " if where else ""
-        super().__init__(f"{place}{message}" + (f"\n  {hint}" if hint else ""))
+        location = f"{where}: " if where else ""
+        super().__init__(f"{location}{message}" + (f"\n  {hint}" if hint else ""))
 
 
 class NotYamlError(InputError):
@@ -117,10 +117,10 @@ class InputErrors(InputError):
         self.args = ("\n".join(str(e) for e in self.errors),)
 
 
-def together(errors: Iterable[InputError]) -> InputError:
+def combine_errors(errors: Iterable[InputError]) -> InputError:
     """Combine errors of one file: return a single one as it is, several as InputErrors."""
-    found = list(errors)
-    return found[0] if len(found) == 1 else InputErrors(found)
+    error_list = list(errors)
+    return error_list[0] if len(error_list) == 1 else InputErrors(error_list)
 
 
 class AssemblyError(GudgeonError):
@@ -186,17 +186,17 @@ class OutputError(GudgeonError):
         self.reason = str(reason) if isinstance(reason, str) else reason.strerror or str(reason)
         self.exit_code = 2 if isinstance(reason, str) or code in _NAMED else 1
         hint = _HINTS.get(code or 0, "name another file or folder" if self.exit_code == 2 else "")
-        super().__init__(f"cannot write {shortened(path)}: {self.reason}" + (f"\n  {hint}" if hint else ""))
+        super().__init__(f"cannot write {shorten_path(path)}: {self.reason}" + (f"\n  {hint}" if hint else ""))
 
 
-def in_a_line(text: str) -> str:
+def escape_line_breaks(text: str) -> str:
     """Return a name for messages on one line: line breaks are escaped if it contains any."""
     return text if text.isprintable() else text.replace("\n", "\\n").replace("\r", "\\r")
 
 
-def shortened(path: str | os.PathLike[str]) -> str:
+def shorten_path(path: str | os.PathLike[str]) -> str:
     """Return a path for messages on one line; of one longer than 200 characters, both ends; '' for an empty one."""
-    text = in_a_line(os.fspath(path)) or "''"
+    text = escape_line_breaks(os.fspath(path)) or "''"
     return text if len(text) < 200 else f"{text[:80]}…{text[-80:]}"
 
 

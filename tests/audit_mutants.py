@@ -35,7 +35,7 @@ import numpy as np
 import gudgeon
 from gudgeon.loading import compiler
 from gudgeon.loading.engine import ENGINE
-from gudgeon.loading.library import opened
+from gudgeon.loading.library import open_library
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.model.reference import check_reference
 from gudgeon.results.results import Result
@@ -97,7 +97,7 @@ def mutant(simulation: Simulation, folder: Path, *edits: tuple[str, str, str], l
     lines += [[*cc, "-shared", str(own or "engine.o"), "scene.o", "-lm", "-o", "mutant.so"]]
     for line in lines:
         subprocess.run(line, cwd=folder, check=True, capture_output=True, timeout=300)
-    compiled = CompiledModel(simulation.source, opened(folder / "mutant.so"))
+    compiled = CompiledModel(simulation.source, open_library(folder / "mutant.so"))
     return Simulation(compiled, simulation.file)
 
 

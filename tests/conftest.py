@@ -27,7 +27,7 @@ from gudgeon.contract.kernel_source import (
     KernelSource,
     PointInfo,
     RowInfo,
-    Slot,
+    RuntimeParameter,
 )
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.results.diagnostics import Diagnostics, Peak
@@ -83,9 +83,9 @@ FREE, IMPACT, CONTACT = 0, 1, 2
 def make_source(scene: str) -> KernelSource:
     play = scene != "ideal"
     slots = [
-        Slot("parameters.omega", "rad/s", OMEGA, False, (0, 0, -1)),
-        Slot("bodies.L1.length", "m", RADIUS, False, (1, 0, 0)),
-        Slot("parameters.c", "m", CLEARANCE, False, (1, 0, 0)),
+        RuntimeParameter("parameters.omega", "rad/s", OMEGA, False, (0, 0, -1)),
+        RuntimeParameter("bodies.L1.length", "m", RADIUS, False, (1, 0, 0)),
+        RuntimeParameter("parameters.c", "m", CLEARANCE, False, (1, 0, 0)),
     ]
     ideal_joint = JointInfo("A", "revolute", 0, 1, "S9.origin", (3, 4))
     guide = JointInfo("guide", "translational", -1, 1, "S9.origin", (1, 2))

@@ -24,9 +24,9 @@ from pathlib import Path
 import numpy as np
 
 import gudgeon
-from gudgeon.assembly.large import nearest_step, smallest
-from gudgeon.assembly.rank import rank, tied
-from gudgeon.assembly.start import search
+from gudgeon.assembly.large import solve_damped_least_squares, solve_minimum_norm
+from gudgeon.assembly.rank import compute_dependence_shares, compute_rank
+from gudgeon.assembly.start import search_start
 from gudgeon.mechanisms.n_four_bar import text as n_four_bar
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import Result
@@ -140,10 +140,10 @@ def large(folder: Path) -> list[Activity]:
     found = []
 
     def algebra() -> None:
-        smallest(matrix, target)
-        nearest_step(matrix[:, every % 3 != 2], target)
-        smallest(np.vstack([matrix, matrix[:1]]), np.ones(len(matrix) + 1))
-        tied(matrix), rank(matrix), rank(np.vstack([matrix, matrix[:1]]))
+        solve_minimum_norm(matrix, target)
+        solve_damped_least_squares(matrix[:, every % 3 != 2], target)
+        solve_minimum_norm(np.vstack([matrix, matrix[:1]]), np.ones(len(matrix) + 1))
+        compute_dependence_shares(matrix), compute_rank(matrix), compute_rank(np.vstack([matrix, matrix[:1]]))
 
     def check(run: object) -> None:
         assert run is None or isinstance(run, Result) and np.isfinite(run.q).all()
@@ -152,7 +152,7 @@ def large(folder: Path) -> list[Activity]:
     for formulation in ("full", "reduced"):
         bars = gudgeon.load(file, formulation=formulation)
         found.append(Activity(f"N=40 {formulation}", partial(bars.simulate, 40.0, output=200, rtol=1e-12), check))
-    found.append(Activity("N=40 start", partial(search, bars.compiled, bars.p), lambda _: None))
+    found.append(Activity("N=40 start", partial(search_start, bars.compiled, bars.p), lambda _: None))
     return [*found, Activity("N=200", algebra, lambda _: None, 2.0)]
 
 
@@ -176,7 +176,7 @@ def activities(folder: Path) -> list[Activity]:
     def start_again() -> None:
         end = time.perf_counter() + 0.5
         while time.perf_counter() < end:
-            search(bars.compiled, bars.p)
+            search_start(bars.compiled, bars.p)
 
     def check_saved(_: object) -> None:
         assert Result.load(folder / "run.nc").t[-1] == long.t[-1]
@@ -210,10 +210,10 @@ def main() -> int:
     rng, well = np.random.default_rng(options.seed), True
     with tempfile.TemporaryDirectory() as folder:
         for make in (activities, large):
-            if options.only and all(name.startswith("N") != (make is large) for name in options.only):
+            if options.condition and all(name.startswith("N") != (make is large) for name in options.condition):
                 continue  # it takes a minute to derive
             for activity in make(Path(folder)):
-                if not options.only or any(activity.name.startswith(name) for name in options.only):
+                if not options.condition or any(activity.name.startswith(name) for name in options.condition):
                     well &= measure(activity, options.moments, rng)
     return 0 if well else 1
 

@@ -29,7 +29,7 @@ from PIL import Image
 
 import gudgeon
 from gudgeon.files.writing import PART
-from gudgeon.loading.cache import is_whole
+from gudgeon.loading.cache import is_complete
 from gudgeon.results.files.hdf5 import is_damaged
 from tests.pump import TEXT
 
@@ -113,7 +113,7 @@ def broken_cache(cache: Path) -> list[str]:
     left = [f"cache/aside/{path.name} is left" for path in cache.glob("aside/*")]
     kinds = ("models", "libraries", "engines", "compilers")
     entries = [entry for kind in kinds for entry in cache.glob(f"{kind}/*")]
-    return left + [f"{entry.parent.name}/{entry.name} is not whole" for entry in entries if not is_whole(entry)]
+    return left + [f"{entry.parent.name}/{entry.name} is not whole" for entry in entries if not is_complete(entry)]
 
 
 def interrupt(folder: Path, words: str, moment: float, found: Found) -> None:
@@ -179,7 +179,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--only", nargs="+", default=list(COMMANDS), choices=list(COMMANDS))
     options = parser.parse_args(arguments)
     rng, well = np.random.default_rng(options.seed), True
-    for name in options.only:
+    for name in options.condition:
         with tempfile.TemporaryDirectory() as folder:
             well &= measure(name, Path(folder), options.moments, rng)
     return 0 if well else 1

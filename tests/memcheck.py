@@ -35,7 +35,7 @@ REPORT = re.compile(r"^==\d+== (?=\S)(?:(?!^==\d+== $).)*", re.MULTILINE | re.DO
 
 def settings(simulation: gudgeon.Simulation) -> Iterator[dict[str, Any]]:
     """Arguments of `simulate`: each method; in all coordinates one."""
-    extra = () if simulation.source.no_slopes else STAGED
+    extra = () if simulation.source.reason_without_jacobian else STAGED
     if simulation.source.formulation == "full":
         yield {"method": "auto", "output": 7}
         return

@@ -16,7 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from gudgeon.cli import app, name_of
+from gudgeon.cli import app, get_command_name
 from tests.packages import LINKAGE, ROOT, Place, sdist, there_are
 
 STUDY = """\
@@ -95,7 +95,7 @@ def main() -> int:
     """Command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--python", default=there_are()[0])
-    commands = {name_of(one) for one in app.registered_commands if not one.hidden}
+    commands = {get_command_name(one) for one in app.registered_commands if not one.hidden}
     assert commands == set(CALLS), f"no call of {commands ^ set(CALLS)}"
     compiler = str(Path(shutil.which("cc") or "/usr/bin/cc").parent)
     with tempfile.TemporaryDirectory() as temporary:

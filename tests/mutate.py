@@ -105,7 +105,12 @@ GROUPS = {
         ),
     ),
     "methods": (
-        ("engine/scalar_simd/dop853.h", "engine/scalar_simd/rodas5p.h", "engine/scalar_simd/radau.h", "engine/methods/rodas5p.c"),
+        (
+            "engine/scalar_simd/dop853.h",
+            "engine/scalar_simd/rodas5p.h",
+            "engine/scalar_simd/radau.h",
+            "engine/methods/rodas5p.c",
+        ),
         _tests("integrators", "tables", "radau", "methods"),
     ),
     "starts": (
@@ -316,7 +321,7 @@ def main() -> int:
                 raise SystemExit(f"tests of {group} fail without any mutant: {' '.join(GROUPS[group][1])}")
             print(f"tests of {group} pass without a mutant", flush=True)
         for k, mutant in enumerate(drawn, 1):
-            if options.only and k not in options.only:
+            if options.condition and k not in options.condition:
                 continue
             source = (folder / mutant.file).read_text(encoding="utf-8")
             message, why = mutant.message(source), mutant.nothing(source)

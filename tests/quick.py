@@ -20,7 +20,7 @@ from typing import Any
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.loading import build, compiler
-from gudgeon.loading import find as sources
+from gudgeon.loading import kernel_sources as sources
 from gudgeon.loading.shipped import MECHANISMS
 from gudgeon.simulation import from_file
 
@@ -78,8 +78,8 @@ def _of_source(call: Callable[..., Any]) -> Callable[..., Any]:
 
 def install() -> None:
     """From now on in this process; once, before tests take these functions by name."""
-    flags, find, load_bytes = compiler.flags, compiler.find_compiler, from_file.load_bytes
-    hashed, own_hash = sources.generator_hash, cache(sources.generator_hash)
+    flags, find, load_bytes = compiler.build_flags, compiler.find_compiler, from_file.load_bytes
+    hashed, own_hash = sources.compute_generator_hash, cache(sources.compute_generator_hash)
 
     @wraps(find)
     def decided_compiler() -> tuple[str, ...]:
@@ -101,7 +101,7 @@ def install() -> None:
         """The generator does not change while its tests run."""
         return own_hash() if package == sources.PACKAGE else hashed(package)
 
-    sources.generator_hash = decided_hash
-    compiler.flags, compiler.find_compiler, from_file.load_bytes = decided_flags, decided_compiler, decided_load
+    sources.compute_generator_hash = decided_hash
+    compiler.build_flags, compiler.find_compiler, from_file.load_bytes = decided_flags, decided_compiler, decided_load
     build.compile_kernels = from_file.compile_kernels = _of_source(build.compile_kernels)
     build.is_compiled = _of_source(build.is_compiled)

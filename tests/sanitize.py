@@ -39,7 +39,7 @@ def settings(simulation: gudgeon.Simulation, quick: bool) -> Iterator[dict[str, 
     """Arguments of `simulate`: each method, with its tolerance and with a step."""
     step = simulation.source.simulate.get("step", STEP)
     plain: dict[str, Any] = {"t_end": STEPS * step, "output": 11}
-    extra = () if quick or simulation.source.no_slopes else STAGED
+    extra = () if quick or simulation.source.reason_without_jacobian else STAGED
     for method in dict.fromkeys(("auto", *simulation.source.methods, *extra)):
         yield plain | {"method": method} | ({"step": step} if method == "rk4" else {})
         if method not in ("auto", "rk4", "kinematic") and not quick:

@@ -17,7 +17,7 @@ from benchmarks.peers.reference import ONSETS  # noqa: E402
 from benchmarks.race import page as race_page
 from benchmarks.race import record as race_record
 from benchmarks.race.record import time_to  # noqa: E402
-from gudgeon.generator.kinds.laws.law import bundled_laws
+from gudgeon.generator.kinds.laws.law import find_bundled_laws
 from tests.oracles import press_dense
 from tests.programs import needs_compiler
 
@@ -159,14 +159,14 @@ def test_the_peers_of_the_sweep_are_the_runs_of_the_sweep() -> None:
 
 
 def test_every_law_has_states_to_be_timed_at() -> None:
-    for law in filter(laws.has_function, bundled_laws().values()):
+    for law in filter(laws.has_function, find_bundled_laws().values()):
         assert set(law.variables) - {state.name for state in law.states} <= set(laws.DRAWN)
 
 
 @needs_compiler
 def test_a_law_is_timed_by_itself(tmp_path: Path) -> None:
     """The program compiles, sums what is a number, and the law takes longer than nothing."""
-    own, nothing = laws.timed(bundled_laws()["ocvirk"], tmp_path)
+    own, nothing = laws.timed(find_bundled_laws()["ocvirk"], tmp_path)
     assert 0.0 < nothing < own
 
 

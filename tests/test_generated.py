@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from gudgeon.generator.targets.c.readme import READABLE
-from gudgeon.loading.generated_scenes import ARCHIVE, read_scenes, unpacked, write_scenes
-from gudgeon.loading.shipped import committed, generated
+from gudgeon.loading.generated_scenes import ARCHIVE, read_archive, read_scenes, write_scenes
+from gudgeon.loading.shipped import list_generated, read_committed_source
 
 ROOT = Path(__file__).parents[1]
 MAX_LINES = 20_000
@@ -63,11 +63,11 @@ def test_files_are_for_readers() -> None:
     assert {path.name for path in kept} <= {*READABLE, ARCHIVE, "README.md"}
     assert sum(data.count(b"\n") for data in kept.values()) <= MAX_LINES
     for folder in (ROOT / "generated").glob("*/"):
-        texts = [*unpacked(folder).get("texts", {}).values()]
+        texts = [*read_archive(folder).get("texts", {}).values()]
         assert len(set(texts)) == len(texts)
 
 
-@pytest.mark.parametrize("mechanism", generated())
+@pytest.mark.parametrize("mechanism", list_generated())
 def test_every_shipped_mechanism_compiles_without_a_derivation(mechanism: str, tmp_path: Path) -> None:
     data = (ROOT / "mechanisms" / f"{mechanism}.yaml").read_bytes()
     sources = read_scenes(ROOT / "generated" / mechanism)
@@ -75,7 +75,9 @@ def test_every_shipped_mechanism_compiles_without_a_derivation(mechanism: str, t
     assert "ideal" in scenes, "run `make generated`"
     assert sorted(scenes) == sorted(folder.name for folder in (ROOT / "generated" / mechanism).glob("*/"))
     for source in sources:
-        assert committed(mechanism, source.scene, sha256(data).hexdigest()) == source, "run `make generated`"
+        assert read_committed_source(mechanism, source.scene, sha256(data).hexdigest()) == source, (
+            "run `make generated`"
+        )
         assert source.mechanism == mechanism
     write_scenes(tmp_path, sources, READABLE)
     assert read_scenes(tmp_path) == sources

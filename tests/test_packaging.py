@@ -17,7 +17,7 @@ import pytest
 from ruamel.yaml import YAML
 
 import gudgeon
-from gudgeon.cli import app, name_of
+from gudgeon.cli import app, get_command_name
 from tests.minimum import CALLS
 from tests.packages import PYTHONS, copy_sources
 
@@ -156,4 +156,4 @@ def test_every_dependency_has_a_lowest_version_that_is_tried() -> None:
     for name, minimum in lowest.items():
         numbers = [[int(part) for part in text.split(".")] for text in (minimum, pinned[normal(name)])]
         assert numbers[0] <= numbers[1], f"{name} is pinned below its lowest version"
-    assert set(CALLS) == {name_of(one) for one in app.registered_commands if not one.hidden}
+    assert set(CALLS) == {get_command_name(one) for one in app.registered_commands if not one.hidden}

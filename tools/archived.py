@@ -1,4 +1,4 @@
-"""Print the texts of an archive of generated/, so that `git diff` compares them (CONTRIBUTING.md says how)."""
+"""Print the texts of an archive of generated/ (generated C), so that `git diff` compares them (CONTRIBUTING.md)."""
 
 from __future__ import annotations
 

@@ -15,8 +15,8 @@ from pathlib import Path
 
 from cffi import FFI
 
-from gudgeon.loading.cache import digest
-from gudgeon.loading.engine import all_declarations
+from gudgeon.loading.cache import compute_digest
+from gudgeon.loading.engine import list_all_declarations
 
 ROOT = Path(__file__).resolve().parent.parent
 BOUNDARY = ROOT / "engine" / "boundary.h"
@@ -34,8 +34,8 @@ IN_JAVASCRIPT = ("Status", "Capacity", "Count", "Residual", "Peak", "ImpactColum
 
 def declared() -> str:
     """Return the text of runtime/loading/declared.py."""
-    declarations = all_declarations()
-    lines = [HEAD.format(of=digest([declarations]))]
+    declarations = list_all_declarations()
+    lines = [HEAD.format(of=compute_digest([declarations]))]
     for name, value in _ffi_arguments(declarations).items():
         if isinstance(value, tuple):
             entries = "".join(f"        {_format_entry(entry)},\n" for entry in value)

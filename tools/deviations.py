@@ -1,4 +1,4 @@
-"""Write the figure and the table that compare each film law with Reynolds' equation (`make deviations`).
+"""Write the figure and the table that compare each oil film law with Reynolds' equation (`make deviations`).
 
 docs/film_deviation.png has a map for each law and L/D. The table in docs/reynolds.md has the worst motion at some ε.
 About 800 solutions take one or two minutes.
@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from gudgeon.generator.kinds.laws.law import called
+from gudgeon.generator.kinds.laws.law import find_laws_of_role
 from gudgeon.reynolds import Deviation, deviation
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
@@ -24,7 +24,7 @@ HEAD = "| film law, L/D | " + " | ".join(f"ε = {x:g}" for x in COLUMNS) + " |"
 
 def compare_laws() -> Iterator[list[Deviation]]:
     """Yield the deviations of each law at all L/D; the solver runs once for each L/D."""
-    laws = sorted(called("film"))
+    laws = sorted(find_laws_of_role("film"))
     first = [deviation(laws[0], ratio) for ratio in RATIOS]
     return ([one.of(law) for one in first] for law in laws)
 

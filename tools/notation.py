@@ -15,12 +15,12 @@ import sympy as sp
 from gudgeon.generator.equations import contact_steps as steps
 from gudgeon.generator.field import NUMBER, Field
 from gudgeon.generator.format.sections import BEARING, BODY, CONTACT, GUIDE, MATERIAL
-from gudgeon.generator.kinds.laws.law import RESULTS, bundled_laws
-from gudgeon.generator.targets.latex.letters import letter
-from gudgeon.generator.targets.latex.notation import letter_of_field
+from gudgeon.generator.kinds.laws.law import RESULTS, find_bundled_laws
+from gudgeon.generator.targets.latex.letters import make_letter
+from gudgeon.generator.targets.latex.notation import get_field_letter
 from gudgeon.generator.targets.latex.play import PAIR
-from gudgeon.generator.targets.latex.play_letters import NAMES, sign_of
-from gudgeon.language.units import si_unit
+from gudgeon.generator.targets.latex.play_letters import NAMES, get_latex_symbol
+from gudgeon.language.units import find_si_unit
 from gudgeon.results.series import CLEARANCE
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "notation.md"
@@ -126,7 +126,7 @@ def _of_record(path: str, record: Field) -> Iterator[tuple[str, ...]]:
     for field in record.fields:
         if field.kind == NUMBER:
             key = f"{path}.{field.name}"
-            own = letter(letter_of_field(field.name)).latex
+            own = make_letter(get_field_letter(field.name)).latex
             shown = IN_LAWS.get(field.name, own) if record is BEARING else own
             paper = IN_PAPER.get(key, "")
             yield f"${shown}$", field.meaning, f"${paper}$" * bool(paper), f"`{key}`", _unit(field)
@@ -134,11 +134,11 @@ def _of_record(path: str, record: Field) -> Iterator[tuple[str, ...]]:
 
 def _of_laws() -> Iterator[tuple[str, ...]]:
     for role in RESULTS:
-        for law in bundled_laws().values():
+        for law in find_bundled_laws().values():
             for field in law.parameters if law.role == role else ():
                 key = f"contacts.NAME.{role}.{field.name}"
                 yield (
-                    f"${sign_of(field)}$",
+                    f"${get_latex_symbol(field)}$",
                     field.meaning,
                     f"`{law.name}`",
                     f"`{key}`",
@@ -147,7 +147,7 @@ def _of_laws() -> Iterator[tuple[str, ...]]:
 
 
 def _unit(field: Field) -> str:
-    return (si_unit(field.dimension) if field.dimension is not None else "") or ""
+    return (find_si_unit(field.dimension) if field.dimension is not None else "") or ""
 
 
 if __name__ == "__main__":

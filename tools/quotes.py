@@ -1,4 +1,4 @@
-"""Renew the quotations of pages from the files that they quote (`make tables`).
+"""Renew the excerpts of files that documentation pages quote (`make tables`).
 
 A block after `<!-- quote: FILE | START | END -->` holds the lines of FILE from the first one that contains START to the
 first one after it that contains END.

@@ -10,7 +10,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.pipeline import generate
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.targets.c.readme import READABLE
-from gudgeon.loading.generated_scenes import ARCHIVE, read_scenes, unpacked, write_scenes
+from gudgeon.loading.generated_scenes import ARCHIVE, read_archive, read_scenes, write_scenes
 
 README = f"""# The C of the shipped mechanisms
 
@@ -57,7 +57,7 @@ def _list_changes(before: KernelSource | None, now: KernelSource) -> str:
 def _list_shared(folder: Path) -> str:
     """Return a line for each scene of a mechanism that uses files of another scene."""
     lines = ""
-    for scene, stored in unpacked(folder)["scenes"].items():
+    for scene, stored in read_archive(folder)["scenes"].items():
         paths = [path for path in stored["files"].values() if not path.startswith(f"{scene}/")]
         links = [f"[{path}]({folder.name}/{path})" for path in paths if (folder / path).exists()]
         lines += f"- `{folder.name}/{scene}`: {', '.join(links)}\n" if links else ""

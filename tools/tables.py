@@ -6,13 +6,13 @@ import runpy
 from collections.abc import Callable
 from pathlib import Path
 
-from gudgeon.generator.targets.c.function_table import function_table
-from gudgeon.generator.targets.format_tables import tables
-from gudgeon.generator.targets.latex.law_page import laws_page
+from gudgeon.generator.targets.c.function_table import print_function_table
+from gudgeon.generator.targets.format_tables import print_format_tables
+from gudgeon.generator.targets.latex.law_page import print_laws_page
 
 ROOT = Path(__file__).resolve().parents[1]
 DOCS, HEADER = ROOT / "docs", ROOT / "engine" / "scene" / "function_table.h"
-PAGES: dict[str, Callable[[], str]] = {"format.md": tables, "laws.md": laws_page}
+PAGES: dict[str, Callable[[], str]] = {"format.md": print_format_tables, "laws.md": print_laws_page}
 MARK = "<!-- Below: `make tables`. -->\n"
 
 
@@ -25,7 +25,7 @@ def page(text: str, below: str, name: str = "") -> str:
 
 
 if __name__ == "__main__":
-    HEADER.write_text(function_table(), encoding="utf-8")
+    HEADER.write_text(print_function_table(), encoding="utf-8")
     for own, made in PAGES.items():
         file = DOCS / own
         file.write_text(page(file.read_text(encoding="utf-8"), made(), own), encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Print which functions pass on the mass of a body, from the bytes of its file to the mass matrix.
+"""Print the functions that pass on the mass of a body, from reading the YAML file to the mass matrix.
 
 usage: .venv/bin/python tools/way_of_a_mass.py
 A function passes it on if it returns the value in any form: text, token, tree, quantity, symbol.
@@ -19,7 +19,7 @@ from gudgeon.generator.reader.read import read_scene
 from gudgeon.generator.symbols.parameter_table import ParameterEntry
 from gudgeon.language.tokens import Token
 from gudgeon.language.tree import Number
-from gudgeon.loading.find import find_mechanism, read_bytes
+from gudgeon.loading.kernel_sources import find_mechanism, read_bytes
 
 FILE, ADDRESS, SYMBOL = "slider_crank", "bodies.crank.mass", "crank_mass_"
 WRITTEN, MARKED, VALUE = b"0.3 kg", "0.31415 kg", 0.31415

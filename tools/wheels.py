@@ -19,10 +19,10 @@ from pathlib import Path
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.loading import compiler
-from gudgeon.loading.build import build_into
+from gudgeon.loading.build import build_portable_library
 from gudgeon.loading.cache import Cache
 from gudgeon.loading.generated_scenes import read_scenes
-from gudgeon.loading.library import CARRIED, file_name, platform
+from gudgeon.loading.library import CARRIED, compute_file_name, format_platform
 
 ROOT = Path(__file__).resolve().parent.parent
 GLIBC = (2, 17)
@@ -38,14 +38,14 @@ def sources(generated: Path, mechanism: str = "*") -> list[KernelSource]:
 def compile_for(machine: str, scenes: list[KernelSource], folder: Path) -> None:
     """Compile the libraries of scenes into a folder, for Linux on a machine."""
     target = f"{machine}-linux-gnu.{GLIBC[0]}.{GLIBC[1]}"
-    os.environ["CC"] = " ".join([str(compiler.zig()), "cc", *compiler.ZIG, "-s", "-target", target])
+    os.environ["CC"] = " ".join([str(compiler.find_zig()), "cc", *compiler.ZIG, "-s", "-target", target])
     folder.mkdir(parents=True)
     with tempfile.TemporaryDirectory() as scratch:
         cache = Cache(Path(scratch) / "cache")
         for scene in scenes:
             place = Path(scratch) / scene.mechanism / scene.scene
             place.mkdir(parents=True)
-            shutil.copyfile(build_into(place, scene, cache), folder / file_name(scene))
+            shutil.copyfile(build_portable_library(place, scene, cache), folder / compute_file_name(scene))
 
 
 def make_wheel(out: Path, machine: str = "", scenes: list[KernelSource] | None = None) -> None:
@@ -57,7 +57,7 @@ def make_wheel(out: Path, machine: str = "", scenes: list[KernelSource] | None =
             shutil.copy(ROOT / name, copy / name)
         settings = {}
         if machine:
-            compile_for(machine, scenes or [], copy / "src/gudgeon" / CARRIED.name / platform("linux", machine))
+            compile_for(machine, scenes or [], copy / "src/gudgeon" / CARRIED.name / format_platform("linux", machine))
             settings["--build-option"] = f"--plat-name=manylinux_{GLIBC[0]}_{GLIBC[1]}_{machine}"
         code = f"import setuptools.build_meta as b; b.build_wheel({str(out.resolve())!r}, {settings!r})"
         made = subprocess.run([sys.executable, "-W", "ignore", "-c", code], cwd=copy, capture_output=True, text=True)

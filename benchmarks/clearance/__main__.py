@@ -1,4 +1,4 @@
-"""Run published machines with play by two independent codes that agree to nine digits of the clearance.
+"""Simulate published machines with joint clearance by gudgeon and by independent code, and compare the results.
 
     python -m benchmarks.clearance [NAME …] [--write]
 

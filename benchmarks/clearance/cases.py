@@ -1,4 +1,4 @@
-"""List the cases: a file for gudgeon, the same machine for the second code, and the source of its values."""
+"""List the published machines with joint clearance that gudgeon and independent code simulate, with sources."""
 
 from __future__ import annotations
 

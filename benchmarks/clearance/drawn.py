@@ -1,4 +1,4 @@
-"""Implement the equations of codes that draw results without printing numbers, for comparison in beside.py.
+"""Implement the equations of published programs that draw their results without printing numbers.
 
 Each is a function y' = f(t, y) with y = positions, then velocities; numbers are those codes' own, in kg, m, s but for
 the rotor in its stator (kg, mm, ms). Where they were read is in README.md.

@@ -1,4 +1,4 @@
-"""Simulate a slider with play in a fixed guide by the second code; its sharp corners are rigid and bounce.
+"""Simulate a slider with clearance in a fixed guide without gudgeon: rigid corners that bounce, as a reference.
 
 It extends rigid.py, whose joints with play are corners here. End `second` is the corner, End `first` a point of the
 guide's middle line, n the outward normal of its wall. If a gap closes at the rate u, the impact leaves the rate −e u,

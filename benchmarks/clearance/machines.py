@@ -1,4 +1,4 @@
-"""Define the linkages for the second code, with independent copies of their values; rotors are in rotors.py."""
+"""Define published linkages for simulations without gudgeon, with independent copies of all values."""
 
 from __future__ import annotations
 

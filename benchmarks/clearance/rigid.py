@@ -1,4 +1,4 @@
-"""Simulate rigid surfaces by the second code: a closed contact is a constraint, an impact is plastic (e = 0).
+"""Simulate joints with rigid surfaces without gudgeon: contacts as constraints, plastic impacts; a reference.
 
 Absolute coordinates and multipliers as in second.py, with Signorini's and Coulomb's laws in each joint with play:
 

@@ -1,4 +1,4 @@
-"""Define rotors, an engine's bearing and a drill string for the second code: laws, loads and initial states.
+"""Define rotors, an engine's bearing and a drill string for simulations without gudgeon: laws, loads, starts.
 
 The film of a short bearing is integrated by quadrature, without the line of centres. With u(φ) radially outwards
 the gap is h = c − e·u, and seen from a frame that turns with the mean of both surfaces it closes with the velocity

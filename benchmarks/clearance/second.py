@@ -1,4 +1,4 @@
-"""Simulate machines with play by the second code: absolute coordinates in dense NumPy, DOP853, contacts as events.
+"""Simulate machines with joint clearance without gudgeon, as a reference: dense NumPy, DOP853, contacts as events.
 
 It shares no code with gudgeon: linkages are those of tests/oracles/numpy_linkage.py, journals those of journal.py. A
 step ends at each switching point of a joint's force: onset and end of contact, slips of v0 and v1.

@@ -1,4 +1,4 @@
-"""Integrate Andrews' squeezer by jitcode and SciPy in the seven angles of the test set, to t = 0.03 s.
+"""Integrate Andrews' squeezer, a test problem with seven angles, by jitcode and SciPy to t = 0.03 s.
 
 M q̈ + Gᵀ λ = f, G q̈ = −Ġ q̇ (index 1), y = (q, q̇), 14 numbers. Source: E. Hairer, G. Wanner, Solving Ordinary
 Differential Equations II, section VI.9; data by W. Schiehlen (ed.), Multibody Systems Handbook, 1990.

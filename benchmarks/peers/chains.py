@@ -26,7 +26,7 @@ import numpy as np
 
 import gudgeon
 from benchmarks.peers import heyoka_runs
-from gudgeon.integrators.lanes import followed_by
+from gudgeon.integrators.lanes import announce_later_runs
 from gudgeon.results.state import State
 
 LINKS = {"double pendulum": 2, "six links": 6}
@@ -186,7 +186,7 @@ def states(n: int) -> list[State]:
 
 def own_batch(n: int, method: str, rtol: float) -> Measured:
     """Run gudgeon's batch in SIMD lanes in one thread; the time is that of a run."""
-    with followed_by(10**9):  # its library is worth being compiled
+    with announce_later_runs(10**9):  # its library is worth being compiled
         batch = loaded(n)["taylor" if method == "taylor" else "dop853"].simulate_many(
             {}, T_END[n], start=states(n), output=1, method=method, rtol=rtol, threads=1
         )

@@ -1,4 +1,4 @@
-"""Integrate the hand-written press by BDF of CVODE (SUNDIALS, from scikit-sundae) in three ways.
+"""Integrate hand-written equations of the nine-bar press by the BDF method of CVODE (SUNDIALS) in three ways.
 
 - `sundae`: scikit-sundae as its users call it, CVODE's own difference quotients for the Jacobian;
 - `sundae_jacobian`: the same, differences of all 48 columns in C by one call;

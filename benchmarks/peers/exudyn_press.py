@@ -1,4 +1,4 @@
-"""Integrate the ideal press by Exudyn: eight bodies, ten joints, two driven cranks; generalized-α, one step per sample.
+"""Integrate the press without clearance by Exudyn: eight bodies, ten joints, two driven cranks; generalized-α.
 
 A step is the time between two samples, so that `SolveDynamic` computes only the requested samples. The cranks' speeds
 are prescribed, in C++: a function of time called back in Python would be a handicap. Nothing is written during

@@ -1,4 +1,4 @@
-"""Solve the ideal press by hand-written C (press_ideal.c): dense Newton at every sample, with two derivatives.
+"""Solve the press without clearance by hand-written C (press_ideal.c): Newton's method at every sample.
 
 A revolution at ω = 2π in 1001 samples. Error: the largest |Δy9| over the stroke, or, if that is greater, |Δv9| and
 |Δa9| over their largest values, against the closed form (intersections of circles).

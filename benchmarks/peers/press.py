@@ -1,4 +1,4 @@
-"""Define the press of the race for reference solvers: hand-written dense C (press_peer.c) by cffi, and two problems.
+"""Define the lubricated and the dry nine-bar press for other solvers, by hand-written dense C (press_peer.c).
 
 Press there: l5 = .25 m, no gravity, forces at one point in the middle of the penetration, K with "+".
 

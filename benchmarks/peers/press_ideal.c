@@ -1,5 +1,7 @@
-/* The ideal press by hand: 24 rows, 24 absolute coordinates, Newton with a dense LU at every output, velocities and
- * accelerations from the same factors. What a careful user does who wants the motion and has no generator.
+/*
+ * The press without clearance, solved by hand-written C: 24 constraint equations in 24 absolute coordinates, Newton
+ * with a dense LU at every output, velocities and accelerations from the same factors. What a careful user does who
+ * wants the motion and has no generator.
  */
 #include "../../tests/oracles/press_dense.c"
 

@@ -1,5 +1,6 @@
-/* What the peers of the race need of the hand-written press: a right-hand side to be called back from any solver,
- * its Jacobian by forward differences, the gaps of both joints, and the whole run by CVODE without leaving C.
+/*
+ * The nine-bar press as hand-written C for other solvers: right-hand side, its Jacobian by forward differences, gaps of
+ * both joints with play, and a whole run by CVODE.
  *
  * The equations are those of press_dense.c, taken as they stand: 48 numbers y = (q, v), dense 44x44 system.
  */

@@ -1,5 +1,6 @@
-/* Reference of the dry press: the equations of press_dense.c in long double, extrapolated midpoint rule of order 12
- * (W. B. Gragg; R. Bulirsch, J. Stoer, Numer. Math. 8 (1966) 1-13) with a fixed step.
+/*
+ * Reference solution of the dry nine-bar press: the equations of press_dense.c in long double, by the extrapolated
+ * midpoint rule of order 12 with a fixed step. W. B. Gragg; R. Bulirsch, J. Stoer, Numer. Math. 8 (1966) 1-13.
  *
  * Onset, separation and every bend of the friction law (|slip| = v0, v1) end a step: its length is the root found
  * by repeating the step with another length, so that no interpolant enters. It shares no integrator with any peer.

@@ -1,4 +1,4 @@
-"""Integrate Andrews' squeezer by PyDy: its code generator on the same equations, and SciPy's DOP853.
+"""Integrate Andrews' squeezer by SciPy's DOP853 with a right-hand side that PyDy generates.
 
 PyDy takes M(x) u̇ = F(x, u), writes both as C with common subexpressions, and solves with LAPACK at every call from
 Python. The multipliers are additional speeds: [M Gᵀ; G 0] [v̇; μ̇] = [f; −Ġ q̇], so μ̇ = λ. PyDy's own KanesMethod

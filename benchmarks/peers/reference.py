@@ -1,4 +1,4 @@
-"""Compute the reference of the dry press in long double (press_reference.c): outputs, onsets, approach speeds.
+"""Compute a reference solution of the dry press in long double (press_reference.c): outputs, contact onsets.
 
 python -m benchmarks.peers.reference     # writes press_dry_onsets.json, with two steps' difference
 """

@@ -1,4 +1,4 @@
-"""Run the race: CPU time to reach a given error, gudgeon and reference solvers in one process.
+"""Compare the CPU time that gudgeon and other solvers need for a given error (docs/race.md).
 
     python -m benchmarks.race [--work andrews double links ideal dry lubricated sweep] [--write]
 
@@ -74,7 +74,9 @@ class Best:
 def machine_facts() -> dict[str, str]:
     """Return machine, compiler, versions and load to which the times belong."""
     command = compiler.find_compiler()
-    specified = subprocess.run([*command, "--version"], capture_output=True, text=True, env=compiler.plain()).stdout
+    specified = subprocess.run(
+        [*command, "--version"], capture_output=True, text=True, env=compiler.build_environment()
+    ).stdout
     return {
         "machine": f"{machine()}, {platform.system()}",
         "compiler": specified.splitlines()[0].strip() if specified else "unknown",

@@ -1,4 +1,4 @@
-"""List the entries of the race: reference solvers, and gudgeon with each of its methods.
+"""List the solvers that docs/race.md compares: other programs, and gudgeon with each of its methods.
 
 A solver that is not installed is left out with a message.
 """

@@ -1,4 +1,4 @@
-"""Make the tables and figures of docs/race.md from benchmarks/race.csv.
+"""Make the tables and figures of docs/race.md, the comparison with other solvers, from benchmarks/race.csv.
 
     python -m benchmarks.race.page          # after a race, or after a change of the page's text
 

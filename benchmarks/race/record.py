@@ -1,4 +1,4 @@
-"""Store the results of a race as a CSV file, from which tables, figures and docs/race.md are made.
+"""Store measured times and errors of all solvers that docs/race.md compares as a CSV file.
 
 Lines that begin with "# " contain facts, `# name: value`: machine, versions, times of right-hand sides. The other lines
 are rows for each control (tolerance or step) of every entry.

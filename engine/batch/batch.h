@@ -1,14 +1,14 @@
 /*
- * Access to a batch of runs, and the functions of a single run that ensembles in lanes call. Struct Batch is declared
- * in scene/calls.h, because Python fills it.
+ * Interface to a batch of runs, and functions of a single run that SIMD code for several runs calls. Struct Batch is
+ * declared in scene/calls.h, because Python fills it.
  */
 #ifndef GUDGEON_BATCH_H
 #define GUDGEON_BATCH_H
 #include "../scene/calls.h"
 
 enum {
-    NOT_YET = 0, NOT_TRIED = 1, TRIED = 2,  /* of a step: none is requested yet; not tried in the lanes; tried there */
-    MISSED = 3                            /* tried in the lanes, and its stages were not found */
+    NO_TRIAL = 0, NOT_TRIED = 1, TRIED = 2,  /* of a step: none is requested yet; not tried in the lanes; tried there */
+    STAGES_FAILED = 3                            /* tried in the lanes, and its stages were not found */
 };
 
 #define POLL_INTERVAL_S 0.02 /* s between two polls whether the batch is ending */

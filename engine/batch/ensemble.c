@@ -25,7 +25,7 @@ static void start_batch_polling(const Batch *batch, Cancellation *cancellation)
  * Return whether the start of run j can be copied to run i: it was computed here from the same data and is closed. j =
  * -1 and j = i give 0. Time, size of the mechanism and parameters of the start are compared.
  */
-static int begins_alike(const Batch *batch, long i, long j)
+static int has_equal_start(const Batch *batch, long i, long j)
 {
     const int is_closed = j >= 0 && j != i && batch->phase[j] != NEW && batch->status[j] != NOT_CLOSED
         && batch->status[j] != STOPPED;
@@ -36,14 +36,15 @@ static int begins_alike(const Batch *batch, long i, long j)
 }
 
 /*
- * Compute the start (q, v) of run i, or copy that of one of n other runs (`candidates`, -1: none) that begins alike.
- * The start is stored in batch->start. Return nonzero if the linkage cannot be closed.
+ * Compute the start (q, v) of run i into batch->start. If one of n other runs (`candidates`, -1: none) has an equal
+ * start, its start is copied instead. Return nonzero if the linkage cannot be closed or a velocity is not finite, else
+ * 0.
  */
 static int compute_run_start(const Batch *batch, long i, const long *candidates, int n, Cancellation *cancellation)
 {
     double *start = batch->start + i * 2 * N_Q, residual;
     for (int k = 0; k < n; k++)
-        if (begins_alike(batch, i, candidates[k])) {
+        if (has_equal_start(batch, i, candidates[k])) {
             memcpy(start, batch->start + candidates[k] * 2 * N_Q, 2 * N_Q * sizeof(double));
             return 0;
         }
@@ -229,9 +230,9 @@ static Samples get_samples(const Batch *batch, long i)
 
 /*
  * Complete the last step of run i and prepare its next one, run->control.attempt, for a library of lanes. trial_result:
- * what the lanes did of run->step. NOT_TRIED: it is tried here; MISSED: its stages were not found; NOT_YET: there is
- * none. A rejected step leads to the next attempt. Return GOES_ON, LISTS if its lists are full, or RUN_OVER after its
- * end.
+ * what the lanes did of run->step. NOT_TRIED: it is tried here; STAGES_FAILED: its stages were not found; NO_TRIAL:
+ * there is none. A rejected step leads to the next attempt. Return GOES_ON, LISTS if its lists are full, or RUN_OVER
+ * after its end.
  */
 static int advance_single_run(const Batch *batch, long i, int trial_result, void *integrator)
 {
@@ -239,11 +240,12 @@ static int advance_single_run(const Batch *batch, long i, int trial_result, void
     const Parameters *p = (const Parameters *)(batch->p_motion + i * batch->numbers);
     const Samples out = get_samples(batch, i);
     int status = 0;
-    if (trial_result != NOT_YET) {
+    if (trial_result != NO_TRIAL) {
         run->step.method = run->choice.method;
         if (trial_result != NOT_TRIED)
             reset_singular_policy(run);
-        const int found = trial_result == TRIED ? 0 : trial_result == MISSED ? NOT_FOUND : try_step(run, p, &run->step);
+        const int found = trial_result == TRIED ? 0 : trial_result == STAGES_FAILED ? NOT_FOUND
+            : try_step(run, p, &run->step);
         if (!is_step_accepted(run, found, p, &run->step, &status))
             return GOES_ON;
         close_attempt(run);
@@ -266,7 +268,8 @@ static int advance_single_run(const Batch *batch, long i, int trial_result, void
 static long count_local_steps(const void *integrator)
 {
     const Integrator *run = integrator;
-    const long steps = run->step_record.rows || run->envelope.rows ? 0 : count_steps_before_check(&run->progress.monitor);
+    const long steps =
+        run->step_record.rows || run->envelope.rows ? 0 : count_steps_before_check(&run->progress.monitor);
     const long checked = run->audit.level == AUDIT_FULL ? 0 : run->audit.due - run->counts.steps;
     return run->audit.level && checked < steps ? (checked > 0 ? checked : 0) : steps;
 }

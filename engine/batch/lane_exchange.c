@@ -1,23 +1,23 @@
-/* Exchange of a run's state with its lane before and after a step is tried in the lanes. */
-#include "lane_quiet.c"
+/* Copying of runs to and from SIMD lanes: one lane of the vector registers holds one run during a trial step. */
+#include "lane_local_steps.c"
 
 /*
  * Number of runs under way. If runs may use different methods, several runs share a lane, so that most lanes contain a
  * run that needs the most frequent method.
  */
 #if TAYLOR
-enum { ABREAST = LANES };
+enum { MAX_GROUP_RUNS = LANES };
 #else
-enum { ABREAST = 4 * LANES };
+enum { MAX_GROUP_RUNS = 4 * LANES };
 #endif
 
 /* Several runs under way in lanes: their integrators, numbers and next steps, and the data of the lanes. */
 typedef struct {
     const Batch *batch;
     const SingleRunFunctions *one;
-    Integrator *run[ABREAST];
-    long number[ABREAST]; /* -1: free */
-    int kind[ABREAST];    /* method of the next step of each run; -1: none */
+    Integrator *run[MAX_GROUP_RUNS];
+    long number[MAX_GROUP_RUNS]; /* -1: free */
+    int kind[MAX_GROUP_RUNS];    /* method of the next step of each run; -1: none */
     int loaded[LANES];    /* run whose parameters a lane holds; -1: none */
     LaneParameters p;
     Lanes h; /* lengths of the next steps, s */
@@ -29,9 +29,9 @@ typedef struct {
 } LaneGroup;
 /* Number of bytes of a Flow that are zero at the beginning. */
 #if TAYLOR
-#define FLOW_BEGINS (offsetof(LaneGroup, x) + offsetof(LaneIntegrator, series.terms))
+#define CLEARED_BYTES (offsetof(LaneGroup, x) + offsetof(LaneIntegrator, series.terms))
 #else
-#define FLOW_BEGINS sizeof(LaneGroup)
+#define CLEARED_BYTES sizeof(LaneGroup)
 #endif
 
 /* Return whether place i of the runs under way is in use. */
@@ -43,7 +43,7 @@ static int has_run(const LaneGroup *group, int i) { return group->number[i] >= 0
  */
 static void load_lane_parameters(LaneGroup *group, int k, int i)
 {
-    for (int j = 0; j < ABREAST && !has_run(group, i); j++)
+    for (int j = 0; j < MAX_GROUP_RUNS && !has_run(group, i); j++)
         i = has_run(group, j) ? j : i;
     if (group->loaded[k] == i)
         return;
@@ -59,7 +59,7 @@ static void gather_history(LaneIntegrator *x, int k, Integrator *run)
 {
     update_iteration_history(run);
     x->newton.last_h[k] = run->newton.last_h;
-    x->newton.falls[k] = run->newton.falls;
+    x->newton.convergence_rate[k] = run->newton.convergence_rate;
     x->newton.force_found[k] = run->newton.force_found;
     x->newton.continues[k] = -run->newton.continues;
     for (int j = 0; j < N_Y; j++) {
@@ -71,7 +71,7 @@ static void gather_history(LaneIntegrator *x, int k, Integrator *run)
 
 /*
  * Load the state of lane k's run at the beginning of a step, and the length of the step, into the lane. Does nothing if
- * the lane holds the newest state, because it accepted the last step itself (lane_quiet.c).
+ * the lane holds the newest state, because it accepted the last step itself (lane_local_steps.c).
  */
 static void gather_state(LaneGroup *group, int k)
 {
@@ -157,11 +157,11 @@ static void scatter_step(const LaneGroup *group, int k, Step *step)
     }
     step->stages_lane = (const double *)x->k + k;
     step->dense_lane = (const double *)x->dense + k;
-    step->seen_lane = (const double *)x->seen + k;
+    step->stage_values_lane = (const double *)x->stage_values + k;
     step->dense_ready = x->dense_ready && !x->no_dense[k] ? IN_LANE : 0;
     step->lanes = LANES;
-    step->n_seen = x->n_seen;
-    for (int s = 0; s < x->n_seen; s++)
+    step->n_stored_stages = x->n_stored_stages;
+    for (int s = 0; s < x->n_stored_stages; s++)
         step->node[s] = x->node[s];
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++)
         step->lowest[j] = x->lowest[j][k];
@@ -190,7 +190,7 @@ static void scatter_trial(const LaneGroup *group, int k, int method, Integrator 
     run->series.ready = IN_LANE;
     run->series.lane = (const double *)group->x.series.terms + k;
     run->series.lanes = LANES;
-    run->series.reach = group->x.series.reach[k];
+    run->series.max_step = group->x.series.max_step[k];
     run->control.attempt.h = group->step.h[k];
 }
 #else
@@ -208,7 +208,7 @@ static void scatter_trial(const LaneGroup *group, int k, int method, Integrator 
 #if IMPLICIT_STAGES
     if (method >= BY_RADAU5) {
         run->counts.evaluations += (long)group->x.newton.evaluations[k] - stages + 1;
-        run->newton.falls = group->x.newton.falls[k];
+        run->newton.convergence_rate = group->x.newton.convergence_rate[k];
     }
 #endif
     if (method >= BY_RODAS5P && !run->newton.ready) {

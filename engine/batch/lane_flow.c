@@ -1,12 +1,13 @@
 /*
- * Time loop of several runs in lanes by a method with step-size control. Each run has its own time, length and error.
- * Steps are tried together; all consequences of a step (methods/adaptive.c) belong to its own run. The lane of a
- * finished run takes another run at the next call.
+ * Time loop of several runs in SIMD lanes, one run per lane, by a method with step-size control. Each run has its own
+ * time, length and error. Steps are tried together; all consequences of a step (methods/adaptive.c) belong to its own
+ * run. The lane of a finished run takes another run at the next call.
  */
 #include "lane_calls.h"
 #include "lane_exchange.c"
 
-enum { MIN_REPORTED = ABREAST / LANES }; /* runs reported at once: a call from Python is as long as several steps */
+/* runs reported at once: a call from Python is as long as several steps */
+enum { MIN_REPORTED = MAX_GROUP_RUNS / LANES };
 
 /*
  * Store the method that the run in place i needs next, after a call for that run returned `result`. If the run is over,
@@ -33,8 +34,8 @@ static void flush_lane(LaneGroup *group, int i)
 
 /*
  * Advance the run in place i to its next attempt at a step, by completing or trying the last one. trial_result: what
- * the lanes did of that step (NOT_TRIED, TRIED, MISSED). *lists_full is set if the run's lists are full. Return whether
- * Python must be called.
+ * the lanes did of that step (NOT_TRIED, TRIED, STAGES_FAILED). *lists_full is set if the run's lists are full. Return
+ * whether Python must be called.
  */
 static int advance_run_to_next_step(LaneGroup *group, int i, int trial_result, int *lists_full)
 {
@@ -50,7 +51,7 @@ static int needs_method(const LaneGroup *group, int i, int method) { return grou
 static int count_lanes_of_method(const LaneGroup *group, int method)
 {
     int has_lane[LANES] = {0}, count = 0;
-    for (int i = 0; i < ABREAST; i++)
+    for (int i = 0; i < MAX_GROUP_RUNS; i++)
         has_lane[i % LANES] |= needs_method(group, i, method);
     for (int k = 0; k < LANES; k++)
         count += has_lane[k];
@@ -58,14 +59,15 @@ static int count_lanes_of_method(const LaneGroup *group, int method)
 }
 
 /*
- * Load a run whose next step is by this method into lane k, preferring the run that is there. If there is none, another
- * run is repeated in the lane. Return whether the lane has a run that needs the step.
+ * Load a run whose next step is by `method` into lane k, preferring the run that is there. Candidates are the places k,
+ * k + LANES, and so on. If none of their runs needs the method, another run is repeated in the lane. Return whether the
+ * lane has a run that needs the step.
  */
 static int load_run_into_lane(LaneGroup *group, int k, int method)
 {
     const int last = group->loaded[k], is_own = last >= 0 && last % LANES == k && has_run(group, last);
     int best = is_own ? last : k;
-    for (int i = k; i < ABREAST && !needs_method(group, best, method); i += LANES)
+    for (int i = k; i < MAX_GROUP_RUNS && !needs_method(group, best, method); i += LANES)
         best = needs_method(group, i, method) || !has_run(group, best) ? i : best;
     load_lane_parameters(group, k, best);
     return group->loaded[k] % LANES == k && needs_method(group, group->loaded[k], method);
@@ -92,9 +94,10 @@ static int passes_event(const LaneGroup *group, int k)
 }
 
 /*
- * Try one step by this method of one run in each lane, and advance those runs to their next steps. Lanes without such a
- * run are computed, but ignored. Steps that fail in a lane or lead over an event are left to their runs. Return the
- * number of runs that Python must be called for. *lists_full is set if the lists of one are full.
+ * Try one step by `method` of one run in each lane, and advance those runs to their next steps. Lanes without such a
+ * run are computed, but ignored. Steps that need no action of their run are accepted in the lane. Steps that fail in a
+ * lane or lead over an event are left to their runs. Return the number of runs that Python must be called for.
+ * *lists_full is set if the lists of one are full.
  */
 static int try_lane_steps(LaneGroup *group, int method, int *lists_full)
 {
@@ -115,7 +118,7 @@ static int try_lane_steps(LaneGroup *group, int method, int *lists_full)
         flush_lane(group, k);
         if (!lost)
             scatter_result(group, k, method);
-        const int trial = lost ? NOT_TRIED : group->step.missed[k] ? MISSED : TRIED;
+        const int trial = lost ? NOT_TRIED : group->step.missed[k] ? STAGES_FAILED : TRIED;
         n_reported += advance_run_to_next_step(group, group->loaded[k], trial, lists_full);
     }
     return n_reported;
@@ -135,7 +138,7 @@ static int advance_lanes(LaneGroup *group, int *lists_full)
     }
     if (count[most] > 1)
         return try_lane_steps(group, most, lists_full);
-    for (int i = 0; i < ABREAST; i++) {
+    for (int i = 0; i < MAX_GROUP_RUNS; i++) {
         if (!has_run(group, i))
             continue;
         flush_lane(group, i);
@@ -153,41 +156,41 @@ static int begin_or_resume_run(LaneGroup *group, int i)
     const Batch *batch = group->batch;
     const long run = group->number[i];
     if (batch->phase[run] == NEW) {
-        batch->status[run] = group->one->begin(batch, run, group->number, ABREAST, group->run[i]);
+        batch->status[run] = group->one->begin(batch, run, group->number, MAX_GROUP_RUNS, group->run[i]);
         batch->phase[run] = batch->status[run] ? OVER : BEGUN;
     }
     if (batch->phase[run] == OVER)
         return record_run_result(group, i, RUN_OVER);
-    return record_run_result(group, i, group->one->advance_single(batch, run, NOT_YET, group->run[i]));
+    return record_run_result(group, i, group->one->advance_single(batch, run, NO_TRIAL, group->run[i]));
 }
 
 /* Return the number of places with a run under way. */
 static int count_runs(const LaneGroup *group)
 {
     int count = 0;
-    for (int i = 0; i < ABREAST; i++)
+    for (int i = 0; i < MAX_GROUP_RUNS; i++)
         count += has_run(group, i);
     return count;
 }
 
 /* Return the number of runs that a call of gudgeon_lanes() integrates together. */
-int gudgeon_lane_count(void) { return ABREAST; }
+int gudgeon_lane_count(void) { return MAX_GROUP_RUNS; }
 
 /*
- * Integrate the runs number[i] (ABREAST of them, -1: none) together in lanes, each with its own Integrator run[i].
- * Return GOES_ON, to be called again, if runs are over (number[i] = -1) or after `limit` steps. Return LISTS if the
- * lists of a run are full, ALL_OVER if fewer than two runs are left or the batch is ending. Unfinished runs then
+ * Integrate the runs number[i] (MAX_GROUP_RUNS of them, -1: none) together in lanes, each with its own Integrator
+ * run[i]. Return GOES_ON, to be called again, if runs are over (number[i] = -1) or after `limit` steps. Return LISTS if
+ * the lists of a run are full, ALL_OVER if fewer than two runs are left or the batch is ending. Unfinished runs then
  * continue alone (gudgeon_ensemble). single: functions of gudgeon_single(). The wall time is shared equally by the
  * runs.
  */
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
 {
     LaneGroup group;
-    memset(&group, 0, FLOW_BEGINS);
+    memset(&group, 0, CLEARED_BYTES);
     group.batch = batch, group.one = single;
     const double before = read_wall_time();
     int n_reported = 0, lists_full = 0, entered = 0;
-    for (int i = 0; i < ABREAST; i++) {
+    for (int i = 0; i < MAX_GROUP_RUNS; i++) {
         group.run[i] = run[i];
         group.number[i] = number[i];
         group.kind[i] = -1;
@@ -195,7 +198,7 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
     }
     for (int k = 0; k < LANES; k++)
         group.loaded[k] = -1;
-    for (int i = 0; i < ABREAST; i++)
+    for (int i = 0; i < MAX_GROUP_RUNS; i++)
         if (has_run(&group, i))
             n_reported += begin_or_resume_run(&group, i);
     for (long left = group.batch->limit; n_reported < MIN_REPORTED && !lists_full && left > 0
@@ -205,7 +208,7 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
         n_reported += advance_lanes(&group, &lists_full);
     }
     const double fraction = (read_wall_time() - before) / (entered > 0 ? entered : 1);
-    for (int i = 0; i < ABREAST; i++) {
+    for (int i = 0; i < MAX_GROUP_RUNS; i++) {
         flush_lane(&group, i);
         if (number[i] >= 0)
             group.batch->seconds[number[i]] += fraction;

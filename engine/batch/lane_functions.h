@@ -1,4 +1,4 @@
-/* Elementary functions of vectors: lane by lane those of scene/numbers.h, scene/functions.h and the C library. */
+/* Elementary functions of SIMD vectors; each lane gives the result of the function for one number. */
 #ifndef GUDGEON_LANE_FUNCTIONS_H
 #define GUDGEON_LANE_FUNCTIONS_H
 #include "../scene/function_table.h"

@@ -1,7 +1,6 @@
 /*
- * Steps that need no action of their run: no sample lies in them, nothing is observed, no closure is projected. They
- * are accepted in the lanes as accept_step() of methods/adaptive.c does. Their run is updated later, before its next
- * call.
+ * Fast acceptance of steps of runs in SIMD lanes, where no sample, observer or projection needs the step. They are
+ * accepted in the lanes as accept_step() of methods/adaptive.c does. Their run is updated later, before its next call.
  */
 #define LOCAL_STEPS (TAYLOR && !N_LOOPS && !N_USER_EVENTS && !N_WATCHED && !N_PULSES && !DRIVE_IMPULSES)
 
@@ -10,7 +9,7 @@
 
 /* Of each lane: the time of its run's next sample and its end, s; the longest step of the last series, s. */
 typedef struct {
-    Lanes sample, t_end, reach;
+    Lanes sample, t_end, max_step;
     LaneBits open;                    /* whether steps may be accepted here */
     long steps[LANES], max_local_steps[LANES]; /* steps accepted here; allowed number */
     int here[LANES];                  /* whether the lane has the run's state */
@@ -72,8 +71,8 @@ static LaneBits accept_local_steps(LocalSteps *local_steps, LaneIntegrator *x, c
     x->t = pick(accepted, t, x->t);
     update_speeds(x);
     update_error_weights(x);
-    local_steps->reach = pick(accepted, x->series.reach, local_steps->reach);
-    const Lanes left = local_steps->t_end - x->t, next = TAYLOR_AHEAD * x->series.reach;
+    local_steps->max_step = pick(accepted, x->series.max_step, local_steps->max_step);
+    const Lanes left = local_steps->t_end - x->t, next = TAYLOR_AHEAD * x->series.max_step;
     *h = pick(accepted, pick(next > left * EQUAL_LENGTH_RATIO, left, next), *h);
     for (int k = 0; k < LANES; k++) {
         local_steps->steps[k] -= accepted[k];
@@ -108,12 +107,12 @@ static void flush_local_steps(LocalSteps *local_steps, const LaneIntegrator *x, 
     run->progress.ended[N_EVENT_FUNCTIONS] += steps;
     run->progress.monitor.steps += steps;
     run->choice.since += (int)steps;
-    run->choice.n_against = run->progress.no_advance = run->progress.short_steps = run->newton.ready =
+    run->choice.n_contrary_steps = run->progress.no_advance = run->progress.short_steps = run->newton.ready =
         run->series.ready = 0;
     run->discrete.held = 1;
     run->choice.stability = 0.0;
-    run->series.reach = local_steps->reach[k];
-    run->control.h = TAYLOR_AHEAD * run->series.reach;
+    run->series.max_step = local_steps->max_step[k];
+    run->control.h = TAYLOR_AHEAD * run->series.max_step;
     run->control.attempt = (Attempt){.h = h, .longest = h, .left = local_steps->t_end[k] - run->t,
         .far = compute_time_scale(local_steps, x)[k], .open = 1};
 }

@@ -1,4 +1,4 @@
-/* The right-hand side in lanes, the corrections that close the constraints, and the projection onto them. */
+/* Right-hand side, corrections of loop closures, and projection onto the constraints, in SIMD lanes. */
 
 /*
  * Set the limits of small pivots in all lanes, as for a single run with detection of singular positions. Lanes below
@@ -6,8 +6,8 @@
  */
 static inline void set_pivot_limits(LaneDiscreteState *discrete)
 {
-    discrete->least = all_of(CONTINUES ? NEARBY : NEARLY_SINGULAR);
-    discrete->least_size = all_of(CONTINUES ? NEARBY : VANISHING);
+    discrete->least = all_of(HAS_CONTINUATION ? NEARBY : NEARLY_SINGULAR);
+    discrete->least_size = all_of(HAS_CONTINUATION ? NEARBY : VANISHING);
 }
 
 /*
@@ -41,10 +41,12 @@ static LaneBits find_nonfinite_lanes(const Lanes *a, const Lanes *b, int n)
 #include "../scalar_simd/inner_states.h"
 
 /*
- * Compute the rates dy of the integrated state y and the outputs rhs of all lanes. Return 0. Lanes in which that fails
- * are marked as rare.
+ * Compute the rates dy of the integrated state y at times t (s) and the outputs rhs, in all lanes. Inner states of
+ * contact laws are copied from y, their rates to dy. Always return 0: lanes in which the evaluation fails are added to
+ * the mask run->discrete.rare.
  */
-static int evaluate_rhs(LaneIntegrator *run, Lanes t, const Lanes *y, const LaneParameters *p, Lanes *dy, LaneRhsOutputs *rhs)
+static int evaluate_run_rhs(
+    LaneIntegrator *run, Lanes t, const Lanes *y, const LaneParameters *p, Lanes *dy, LaneRhsOutputs *rhs)
 {
     copy_inner_states(&run->discrete, y);
     motion(t, y, &run->discrete, p, dy, rhs);

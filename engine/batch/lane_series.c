@@ -1,4 +1,4 @@
-/* A step by the Taylor series of the motion, tried for several runs (methods/taylor.c). */
+/* A trial step by the Taylor series of the motion for several runs in SIMD lanes (methods/taylor.c). */
 #define SeriesRow Lanes
 #define SeriesWide Lanes
 #define SeriesPart Lanes
@@ -16,8 +16,9 @@ static void uncount_end_evaluation(const LaneIntegrator *run) { (void)run; }
 #include "../scalar_simd/taylor.h"
 
 /*
- * Try a step of length h (s) by Taylor series in all lanes. Return 0 or a status. Lanes at singular positions or with
- * series that are not finite are marked as rare. `method` is not used.
+ * Try a step of length h (s), or of the longest valid length if that is shorter, by Taylor series in all lanes. Return
+ * 0 or a status. Lanes at singular positions or with series that are not finite are added to the mask
+ * run->discrete.rare: the single runs must make their step. `method` is not used.
  */
 static int try_method(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
@@ -30,6 +31,6 @@ static int try_method(LaneIntegrator *run, int method, Lanes h, const LaneParame
     taylor_values(run->t, run->y, run->y + N_X, p, &at, c[1] + N_X, c[1] + 2 * N_X, &run->discrete.rare);
     compute_series_orders(p, &at, run->series.order, c, factors[0], factors[1]);
     run->discrete.rare |= find_nonfinite_lanes(c[run->series.order], NULL, N_Y);
-    run->series.reach = taylor_limit_length(run);
+    run->series.max_step = taylor_limit_length(run);
     return taylor_try_series_step(run, h, p, step);
 }

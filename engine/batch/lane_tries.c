@@ -1,6 +1,6 @@
 /*
- * A step of a method with step-size control, tried for several runs. Where a pivot vanishes in a lane or a number is
- * not finite, its own run repeats the step (methods/). All consequences of a step belong to its run.
+ * A trial step of a method with step-size control for several runs in SIMD lanes. Where a pivot vanishes in a lane or a
+ * number is not finite, its own run repeats the step (methods/). All consequences of a step belong to its run.
  */
 #include "lane_motion.c"
 #include "../scalar_simd/distance.h"
@@ -8,7 +8,7 @@
 /* Discard what is stored of the stages of the previous step in all lanes: values, extrema, range of the state. */
 static void discard_stages(LaneStep *step)
 {
-    step->n_seen = 0;
+    step->n_stored_stages = 0;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
         step->lowest[k] = all_of(INFINITY);
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
@@ -49,7 +49,7 @@ static int finish_step(LaneIntegrator *run, LaneStep *step, const LaneParameters
     memcpy(before, step->y, sizeof before);
     project_onto_constraints(run, step->t + step->h, step->y, p);
     run->discrete.rare |= compute_constraint_distance(run, before, step->y) > MAX_CONSTRAINT_DRIFT;
-    evaluate_rhs(run, step->t + step->h, step->y, p, step->dy, &step->rhs);
+    evaluate_run_rhs(run, step->t + step->h, step->y, p, step->dy, &step->rhs);
     run->discrete.rare |= find_nonfinite_lanes(step->dy, NULL, N_Y);
     return 0;
 }
@@ -85,17 +85,17 @@ static Lanes compute_squared_force(const LaneRhsOutputs *rhs, int i)
  */
 static void record_stage(const LaneIntegrator *run, LaneStep *step, const LaneRhsOutputs *rhs, double node)
 {
-    Lanes *const seen = step->seen[step->n_seen];
-    evaluate_lane_event_functions(run, rhs, seen);
+    Lanes *const values = step->stage_values[step->n_stored_stages];
+    evaluate_lane_event_functions(run, rhs, values);
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
-        step->lowest[k] = lanes_min_of(step->lowest[k], seen[k]);
-    step->node[step->n_seen++] = node;
+        step->lowest[k] = lanes_min_of(step->lowest[k], values[k]);
+    step->node[step->n_stored_stages++] = node;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Lanes rate = rhs->clearance[i].deltadot;
         step->rate[i][0] = lanes_min_of(step->rate[i][0], rate);
         step->rate[i][1] = lanes_max_of(step->rate[i][1], rate);
-        seen[STAGE_FORCES + i] = compute_squared_force(rhs, i);
-        seen[STAGE_GAP_RATES + i] = rate;
+        values[STAGE_FORCES + i] = compute_squared_force(rhs, i);
+        values[STAGE_GAP_RATES + i] = rate;
     }
 }
 
@@ -161,7 +161,7 @@ static void count_stage_evaluations(LaneIntegrator *run, LaneBits is_active, int
 static void begin_stage_iteration(LaneIntegrator *run, LaneStep *step, LaneBits is_active, int n)
 {
     count_stage_evaluations(run, is_active, n);
-    step->n_seen = 0;
+    step->n_stored_stages = 0;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
         step->lowest[k] = pick(is_active, all_of(INFINITY), step->lowest[k]);
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
@@ -181,20 +181,20 @@ static void begin_stage_iteration(LaneIntegrator *run, LaneStep *step, LaneBits 
 static void record_iterated_stage(LaneIntegrator *run, LaneStep *step, LaneBits is_active, const Lanes *y,
     const LaneRhsOutputs *rhs, double node)
 {
-    Lanes event_functions[AT_LEAST_ONE(N_EVENT_FUNCTIONS)], *const seen = step->seen[step->n_seen];
+    Lanes event_functions[AT_LEAST_ONE(N_EVENT_FUNCTIONS)], *const values = step->stage_values[step->n_stored_stages];
     evaluate_lane_event_functions(run, rhs, event_functions);
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++) {
-        seen[j] = pick(is_active, event_functions[j], seen[j]);
+        values[j] = pick(is_active, event_functions[j], values[j]);
         step->lowest[j] = pick(is_active, lanes_min_of(step->lowest[j], event_functions[j]), step->lowest[j]);
     }
-    step->node[step->n_seen++] = node;
+    step->node[step->n_stored_stages++] = node;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Lanes rate = rhs->clearance[i].deltadot, *const old = step->rate[i];
         const Lanes low = lanes_min_of(old[0], rate), high = lanes_max_of(old[1], rate);
         step->rate[i][0] = pick(is_active, low, old[0]);
         step->rate[i][1] = pick(is_active, high, old[1]);
-        seen[STAGE_FORCES + i] = pick(is_active, compute_squared_force(rhs, i), seen[STAGE_FORCES + i]);
-        seen[STAGE_GAP_RATES + i] = pick(is_active, rate, seen[STAGE_GAP_RATES + i]);
+        values[STAGE_FORCES + i] = pick(is_active, compute_squared_force(rhs, i), values[STAGE_FORCES + i]);
+        values[STAGE_GAP_RATES + i] = pick(is_active, rate, values[STAGE_GAP_RATES + i]);
     }
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
         step->least[k] = pick(is_active, lanes_min_of(step->least[k], y[k]), step->least[k]);

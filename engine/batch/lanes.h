@@ -1,7 +1,7 @@
 /*
- * Vectors of several runs: a number of each run in the lanes of one vector (extensions of gcc and clang). Lane by lane
- * the operations are those of a single run in the same order, so that results are the same to the last bit. Functions
- * that only the library has are called for one lane after the other.
+ * Types and arithmetic of SIMD vectors with one run per lane, by extensions of gcc and clang. Lane by lane the
+ * operations are those of a single run in the same order, so that results are the same to the last bit. Functions that
+ * only the library has are called for one lane after the other.
  */
 #ifndef GUDGEON_LANES_H
 #define GUDGEON_LANES_H
@@ -211,14 +211,14 @@ typedef struct {
 #if TAYLOR
     struct {
         int order; /* the same in all lanes: a batch has one tolerance */
-        Lanes reach;
+        Lanes max_step;
         Lanes terms[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* last member: it is large and filled by each trial */
     } series;
 #else
     struct {
         LaneLinear linear;
 #if IMPLICIT_STAGES
-        Lanes last_h, before_y[N_Y], before_dy[N_Y], falls, force_found;
+        Lanes last_h, before_y[N_Y], before_dy[N_Y], convergence_rate, force_found;
         Lanes evaluations; /* right-hand sides of the trial step */
         LaneBits continues, missed;
 #endif
@@ -234,9 +234,9 @@ typedef struct {
     Lanes t, h, error, y[N_Y], dy[N_Y], k[N_STAGES][N_Y];
     LaneRhsOutputs rhs;
     Lanes dense[N_DENSE][N_Y];
-    int dense_ready, n_seen;
+    int dense_ready, n_stored_stages;
     double node[N_STAGES];
-    Lanes seen[N_STAGES][AT_LEAST_ONE(N_STAGE_VALUES)], lowest[AT_LEAST_ONE(N_EVENT_FUNCTIONS)],
+    Lanes stage_values[N_STAGES][AT_LEAST_ONE(N_STAGE_VALUES)], lowest[AT_LEAST_ONE(N_EVENT_FUNCTIONS)],
         rate[AT_LEAST_ONE(N_CLEARANCES)][2];
     Lanes least[2 * N_X + 1], most[2 * N_X + 1];
     LaneBits taken, lost, missed, no_dense;

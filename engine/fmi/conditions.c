@@ -1,4 +1,4 @@
-/* Checks of the parameters of an FMU instance. */
+/* Checks of the parameters of an FMU instance: conditions of the mechanism file, finite values, clearances. */
 
 /* Return whether `value relation bound` is true, for a relation "<", "<=", ">" or ">=". */
 static int is_relation_satisfied(const char *relation, double value, double bound)

@@ -1,4 +1,4 @@
-/* Directional derivatives of FMI 3. */
+/* Directional derivatives of rates and outputs of an FMU by its states (FMI 3). */
 
 /*
  * Compute directional derivatives by states: of rates by the exact Jacobian, of outputs by central differences (FMI 3).

@@ -1,7 +1,7 @@
 /*
- * Model exchange: the importer integrates the state of the engine's loops, tree coordinates (or those of all bodies),
- * velocities and works. Contacts begin and end as events, with penetrations as event indicators. Closed loops are
- * projected as an event when they have drifted.
+ * FMI model exchange, in which the importing program integrates the state: coordinates, velocities, works of forces.
+ * Contacts begin and end as events, with penetrations as event indicators. Closed loops are projected as an event when
+ * they have drifted.
  */
 #if FMU_EXCHANGE
 #define MAX_DRIFT 1e-11 /* of the mechanism's size or 1 rad: drift at which closures are projected */
@@ -39,8 +39,8 @@ static int evaluate_exchange_rates(Model *model, double *dx, RhsOutputs *rhs)
 }
 
 /*
- * Raise the nominals to the largest velocity of a kind, those of works to the kinetic energy. Return whether any is
- * larger now.
+ * Raise the nominal of each velocity to the largest present velocity of its kind (length or angle), and those of works
+ * and inner states to the kinetic energy, J. Nominals are never lowered. Return whether any was raised.
  */
 static int raise_nominals(Model *model)
 {
@@ -92,8 +92,8 @@ static int set_initial_nominals(Model *model, const double *min_scale)
 static void read_sampled_discrete_state(Model *model) { read_discrete_state(model->latched, &model->discrete); }
 
 /*
- * Convert the integrated state of an instance to absolute coordinates in model exchange, and the other way in
- * co-simulation.
+ * Convert the state of an instance: in model exchange from the integrated state x to the absolute state y, in
+ * co-simulation from y to x. In co-simulation the discrete state of the last sample is read first.
  */
 static void convert_state(Model *model)
 {
@@ -147,7 +147,7 @@ static double get_event_indicator(const Model *model, const RhsOutputs *rhs, int
 static int resolve_zero_branches(Model *model, const double *dx, RhsOutputs *rhs)
 {
     int status = 0, has_zero = 0;
-    double x[N_Y], scrap[N_Y];
+    double x[N_Y], unused_rates[N_Y];
     const double t = model->t, moment = 1e-9 * fmax(1e-3, fabs(t));
     RhsOutputs later;
     for (int k = 0; k < N_SWITCHES; k++)
@@ -158,7 +158,7 @@ static int resolve_zero_branches(Model *model, const double *dx, RhsOutputs *rhs
     for (int k = 0; k < 2 * N_X; k++)
         model->x[k] += moment * dx[k];
     model->t = t + moment;
-    status = evaluate_exchange_rates(model, scrap, &later);
+    status = evaluate_exchange_rates(model, unused_rates, &later);
     memcpy(model->x, x, sizeof x);
     model->t = t;
     for (int k = 0; k < N_SWITCHES && !status; k++)
@@ -342,7 +342,7 @@ FMI3_EXPORT fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, siz
     return (void)instance, *n = N_INDICATORS, fmi3OK;
 }
 
-#include "slopes.c"
+#include "directional_derivatives.c"
 #else
 FMI3_NONE(fmi3EnterEventMode) FMI3_NONE(fmi3UpdateDiscreteStates) FMI3_NONE(fmi3EnterContinuousTimeMode)
 FMI3_NONE(fmi3CompletedIntegratorStep) FMI3_NONE(fmi3SetTime) FMI3_NONE(fmi3SetContinuousStates)

@@ -175,4 +175,4 @@ FMI3_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 t, fmi3Floa
 
 #include "exchange.c"
 #include "values.c"
-#include "none.c"
+#include "unsupported.c"

@@ -1,4 +1,4 @@
-/* An instance of the FMU: its parameters and start, the engine's steps to a time, and the outputs at a state. */
+/* An instance of the FMU: its parameters and start, integration to a given time, and outputs at a state. */
 enum {
     SLICE = 4000,
     SETTING = 0, INITIALIZING, RUNNING, /* parameters are set in the first two */

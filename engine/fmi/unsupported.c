@@ -1,4 +1,4 @@
-/* Functions of FMI 3 that this FMU does not support: other kinds of variables, other interfaces, clocks. */
+/* Functions of FMI 3 that this FMU does not support: other types of variables, other interfaces, clocks. */
 FMI3_NONE(fmi3EnterStepMode) FMI3_NONE(fmi3EnterConfigurationMode) FMI3_NONE(fmi3ExitConfigurationMode)
 FMI3_NONE(fmi3GetOutputDerivatives) FMI3_NONE(fmi3ActivateModelPartition)
 FMI3_NONE(fmi3GetNumberOfVariableDependencies) FMI3_NONE(fmi3GetVariableDependencies)

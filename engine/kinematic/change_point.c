@@ -5,10 +5,10 @@
  * before and after.
  */
 enum { PASS_NODES = 4 /* on either side */, PASS_TRIES = 3, PASS_HALVINGS = 8 };
-#define PASS_TURN 1e-2   /* rad, or fraction of the size: motion of the fastest coordinate between two nodes */
-#define PASS_SMOOTH 1e-9 /* the same: largest difference of polynomials of two degrees */
-#define PASS_RATES 1e-5  /* of the fastest rate: largest difference of a start from a branch */
-#define PASS_ROUGH 1e3   /* ulp of a coordinate: smallest last correction near such a position */
+#define PASS_NODE_ANGLE 1e-2   /* rad, or fraction of the size: motion of the fastest coordinate between two nodes */
+#define PASS_POSITION_TOL 1e-9 /* the same: largest difference of polynomials of two degrees */
+#define PASS_RATE_TOL 1e-5  /* of the fastest rate: largest difference of a start from a branch */
+#define MIN_PASS_CORRECTION 1e3   /* ulp of a coordinate: smallest last correction near such a position */
 
 /*
  * Return whether the last correction of Newton's method is larger than rounding of the coordinates, as near a change
@@ -19,7 +19,7 @@ static int is_ill_conditioned(const Position *position)
     double size = 1.0;
     for (int k = 2; k < N_Q; k += 3)
         size = get_larger_or_nan(size, fabs(position->q[k]));
-    return !(position->last_correction <= PASS_ROUGH * DBL_EPSILON * size);
+    return !(position->last_correction <= MIN_PASS_CORRECTION * DBL_EPSILON * size);
 }
 
 /*
@@ -38,8 +38,8 @@ static int follow_branch(KinematicRun *run, double t, const Position *start, Pos
             &next, &correction);
         if (status == STOPPED)
             return status;
-        if (!status && correction <= run->reach
-            && compute_trapezoidal_error(position, &next, run->extent) <= 0.002 * run->reach) {
+        if (!status && correction <= run->max_correction
+            && compute_trapezoidal_error(position, &next, run->extent) <= 0.002 * run->max_correction) {
             *position = next;
             continue;
         }
@@ -114,7 +114,7 @@ static void interpolate_position(const Position *node, double t, const Parameter
 static int pass_change_point(KinematicRun *run, double t, const Position *start, Position *position)
 {
     const double fastest = compute_angle_norm(start->v, run->extent);
-    double d = PASS_TURN / fastest;
+    double d = PASS_NODE_ANGLE / fastest;
     int status = NEWTON_FAILED;
     if (!(fastest > 0.0) || !(fabs(t - start->t) <= PASS_NODES * d))
         return status;
@@ -127,7 +127,7 @@ static int pass_change_point(KinematicRun *run, double t, const Position *start,
         interpolate_position(node, t, run->p, position);
         for (int k = 0; k < N_Q; k++)
             difference[k] = position->q[k] - interpolate_middle(node, PASS_NODES - 1, &node->q[k]);
-        if (compute_angle_norm(difference, run->extent) <= PASS_SMOOTH)
+        if (compute_angle_norm(difference, run->extent) <= PASS_POSITION_TOL)
             return 0;
         status = NEWTON_FAILED;
     }
@@ -161,7 +161,7 @@ static int begin_position_near(KinematicRun *run, double t, const double *q, con
         return status;
     for (int k = 0; k < N_Q; k++)
         difference[k] = passed.v[k] - v[k];
-    if (!(compute_angle_norm(difference, run->extent) <= PASS_RATES * compute_angle_norm(position->v, run->extent)))
+    if (!(compute_angle_norm(difference, run->extent) <= PASS_RATE_TOL * compute_angle_norm(position->v, run->extent)))
         return status;
     *position = passed;
     return 0;

@@ -1,7 +1,7 @@
 /*
- * User events of a kinematic motion. The motion is followed again step by step. Parts of a step are halved until bounds
- * decide for every event function whether it has a zero (watch/zeros.h). A zero is located with Newton's method at
- * every time that is evaluated.
+ * Location of user-defined events in the motion of a linkage whose position is determined by its drives. The motion is
+ * followed again step by step. Parts of a step are halved until bounds decide for every event function whether it has a
+ * zero (watch/zeros.h). A zero is located with Newton's method at every time that is evaluated.
  */
 #include "../watch/zeros.h"
 
@@ -15,7 +15,11 @@ typedef struct {
     int has_error;
 } SampledPosition;
 
-/* Evaluate the user-defined events of a sample at its position; its uncertainties become invalid. */
+/*
+ * Evaluate the user-defined event functions of a sample: solve the accelerations at its position, then store the values
+ * in sample->event. A failure of that solution is ignored, because it was reported before. The uncertainties of the
+ * sample become invalid (has_error = 0).
+ */
 static void evaluate_events(KinematicRun *run, SampledPosition *sample)
 {
     RhsOutputs rhs = {0};
@@ -90,8 +94,11 @@ static void perturb_position(const KinematicRun *run, const Position *position, 
 }
 
 /*
- * Return by how much rounding errors of positions and velocities change event function i; 0 where they include a pole.
- * All functions are computed at once for a sample, from eight combinations of signs, and stored.
+ * Return by how much rounding errors of positions and velocities change event function i at a sample; 0 where they
+ * include a pole. The first call for a sample estimates and stores the uncertainties of all functions; later calls
+ * return the stored ones (has_error). Four positions, perturbed with the masks 0, 1, 2 and 4 of perturb_position(), are
+ * compared with the sample; those that cannot be solved are left out. Bounds of the functions over the sum of the
+ * differences give the uncertainties.
  */
 static double estimate_event_uncertainty(const KinematicRun *run, SampledPosition *sample, int i)
 {
@@ -250,7 +257,8 @@ static int collect_events(Search *search, SampledPosition *b)
             status = isnan(a->event[i]) ? 0 : locate_event(search, i, b, &t, &is_pole);
             if (!status)
                 status = insert_event(search, first, t, i + N_USER_EVENTS);
-        } else if (detect_event_crossing(i, &search->branch[i], get_resolved_value(search->run, b, i, search->branch[i]))) {
+        } else if (detect_event_crossing(
+                       i, &search->branch[i], get_resolved_value(search->run, b, i, search->branch[i]))) {
             status = locate_event(search, i, b, &t, &is_pole);
             if (!status && !is_pole && t - search->start > 1e-12 * (b->at.t - a->at.t) + 16.0 * DBL_EPSILON * fabs(t))
                 status = insert_event(search, first, t, i);

@@ -1,7 +1,4 @@
-/*
- * Positions of a driven linkage in absolute coordinates: solution of the constraint equations, velocities and
- * accelerations.
- */
+/* Positions, velocities and accelerations in absolute coordinates of a linkage that drives determine. */
 
 /*
  * Compute accelerations a and powers at a position by the equations of motion. Return 0 or a status. A positive status
@@ -9,7 +6,7 @@
  */
 static int solve_accelerations(KinematicRun *run, const Position *position, double *a, RhsOutputs *rhs)
 {
-    const DiscreteState discrete = {.token = &run->cancellation, USUAL_SHARES};
+    const DiscreteState discrete = {.token = &run->cancellation, DEFAULT_PIVOT_LIMITS};
     const int status = dynamics(after_jump(position->t), position->q, position->v, &discrete, run->p, a, rhs);
     return status > 0 ? N_ROWS + status : status;
 }

@@ -23,13 +23,13 @@ typedef struct {
 } StepLength;
 
 /*
- * A kinematic analysis over several calls: parameters; the largest correction of a first guess (`reach`, rad or
- * fraction of the size); the mechanism's size (`extent`, m); its end, cancellation, progress; the positions of motion
- * and works.
+ * A kinematic analysis over several calls: parameters; the largest correction of a first guess (`max_correction`, rad
+ * or fraction of the size); the mechanism's size (`extent`, m); its end, cancellation, progress; the positions of
+ * motion and works.
  */
 typedef struct {
     const Parameters *p;
-    double reach, extent, t_end;
+    double max_correction, extent, t_end;
     Cancellation cancellation;
     ProgressMonitor monitor;
     Position motion, work;
@@ -44,15 +44,16 @@ typedef struct {
 size_t gudgeon_kinematic_size(void) { return sizeof(KinematicRun); }
 
 /*
- * Initialize the memory of a kinematic analysis. reach: largest correction of a first guess; extent: size of the
- * mechanism, m. `ask` is called with `caller` every `every` seconds (0: at each step) and cancels the analysis if it
- * returns nonzero.
+ * Initialize the memory of a kinematic analysis. max_correction: largest correction of a first guess; extent: size of
+ * the mechanism, m. `ask` is called with `caller` every `every` seconds (0: at each step) and cancels the analysis if
+ * it returns nonzero.
  */
 void gudgeon_kinematic_begin(
-    void *integrator, double reach, double extent, double t_end, int (*ask)(void *), void *caller, double every)
+    void *integrator, double max_correction, double extent, double t_end, int (*ask)(void *), void *caller,
+    double every)
 {
     KinematicRun *run = integrator;
-    *run = (KinematicRun){.reach = reach, .extent = extent, .t_end = t_end};
+    *run = (KinematicRun){.max_correction = max_correction, .extent = extent, .t_end = t_end};
     start_polling(&run->cancellation, ask, caller, every);
 }
 
@@ -190,13 +191,13 @@ static int are_constraints_finite(double t, const Position *position, const Para
 
 /*
  * Make one step of `position` along the branch, of length stride->h and to t1 at most. Return 0 or a status. The step
- * is halved if Newton's method corrects the first guess by more than `reach` or the positions do not agree with the
- * velocities. Near a dead centre, another branch appears as such a jump. A step that hides a transient is halved too.
- * Change points are passed. After accurate steps a halved length is doubled again.
+ * is halved if Newton's method corrects the first guess by more than `max_correction` or the positions do not agree
+ * with the velocities. Near a dead centre, another branch appears as such a jump. A step that hides a transient is
+ * halved too. Change points are passed. After accurate steps a halved length is doubled again.
  */
 static int make_step(KinematicRun *run, StepLength *stride, double t1, Position *position)
 {
-    const double max_error = 0.002 * run->reach;
+    const double max_error = 0.002 * run->max_correction;
     for (;;) {
         Position next_position, passed;
         double correction = 0.0, error = 0.0;
@@ -212,7 +213,7 @@ static int make_step(KinematicRun *run, StepLength *stride, double t1, Position 
             *position = passed;
             return 0;
         }
-        const int is_near = !status && correction <= run->reach;
+        const int is_near = !status && correction <= run->max_correction;
         if (is_near)
             error = compute_trapezoidal_error(position, &next_position, run->extent);
         if (is_near && error <= max_error

@@ -1,5 +1,5 @@
-/* Positions of a driven linkage in tree coordinates: solution of the closures, velocities and accelerations. */
-#define MAX_BEND 0.05 /* rad, or fraction of the size: largest contribution of second rates to a first guess */
+/* Positions, velocities and accelerations in tree coordinates of a linkage that drives determine. */
+#define MAX_SECOND_RATE_MOVE 0.05 /* rad, or fraction of the size: largest effect of second rates on a first guess */
 
 /*
  * Compute tree accelerations a and powers at a position by the reduced equations of motion. Return 0 or a status. A
@@ -43,15 +43,15 @@ static int solve_position_equations(const KinematicRun *run, double t, Position 
 }
 
 /*
- * Return whether second rates change a first guess over a time h (s) by more than MAX_BEND. Near a time at which the
- * second rate of a drive is unbounded they do not describe the whole step.
+ * Return whether second rates change a first guess over a time h (s) by more than MAX_SECOND_RATE_MOVE. Near a time at
+ * which the second rate of a drive is unbounded they do not describe the whole step.
  */
 static int has_large_second_rates(const Position *start, double h, double extent)
 {
     double most = 0.0;
     for (int k = 0; k < N_X; k++)
         most = get_larger_or_nan(most, fabs(0.5 * h * h * start->s_second[k]) / (is_angle[k] ? 1.0 : extent));
-    return !(most <= MAX_BEND);
+    return !(most <= MAX_SECOND_RATE_MOVE);
 }
 
 /*
@@ -101,6 +101,6 @@ static int set_position(KinematicRun *run, double t, const double *q, const doub
         position->s_second[k] = 0.0;
     position->phi = position->phi_dot = 0.0;
     const int status =
-        dynamics(t, q, v, &(DiscreteState){.token = &run->cancellation, USUAL_SHARES}, p, position->a, &rhs);
+        dynamics(t, q, v, &(DiscreteState){.token = &run->cancellation, DEFAULT_PIVOT_LIMITS}, p, position->a, &rhs);
     return status > 0 ? N_LOOPS + status : status;
 }

@@ -1,4 +1,4 @@
-/* Works along a kinematic motion: quadrature of the powers over its steps, and impulses where velocities jump. */
+/* Works of forces and drives along a kinematic motion: quadrature of the powers, and impulses at velocity jumps. */
 /*
  * Compute the powers (N_WORK), W, and the accelerations of all bodies at a position. Return the status of
  * complete_position().

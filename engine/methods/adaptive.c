@@ -1,7 +1,4 @@
-/*
- * The time loop of all methods: attempts at a step (methods/step_length.c), events in the accepted step, samples from
- * its dense output, and what changes at its end.
- */
+/* The time loop of all methods: trial steps, events in the accepted step, samples from its dense output, changes. */
 enum { N_SIGN_PARTS = 4, MAX_REPEATS = 8 /* repetitions of a step to end just after an event */ };
 
 /*
@@ -154,7 +151,7 @@ static void record_step_end_state(Integrator *run, int has_jump, int is_last, co
 #ifndef KNOTS
 #define KNOTS 0
 #endif
-#define KNOT_REACH 0.4 /* of a piece of a curve: it is extrapolated this far beyond its knot (scene/curves.h) */
+#define MAX_KNOT_EXTRAPOLATION 0.4 /* of a piece of a curve, which continues beyond its knot (scene/curves.h) */
 
 /*
  * Repeat the present step with length h (s), and find its first event: *event and its *fraction of the step. Contacts
@@ -188,13 +185,14 @@ static int is_dense_output_missing(Integrator *run, Step *step, const Parameters
 }
 
 /*
- * Return whether a step extends beyond an event at `fraction` by more than KNOT_REACH times the time since the last
- * crossing. Such a step may have evaluated another piece of a curve beyond the knot. Always 0 in scenes without curves.
+ * Return whether a step extends beyond an event at `fraction` by more than MAX_KNOT_EXTRAPOLATION times the time since
+ * the last crossing. Such a step may have evaluated another piece of a curve beyond the knot. Always 0 in scenes
+ * without curves.
  */
 static int is_far_beyond_knot(const Integrator *run, const Step *step, double fraction)
 {
     const double piece_length = step->t + fraction * step->h - run->roots.t_crossed;
-    return KNOTS && (1.0 - fraction) * step->h > KNOT_REACH * piece_length;
+    return KNOTS && (1.0 - fraction) * step->h > MAX_KNOT_EXTRAPOLATION * piece_length;
 }
 
 /*

@@ -1,4 +1,4 @@
-/* The audit of the errors of whole steps (run/audit.c), and the scales of these errors. */
+/* Independent check of the integration errors of whole steps (run/audit.c), and the scales of these errors. */
 #define AUDIT_DIGITS 1e-10 /* of a state: smaller differences are rounding */
 #define AUDIT_STEP 15.0 /* tolerances: allowed error of a step */
 #define AUDIT_ORDER 1e-3 /* of the change of rates over a step: allowed mean error */
@@ -114,7 +114,7 @@ static void check_step_error(Integrator *run, Step *step, const Parameters *p)
     const double limit = AUDIT_STEP * max_of(1.0, AUDIT_FINEST / get_rtol(run));
     for (int n = 0; n < COUNT_OF(gauss_node); n++) {
         interpolate(run, step, gauss_node[n], y);
-        if (evaluate_rhs(run, step->t + gauss_node[n] * h, y, p, dy, &rhs) || !is_branch_consistent(run, &rhs))
+        if (evaluate_run_rhs(run, step->t + gauss_node[n] * h, y, p, dy, &rhs) || !is_branch_consistent(run, &rhs))
             return;
         interpolate_rates(step, gauss_node[n], N_Y, rate);
         for (int k = 0; k < N_Y; k++)

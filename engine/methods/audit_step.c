@@ -1,7 +1,7 @@
 /*
- * The audit of a run inside its steps (run/audit.c): at a random point of some steps, at every event that ends a step,
- * and in steps much longer than the one before. Checks: defect of the dense output, gaps, branches. At random points in
- * addition: all constraint equations, accelerations by the equations of all bodies, film forces.
+ * Independent checks of a run within its steps (run/audit.c): at random points, at events, and in long steps. Checks:
+ * defect of the dense output, gaps, branches. At random points in addition: all constraint equations, accelerations by
+ * the equations of all bodies, film forces.
  */
 #define AUDIT_LONGER 8.0 /* times the step before: longer steps are always checked */
 #define AUDIT_RATE 1e-3 /* of the largest rate: allowed error of rates */
@@ -13,7 +13,7 @@
 #define AUDIT_LONGEST 1.5 /* times the longest measured step: longer steps are measured */
 #define AUDIT_SHORT 1e-3 /* of the longest step: shorter ones near a pole do not define the scale of events */
 #define AUDIT_FIRST 0.25 /* of the interval between drawn steps: the first one */
-#define AUDIT_SHARE 0.008 /* of the evaluations of a run: cost of the checks of drawn steps */
+#define AUDIT_COST_FRACTION 0.008 /* of the evaluations of a run: cost of the checks of drawn steps */
 #define AUDIT_COST 8.0   /* typical evaluations of one check */
 #define AUDIT_ITERATIONS 4.0 /* evaluations of an iterated stage */
 #define AUDIT_LEAST_STAGES 8.0 /* smallest number of evaluations of a step */
@@ -92,7 +92,7 @@ static void check_rates_at_step_end(Integrator *run, Step *step, const Parameter
 {
     double dy[N_Y];
     RhsOutputs rhs;
-    if (has_tolerance(run) && !evaluate_rhs(run, step->t + step->h, step->y, p, dy, &rhs))
+    if (has_tolerance(run) && !evaluate_run_rhs(run, step->t + step->h, step->y, p, dy, &rhs))
         record_check(&run->audit, CHECK_defect, compute_scaled_defect(run, step, step->y, step->dy, dy, p), 1.0,
             step->t + step->h, -1);
 }
@@ -119,9 +119,10 @@ static void check_film_forces(Integrator *run, const Step *step, double t, const
 }
 
 /*
- * Check one state y inside a step, at fraction theta: rates of the dense output, film forces, joints with play and
- * branches. dy, rhs: rates and outputs of the right-hand side at y. The check of rates by check_dense_output_rates() is
- * made only at random points (`is_random`) of scenes without play. Checks of rates need tolerances.
+ * Check one state y inside a step, at fraction theta. dy, rhs: rates and outputs of the right-hand side at y. With
+ * tolerances, the rates of the dense output are compared with dy by compute_scaled_defect() and recorded as
+ * CHECK_defect; a failure at a jump of a drive is not recorded. At random points (`is_random`) of scenes without play,
+ * check_dense_output_rates() compares them too. Film forces, open gaps and frozen branches are always checked.
  */
 static void check_interior_state(Integrator *run, Step *step, double theta, int is_random, const double *y,
     const double *dy, const RhsOutputs *rhs, const Parameters *p)
@@ -154,7 +155,7 @@ static void check_interior_point(Integrator *run, Step *step, double theta, int 
         return;
     if (run->counts.steps == 0) { /* the first step projects a start that violates the constraints */
         interpolate(run, step, theta, y);
-        if (evaluate_rhs(run, t, y, p, dy, &rhs))
+        if (evaluate_run_rhs(run, t, y, p, dy, &rhs))
             return;
     } else if (evaluate_state_at(run, step, theta, p, y, dy, &rhs))
         return; /* states after an event may be undefined */
@@ -214,10 +215,10 @@ static void check_event_zeros(Integrator *run, Step *step, double fraction, int 
     audit->ended = event - (N_EVENT_FUNCTIONS - N_USER_EVENTS);
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const double before = run->rhs.event[i], after = step->rhs.event[i];
-        const StageValues seen = get_stage_values(step, N_EVENT_FUNCTIONS - N_USER_EVENTS + i);
+        const StageValues stages = get_stage_values(step, N_EVENT_FUNCTIONS - N_USER_EVENTS + i);
         double inside = fabs(after); /* the beginning may be a located pole */
-        for (int k = 0; k < step->n_seen; k++)
-            inside = max_of(inside, fabs(read_stage(seen, k)));
+        for (int k = 0; k < step->n_stored_stages; k++)
+            inside = max_of(inside, fabs(read_stage(stages, k)));
         if (step->h > AUDIT_SHORT * audit->longest && isfinite(inside))
             audit->event_scale[i] = max_of(audit->event_scale[i], inside);
         const double noise = AUDIT_NOISE * audit->event_scale[i];
@@ -235,13 +236,13 @@ static void check_event_zeros(Integrator *run, Step *step, double fraction, int 
 }
 
 /*
- * Return the mean number of steps between two steps drawn for checks, which limits their cost to AUDIT_SHARE of the
- * evaluations. It depends on the method alone, so that a run in a batch is checked at the same steps.
+ * Return the mean number of steps between two steps drawn for checks, which limits their cost to AUDIT_COST_FRACTION of
+ * the evaluations. It depends on the method alone, so that a run in a batch is checked at the same steps.
  */
 static double compute_mean_check_interval(const Method *method)
 {
     const double evaluations = method->stages * (method->lane >= BY_RADAU5 ? AUDIT_ITERATIONS : 1.0);
-    return AUDIT_COST / (AUDIT_SHARE * max_of(evaluations, AUDIT_LEAST_STAGES));
+    return AUDIT_COST / (AUDIT_COST_FRACTION * max_of(evaluations, AUDIT_LEAST_STAGES));
 }
 
 /*

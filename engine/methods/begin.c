@@ -1,4 +1,4 @@
-/* The start of a run by any method: tolerances, smallest relevant speeds, branches and signs of watched functions. */
+/* Start of a run by any method: tolerances, speed scales, branches of switching functions, signs of event functions. */
 #if N_USER_EVENTS
 /*
  * Set the signs of user-defined events that are zero at the start, from their values shortly after it. The events are
@@ -55,8 +55,8 @@ static void set_speed_floors(Integrator *run, double time_left, const Parameters
 {
     double rate = find_fastest_rate(run, run->dy), dy[N_Y];
     RhsOutputs rhs;
-    if (rate * time_left > MAX_RATES_PER_RUN && !evaluate_rhs(run, run->t + time_left / MAX_RATES_PER_RUN, run->y, p, dy,
-        &rhs))
+    if (rate * time_left > MAX_RATES_PER_RUN
+        && !evaluate_run_rhs(run, run->t + time_left / MAX_RATES_PER_RUN, run->y, p, dy, &rhs))
         rate = min_of(rate, find_fastest_rate(run, dy));
     for (int kind = 0; kind < 2; kind++) {
         run->norm.speed_floor[kind] = run->norm.least[kind] * (rate * time_left > 1e-3 ? 0.01 * rate : 1.0 / time_left);

@@ -1,4 +1,4 @@
-/* Defect of the dense output: by how much the interpolant of a step fails the equations of motion between its ends. */
+/* Defect of the dense output: the residual of the equations of motion for the interpolant of a step. */
 
 /*
  * Compute the first n rates dy of the dense output at fraction theta of a step, by differentiating its polynomial. The

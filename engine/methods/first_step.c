@@ -1,23 +1,23 @@
-/* The length of a first step: of a run, and after an event. */
+/* Choice of the length of the first step of a run, and of the first step after an event. */
 #define ONSET_ERROR 500.0 /* velocity tolerances: error of straight motion into a contact over a fitting first step */
 #define ONSET_ERROR_STIFF 80.0 /* the same for stiff methods */
 #define CHANGE_AT_SWITCH 2.0 /* relative change of accelerations over a fitting first step at a switching point */
 #define CHANGE_AT_SWITCH_STIFF 0.7 /* the same for stiff methods */
 #define LONG_TIME 1e100 /* s: changes that take longer are none */
 #define CHANGE_AFTER_EVENT 0.5  /* the same after other events */
-#define FIRST_SHARE 1e-2 /* of the time left: longest trial step, and first step if rates are constant */
+#define MAX_FIRST_FRACTION 1e-2 /* of the time left: longest trial step, and first step if rates are constant */
 #define FIT_FAILED 0.1 /* factor on the length if straight motion over it is not finite */
 #define MIN_FIT 1e-3 /* smallest factor of one trial on the length */
 #define MAX_FIT 30.0 /* largest factor */
 #define MAX_LAST_FIT 3.0 /* largest factor of the last trial */
-#define MIN_CLOSE 0.3 /* factor between this and MAX_CLOSE: no other trial is needed */
-#define MAX_CLOSE 3.0
+#define MIN_FITTING_FACTOR 0.3 /* factor between this and MAX_FITTING_FACTOR: no other trial is needed */
+#define MAX_FITTING_FACTOR 3.0
 enum { MAX_FITTED = 3 };
 
 /*
  * Estimate the length of the first step of a run from the error norms of the first two derivatives of the motion. The
- * second derivative is a difference over a trial step by Euler's method. Sets run->control.h; FIRST_SHARE of time_left
- * (s, to the end) if the rates are constant. Return 0, or the status of the right-hand side.
+ * second derivative is a difference over a trial step by Euler's method. Sets run->control.h; MAX_FIRST_FRACTION of
+ * time_left (s, to the end) if the rates are constant. Return 0, or the status of the right-hand side.
  */
 static int estimate_initial_step(Integrator *run, double time_left, const Parameters *p)
 {
@@ -25,17 +25,17 @@ static int estimate_initial_step(Integrator *run, double time_left, const Parame
     RhsOutputs rhs;
     for (int k = 0; k < 2 * N_X; k++)
         first_norm = max_of(first_norm, fabs(run->dy[k]) * run->norm.weight[k]);
-    double h = min_of(first_norm > 0.0 ? 1.0 / first_norm : INFINITY, FIRST_SHARE * time_left);
+    double h = min_of(first_norm > 0.0 ? 1.0 / first_norm : INFINITY, MAX_FIRST_FRACTION * time_left);
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + h * run->dy[k];
-    const int status = evaluate_rhs(run, run->t + h, y, p, dy, &rhs);
+    const int status = evaluate_run_rhs(run, run->t + h, y, p, dy, &rhs);
     if (status)
         return status;
     for (int k = 0; k < 2 * N_X; k++)
         second_norm = max_of(second_norm, fabs(dy[k] - run->dy[k]) / h * run->norm.weight[k]);
     /* rates change completely in the time one / two; passed: tolerances passed in it; two may be subnormal */
     const double time = min_of(first_norm / second_norm, LONG_TIME), passed = max_of(1.0, time * first_norm);
-    run->control.h = second_norm > 0.0 ? max_of(time * pow(passed, -run->choice.method->power), h) : FIRST_SHARE
+    run->control.h = second_norm > 0.0 ? max_of(time * pow(passed, -run->choice.method->power), h) : MAX_FIRST_FRACTION
         * time_left;
     return 0;
 }
@@ -51,7 +51,7 @@ static int compute_acceleration_change(Integrator *run, double h, const Paramete
     RhsOutputs rhs;
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + h * run->dy[k];
-    const int status = evaluate_rhs(run, run->t + h, y, p, dy, &rhs);
+    const int status = evaluate_run_rhs(run, run->t + h, y, p, dy, &rhs);
     *change = *size = 0.0;
     for (int k = N_X; k < 2 * N_X && !status; k++) {
         *change = max_of(*change, fabs(dy[k] - run->dy[k]) * run->norm.weight[k]);
@@ -110,7 +110,7 @@ static int fit_first_step_after_event(Integrator *run, double time_left, const P
         factor = min_of(is_onset || is_after_switch ? 1.0 : i < MAX_FITTED ? MAX_FIT : MAX_LAST_FIT,
             max_of(MIN_FIT, factor));
         run->control.h = factor * h;
-        if (factor > MIN_CLOSE && factor < MAX_CLOSE)
+        if (factor > MIN_FITTING_FACTOR && factor < MAX_FITTING_FACTOR)
             break;
     }
     return 0;

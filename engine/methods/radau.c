@@ -1,4 +1,5 @@
-/* Radau IIA of orders 5 and 9: dense output and method tables, and the functions of one run that scalar_simd/radau.h needs. */
+/* Radau IIA of orders 5 and 9: dense output and method tables, and the functions of one run that scalar_simd/radau.h
+ * needs. */
 
 /*
  * Factorize Newton's matrix at the complex number eta + i eta_i (s), from the linearization of the run, into `matrix`.
@@ -15,8 +16,8 @@ static int factor_complex_matrix(Integrator *run, double eta, double eta_i, Comp
 static void load_iteration_history(Integrator *run) { update_iteration_history(run); }
 
 /*
- * Do nothing: for one run, evaluate_rhs() counts its own evaluations. In lanes, n evaluations of the active runs are counted
- * here.
+ * Do nothing: for one run, evaluate_run_rhs() counts its own evaluations. In lanes, n evaluations of the active runs
+ * are counted here.
  */
 static void count_stage_evaluations(Integrator *run, int is_active, int n) { (void)run, (void)is_active, (void)n; }
 

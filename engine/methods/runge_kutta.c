@@ -1,5 +1,5 @@
 /*
- * Explicit Runge-Kutta methods that are defined by their coefficients: a new method is a Tableau, its source, and a
+ * Explicit Runge-Kutta methods that are defined by their coefficients. A new method is a Tableau, its source, and a
  * line of METHODS. The last stage is at the end of the step, where rates are evaluated once more after all stages.
  */
 #include "../scalar_simd/runge_kutta.h"

@@ -1,10 +1,10 @@
 /*
- * Steps near a singular position (motion/continuation.c). Off the constraints, where stages lie, the right-hand side
- * can be continued in several ways; a method keeps its order only if the whole step uses one of them. A step is first
- * tried with detection. Near a singular position it is repeated with all stages projected onto the constraints, or, if
- * that fails, without any treatment.
+ * Choice of the treatment of a step near a singular position of the linkage (motion/continuation.c). Off the
+ * constraints, where stages lie, the right-hand side can be continued in several ways; a method keeps its order only if
+ * the whole step uses one of them. A step is first tried with detection. Near a singular position it is repeated with
+ * all stages projected onto the constraints, or, if that fails, without any treatment.
  */
-#if CONTINUES
+#if HAS_CONTINUATION
 enum { MAX_SKIPPED_LOG2 = 6 }; /* log2 of the largest number of steps without detection after failed attempts */
 
 /* Set the policy near singular positions (SINGULAR_...) in the discrete state, with its limits of small pivots. */

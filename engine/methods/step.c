@@ -1,9 +1,6 @@
-/*
- * Parts of one tried step of any method: values at its stages, event functions, error weights, and its end, which is
- * projected onto the constraints.
- */
+/* Parts of a trial step of any method: values at its stages, event functions, error weights, projection of its end. */
 #define CONSTRAINT_ROUNDING 2e-9  /* relative constraint residual that may be rounding near a singular position */
-enum { MAX_STRAYED = 4 }; /* attempts of a step rejected for their distance from the constraints */
+enum { MAX_DRIFT_REJECTIONS = 4 }; /* attempts of a step rejected for their distance from the constraints */
 
 /*
  * Return event function k at a state: non-negative while the discrete state stays valid, NaN if it is inactive. The
@@ -40,7 +37,7 @@ static double get_rtol(const Integrator *run)
     return run->control.fixed > 0.0 ? 0.0 : 1.0 / run->norm.inverse_scale[2 * N_X - 1];
 }
 
-/* Values of one event function, or another seen value, at the stages of a step: first value and stride. */
+/* Values of one event function, or another stored value, at the stages of a step: first value and stride. */
 typedef struct {
     const double *first;
     int stride;
@@ -52,9 +49,9 @@ typedef struct {
  */
 static StageValues get_stage_values(const Step *step, int k)
 {
-    return step->seen_lane
-        ? (StageValues){step->seen_lane + k * step->lanes, AT_LEAST_ONE(N_STAGE_VALUES) * step->lanes}
-        : (StageValues){&step->seen[0][k], AT_LEAST_ONE(N_STAGE_VALUES)};
+    return step->stage_values_lane
+        ? (StageValues){step->stage_values_lane + k * step->lanes, AT_LEAST_ONE(N_STAGE_VALUES) * step->lanes}
+        : (StageValues){&step->stage_values[0][k], AT_LEAST_ONE(N_STAGE_VALUES)};
 }
 
 /* Return the value of the i-th stage from `values`. */
@@ -63,8 +60,8 @@ static double read_stage(StageValues values, int i) { return values.first[i * va
 /* Discard all that is stored of the stages of a step: values, extrema, crossed switching points, range of the state. */
 static void discard_stages(Step *step)
 {
-    step->n_seen = 0;
-    step->seen_lane = NULL;
+    step->n_stored_stages = 0;
+    step->stage_values_lane = NULL;
     step->spread[0] = -1.0;
     step->swings = -1;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
@@ -83,21 +80,21 @@ static void discard_stages(Step *step)
 
 /*
  * Store the event functions, squared forces and gap rates of a stage at fraction `node` of a step, and update their
- * extrema. rhs: outputs of the right-hand side at the stage. Increments step->n_seen.
+ * extrema. rhs: outputs of the right-hand side at the stage. Increments step->n_stored_stages.
  */
 static void record_stage(const Integrator *run, Step *step, const RhsOutputs *rhs, double node)
 {
-    double *const seen = step->seen[step->n_seen];
-    evaluate_event_functions(&run->discrete, rhs, seen);
+    double *const values = step->stage_values[step->n_stored_stages];
+    evaluate_event_functions(&run->discrete, rhs, values);
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
-        step->lowest[k] = seen[k] < step->lowest[k] ? seen[k] : step->lowest[k];
-    step->node[step->n_seen++] = node;
+        step->lowest[k] = values[k] < step->lowest[k] ? values[k] : step->lowest[k];
+    step->node[step->n_stored_stages++] = node;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &rhs->clearance[i];
         step->rate[i][0] = min_of(step->rate[i][0], joint->deltadot);
         step->rate[i][1] = max_of(step->rate[i][1], joint->deltadot);
-        seen[STAGE_FORCES + i] = joint->F_n * joint->F_n + joint->F_t * joint->F_t;
-        seen[STAGE_GAP_RATES + i] = joint->deltadot;
+        values[STAGE_FORCES + i] = joint->F_n * joint->F_n + joint->F_t * joint->F_t;
+        values[STAGE_GAP_RATES + i] = joint->deltadot;
     }
 }
 
@@ -195,8 +192,8 @@ static int is_step_rejected(const Integrator *run, const Step *step) { return st
 /*
  * Project the end of a tried step onto the constraints and closed contacts, and evaluate the right-hand side there. A
  * large projection counts as error of the step: the estimate of Radau, filtered by the Jacobian, may miss it near a
- * singular position. It does not count in the first step, which closes the start, and after MAX_STRAYED attempts, as
- * rounding. Return 0, NOT_FINITE, or the status of the right-hand side.
+ * singular position. It does not count in the first step, which closes the start, and after MAX_DRIFT_REJECTIONS
+ * attempts, as rounding. Return 0, NOT_FINITE, or the status of the right-hand side.
  */
 static int finish_step(Integrator *run, Step *step, const Parameters *p)
 {
@@ -207,7 +204,7 @@ static int finish_step(Integrator *run, Step *step, const Parameters *p)
     project_unless_stabilised(run, step->t + step->h, step->y, p);
     const double missed = compute_constraint_distance(run, before, step->y);
     if (missed > max_of(MAX_CONSTRAINT_DRIFT, CONSTRAINT_ROUNDING / get_rtol(run)) && run->counts.steps > 0
-        && run->control.attempt.n_strayed++ < MAX_STRAYED)
+        && run->control.attempt.n_drift_rejections++ < MAX_DRIFT_REJECTIONS)
         step->error = max_of(step->error, missed);
     project_closed_contacts(run, step->t + step->h, step->y, p);
     const int status = evaluate_rates_at_rest(run, step->t + step->h, step->y, p, step->dy, &step->rhs);

@@ -29,11 +29,11 @@
 #define FLIGHT_STEP_SLACK 1.5        /* times compute_flight_step_limit(): longer steps are rejected */
 #define SHRINK_FLIGHT_STEP 0.5       /* ratio of the next attempt then */
 #define TRANSIENT_PART 0.5          /* of the time up to a missed transient: length of the next attempt */
-#define MIN_PARTING 0.1         /* of a step: an earlier separation does not shorten it */
+#define MIN_SEPARATION_FRACTION 0.1         /* of a step: an earlier separation does not shorten it */
 enum { PATIENCE = 8, MAX_PATIENCE = 4096,
     LASTING_STEPS = 400 /* steps with a method after which the next return to it is as easy as the first */,
     RATE_ITERATIONS = 5, RECONSIDER_STEPS = 24 /* steps until the explicit method is considered again */,
-    MAX_AGAINST = 3 /* successive steps against the explicit method until the change */,
+    MAX_CONTRARY_STEPS = 3 /* successive steps against the explicit method until the change */,
     COMPARE_FROM = 8, COMPARE_TO = 200 /* steps after a change in which the lengths of both methods are compared */,
     MAX_SHORTENED = 12 /* reductions by four: what remains unresolved then is rounding */ };
 #define FILM_ERROR_RATIO 0.7   /* largest ratio of the film errors of a shorter and a longer step without rounding */
@@ -98,7 +98,7 @@ static void change_method(Integrator *run)
             : run->choice.patience < MAX_PATIENCE ? 2 * run->choice.patience : run->choice.patience;
     run->control.h_stiff = stiff ? run->control.h : 0.0;
     run->choice.method = stiff ? EXPLICIT : run->choice.implicit;
-    run->choice.n_against = 0;
+    run->choice.n_contrary_steps = 0;
     run->choice.since = 0;
 }
 
@@ -123,7 +123,7 @@ static double estimate_largest_rate(Integrator *run, const Parameters *p)
         growth[n % 2] = size; /* over two iterations: a vibration alternates between positions and velocities */
         for (int k = 0; k < N_Y; k++)
             y[k] = run->y[k] + direction[k] / size;
-        if (!(size > 0.0 && isfinite(size)) || evaluate_rhs(run, run->t, y, p, dy, &rhs))
+        if (!(size > 0.0 && isfinite(size)) || evaluate_run_rhs(run, run->t, y, p, dy, &rhs))
             return 0.0;
         for (int k = 0; k < N_Y; k++)
             direction[k] = dy[k] - run->dy[k];
@@ -145,15 +145,15 @@ static void choose_method(Integrator *run, const Parameters *p)
     const int stiff = run->choice.method->stiff;
     const double stability = run->choice.stability;
     const int against = stiff ? stability < MAX_EXPLICIT_STABILITY : stability > run->choice.method->bounded || slower;
-    run->choice.n_against = against ? run->choice.n_against + 1 : 0;
+    run->choice.n_contrary_steps = against ? run->choice.n_contrary_steps + 1 : 0;
     run->choice.since++;
-    if (!run->choice.automatic || run->choice.n_against < (stiff ? run->choice.patience : MAX_AGAINST))
+    if (!run->choice.automatic || run->choice.n_contrary_steps < (stiff ? run->choice.patience : MAX_CONTRARY_STEPS))
         return;
     const double rate = stiff ? estimate_largest_rate(run, p) : 0.0;
     if (rate * run->control.h < MAX_EXPLICIT_STABILITY)
         change_method(run);
     else
-        run->choice.n_against = -RECONSIDER_STEPS;
+        run->choice.n_contrary_steps = -RECONSIDER_STEPS;
     run->choice.rate = rate;
 }
 
@@ -258,14 +258,15 @@ static void choose_next_length(Integrator *run, const Step *step, int was_reject
 /*
  * Return a step length h (s), shortened to end just after the separation of a compliant contact if h would reach
  * beyond. The force is not smooth there. The time to separation follows from penetration and rate. A separation in the
- * first MIN_PARTING of h does not shorten it.
+ * first MIN_SEPARATION_FRACTION of h does not shorten it.
  */
 static double limit_length_by_separation(const Integrator *run, double h)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &run->rhs.clearance[i];
         const double left = SEPARATION_MARGIN * joint->delta / -joint->deltadot;
-        if (is_compliant(i) && run->discrete.contact[i].closed && joint->deltadot < 0.0 && left < h && left > MIN_PARTING * h)
+        if (is_compliant(i) && run->discrete.contact[i].closed && joint->deltadot < 0.0 && left < h
+            && left > MIN_SEPARATION_FRACTION * h)
             h = left;
     }
     return h;

@@ -1,7 +1,8 @@
 /*
- * Taylor's method: the power series of the motion. The tolerance determines the order; the last terms and the defect at
- * the end of a step limit its length. The polynomial is the dense output. A. Jorba, M. Zou, A software package for the
- * numerical integration of ODEs by means of high-order Taylor methods, Experimental Mathematics 14 (2005), section 3.
+ * Taylor's method: integration by the power series of the motion, of variable order and step length. The tolerance
+ * determines the order; the last terms and the defect at the end of a step limit its length. The polynomial is the
+ * dense output. A. Jorba, M. Zou, A software package for the numerical integration of ODEs by means of high-order
+ * Taylor methods, Experimental Mathematics 14 (2005), section 3.
  */
 #if TAYLOR
 #define TAYLOR_EFFORT 0.7 /* orders per factor e of the tolerance */
@@ -44,7 +45,7 @@ static int expand_series(Integrator *run, const Parameters *p)
     if (status)
         return status;
     count_evaluations(run, run->series.ready != IN_LANE);
-    run->series.reach = taylor_limit_length(run);
+    run->series.max_step = taylor_limit_length(run);
     run->series.ready = IN_RUN;
     return 0;
 }
@@ -121,7 +122,7 @@ static void discard_series(Integrator *run) { run->series.ready = 0; }
 /*
  * Return the largest length in s of the next tried step: TAYLOR_AHEAD times the longest valid one of the last series.
  */
-static double get_max_attempt_length(const Integrator *run) { return TAYLOR_AHEAD * run->series.reach; }
+static double get_max_attempt_length(const Integrator *run) { return TAYLOR_AHEAD * run->series.max_step; }
 #else
 /* Do nothing: the library has no Taylor method. */
 static inline void set_series_order(Integrator *run, double tolerance) { (void)run, (void)tolerance; }

@@ -1,4 +1,4 @@
-/* Tree accelerations by the equations of all bodies, where a pivot of the reduced equations vanishes. */
+/* Accelerations in tree coordinates from the equations of all bodies, where a reduced pivot vanishes. */
 
 /*
  * Compute tree accelerations a and multipliers of the closures by the equations of all bodies, where a pivot of the

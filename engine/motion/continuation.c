@@ -4,10 +4,10 @@
  * accelerations. The motion itself passes smoothly on its branch. The right-hand side is therefore interpolated by a
  * polynomial through regular states on both sides, along the linkage's path through the state.
  */
-#if CONTINUES
+#if HAS_CONTINUATION
 #include <string.h>
 
-enum { SIDE_NODES = TREE ? 5 : 6, WIDE = 2, WIDER = 4 };
+enum { N_SIDE_NODES = TREE ? 5 : 6, N_WIDE_PASSES = 2, N_NARROW_PASSES = 4 };
 #define MAX_CLOSING_MOVE 0.1 /* rad: largest projection of a stage onto the constraints */
 #define NODE_TURN (TREE ? 1e-2 : 2e-2) /* rad: motion of the fastest angle between nodes; doubled in later passes */
 #define CONTINUATION_TOL 1e-7 /* of the accelerations: largest difference of the polynomials of the last two degrees */
@@ -50,13 +50,14 @@ typedef struct {
 
 /*
  * Add the contribution of a node, a regular state y with its rates and multipliers, to the interpolated motion `sum`.
- * k: distance of the node from the singular position in nodes, 1 ... SIDE_NODES. The last node does not count for the
+ * k: distance of the node from the singular position in nodes, 1 ... N_SIDE_NODES. The last node does not count for the
  * lower degree.
  */
 static void add_interpolation_node(
     int k, const double *y, const double *dy, const RhsOutputs *rhs, ContinuedMotion *sum)
 {
-    const double weight = compute_lagrange_weight(SIDE_NODES, k), lower = k < SIDE_NODES ? compute_lagrange_weight(SIDE_NODES - 1, k) : 0.0;
+    const double weight = compute_lagrange_weight(N_SIDE_NODES, k),
+                 lower = k < N_SIDE_NODES ? compute_lagrange_weight(N_SIDE_NODES - 1, k) : 0.0;
     for (int i = 0; i < 2 * N_X; i++)
         sum->y[i] += weight * y[i];
     for (int i = 0; i < N_Y; i++)
@@ -96,11 +97,11 @@ static int continue_motion(
         fastest = is_angle[k] ? max_of(fastest, fabs(y[N_X + k])) : fastest;
     if (!(fastest > 0.0 && fastest < INFINITY))
         return 0;
-    for (int pass = -WIDE; pass < WIDER; pass++) {
-        const double turn = pass < 0 ? WIDE_TURN * ldexp(1.0, -WIDE - pass) : NODE_TURN * ldexp(1.0, pass);
+    for (int pass = -N_WIDE_PASSES; pass < N_NARROW_PASSES; pass++) {
+        const double turn = pass < 0 ? WIDE_TURN * ldexp(1.0, -N_WIDE_PASSES - pass) : NODE_TURN * ldexp(1.0, pass);
         int status = discrete->token && poll_cancellation(discrete->token) ? STOPPED : 0;
         *sum = (ContinuedMotion){0};
-        for (int k = 1; k <= SIDE_NODES && !status; k++)
+        for (int k = 1; k <= N_SIDE_NODES && !status; k++)
             for (int branch = -1; branch <= 1 && !status; branch += 2) {
                 const double h = branch * k * turn / fastest;
                 double projected[N_Y], dy[N_Y];

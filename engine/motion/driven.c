@@ -1,6 +1,6 @@
 /*
- * The motion of a tree with driven loops, whose coordinates are functions of time; without driven loops, the calls of
- * its kernels.
+ * Right-hand side of scenes with driven loops, whose coordinates are functions of time. Without driven loops, this file
+ * only calls the functions of the scene.
  */
 #if N_CHAIN
 /*

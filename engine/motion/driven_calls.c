@@ -1,4 +1,4 @@
-/* Calls from Python in tree coordinates, for scenes with driven loops. */
+/* Functions that Python calls to evaluate the motion in tree coordinates, for scenes with driven loops. */
 
 /*
  * Build the state `tree` that the scene's functions read from the coordinates q and rates v of a call from Python.
@@ -17,8 +17,9 @@ static int solve_tree_state(
 }
 
 /*
- * Compute positions and velocities of all bodies (N_Q each) from tree coordinates q and rates v; driven loops are
- * solved at t.
+ * Compute positions and velocities of all bodies (N_Q each) from tree coordinates q and rates v. q contains a guess of
+ * the coordinates of the driven loops after those of the tree; they are solved at t. A failure of that solution is
+ * ignored.
  */
 void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v)
 {

@@ -1,19 +1,21 @@
 /*
- * Driven loops: coordinates that drives determine through loops. At every time Chebyshev's method solves their
- * closures, from their positions at the last accepted state. The motion thus keeps its branch, and the right-hand side
- * remains a function of time and state.
+ * Solution of driven loops: closed loops of a linkage whose coordinates are determined by drives alone. At every time
+ * Chebyshev's method solves their closures, from their positions at the last accepted state. The motion thus keeps its
+ * branch, and the right-hand side remains a function of time and state.
  */
-enum { MAX_CHAIN_STEPS = 8, MAX_CHAIN_PARTS = 60, FLAT_NODES = 4 };
-#define CHAIN_REACH 0.1    /* rad, or fraction of the size: longer moves are made in parts */
+enum { MAX_LOOP_ITERATIONS = 8, MAX_LOOP_PARTS = 60, FLAT_NODES = 4 };
+#define MAX_LOOP_MOVE 0.1    /* rad, or fraction of the size: longer moves are made in parts */
 #define FLAT_TURN 1e-2     /* the same: motion of the fastest coordinate between nodes near a flat loop */
-#define FLAT_SMOOTH 1e-8   /* the same: largest difference of polynomials through the nodes */
-#define CHAIN_STRAIGHT 1e-3 /* the same: largest difference of positions from the integral of the rates */
+#define FLAT_TOL 1e-8   /* the same: largest difference of polynomials through the nodes */
+#define LOOP_POSITION_TOL 1e-3 /* the same: largest difference of positions from the integral of the rates */
 
 /*
- * Solve the closures of the driven loops at time t by Chebyshev's method, from the guess in q, which is replaced. Of
- * two Newton steps, `second_step` is the second one; the error after it is about second_step^2/step. If it is not much
- * smaller than the first, no root is near (L. V. Kantorovich). step_sum: set to the sum of the steps. Return 0 or the
- * number of a closure.
+ * Solve the closures of the driven loops at time t by Chebyshev's method, from the guess in q. Only q[N_X] and later
+ * elements are replaced: the loops' coordinates and directions. An iteration consists of two Newton steps; the error
+ * after it is about second_step^2/step. If the second is not much smaller than the first, no root is near (L. V.
+ * Kantorovich). *step_sum: sum over iterations of the largest first step, rad or fraction of the size. Return 0 if that
+ * error is below rounding, or if *step_sum < 1e-9 after all MAX_LOOP_ITERATIONS iterations; otherwise the number of a
+ * closure.
  */
 static int solve_loop_closures(double t, double *q, const DiscreteState *discrete, const Parameters *p,
     double *step_sum)
@@ -22,7 +24,7 @@ static int solve_loop_closures(double t, double *q, const DiscreteState *discret
     int row = 1;
     *step_sum = 0.0;
     chain_directions(t, q, discrete, p, q);
-    for (int i = 0; i < MAX_CHAIN_STEPS; i++) {
+    for (int i = 0; i < MAX_LOOP_ITERATIONS; i++) {
         double size = 0.0, second_size = 0.0, sum = 0.0;
         const int status = chain_step(t, q, discrete, p, step, second_step, &row);
         if (status)
@@ -101,19 +103,19 @@ static int advance_driven_loops(double t, const Chain *start, const DiscreteStat
         status = chain_rates(t, tree->q, discrete, p, tree->v);
     if (status)
         return status;
-    return step_sum <= CHAIN_REACH && compute_loop_position_error(h, start, tree, p) <= CHAIN_STRAIGHT ? 0 : 1;
+    return step_sum <= MAX_LOOP_MOVE && compute_loop_position_error(h, start, tree, p) <= LOOP_POSITION_TOL ? 0 : 1;
 }
 
 /*
  * Solve the driven loops at time t from the last accepted state in parts, whose length is halved where a move is too
- * long. Return 0, or the number of a closure that cannot be followed in MAX_CHAIN_PARTS parts.
+ * long. Return 0, or the number of a closure that cannot be followed in MAX_LOOP_PARTS parts.
  */
 static int follow_driven_loops_in_parts(double t, const DiscreteState *discrete, const Parameters *p, TreeState *tree)
 {
     Chain start = discrete->chain;
     double h = 0.5 * (t - start.t);
     int status = 1;
-    for (int part = 0; part < MAX_CHAIN_PARTS; part++) {
+    for (int part = 0; part < MAX_LOOP_PARTS; part++) {
         const int last = fabs(h) >= fabs(t - start.t);
         const double next = last ? t : start.t + h;
         status = advance_driven_loops(next, &start, discrete, p, tree);
@@ -166,7 +168,7 @@ static int interpolate_flat_loops(double t, const DiscreteState *discrete, const
             loops->v[i] += compute_lagrange_weight(FLAT_NODES, k) * tree.v[N_X + i];
     }
     for (int i = 0; i < N_CHAIN && !status; i++)
-        status = !(fabs(loops->q[i] - lower[i]) * chain_share(p, i) <= FLAT_SMOOTH);
+        status = !(fabs(loops->q[i] - lower[i]) * chain_share(p, i) <= FLAT_TOL);
     return status;
 }
 

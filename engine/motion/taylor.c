@@ -1,6 +1,6 @@
 /*
- * Coefficients of the Taylor series of a motion. Order 0 and its accelerations are the scene's derived functions
- * (taylor.c), higher orders follow one after the other.
+ * Computation of the Taylor coefficients of a motion, order by order. Order 0 and its accelerations are the scene's
+ * derived functions (taylor.c), higher orders follow one after the other.
  */
 #include "../scalar_simd/scalar.h"
 

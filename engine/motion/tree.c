@@ -1,4 +1,4 @@
-/* The integrated state of a tree of bodies: tree coordinates, their rates, works. */
+/* The integrated state in tree coordinates (relative coordinates of joints): coordinates, rates, works of forces. */
 #include "../scalar_simd/scalar.h"
 
 #define FUNCTION_LINKAGE

@@ -77,7 +77,8 @@ static void record_check(Audit *audit, int check, double value, double limit, do
 
 /*
  * Check the largest residual |Phi| of all accepted steps so far against its limit, at the end of a step. A residual
- * that is not larger than that of the first step counts as zero. Methods without projection (uses_baumgarte_terms()) are not checked.
+ * that is not larger than that of the first step counts as zero. Methods without projection (uses_baumgarte_terms())
+ * are not checked.
  */
 static void check_constraint_residuals(Integrator *run)
 {
@@ -95,8 +96,8 @@ static void check_constraint_residuals(Integrator *run)
 /*
  * Check the constraint equations of all bodies at time t (s), and with `include_velocities` their velocity constraints
  * Phi_q v = nu. absolute_state (N_S): coordinates, velocities and works of all bodies. Each equation is recorded under
- * CHECK_position or CHECK_velocity. Methods without projection (uses_baumgarte_terms()) are not checked. Called at the end of steps
- * of scenes with driven loops, and at states inside steps.
+ * CHECK_position or CHECK_velocity. Methods without projection (uses_baumgarte_terms()) are not checked. Called at the
+ * end of steps of scenes with driven loops, and at states inside steps.
  */
 static void check_constraints(Integrator *run, double t, const double *absolute_state, int include_velocities,
     const Parameters *p)
@@ -320,7 +321,7 @@ static void check_frozen_branches(Integrator *run, Step *step, double t, const d
             || !is_above_uncertainty(run, t, y, rhs, N_CLEARANCES + k, p))
             continue;
         const StageValues stages = get_stage_values(step, N_CLEARANCES + k);
-        for (int n = 0; n < step->n_seen; n++) /* at zeros that end steps the magnitude appears only inside */
+        for (int n = 0; n < step->n_stored_stages; n++) /* at zeros that end steps the magnitude appears only inside */
             run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(read_stage(stages, n)));
         if (-g <= 1e-3 * run->audit.switch_scale[k] || !has_jumped_at(run, step, t, k, p))
             record_check(&run->audit, CHECK_branch, -g, 1e-3 * run->audit.switch_scale[k], t, k);

@@ -1,4 +1,4 @@
-/* The audit at the end of each step (run/audit.c), and the functions that start the audit and report its record. */
+/* The audit of a run at the end of each step (run/audit.c), and the functions that start and report the audit. */
 
 /*
  * Check a user-defined event at the end of a step. Report an infinite violation if a zero in the step is not recorded,

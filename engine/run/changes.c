@@ -1,6 +1,6 @@
 /*
- * Changes at an event: contacts begin or end, switching functions change branch, friction changes mode. A drive whose
- * rate jumps moves the linkage by an impulse.
+ * Changes of discrete states at an event: contacts begin or end, functions change branch, friction changes mode. A
+ * drive whose rate jumps moves the linkage by an impulse.
  */
 #define ONSET_ORDER 3.5 /* order of the error of a first step in a contact, whose force begins as delta^n */
 
@@ -32,7 +32,7 @@ static int update_branches_after_event(Integrator *run, int crossed_switch, cons
     const int status = update_branches_at(run, run->t + h, y, dy, &rhs_after, crossed_switch, p);
     if (status || !memcmp(branch, run->discrete.branch, sizeof branch))
         return status;
-    return evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
+    return evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
 }
 
 /*
@@ -131,7 +131,7 @@ static int update_branches_just_after(Integrator *run, double t_after, int cross
     for (int pass = 0; pass < 6; pass++) {
         int changed = 0;
         RhsOutputs rhs;
-        const int status = evaluate_rhs(run, t_after, run->y, p, dy, &rhs);
+        const int status = evaluate_run_rhs(run, t_after, run->y, p, dy, &rhs);
         if (status)
             return status;
         for (int k = 0; k < N_SWITCHES; k++)
@@ -192,7 +192,7 @@ static int apply_drive_jump(Integrator *run, int switch_index, const Parameters 
         return update_branches(run, switch_index, p);
     status = update_branches_just_after(run, t_after, switch_index, p); /* branches that depend on the changed speeds */
     if (!status)
-        status = evaluate_rhs(run, t, run->y, p, run->dy, &run->rhs);
+        status = evaluate_run_rhs(run, t, run->y, p, run->dy, &run->rhs);
     return status ? status : record_crossed_events(run, NULL, p);
 }
 
@@ -215,7 +215,7 @@ static int apply_drive_jumps_now(Integrator *run, const Parameters *p)
     apply_drive_impulse(run, p);
     status = update_branches_just_after(run, just_after(run->t), -1, p);
     if (!status)
-        status = evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
+        status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     if (!status)
         status = update_contacts(run, -1, p);
     return status ? status : record_crossed_events(run, NULL, p);

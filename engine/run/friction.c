@@ -1,6 +1,7 @@
 /*
- * Friction that may stick: its modes, and their changes at events. A step ends where the slip reaches zero or the force
- * of stick reaches its limit: at the zero of evaluate_friction_event_function() on the step.
+ * Friction elements that can stick: their modes (stick or slip), and the changes of these modes at events. A step ends
+ * where the slip reaches zero or the force of stick reaches its limit: at the zero of
+ * evaluate_friction_event_function() on the step.
  */
 #if N_FRICTIONS
 #define ROUNDING 1e-12 /* m/s: rounding of a slip that other constraints hold at zero */
@@ -27,10 +28,10 @@ static double evaluate_friction_event_function(const DiscreteState *discrete, co
  */
 static int evaluate_rates_with_modes(Integrator *run, const Parameters *p)
 {
-    int status = evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
+    int status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     for (int i = 0; i < N_FRICTIONS && status > N_LOOPS && status <= N_LOOPS + N_FRICTIONS; i++) {
         run->discrete.mode[friction_of_pivot[status - N_LOOPS - 1]] = MODE_HELD;
-        status = evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
+        status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     }
     return status;
 }
@@ -153,7 +154,7 @@ static int update_friction_modes(Integrator *run, const Parameters *p) { return 
  */
 static int update_modes_after_impact(Integrator *run, const Parameters *p)
 {
-    const int status = evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
+    const int status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     for (int i = 0; i < N_FRICTIONS && !status; i++) {
         const double v = run->rhs.friction[i].v;
         if (fabs(v) > AT_REST)
@@ -175,7 +176,7 @@ static inline double evaluate_friction_event_function(const DiscreteState *discr
 static inline int evaluate_rates_at_rest(
     Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    return evaluate_rhs(run, t, y, p, dy, rhs);
+    return evaluate_run_rhs(run, t, y, p, dy, rhs);
 }
 
 /* Leave the state unchanged: the scene has no friction that may stick. */

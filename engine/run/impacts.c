@@ -198,7 +198,7 @@ static int separate_contacts(Integrator *run, const Parameters *p)
         }
         status = touching.n ? project_contacts(run, run->t, run->y, p, &touching, gap) : 0;
         if (!status && touching.n)
-            status = evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
+            status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
         has_contact = 0; /* distant points round by more; separating one contact may close another, as in a wedge */
         for (int i = 0; i < N_CLEARANCES && touching.n; i++)
             has_contact |= !is_compliant(i) && !run->discrete.contact[i].closed && !(run->rhs.clearance[i].delta < 0.0);
@@ -219,13 +219,13 @@ static int separate_contacts(Integrator *run, const Parameters *p)
 static int resolve_impacts(Integrator *run, const Parameters *p)
 {
     double energies[5] = {0.0}; /* impulse times approach speed of the last passes, J */
-    int is_limit = 0, status = evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
+    int is_limit = 0, status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     for (int pass = 0; pass < 2 * MAX_PASSES && !status; pass++) {
         memmove(energies, energies + 1, sizeof energies - sizeof *energies);
         status = resolve_impact(run, p, pass, is_limit, &energies[4]);
         if (status || !(energies[4] > 0.0))
             return status;
-        status = evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
+        status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
         const double ratio_before = energies[2] / energies[0],
             ratio = energies[4] / energies[2]; /* of two passes: contacts alternate */
         is_limit |= pass >= MAX_PASSES || (pass >= 4 && ratio < 1.0 && fabs(ratio - ratio_before) < RATIO_TOL * ratio);

@@ -1,7 +1,4 @@
-/*
- * History for iterated stages: the beginnings of a run's step and of the step before. Initial guesses of the stages are
- * extrapolated from these.
- */
+/* Starts of the present and the last step, from which implicit methods extrapolate guesses of their stages. */
 #ifndef GUDGEON_ITERATION_HISTORY_H
 #define GUDGEON_ITERATION_HISTORY_H
 
@@ -14,7 +11,7 @@
  */
 static inline void update_iteration_history(Integrator *run)
 {
-    Beginning *now = &run->newton.now;
+    StepStart *now = &run->newton.now;
     if (run->newton.seen_steps != run->counts.steps || now->t != run->t) {
         const int is_next_step = run->newton.seen_steps == run->counts.steps - 1 && run->counts.steps > 0;
         run->newton.before_t = is_next_step ? now->t : run->t;

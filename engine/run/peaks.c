@@ -59,7 +59,7 @@ static double find_node_of_largest_force(const Step *step, double fraction, int 
 {
     const StageValues forces = get_stage_values(step, STAGE_FORCES + joint);
     double largest_square = min_force * min_force, node = 0.5 * fraction;
-    for (int k = 0; k < step->n_seen && !step->method->stiff; k++)
+    for (int k = 0; k < step->n_stored_stages && !step->method->stiff; k++)
         if (step->node[k] > 0.0 && step->node[k] < fraction && read_stage(forces, k) > largest_square)
             largest_square = read_stage(forces, k), node = step->node[k];
     return node;
@@ -226,7 +226,7 @@ static int estimate_force_trend(const Step *step, double fraction, int joint, do
 {
     double s[2] = {-1.0, -1.0}, f[2] = {NAN, NAN};
     const StageValues forces = get_stage_values(step, STAGE_FORCES + joint);
-    for (int k = 0; k < step->n_seen && !step->method->stiff; k++) {
+    for (int k = 0; k < step->n_stored_stages && !step->method->stiff; k++) {
         const double node = step->node[k];
         if (!(node < 0.99 * fraction && node > s[1]) || node == s[0])
             continue;
@@ -272,7 +272,7 @@ static int may_have_inner_maximum(const Step *step, double fraction, int joint, 
 {
     const StageValues forces = get_stage_values(step, STAGE_FORCES + joint);
     double node = INFINITY, force = NAN;
-    for (int k = 0; k < step->n_seen; k++)
+    for (int k = 0; k < step->n_stored_stages; k++)
         if (step->node[k] > fraction && step->node[k] < node)
             node = step->node[k], force = sqrt(read_stage(forces, k));
     const double bend = 2.0 * ((force - force_begin) / node - (force_end - force_begin) / fraction) / (node - fraction);
@@ -293,7 +293,7 @@ static double find_largest_inner_force(Integrator *run, Step *step, double fract
     double most = 0.0;
     int n_inner = 0;
     const StageValues forces = get_stage_values(step, STAGE_FORCES + joint);
-    for (int k = 0; k < step->n_seen; k++)
+    for (int k = 0; k < step->n_stored_stages; k++)
         if (step->node[k] > 0.0 && step->node[k] < fraction) {
             most = max_of(most, read_stage(forces, k));
             n_inner++;

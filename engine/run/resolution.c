@@ -1,4 +1,4 @@
-/* Smallest gaps, gap rates and rebound speeds of rigid surfaces that rounding lets a run resolve. */
+/* Smallest gaps, gap rates and rebound speeds of rigid surfaces that a run can resolve in double precision. */
 #define GAP_ROUNDING (16.0 * DBL_EPSILON) /* of the largest coordinate: gap to which separating surfaces are moved */
 /* of the gap PARTED: separate_contacts() would add energy to bounces that rise less */
 #define MIN_BOUNCE_HEIGHT 64.0

@@ -1,4 +1,4 @@
-/* Begin of a run, its right-hand side, and what is recorded at accepted states: peaks, residuals, samples. */
+/* Start of a run, its right-hand side, and what is recorded at accepted states: peaks, residuals, samples. */
 #include "run.h"
 #include "../watch/zeros.h"
 #include "../scalar_simd/scalar.h"
@@ -28,7 +28,8 @@ static int motion_with_inner_states(
  * are computed first. Evaluations are counted and the caller is polled. Return 0, STOPPED after a cancellation, or the
  * number of the vanished pivot.
  */
-static int evaluate_rhs(Integrator *run, double t, const double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
+static int evaluate_run_rhs(
+    Integrator *run, double t, const double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     count_evaluations(run, 1);
     if (is_cancelled(&run->cancellation))
@@ -91,17 +92,17 @@ static void store_sample(const Integrator *run, double t, const double *state_ve
     double *y,
     double *discrete, signed char *codes)
 {
-    enum { MEMORY = AT_LEAST_ONE(N_DISCRETE), JOINTS = AT_LEAST_ONE(N_CLEARANCES) };
+    enum { N_COLUMNS = AT_LEAST_ONE(N_DISCRETE), JOINTS = AT_LEAST_ONE(N_CLEARANCES) };
     convert_to_absolute(t, state_vector, &run->discrete, p, y + row * N_S);
     for (int k = 0; k < N_CLEARANCES; k++) {
-        discrete[row * MEMORY + k] = run->discrete.contact[k].closed ? run->discrete.contact[k].deltadot_minus : NAN;
+        discrete[row * N_COLUMNS + k] = run->discrete.contact[k].closed ? run->discrete.contact[k].deltadot_minus : NAN;
         codes[row * JOINTS + k] = (signed char)(!run->discrete.contact[k].closed ? CODE_FREE
             : run->contacts.is_compressing[k] ? CODE_IMPACT : CODE_CONTACT);
     }
     for (int k = 0; k < N_FRICTIONS; k++)
-        discrete[row * MEMORY + N_CLEARANCES + k] = run->discrete.mode[k];
+        discrete[row * N_COLUMNS + N_CLEARANCES + k] = run->discrete.mode[k];
     for (int k = 0; k < N_STATES; k++)
-        discrete[row * MEMORY + N_DISCRETE - N_STATES + k] = state_vector[FIRST_STATE + k];
+        discrete[row * N_COLUMNS + N_DISCRETE - N_STATES + k] = state_vector[FIRST_STATE + k];
 }
 
 /*
@@ -127,7 +128,7 @@ static int update_branches_at(
     int status = 0, changed = 1;
     for (int pass = 0; pass < 6 && changed; pass++) {
         changed = 0;
-        status = evaluate_rhs(run, t, y, p, dy, rhs);
+        status = evaluate_run_rhs(run, t, y, p, dy, rhs);
         for (int k = 0; k < N_SWITCHES && status != STOPPED; k++)
             if (k != fixed_switch && run->discrete.branch[k] * rhs->g[k] < 0.0) {
                 run->discrete.branch[k] = -run->discrete.branch[k];
@@ -188,7 +189,7 @@ static double compute_effective_mass(Integrator *run, int joint, double *directi
         force[closed] = rhs.clearance[joint].F_n;
         for (int k = N_X; k < 2 * N_X; k++)
             y[k] = run->y[k] + duration * dy[closed][k];
-        if (evaluate_rhs(run, run->t, y, p, dy_unused, &rhs))
+        if (evaluate_run_rhs(run, run->t, y, p, dy_unused, &rhs))
             return NAN;
         rate[closed] = rhs.clearance[joint].deltadot;
     }
@@ -218,7 +219,7 @@ static void estimate_approach_speed(Integrator *run, int joint, const Parameters
             y[k] = run->y[k] - (sample ? 0.1 * delta[0] * direction[k] : 0.0);
             y[N_X + k] = run->y[N_X + k] - deltadot * direction[k];
         }
-        const int status = evaluate_rhs(run, run->t, y, p, dy, &rhs);
+        const int status = evaluate_run_rhs(run, run->t, y, p, dy, &rhs);
         force[sample] = status ? NAN : fabs(rhs.clearance[joint].F_n);
         delta[sample] = rhs.clearance[joint].delta;
     }
@@ -235,12 +236,13 @@ static void estimate_approach_speed(Integrator *run, int joint, const Parameters
 
 /*
  * Evaluate the first right-hand side of a run, set its contacts, friction modes and signs of user-defined events, and
- * record the state. A start with penetration is in contact; friction begins with the mode of its slip. Return 0 or a
- * status. Called once, when the memory of the run has been initialized.
+ * record the state. A start with penetration is in contact, with an estimated approach speed; friction begins with the
+ * mode of its slip. Event functions that are NaN are recorded as events. Return 0 or a status. Called once, when the
+ * memory of the run has been initialized.
  */
 static int initialize_discrete_state(Integrator *run, const Parameters *p)
 {
-    int status = evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
+    int status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     if (!status)
         status = initialize_friction_modes(run, p);
     const DiscreteState discrete_before = run->discrete;
@@ -249,7 +251,7 @@ static int initialize_discrete_state(Integrator *run, const Parameters *p)
             if (run->discrete.contact[i].closed && !discrete_before.contact[i].closed
                 && run->rhs.clearance[i].delta > 0.0)
                 estimate_approach_speed(run, i, p);
-        status = evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
+        status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     }
     if (!status)
         status = initialize_rigid_contacts(run, p);
@@ -288,7 +290,7 @@ void gudgeon_run_start(void *integrator, const double *p, double t, const double
     convert_from_absolute(t, y, &run->discrete, (const Parameters *)p, run->y);
     read_discrete_state(discrete, &run->discrete);
     run->discrete.token = &run->cancellation;
-    if (CONTINUES)
+    if (HAS_CONTINUATION)
         run->discrete.least = run->discrete.least_size = NEARBY;
     for (int k = 0; k < N_STATES; k++) /* NaN at a new run: no inner states yet */
         run->y[FIRST_STATE + k] = isnan(discrete[N_DISCRETE - N_STATES + k]) ? 0.0

@@ -81,11 +81,13 @@ typedef struct {
     double dense[N_DENSE][N_Y];
     int dense_ready;                         /* IN_RUN; IN_LANE: in dense_lane; FAILED: dense_status is the cause */
     int dense_status;
-    /* of a step computed in lanes: stages, dense output, seen values, with a stride of `lanes` numbers; NULL: here */
-    const double *stages_lane, *dense_lane, *seen_lane;
+    /* of a step computed in lanes: stages, dense output, stage values, with a stride of `lanes` numbers; NULL: here */
+    const double *stages_lane, *dense_lane, *stage_values_lane;
     int lanes;
-    int n_seen;                              /* stages so far; their nodes, seen values, smallest event functions */
-    double node[N_STAGES], seen[N_STAGES][AT_LEAST_ONE(N_STAGE_VALUES)], lowest[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
+    /* stages so far; their nodes, stored values (N_STAGE_VALUES), smallest event functions */
+    int n_stored_stages;
+    double node[N_STAGES], stage_values[N_STAGES][AT_LEAST_ONE(N_STAGE_VALUES)];
+    double lowest[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
     /* watched event functions at equidistant points of the step (watch/dense_samples.c) */
     double sample[AT_LEAST_ONE(N_WATCHED)][N_SAMPLES + 1];
     unsigned char passed[AT_LEAST_ONE(N_SWITCHES)]; /* switching points crossed within the tolerance */
@@ -104,11 +106,11 @@ enum { N_DENSE_SAMPLES = 16 };
 
 /*
  * Recent samples of a step's dense output (watch/roots.c): event functions at fractions of the step (with
- * joints_alone, of joints with play only). beyond, y, dy, rhs: last sample with a negative requested event function.
+ * has_gaps_only, of joints with play only). beyond, y, dy, rhs: last sample with a negative requested event function.
  * Valid for one step with its discrete state.
  */
 typedef struct {
-    int n, joints_alone[N_DENSE_SAMPLES];
+    int n, has_gaps_only[N_DENSE_SAMPLES];
     double fraction[N_DENSE_SAMPLES], event_function[N_DENSE_SAMPLES][AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
     double slope[N_DENSE_SAMPLES][AT_LEAST_ONE(N_CLEARANCES)]; /* of joints, by the fraction */
     double beyond, y[N_Y], dy[N_Y];
@@ -121,7 +123,7 @@ typedef struct {
     double far, refused;             /* s: magnitude of the times; length of the last rejected attempt */
     double error, film_error_norm, end;     /* its error norm; error of its film forces; end of a fixed step, s */
     int open, lane, again;           /* whether attempts go on; method in lanes; whether an attempt was rejected */
-    int n_shortened, n_strayed, methods_failed; /* attempts unresolved, or off the constraints; both failed */
+    int n_shortened, n_drift_rejections, methods_failed; /* attempts unresolved, or off the constraints; both failed */
 } Attempt;
 
 /* Destination of the samples of a run: n times t (s), rows of states, discrete states and codes, number stored. */
@@ -142,7 +144,7 @@ typedef struct {
 /* Time, state and rates at the beginning of a step. */
 typedef struct {
     double t, y[N_Y], dy[N_Y];
-} Beginning;
+} StepStart;
 
 /*
  * Contacts of joints with play, their peaks, and the list of ended contacts until Python fetches it.
@@ -211,13 +213,14 @@ typedef struct {
 
 /*
  * Choice of the method of the next step: `auto` changes to the stiff method and back.
- * Written by: methods/step_length.c, scalar_simd/distance.h. Copied by: batch/lane_exchange.c, batch/lane_local_steps.c.
+ * Written by: methods/step_length.c, scalar_simd/distance.h. Copied by: batch/lane_exchange.c,
+ * batch/lane_local_steps.c.
  */
 typedef struct {
     const Method *method, *implicit; /* method of the next step; the stiff method of `auto` */
     double stability; /* h rho of the last tried step: its length times the largest rate of the motion */
     double rate; /* rho, 1/s, where `auto` returned to the explicit method */
-    int automatic, n_against, patience, since;
+    int automatic, n_contrary_steps, patience, since;
 } MethodChoice;
 
 /*
@@ -263,9 +266,9 @@ typedef struct {
     int ready; /* where the linearization at the run's state is stored: IN_RUN, IN_LANE, 0 */
 #if IMPLICIT_STAGES
     /* beginnings of this step and the step before, their distance (s); rate of convergence of the last iterations */
-    Beginning now;
+    StepStart now;
     long seen_steps;
-    double before_t, before_y[N_Y], before_dy[N_Y], last_h, falls, force_found;
+    double before_t, before_y[N_Y], before_dy[N_Y], last_h, convergence_rate, force_found;
     int continues;
 #endif
 } NewtonIteration;
@@ -291,7 +294,7 @@ typedef struct {
     int order, ready;   /* ready: where the series is stored, as in NewtonIteration */
     const double *lane; /* IN_LANE: its terms, with a stride of `lanes` numbers */
     int lanes;
-    double reach, terms[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* longest step of the series, s */
+    double max_step, terms[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* longest step of the series, s */
 } Series;
 #endif
 

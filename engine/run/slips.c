@@ -13,17 +13,17 @@
 static double compute_slip_response(Integrator *run, double t, const double *y, int element, const Parameters *p,
     double *dy)
 {
-    double *mode = &run->discrete.mode[element], dy_along[N_Y];
+    double *mode = &run->discrete.mode[element], dy_forward[N_Y];
     const double mode_before = *mode;
-    RhsOutputs rhs_against, rhs_along;
+    RhsOutputs rhs_reverse, rhs_forward;
     *mode = -1.0;
-    int status = evaluate_rhs(run, t, y, p, dy, &rhs_against);
+    int status = evaluate_run_rhs(run, t, y, p, dy, &rhs_reverse);
     *mode = 1.0;
-    status = status ? status : evaluate_rhs(run, t, y, p, dy_along, &rhs_along);
+    status = status ? status : evaluate_run_rhs(run, t, y, p, dy_forward, &rhs_forward);
     *mode = mode_before;
     for (int k = 0; k < N_Y; k++)
-        dy[k] -= dy_along[k];
-    return status ? 0.0 : rhs_against.friction[element].rate - rhs_along.friction[element].rate;
+        dy[k] -= dy_forward[k];
+    return status ? 0.0 : rhs_reverse.friction[element].rate - rhs_forward.friction[element].rate;
 }
 
 /*
@@ -74,8 +74,8 @@ static int remove_slip_residuals(Integrator *run, double t, double *y, const Rhs
 static int evaluate_rates_at_rest(
     Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    const int status = evaluate_rhs(run, t, y, p, dy, rhs);
-    return status || !remove_slip_residuals(run, t, y, rhs, p) ? status : evaluate_rhs(run, t, y, p, dy, rhs);
+    const int status = evaluate_run_rhs(run, t, y, p, dy, rhs);
+    return status || !remove_slip_residuals(run, t, y, rhs, p) ? status : evaluate_run_rhs(run, t, y, p, dy, rhs);
 }
 
 /*

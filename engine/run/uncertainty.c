@@ -62,7 +62,7 @@ static void add_residual_slips(Integrator *run, double t, const double *y, const
     for (int element = 0; element < N_FRICTIONS; element++) {
         if (run->discrete.mode[element] != 0.0)
             continue;
-        status = status < 0 ? evaluate_rhs(run, t, y, p, dy_unused, &rhs) : status;
+        status = status < 0 ? evaluate_run_rhs(run, t, y, p, dy_unused, &rhs) : status;
         const double response = status ? 0.0 : compute_slip_response(run, t, y, element, p, direction);
         for (int k = N_X; k < 2 * N_X && response > 0.0; k++)
             error[k] += fabs(direction[k] * rhs.friction[element].v / response);
@@ -109,14 +109,14 @@ static void estimate_watched_errors(
 {
     double y_perturbed[N_Y], dy[N_Y];
     RhsOutputs rhs, rhs_perturbed;
-    const int failed = evaluate_rhs(run, t, y, p, dy, &rhs);
+    const int failed = evaluate_run_rhs(run, t, y, p, dy, &rhs);
     memcpy(y_perturbed, y, sizeof y_perturbed);
     for (int i = 0; i < N_WATCHED; i++)
         uncertainty[i] = 0.0;
     for (int pattern = 0; pattern < 8 && !failed; pattern = pattern ? 2 * pattern : 1) {
         for (int k = 0; k < 2 * N_X; k++)
             y_perturbed[k] = y[k] + (k & pattern ? -error[k] : error[k]) / OBSERVED_FACTOR;
-        if (evaluate_rhs(run, t, y_perturbed, p, dy, &rhs_perturbed))
+        if (evaluate_run_rhs(run, t, y_perturbed, p, dy, &rhs_perturbed))
             continue;
         for (int i = 0; i < N_WATCHED; i++) {
             const double change = OBSERVED_FACTOR * fabs(get_watched_value(&rhs_perturbed, i)

@@ -108,7 +108,7 @@ static int extrapolate_event_functions(Integrator *run, double t, double duratio
     RhsOutputs rhs;
     for (int k = 0; k < N_Y; k++)
         y_after[k] = y[k] + duration * dy[k];
-    const int status = evaluate_rhs(run, t + duration, y_after, p, dy_unused, &rhs);
+    const int status = evaluate_run_rhs(run, t + duration, y_after, p, dy_unused, &rhs);
     for (int i = 0; i < N_USER_EVENTS; i++)
         values[i] = 0.0;
     if (!status)
@@ -213,7 +213,7 @@ static int initialize_event_signs(Integrator *run, double fixed_step, const Para
         run->discrete.event_sign[i] = sign[i] ? sign[i] : run->discrete.event_sign[i];
     if (status || !memcmp(discrete_before.branch, run->discrete.branch, sizeof discrete_before.branch))
         return status;
-    return evaluate_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
+    return evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
 }
 #else
 /* Return 0: the scene has no user-defined events. */

@@ -1,12 +1,12 @@
 /*
- * A trial step of DOP853 (E. Hairer, S. P. Norsett, G. Wanner, Solving ODEs I (1993), section II.10): stages, error,
- * end, and the dense output. A rejected step has no end.
+ * A trial step of the explicit Runge-Kutta method DOP853: stages, error, end, and the dense output. A rejected step has
+ * no end. E. Hairer, S. P. Norsett, G. Wanner, Solving ODEs I (1993), section II.10.
  */
 static const double dop853_node[] = {0.0, 0.05260015195876773, 0.0789002279381516, 0.1183503419072274,
     0.2816496580927726, 0.3333333333333333, 0.25, 0.3076923076923077, 0.6512820512820513, 0.6, 0.8571428571428571,
     1.0, 1.0, 0.1, 0.2, 0.7777777777777778};
 
-enum { DOP853_STAGES = 12, DOP853_MORE = 3 /* additional stages of the dense output */ };
+enum { DOP853_STAGES = 12, DOP853_DENSE_STAGES = 3 /* additional stages of the dense output */ };
 
 /*
  * Compute the state y = y0 + h sum_j a_sj k_j (N_Y) of stage s, 1 ... 15; 12 is the end, 13 to 15 are for the dense
@@ -136,7 +136,7 @@ static int dop853_try_step(IntegratorOf *run, Real h, const ParametersOf *p, Ste
         if (s + 1 == DOP853_STAGES)
             for (int i = 0; i < N_Y; i++)
                 y[i] = step->y[i];
-        const int status = evaluate_rhs(run, run->t + dop853_node[s] * h, y, p, step->k[s], &rhs);
+        const int status = evaluate_run_rhs(run, run->t + dop853_node[s] * h, y, p, step->k[s], &rhs);
         if (status)
             return status;
         record_stage(run, step, &rhs, dop853_node[s]);
@@ -163,11 +163,11 @@ static int dop853_compute_dense_output(IntegratorOf *run, const ParametersOf *p,
     const Real h = step->h;
     for (int i = 0; i < N_Y; i++)
         k[DOP853_STAGES][i] = step->dy[i];
-    for (int s = DOP853_STAGES + 1; s <= DOP853_STAGES + DOP853_MORE; s++) {
+    for (int s = DOP853_STAGES + 1; s <= DOP853_STAGES + DOP853_DENSE_STAGES; s++) {
         Real y[N_Y];
         RhsOutputsOf rhs;
         dop853_compute_stage(s, h, run->y, k, y);
-        const int status = evaluate_rhs(run, step->t + dop853_node[s] * h, y, p, k[s], &rhs);
+        const int status = evaluate_run_rhs(run, step->t + dop853_node[s] * h, y, p, k[s], &rhs);
         if (status)
             return status;
     }

@@ -5,8 +5,8 @@
  * Wanner, Solving Ordinary Differential Equations II, Springer (1996), section IV.8; the same, Stiff differential
  * equations solved by Radau methods, J. Comput. Appl. Math. 111 (1999) 93-111.
  */
-enum { RADAU_MAX_STAGES = 5, RADAU_PATIENCE = 14, RADAU_STUBBORN = 60 };
-#define RADAU_ENOUGH 3e-3   /* of a step's tolerance: error of its stages */
+enum { RADAU_MAX_STAGES = 5, RADAU_MAX_ITERATIONS = 14, RADAU_MAX_FIXED_ITERATIONS = 60 };
+#define RADAU_STAGE_TOL 3e-3   /* of a step's tolerance: error of its stages */
 #define RADAU_ROUNDED 4e-16 /* of the state: change by rounding */
 #define RADAU_NOISE 2.5e4   /* times that, at most, if rates are differences of large forces */
 

@@ -104,7 +104,7 @@ static int RADAU(evaluate_stages)(IntegratorOf *run, Real h, Mask is_active, Rea
     for (int s = 0; s < RADAU_STAGES; s++) {
         for (int i = 0; i < N_Y; i++)
             y[i] = run->y[i] + z[s][i];
-        const int status = evaluate_rhs(run, run->t + RADAU_TABLE.node[s] * h, y, p, f[s], &rhs);
+        const int status = evaluate_run_rhs(run, run->t + RADAU_TABLE.node[s] * h, y, p, f[s], &rhs);
         if (status)
             return status;
         record_iterated_stage(run, step, is_active, y, &rhs, RADAU_TABLE.node[s]);
@@ -137,20 +137,20 @@ static int RADAU(solve_stages)(IntegratorOf *run, Real h, const ComplexLinearOf 
     Real f[RADAU_STAGES][N_Y], change[RADAU_STAGES][N_Y], before = real_of(1.0), force_change;
     Real force[AT_LEAST_ONE(N_CLEARANCES)][RADAU_STAGES][2] = {0};
     /* the convergence rate of an earlier step is less certain for this one: power 3/4 */
-    const Real known = real_sqrt(run->newton.falls) * real_sqrt(real_sqrt(run->newton.falls));
-    Real falls = pick(run->newton.falls > 0.0, known, real_of(0.5));
+    const Real known = real_sqrt(run->newton.convergence_rate) * real_sqrt(real_sqrt(run->newton.convergence_rate));
+    Real convergence_rate = pick(run->newton.convergence_rate > 0.0, known, real_of(0.5));
     Real (*const z)[N_Y] = step->k;
     /* rounding bounds the accuracy of the stages; with fixed steps the iteration goes down to it */
     Real rounded = real_of(0.0);
     for (int i = 0; i < N_Y; i++)
         rounded = real_max(real_abs(run->y[i]) * run->norm.weight[i], rounded);
     rounded *= RADAU_ROUNDED;
-    const Real enough = real_max(pick(run->control.accept <= DBL_MAX, real_of(RADAU_ENOUGH), rounded), rounded);
+    const Real enough = real_max(pick(run->control.accept <= DBL_MAX, real_of(RADAU_STAGE_TOL), rounded), rounded);
     Mask is_active = is_not((Mask){0});
     *has_failed = (Mask){0};
     const int controlled = any_of(run->control.accept <= DBL_MAX);
-    const int patience = controlled ? RADAU_PATIENCE : RADAU_STUBBORN;
-    const double hope = controlled ? 0.9 : 2.0; /* a fixed step may begin with a bad guess */
+    const int patience = controlled ? RADAU_MAX_ITERATIONS : RADAU_MAX_FIXED_ITERATIONS;
+    const double max_ratio = controlled ? 0.9 : 2.0; /* a fixed step may begin with a bad guess */
     for (int pass = 0; pass < patience && any_of(is_active); pass++) {
         const int status = RADAU(evaluate_stages)(run, h, is_active, z, p, step, f, force, &force_change);
         if (status)
@@ -167,18 +167,19 @@ static int RADAU(solve_stages)(IntegratorOf *run, Real h, const ComplexLinearOf 
             return NOT_FINITE;
         Mask found = is_active & (distance <= rounded);
         if (pass > 0)
-            falls = pick(is_active & is_not(found), distance / before, falls);
+            convergence_rate = pick(is_active & is_not(found), distance / before, convergence_rate);
         /* a film force is linear in the velocity by sectors of its direction: the first change may miss the sector */
         if (pass > has_films()) {
             /* the change no longer decreases */
-            found |= is_active & is_not(falls < 0.9) & (distance <= RADAU_NOISE * rounded)
+            found |= is_active & is_not(convergence_rate < 0.9) & (distance <= RADAU_NOISE * rounded)
                 & (force_change <= run->newton.force_found);
-            *has_failed |= is_active & is_not(found | (falls < hope));
-            is_active &= found | (falls < hope);
+            *has_failed |= is_active & is_not(found | (convergence_rate < max_ratio));
+            is_active &= found | (convergence_rate < max_ratio);
         }
-        found |= is_active & (falls * distance <= enough * (1.0 - falls))
-            & (falls * force_change <= run->newton.force_found * (1.0 - falls));
-        run->newton.falls = pick(found, real_max(falls, real_of(1e-3)), run->newton.falls);
+        found |= is_active & (convergence_rate * distance <= enough * (1.0 - convergence_rate))
+            & (convergence_rate * force_change <= run->newton.force_found * (1.0 - convergence_rate));
+        run->newton.convergence_rate = pick(found, real_max(convergence_rate, real_of(1e-3)),
+            run->newton.convergence_rate);
         is_active &= is_not(found);
         before = pick(is_active, distance, real_of(1.0));
     }
@@ -244,7 +245,7 @@ static int RADAU(try_step)(IntegratorOf *run, Real h, const ParametersOf *p, Ste
         RhsOutputsOf rhs;
         for (int i = 0; i < N_Y; i++)
             y[i] = run->y[i] + u[i];
-        status = evaluate_rhs(run, run->t, y, p, dy, &rhs);
+        status = evaluate_run_rhs(run, run->t, y, p, dy, &rhs);
         if (status)
             return status;
         count_stage_evaluations(run, large, 1);

@@ -118,7 +118,7 @@ static int rodas5p_try_step(IntegratorOf *run, Real h, const ParametersOf *p, St
             for (int i = 0; i < N_Y; i++)
                 before[i] = f[i];
             rodas5p_compute_stage(s, run->y, step->k, y);
-            status = evaluate_rhs(run, run->t + rodas5p_node[s] * h, y, p, f, &rhs);
+            status = evaluate_run_rhs(run, run->t + rodas5p_node[s] * h, y, p, f, &rhs);
             if (status)
                 return status;
             record_stage(run, step, &rhs, rodas5p_node[s]);

@@ -1,7 +1,7 @@
 /*
- * A trial step of an explicit Runge-Kutta method given by a tableau (methods/runge_kutta.c), its error and its dense
- * output y0 + s (d0 + (1 - s) (d1 + s (d2 + (1 - s) d3))). Here d0 to d2 are Hermite's cubic through both ends with
- * their rates.
+ * A trial step of an explicit Runge-Kutta method given by its coefficients, with its error and dense output. The
+ * coefficients are in methods/runge_kutta.c. The dense output is y0 + s (d0 + (1 - s) (d1 + s (d2 + (1 - s) d3))). Here
+ * d0 to d2 are Hermite's cubic through both ends with their rates.
  */
 enum { RK4_STAGES = 4, DOPRI5_STAGES = 6, MAX_STAGES = 6 };
 
@@ -54,7 +54,7 @@ static int runge_kutta_try_step(IntegratorOf *run, const Tableau *tableau, Real 
         }
         if (s == tableau->stages)
             break;
-        const int status = evaluate_rhs(run, run->t + tableau->node[s] * h, y, p, step->k[s], &rhs);
+        const int status = evaluate_run_rhs(run, run->t + tableau->node[s] * h, y, p, step->k[s], &rhs);
         if (status)
             return status;
         record_stage(run, step, &rhs, tableau->node[s]);

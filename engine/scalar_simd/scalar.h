@@ -1,7 +1,7 @@
 /*
- * Types and operations of the text in this folder for one run. The same text is compiled for several runs in lanes
- * (batch/lanes.h), where a number is a vector and a condition is a mask. The operations and their order are the same,
- * so that a run gives the same bits alone and among others.
+ * Types and operations with which the functions of this folder are compiled for one run. The same text is compiled for
+ * several runs in lanes (batch/lanes.h), where a number is a vector and a condition is a mask. The operations and their
+ * order are the same, so that a run gives the same bits alone and among others.
  */
 #ifndef GUDGEON_ONE_H
 #define GUDGEON_ONE_H

@@ -1,8 +1,8 @@
 /*
- * Coefficients of the Taylor series of a motion. At each order, the sums over lower orders of all products are computed
- * first, because they are independent of each other. The rest of an order is linear (functions derived for the scene).
- * For one run, a SeriesRow is a register of products, and the derived functions fill a SeriesWide. In lanes, both are
- * one product of several runs.
+ * Recurrences for the coefficients of the Taylor series of a motion, for one run or for several in SIMD lanes. At each
+ * order, the sums over lower orders of all products are computed first, because they are independent of each other. The
+ * rest of an order is linear (functions derived for the scene). For one run, a SeriesRow is a register of products, and
+ * the derived functions fill a SeriesWide. In lanes, both are one product of several runs.
  */
 #define SERIES_APART __attribute__((noinline)) /* the address of thread-local memory is found once, not at each order */
 

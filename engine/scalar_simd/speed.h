@@ -1,4 +1,4 @@
-/* Largest speeds of lengths and angles of a run, to which tolerances of velocities are relative. */
+/* Largest speeds of a run so far, of lengths and of angles, which scale the tolerances of velocities. */
 
 /* Update the largest speeds of lengths and of angles so far with the velocities of a run. */
 static void update_speeds(IntegratorOf *run)

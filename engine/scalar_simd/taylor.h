@@ -1,5 +1,5 @@
 /*
- * A step by the Taylor series of the motion: the longest valid length, and the state at its end. For one run, a
+ * A trial step by the Taylor series of the motion: the longest valid length, and the state at its end. For one run, a
  * SeriesPart is several components of the state; in lanes, one component of several runs.
  */
 enum { SERIES_PART = sizeof(SeriesPart) / sizeof(Real) };
@@ -99,14 +99,14 @@ static int taylor_try_series_step(IntegratorOf *run, Real h, const ParametersOf 
     Real rate[N_Y], defect;
     int status;
     if (is_adaptive)
-        h = real_min(h, run->series.reach);
+        h = real_min(h, run->series.max_step);
     step->t = run->t, step->dense_ready = 0;
     discard_stages(step);
     record_stability(run, real_of(0.0));
     for (int is_repeated = 0;; is_repeated = 1) {
         step->h = h;
         taylor_evaluate_state_and_rate(run, h, step->y, rate);
-        step->error = is_adaptive ? h / run->series.reach : real_of(0.0); /* root of the error: accepted up to 1 */
+        step->error = is_adaptive ? h / run->series.max_step : real_of(0.0); /* root of the error: accepted up to 1 */
         if (!is_repeated && is_step_rejected(run, step))
             return 0;
         status = finish_step(run, step, p);
@@ -116,9 +116,9 @@ static int taylor_try_series_step(IntegratorOf *run, Real h, const ParametersOf 
         const Mask is_large = defect > 1.0;
         if (is_repeated || !any_of(is_large))
             break;
-        run->series.reach = pick(is_large, real_min(run->series.reach, taylor_limit_length_by_all_terms(run)),
-            run->series.reach);
-        h = real_min(h, run->series.reach);
+        run->series.max_step = pick(is_large, real_min(run->series.max_step, taylor_limit_length_by_all_terms(run)),
+            run->series.max_step);
+        h = real_min(h, run->series.max_step);
         uncount_end_evaluation(run);
     }
     step->error = real_max(step->error, defect);

@@ -1,6 +1,6 @@
 /*
- * The audit of samples: results are checked by equations that did not produce them. It also provides the equations of
- * all bodies for the audit of steps (run/audit.c). It owns no state.
+ * Independent check of the samples of a run, by other equations than those that produced the results. It also provides
+ * the equations of all bodies for the audit of steps (run/audit.c). It owns no state.
  */
 
 /*

@@ -111,7 +111,8 @@ const void *gudgeon_single(void);
 #if !INTEGRATES
 size_t gudgeon_kinematic_size(void);
 void gudgeon_kinematic_begin(
-    void *integrator, double reach, double extent, double t_end, int (*ask)(void *), void *caller, double every);
+    void *integrator, double max_correction, double extent, double t_end, int (*ask)(void *), void *caller,
+    double every);
 void gudgeon_kinematic_record(void *integrator, double *rows, long capacity);
 long gudgeon_kinematic_recorded(void *integrator);
 void gudgeon_kinematic_restart(void *integrator);

@@ -1,11 +1,11 @@
 /*
- * Closing a linkage by Newton's method; each step is the smallest that closes the linearized constraint equations, as
- * in Python (closure.py). Returns 1 where equations depend on each other, or no step improves.
+ * Closing of a linkage by Newton's method with minimum-norm steps of the linearized constraint equations. The same
+ * method is in Python (closure.py). Returns 1 where equations depend on each other, or no step improves.
  */
 #include "shortest_step.c"
 
-#define HELD_FROM 1e-6 /* below this norm a factorization is reused while steps reduce the norm tenfold */
-#define NO_MORE 1e-14  /* of the norm, times the distance of the linkage from the origin: rounding */
+#define MAX_REUSE_NORM 1e-6 /* below this norm a factorization is reused while steps reduce the norm tenfold */
+#define CLOSING_ROUNDING 1e-14  /* of the norm, times the distance of the linkage from the origin: rounding */
 
 enum { MAX_CLOSING = 60 };
 
@@ -34,7 +34,7 @@ static double compute_start_residuals(StartWorkspace *workspace, double t, const
  * Compute the linearized equations workspace->row (Phi_q, then the set coordinates), scaled by sizes and weights, and
  * the residuals. Return the norm of the residuals.
  */
-SELDOM static double linearize_start_equations(
+OPTIMIZE_SIZE static double linearize_start_equations(
     StartWorkspace *workspace, double t, const double *q, const Parameters *p)
 {
     jacobian(t, q, p, &workspace->row[0][0]);
@@ -52,7 +52,7 @@ SELDOM static double linearize_start_equations(
  * Solve for the angles in q that equations without positions determine (drives, sliders), by one linear step. Return 1
  * if these equations depend on each other, else 0.
  */
-SELDOM static int solve_independent_angles(StartWorkspace *workspace, double t, const Parameters *p, double *q)
+OPTIMIZE_SIZE static int solve_independent_angles(StartWorkspace *workspace, double t, const Parameters *p, double *q)
 {
     int coordinates[N_Q];
     linearize_start_equations(workspace, t, q, p);
@@ -87,7 +87,7 @@ static double compute_squared_distance(const StartWorkspace *workspace, const do
 /* Return whether a norm of residuals is rounding only. */
 static int are_residuals_rounding(const StartWorkspace *workspace, double norm)
 {
-    return norm < 1e-10 + NO_MORE * workspace->radius / workspace->size;
+    return norm < 1e-10 + CLOSING_ROUNDING * workspace->radius / workspace->size;
 }
 
 /*
@@ -114,9 +114,9 @@ static int is_no_nearer(const StartWorkspace *workspace, const double *q, double
  * Factorizations are reused near the solution. Equations closed to rounding leave q unchanged to the bit. Return 1 if
  * they are not closed, depend on each other, or lead to nothing nearer to the guess; else 0.
  */
-SELDOM static int solve_closure(StartWorkspace *workspace, double t, const Parameters *p, double *q)
+OPTIMIZE_SIZE static int solve_closure(StartWorkspace *workspace, double t, const Parameters *p, double *q)
 {
-    const double rounding = NO_MORE * workspace->radius / workspace->size;
+    const double rounding = CLOSING_ROUNDING * workspace->radius / workspace->size;
     double q_trial[N_Q];
     int is_reused = 0; /* factorization and equations are those of an earlier q */
     if (!workspace->all.n)
@@ -154,7 +154,7 @@ SELDOM static int solve_closure(StartWorkspace *workspace, double t, const Param
             q[k] = q_trial[k];
         if (fraction == 1.0 && is_no_nearer(workspace, q, norm_trial / norm))
             return 1;
-        is_reused = norm_trial < HELD_FROM && (norm_trial < 0.1 * norm || norm_trial < rounding);
+        is_reused = norm_trial < MAX_REUSE_NORM && (norm_trial < 0.1 * norm || norm_trial < rounding);
         norm = norm_trial;
     }
     return !are_residuals_rounding(workspace, norm);

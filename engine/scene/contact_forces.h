@@ -1,7 +1,7 @@
 /*
- * Forces of closed rigid contacts (Newton's restitution), which keep e = c. Accelerations are affine in these forces F.
- * The right-hand side without them and with each alone determines delta'' = r - D F, with the Delassus operator D, and
- * the rates a + response F.
+ * Forces of closed contacts of rigid surfaces (Newton's restitution), which keep the gap at zero. Accelerations are
+ * affine in these forces F. The right-hand side without them and with each alone determines delta'' = r - D F, with the
+ * Delassus operator D, and the rates a + response F.
  */
 #ifndef GUDGEON_CONTACT_FORCES_H
 #define GUDGEON_CONTACT_FORCES_H
@@ -10,9 +10,9 @@ enum { MAX_RATES = N_S > N_Y ? N_S : N_Y };
 #define DEPENDENT 1e-10 /* of D's diagonal: a smaller pivot belongs to a contact that depends on others */
 
 #if N_RUBBED
-enum { RUBS = 1 };
+enum { HAS_FRICTION = 1 };
 #else
-enum { RUBS = 0 };
+enum { HAS_FRICTION = 0 };
 #endif
 
 /* Compute the rates of a state (evaluate_state_rates() or motion()); returns a status. */
@@ -158,7 +158,7 @@ static inline int solve_complementarity(const Delassus *contacts, const double *
         scale = max_of(scale, fabs(r[k]));
     for (long i = 0; i < 1000L << (N_RIGID < 10 ? N_RIGID : 10); i++) {
         int changed = -1;
-        const int is_jammed = solve_contact_subset(contacts, is_active, r, x) && RUBS;
+        const int is_jammed = solve_contact_subset(contacts, is_active, r, x) && HAS_FRICTION;
         has_jammed |= is_jammed;
         for (int k = 0; k < contacts->n && changed < 0; k++) {
             double slack = -r[k];
@@ -217,7 +217,7 @@ static int rates_in_contact(RatesOf *evaluate_rates, int n_rates, double t, cons
             return status;
         if (is_frictionally_inconsistent(&contacts, 0, p))
             return FRICTION_INCONSISTENT;
-        if (solve_contact_subset(&contacts, NULL, contacts.r, force) && RUBS)
+        if (solve_contact_subset(&contacts, NULL, contacts.r, force) && HAS_FRICTION)
             return FRICTION_INCONSISTENT; /* together they are inconsistent */
         for (int k = 0; k < contacts.n; k++)
             discrete->contact[contacts.joint[k]].force = force[k];

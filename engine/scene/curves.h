@@ -57,9 +57,10 @@ static inline double reduce_to_period(const Curve *curve_table, double x)
 static inline double get_piece_branch(int piece) { return piece % 2 ? -1.0 : 1.0; }
 
 /*
- * Return a curve (order 0) or its derivative of order 1 to 3 at x; NAN outside of the range beyond rounding. branch: 0,
- * or a frozen branch (1 or -1), on which a piece of the other branch is replaced by the polynomial of its nearer
- * neighbour.
+ * Return a curve (order 0) or its derivative of order 1 to 3 at x. A periodic curve is evaluated at x reduced by whole
+ * periods, and its first and last pieces are neighbours. Another curve is NAN outside of its range beyond rounding.
+ * branch: 0, or a frozen branch (1 or -1). A piece of the other branch is then replaced by the polynomial of its nearer
+ * neighbour, if there is one.
  */
 static inline double evaluate_curve(const Curve *curve_table, int order, double x, double branch)
 {

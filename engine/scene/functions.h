@@ -1,8 +1,8 @@
 /*
- * Own implementations of sin, cos, asin, exp, log and pow. C libraries round them differently, but results must be the
- * same bits from gcc, clang and for web pages. No fused multiply-add is used or allowed. exp, log and pow are within
- * 0.56 units in the last place, the others within 0.8 (fdlibm's polynomials, Sun Microsystems, 1993; angles as in
- * trigonometry.h). Arguments outside their ranges go to the library.
+ * Implementations of sin, cos, asin, exp, log and pow that give the same bits with every compiler. C libraries round
+ * them differently, but results must be the same bits from gcc, clang and for web pages. No fused multiply-add is used
+ * or allowed. exp, log and pow are within 0.56 units in the last place, the others within 0.8 (fdlibm's polynomials,
+ * Sun Microsystems, 1993; angles as in trigonometry.h). Arguments outside their ranges go to the library.
  *
  * exp, log, pow: x = 2^k z with z from 0.6895 on, z c = 1 + r for a short c of a table, log x = k log 2 - log c + log(1
  * + r) in two parts; exp x = 2^(k + j/128) e^r (P. T. P. Tang, ACM Trans. Math. Softw. 15 (1989) 144-157 and 16 (1990)

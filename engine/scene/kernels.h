@@ -1,6 +1,6 @@
 /*
- * Declarations of the functions that are derived for each scene, and of those of the engine that are compiled with
- * them. Statuses: 0, or the number (from 1) of a constraint equation whose pivot vanished.
+ * Declarations of the functions that are derived for each scene, and of engine functions compiled with them. Statuses:
+ * 0, or the number (from 1) of a constraint equation whose pivot vanished.
  */
 #ifndef GUDGEON_KERNELS_H
 #define GUDGEON_KERNELS_H
@@ -120,7 +120,8 @@ int project(double t, const double *q, const double *r, const Parameters *p, dou
 #endif
 #endif
 
-/* Equations with a vanishing pivot: in absolute coordinates (singular.c), in tree coordinates (motion/absolute_fallback.c). */
+/* Equations with a vanishing pivot: in absolute coordinates (singular.c), in tree coordinates
+ * (motion/absolute_fallback.c). */
 int solve_dependent(double t, const double *q, const Parameters *p, const double *force, const double *rhs, double *a,
     double *lambda, int pivot, const DiscreteState *discrete);
 int solve_by_absolute(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,

@@ -1,6 +1,6 @@
 /*
- * Arithmetic that all parts of the engine share: minima and maxima with NaN, ends of fixed steps, periodic functions,
- * branches of switching functions, weights of interpolation.
+ * Arithmetic that all parts of the engine share: minima and maxima with NaN, periodic functions, interpolation. Also
+ * ends of fixed steps and branches of switching functions.
  */
 #ifndef GUDGEON_NUMBERS_H
 #define GUDGEON_NUMBERS_H
@@ -40,9 +40,9 @@ static inline int same_number(double x, double y) { return x == y && !signbit(x)
 static inline double rounded(double t, double h) { return 8.0 * DBL_EPSILON * fabs(t) + 1e-12 * h; }
 
 #ifdef __wasm__ /* in a web page, rare functions are compiled for size */
-#define SELDOM __attribute__((minsize))
+#define OPTIMIZE_SIZE __attribute__((minsize))
 #else
-#define SELDOM
+#define OPTIMIZE_SIZE
 #endif
 
 /*

@@ -1,7 +1,4 @@
-/*
- * Text of sine, logarithm, exponential and powers in parts (functions.h), compiled for one number or for a vector of
- * several.
- */
+/* Steps of the computation of sine, logarithm, exponential and power (functions.h), for a number or a SIMD vector. */
 /*
  * Reduce an angle x (rad) to r in [-pi/4, pi/4]: x = k pi/2 + r + error, where *error is the rounding error of r.
  * Return the last two bits of k, the quadrant.

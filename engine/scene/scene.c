@@ -14,7 +14,7 @@
 #include "block.c"
 #endif
 #if TREE && RESCUED
-#include "../motion/rescue.c"
+#include "../motion/absolute_fallback.c"
 #endif
 #if N_CHAIN
 #include "../motion/driven_loops.c"

@@ -1,6 +1,6 @@
 /*
- * Steps that close linearized constraint equations: the smallest such step, by the normal matrix of the equations, and
- * the least-squares step. The sparsity follows from the pattern of Phi_q.
+ * Newton steps for linearized constraint equations: the minimum-norm step and the least-squares step. The minimum-norm
+ * step follows from the normal matrix of the equations. The sparsity follows from the pattern of Phi_q.
  */
 #include "../run/cancellation.h"
 #include "calls.h"
@@ -57,7 +57,7 @@ static int list_coordinates_of_equation(int equation, const int *set_coordinates
  * Compute the nonzeros of the Cholesky factor of a normal matrix into `system`, from the pattern in the workspace
  * (upper half), which is completed as well.
  */
-SELDOM static void compute_fill_in(StartWorkspace *workspace, EquationSystem *system)
+OPTIMIZE_SIZE static void compute_fill_in(StartWorkspace *workspace, EquationSystem *system)
 {
     for (int k = 0; k < system->n; k++) {
         short *entries = system->factor_entries[k];
@@ -85,7 +85,8 @@ static void clear_pattern(StartWorkspace *workspace, int n)
  * common coordinate. Also compute the nonzeros of its factor. set_coordinates: coordinates of the equations after the
  * constraint equations.
  */
-SELDOM static void compute_normal_pattern(StartWorkspace *workspace, EquationSystem *system, const int *set_coordinates)
+OPTIMIZE_SIZE static void compute_normal_pattern(StartWorkspace *workspace, EquationSystem *system,
+    const int *set_coordinates)
 {
     int coordinates[N_Q];
     for (int k = 0; k < N_Q; k++)
@@ -130,7 +131,7 @@ static void clear_normal_matrix(StartWorkspace *workspace, const EquationSystem 
  * Factorize the normal matrix U^T U of a system by Cholesky's method, by rows of its upper half, in place. Return 1 if
  * a pivot nearly vanishes (unless dependent equations are left out), is not finite, or on cancellation; else 0.
  */
-SELDOM static int factorize_normal_matrix(StartWorkspace *workspace, const EquationSystem *system)
+OPTIMIZE_SIZE static int factorize_normal_matrix(StartWorkspace *workspace, const EquationSystem *system)
 {
     double *diagonal = workspace->rhs; /* not yet in use */
     for (int k = 0; k < system->n; k++)

@@ -1,6 +1,7 @@
 /*
- * Text of a function body: sine and cosine of `angle` (SINES_OF: a number or a vector); small: where they are valid.
- * SINES_BITS: integers of the same length; BITS_OF, OF_BITS: reinterpret bits.
+ * Body of a function that computes sine and cosine of an angle, for one number or a SIMD vector. `angle` has the type
+ * SINES_OF, a number or a vector; small: where the results are valid. SINES_BITS: integers of the same length; BITS_OF,
+ * OF_BITS: reinterpret bits.
  */
     const double shift = 6755399441055744.0;
     const double half_1 = 1.57079632673412561417, half_2 = 6.07710050630396597660e-11;

@@ -1,9 +1,10 @@
 /*
- * Accelerations and multipliers where a pivot nearly vanishes. At a singular position (links in line) rows of Phi_q
- * depend on each other, and near it drift is amplified. A Gram-Schmidt orthogonalization with pivoting on the rows of
- * Phi_q M^(-1/2), applied twice, selects independent equations; the others must agree with them. If they do not, only
- * equations dependent to rounding are left out. If these disagree as well, the constraints are contradictory and the
- * pivot's number is returned. This path is rare and uses dense matrices.
+ * Accelerations and multipliers where the equations of motion are nearly singular (a pivot almost vanishes). At a
+ * singular position (links in line) rows of Phi_q depend on each other, and near it drift is amplified. A Gram-Schmidt
+ * orthogonalization with pivoting on the rows of Phi_q M^(-1/2), applied twice, selects independent equations; the
+ * others must agree with them. If they do not, only equations dependent to rounding are left out. If these disagree as
+ * well, the constraints are contradictory and the pivot's number is returned. This path is rare and uses dense
+ * matrices.
  *
  * M is replaced by another norm for bodies with a small or zero moment of inertia (relative to m s^2) or a small mass.
  * The free motion then follows from M along an orthonormal basis Z of the null space: Z^T M Z z = Z^T (g - M a), with
@@ -12,14 +13,14 @@
 #define LEAST_INERTIA 1e-3 /* of m s^2, s the longest arm of a joint: least moment of inertia in the norm */
 #define LEAST_MASS 1e-4    /* of the heaviest body: least mass in the norm */
 
-enum { N_BESIDE = (AT_LEAST_ONE(N_ROWS) + 3) / 4 * 4 }; /* number of equations, rounded up to whole vectors */
+enum { N_PADDED_ROWS = (AT_LEAST_ONE(N_ROWS) + 3) / 4 * 4 }; /* number of equations, rounded up to whole vectors */
 
 /* Workspace of the orthogonalization. */
 typedef struct {
     double basis[N_Q][N_Q];                   /* orthonormal basis of the rows so far, then of the null space */
-    double left[N_Q][N_BESIDE];               /* (Phi_q M^(-1/2))^T: remainder of each row outside the basis */
-    double lower[AT_LEAST_ONE(N_ROWS)][N_BESIDE]; /* row i = sum over k of lower[k][i] basis[k] */
-    double unused[N_BESIDE];                  /* 1 of a row that is not in the basis, 0 of others */
+    double left[N_Q][N_PADDED_ROWS];               /* (Phi_q M^(-1/2))^T: remainder of each row outside the basis */
+    double lower[AT_LEAST_ONE(N_ROWS)][N_PADDED_ROWS]; /* row i = sum over k of lower[k][i] basis[k] */
+    double unused[N_PADDED_ROWS];                  /* 1 of a row that is not in the basis, 0 of others */
     double all[N_ALL_ROWS][N_Q], root[N_Q], y[N_Q], along[AT_LEAST_ONE(N_ROWS)], residual[AT_LEAST_ONE(N_ROWS)];
     double norm[AT_LEAST_ONE(N_ROWS)];
     /* M over the norm, its root^-1 g, Z^T M Z and its solution */
@@ -41,35 +42,38 @@ static double compute_dot_product(const double *a, const double *b)
 }
 
 /*
- * Compute the scalar products of all rows (N_Q x N_BESIDE, stored by columns) with a vector (N_Q): products (N_BESIDE).
+ * Compute the scalar products of all rows (N_Q x N_PADDED_ROWS, stored by columns) with a vector (N_Q): products
+ * (N_PADDED_ROWS).
  */
-static void multiply_rows_by_vector(double (*restrict rows)[N_BESIDE], const double *vector, double *restrict products)
+static void multiply_rows_by_vector(double (*restrict rows)[N_PADDED_ROWS], const double *vector,
+    double *restrict products)
 {
-    for (int i = 0; i < N_BESIDE; i++)
+    for (int i = 0; i < N_PADDED_ROWS; i++)
         products[i] = 0.0;
     for (int k = 0; k < N_Q; k++) {
         const double factor = vector[k];
-        for (int i = 0; i < N_BESIDE; i++)
+        for (int i = 0; i < N_PADDED_ROWS; i++)
             products[i] += rows[k][i] * factor;
     }
 }
 
-/* Compute the squared norms of all rows (N_Q x N_BESIDE, stored by columns): squares (N_BESIDE). */
-static void compute_squared_norms(double (*restrict rows)[N_BESIDE], double *restrict squares)
+/* Compute the squared norms of all rows (N_Q x N_PADDED_ROWS, stored by columns): squares (N_PADDED_ROWS). */
+static void compute_squared_norms(double (*restrict rows)[N_PADDED_ROWS], double *restrict squares)
 {
-    for (int i = 0; i < N_BESIDE; i++)
+    for (int i = 0; i < N_PADDED_ROWS; i++)
         squares[i] = 0.0;
     for (int k = 0; k < N_Q; k++)
-        for (int i = 0; i < N_BESIDE; i++)
+        for (int i = 0; i < N_PADDED_ROWS; i++)
             squares[i] += rows[k][i] * rows[k][i];
 }
 
-/* Subtract factors[i] times a vector (N_Q) from each row i of a matrix (N_Q x N_BESIDE, stored by columns). */
-static void subtract_from_rows(double (*restrict rows)[N_BESIDE], const double *vector, const double *restrict factors)
+/* Subtract factors[i] times a vector (N_Q) from each row i of a matrix (N_Q x N_PADDED_ROWS, stored by columns). */
+static void subtract_from_rows(double (*restrict rows)[N_PADDED_ROWS], const double *vector,
+    const double *restrict factors)
 {
     for (int k = 0; k < N_Q; k++) {
         const double component = vector[k];
-        for (int i = 0; i < N_BESIDE; i++)
+        for (int i = 0; i < N_PADDED_ROWS; i++)
             rows[k][i] -= factors[i] * component;
     }
 }
@@ -82,9 +86,9 @@ static void remove_basis_component(Workspace *workspace, int rank)
 {
     const double *basis = workspace->basis[rank];
     for (int pass = 0; pass < 2; pass++) {
-        double components[N_BESIDE];
+        double components[N_PADDED_ROWS];
         multiply_rows_by_vector(workspace->left, basis, components);
-        for (int i = 0; i < N_BESIDE; i++) {
+        for (int i = 0; i < N_PADDED_ROWS; i++) {
             components[i] *= workspace->unused[i];
             workspace->lower[rank][i] += components[i];
         }
@@ -103,7 +107,7 @@ static int select_independent_rows(Workspace *workspace, double min_square)
         if (workspace->cancellation && poll_cancellation(workspace->cancellation))
             return -1;
         int pivot = rank;
-        double largest = 0.0, square[N_BESIDE];
+        double largest = 0.0, square[N_PADDED_ROWS];
         compute_squared_norms(workspace->left, square);
         for (int i = rank; i < N_ROWS; i++) {
             const double relative_square = square[workspace->order[i]] / workspace->norm[workspace->order[i]];
@@ -155,8 +159,10 @@ static void compute_norm(Workspace *workspace)
 }
 
 /*
- * Initialize the workspace: rows of Phi_q scaled by the norm, and the right-hand sides rhs - Phi_q M^-1 g. force: g;
- * rhs: right-hand sides of the acceleration constraints.
+ * Initialize the workspace before a selection of independent equations: rows of Phi_q scaled by the norm, their order,
+ * and the right-hand sides rhs - Phi_q M^-1 g. If a mass or moment of inertia is small (workspace->light), M^-1 g is
+ * left out of them; add_free_motion() adds the free motion later. force: g; rhs: right-hand sides of the acceleration
+ * constraints. Called by solve_dependent() for each pass.
  */
 static void initialize_workspace(Workspace *workspace, double t, const double *q, const Parameters *p,
     const double *force,

@@ -1,7 +1,7 @@
 /*
- * The start nearest to a guess: a closed configuration (closing.c), then the velocities that are least in the norm of
- * M. This is the regular case; 1 is returned where Newton's method leads far away or fails, and the search in Python
- * decides.
+ * The start nearest to a guess: a closed configuration (closing.c), then velocities that are least in the norm of the
+ * mass matrix. This is the regular case; 1 is returned where Newton's method leads far away or fails, and the search in
+ * Python decides.
  */
 #include "closing.c"
 #include "start.h"
@@ -18,15 +18,15 @@
  */
 static double find_largest_distance(StartWorkspace *workspace, double t, const Parameters *p, const double *q)
 {
-    double reach = workspace->size;
+    double largest = workspace->size;
     compute_start_residuals(workspace, t, q, p);
     for (int equation = 0; equation < N_ALL_ROWS; equation++)
         if (row_is_length[equation])
-            reach = max_of(reach, fabs(workspace->residual[equation] * workspace->size));
+            largest = max_of(largest, fabs(workspace->residual[equation] * workspace->size));
     for (int k = 0; k < N_Q; k++)
         if (k % 3 != 2)
-            reach = max_of(reach, fabs(q[k]));
-    return reach;
+            largest = max_of(largest, fabs(q[k]));
+    return largest;
 }
 
 /*
@@ -51,8 +51,9 @@ static void initialize_start_workspace(StartWorkspace *workspace, const Paramete
 }
 
 /*
- * Initialize the workspace and set q to the guess, with the angles that equations without positions determine. Return 1
- * if these depend on each other, else 0.
+ * Initialize the workspace and set q to the guess, with the angles that equations without positions determine. Store q
+ * as reference of distances, and the largest distance from the origin as radius. Return 1 if those equations depend on
+ * each other, else 0.
  */
 static int initialize_guess(StartWorkspace *workspace, double t, const Parameters *p, double *q)
 {
@@ -89,7 +90,7 @@ static double compute_relative_change(const StartWorkspace *workspace, const dou
     return largest;
 }
 
-/* Return whether all positions in q are within 1000 times the reach: the iteration has not diverged. */
+/* Return whether all positions in q are within 1000 times workspace->radius (m): the iteration has not diverged. */
 static int is_bounded(const StartWorkspace *workspace, const double *q)
 {
     int is_bounded = 1;
@@ -163,8 +164,8 @@ static void compute_metric_scaling(const StartWorkspace *workspace, const Parame
  * Compute the velocities v that satisfy Phi_q v = nu and the set rates at q, least in the norm of M, refined twice.
  * Return 1 if the equations depend on each other or are not satisfied to rounding, else 0.
  */
-SELDOM static int compute_start_velocities(StartWorkspace *workspace, double t, const Parameters *p, const double *q,
-    double *v)
+OPTIMIZE_SIZE static int compute_start_velocities(StartWorkspace *workspace, double t, const Parameters *p,
+    const double *q, double *v)
 {
     double inverse_root[N_Q], required[N_START_ROWS + 1], largest = 0.0, largest_residual = 0.0;
     int coordinates[N_Q];
@@ -209,9 +210,10 @@ SELDOM static int compute_start_velocities(StartWorkspace *workspace, double t, 
 }
 
 /*
- * Compute the start q, v (N_Q) nearest to the guess of the parameters. size: of the mechanism, m; *residual: largest
- * |Phi| reached, m or rad. Return 0, or 1 if the search in Python must decide: the start does not close, is far from
- * the guess, has no velocities, was cancelled, or guesses points. Called for each run of a batch.
+ * Compute the start nearest to the guess that the parameters contain. Outputs: coordinates q and velocities v (N_Q
+ * each), and *residual, the largest |Phi| reached, m or rad. t: time, s; size: of the mechanism, m. Return 0, or 1 if
+ * the search in Python must decide: the start does not close, is far from the guess, has no velocities, was cancelled,
+ * guesses points, or memory is short. Called for each run of a batch.
  */
 int compute_start(
     double t, const double *parameters, double size, double *q, double *v, double *residual, Cancellation *cancellation)
@@ -240,8 +242,10 @@ int compute_start(
 }
 
 /*
- * Compute the start q, v nearest to the guess as compute_start() does, without cancellation. *residual: largest |Phi|
- * reached. Return 0, or 1 if Python must search.
+ * Compute the start nearest to the guess that the parameters contain, by compute_start() without cancellation. Outputs:
+ * coordinates q and velocities v (N_Q each), and *residual, the largest |Phi| reached, m or rad. t: time, s; size: of
+ * the mechanism, m. Return 0, or 1 if the search in Python must decide: the start does not close, is far from the
+ * guess, has no velocities, guesses points, or memory is short.
  */
 int gudgeon_start(double t, const double *parameters, double size, double *q, double *v, double *residual)
 {
@@ -250,9 +254,9 @@ int gudgeon_start(double t, const double *parameters, double size, double *q, do
 }
 
 /*
- * Continue a closed start q to other parameters: Newton's method from q, then velocities v. Equations may depend on
- * each other. Return 0, 1 if it does not close or memory is short, or 2 if it has no velocities. The caller checks that
- * q remains near. No cancellation.
+ * Continue a closed start to other parameters. q: coordinates of the old start, replaced by Newton's method; v
+ * (output): velocities there. size: of the mechanism, m. Equations may depend on each other. Return 0; 1 if q does not
+ * close or memory is short; 2 if it has no velocities. The caller checks that q remains near. It cannot be cancelled.
  */
 int gudgeon_continuation(double t, const double *parameters, double size, double *q, double *v)
 {

@@ -1,4 +1,4 @@
-/* Declaration of the start in C (start.c), for functions that begin runs without Python. */
+/* Declaration of the function in C that computes the start of a motion (start.c), for runs without Python. */
 #ifndef GUDGEON_START_H
 #define GUDGEON_START_H
 

@@ -1,9 +1,10 @@
 /*
- * Sines and cosines of several angles, four side by side in vectors of gcc and clang; other compilers take one after
- * the other, by the same operations. x = k pi/2 + r with |r| <= pi/4: k is what remains of adding 1.5 2^52, pi/2 is
- * subtracted in three parts, of which the first two times k are exact (W. J. Cody, W. Waite, Software Manual for the
- * Elementary Functions, 1980). Polynomials: the coefficients of fdlibm (Sun Microsystems, 1993), errors below 2^-58.
- * Results are within 1.5 units in the last place up to 100 rad, within 2.4 up to 1e5; what r is rounded by is left out.
+ * Sines and cosines of several angles, four at a time in SIMD vectors of gcc and clang. Other compilers compute one
+ * after the other, by the same operations. Reduction of angles: x = k pi/2 + r with |r| <= pi/4: k is what remains of
+ * adding 1.5 2^52, pi/2 is subtracted in three parts, of which the first two times k are exact (W. J. Cody, W. Waite,
+ * Software Manual for the Elementary Functions, 1980). Polynomials: the coefficients of fdlibm (Sun Microsystems,
+ * 1993), errors below 2^-58. Results are within 1.5 units in the last place up to 100 rad, within 2.4 up to 1e5; what r
+ * is rounded by is left out.
  */
 #ifdef __GNUC__
 typedef double Four __attribute__((vector_size(32)));

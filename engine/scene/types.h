@@ -109,9 +109,9 @@ typedef struct {
 } DiscreteState;
 /* Whether runs continue the motion at singular positions (continuation.c): scenes whose equations do not change. */
 #if INTEGRATES && N_LOOPS && !N_FRICTIONS && !N_RIGID
-#define CONTINUES 1
+#define HAS_CONTINUATION 1
 #else
-#define CONTINUES 0
+#define HAS_CONTINUATION 0
 #endif
 enum {
     SINGULAR_CONTINUE, /* continue the motion from both sides */
@@ -121,7 +121,7 @@ enum {
     SINGULAR_IGNORE  /* no test */
 };
 #define NEARBY (TREE ? 1e-5 : 1e-4) /* `least` of such a run: about the squared angle to the position */
-#define USUAL_SHARES .least = NEARLY_SINGULAR, .least_size = VANISHING
+#define DEFAULT_PIVOT_LIMITS .least = NEARLY_SINGULAR, .least_size = VANISHING
 
 /* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */
 typedef struct {

@@ -1,6 +1,6 @@
 /*
- * Switching points of the user's expressions and user events along a step, for functions without bounds. They depend on
- * forces or on driven loops. Stages of a long step may miss an oscillation. Where a function may have a zero, it is
+ * Search for switching points and user events in a step by sampling, for functions without interval bounds. They depend
+ * on forces or on driven loops. Stages of a long step may miss an oscillation. Where a function may have a zero, it is
  * sampled on the dense output; a step that does not resolve it is repeated shorter. Scenes with bounds use watched.c.
  */
 #if N_WATCHED
@@ -8,7 +8,7 @@
 static void sample_dense_output(Integrator *run, double t, const double *y, const Parameters *p, RhsOutputs *rhs)
 {
     double dy[N_Y];
-    (void)evaluate_rhs(run, t, y, p, dy, rhs);
+    (void)evaluate_run_rhs(run, t, y, p, dy, rhs);
 }
 
 /*
@@ -21,7 +21,7 @@ static int may_have_zero(const Integrator *run, const Step *step, int event, dou
                  end = event_function(&run->discrete, &step->rhs, event);
     double smallest = min_of(start, end), largest = max_of(start, end); /* the end may lie outside of the domain */
     const StageValues stages = get_stage_values(step, event);
-    for (int i = 0; i < step->n_seen; i++) {
+    for (int i = 0; i < step->n_stored_stages; i++) {
         smallest = min_of(smallest, read_stage(stages, i));
         largest = max_of(largest, read_stage(stages, i));
     }
@@ -194,8 +194,12 @@ static double find_first_negative_sample(Integrator *run, const Step *step, int 
     return 0.0;
 }
 
-/* Set step->from of all watched functions to 0: their zeros are searched in the samples, not in brackets. */
-static void find_watched_zeros(const Integrator *run, Step *step, const Parameters *p)
+/*
+ * Reset the brackets of all watched event functions: set step->from to 0, no bracket. Nothing is evaluated here:
+ * without bounds, find_first_negative_sample() searches the samples instead. Called by find_first_event(); watched.c
+ * brackets zeros under the same name.
+ */
+static void bracket_first_zeros(const Integrator *run, Step *step, const Parameters *p)
 {
     (void)run, (void)p;
     for (int i = 0; i < N_WATCHED; i++)
@@ -211,7 +215,7 @@ static inline int is_unresolved(const Integrator *run, const Step *step, const P
 }
 
 /* Do nothing: the scene has no watched functions. */
-static inline void find_watched_zeros(const Integrator *run, const Step *step, const Parameters *p)
+static inline void bracket_first_zeros(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;
 }

@@ -1,7 +1,6 @@
 /*
- * Events of a step: the first zero of the event functions of contacts, switching points and friction that may stick
- * ends it. An event is a negative value, not only a change of sign, so that a contact that restarts with penetration is
- * registered.
+ * Events that end a step: the first zero of any event function (contacts, switching points, friction that sticks). An
+ * event is a negative value, not only a change of sign, so that a contact that restarts with penetration is registered.
  */
 
 #define LONG_STEP 7.0 /* times the last step: step-size control alone lets a step grow by less */
@@ -45,7 +44,7 @@ static int ignore_harmless_switches(Integrator *run, Step *step, const Parameter
     if (!has_passed)
         return 0;
     flip_ignored_branches(run, step);
-    const int status = evaluate_rhs(run, step->t + step->h, step->y, p, dy, &rhs);
+    const int status = evaluate_run_rhs(run, step->t + step->h, step->y, p, dy, &rhs);
     flip_ignored_branches(run, step); /* frozen until the step is accepted */
     for (int k = 0; k < 2 * N_X && !status; k++)
         largest_change = max_of(largest_change, fabs(step->h * (dy[k] - step->dy[k])) * run->norm.weight[k]);
@@ -81,7 +80,7 @@ static int is_ignored(const Integrator *run, const Step *step, int event)
 static double find_stage_of_minimum(const Step *step, int event)
 {
     const StageValues stages = get_stage_values(step, event);
-    for (int i = 0; i < step->n_seen; i++)
+    for (int i = 0; i < step->n_stored_stages; i++)
         if (read_stage(stages, i) == step->lowest[event])
             return step->node[i];
     return 1.0;
@@ -95,7 +94,7 @@ static double find_first_negative_stage(const Step *step, int event, double end_
 {
     const StageValues stages = get_stage_values(step, event);
     double first = 1.0, last_positive = end_value >= 0.0 ? 1.0 : 0.0;
-    for (int i = 0; i < step->n_seen; i++) {
+    for (int i = 0; i < step->n_stored_stages; i++) {
         const double f = read_stage(stages, i);
         first = f < 0.0 ? min_of(first, step->node[i]) : first;
         last_positive = f >= 0.0 ? max_of(last_positive, step->node[i]) : last_positive;
@@ -127,8 +126,9 @@ static double find_negative_fraction(Integrator *run, Step *step, int event, con
 }
 
 /*
- * Return whether a watched event function is larger than its uncertainty at the state y at time t (s), with outputs
- * rhs. 1 for all other event functions. Also used by the audit.
+ * Return whether the magnitude of an event function is larger than its uncertainty at state y and time t (s). event:
+ * number of the function; rhs: outputs of the right-hand side at y. Only watched event functions (switching points and
+ * user events) have an uncertainty: return 1 for all others, and for NaN. Also used by the audit.
  */
 static int is_above_uncertainty(Integrator *run, double t, const double *y, const RhsOutputs *rhs, int event,
     const Parameters *p)
@@ -141,8 +141,9 @@ static int is_above_uncertainty(Integrator *run, double t, const double *y, cons
 }
 
 /*
- * Return whether a watched event function is larger than its uncertainty at a fraction of the step. 1 for all other
- * functions, and if the evaluation fails.
+ * Return whether the magnitude of an event function is larger than its uncertainty at a fraction of the step. Return 1
+ * for event functions that are not watched (watched: switching points and user events), and if the state cannot be
+ * evaluated.
  */
 static int is_resolved_at(Integrator *run, const Step *step, double fraction, int event, const Parameters *p)
 {
@@ -304,7 +305,7 @@ static double find_first_event_of_long_step(Integrator *run, Step *step, double 
 }
 
 #if N_USER_EVENTS
-enum { FAR_PLACES = 4 };
+enum { MAX_POLE_SAMPLES = 4 };
 
 /*
  * Evaluate the user-defined event functions at a fraction of a step into `values` (N_USER_EVENTS), 0 for those below
@@ -336,7 +337,7 @@ static int is_pole(Integrator *run, const Step *step, double fraction, int user_
     RhsOutputs rhs;
     if (evaluate_state_at(run, step, fraction, p, y, dy, &rhs))
         return 0;
-    for (int n = 0; n < FAR_PLACES && isfinite(rhs.event[user_event]); n++) {
+    for (int n = 0; n < MAX_POLE_SAMPLES && isfinite(rhs.event[user_event]); n++) {
         distance *= POLE_DISTANCE;
         if (!evaluate_user_events_at(run, step, fraction + distance, p, value) && value[user_event] != 0.0)
             return is_near_pole(rhs.event[user_event], value[user_event]);
@@ -360,7 +361,7 @@ static inline int is_pole(Integrator *run, const Step *step, double fraction, in
 static double find_first_event(Integrator *run, Step *step, const Parameters *p, int *event)
 {
     const int has_passed = ignore_harmless_switches(run, step, p);
-    find_watched_zeros(run, step, p);
+    bracket_first_zeros(run, step, p);
     double fraction = find_first_crossing(run, step, p, event);
     if (*event >= 0 && has_passed) {
         /* the event ends the step: a passed switching point may lie after it */

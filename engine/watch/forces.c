@@ -1,6 +1,7 @@
 /*
- * Friction that may stick and rigid contacts along a step. This file finds the first zero of three kinds of event
- * functions: the reserve of a sticking force, a sliding velocity, the force of a closed contact.
+ * Search for events of friction and rigid contacts in a step, by sampling forces and sliding velocities. This file
+ * finds the first zero of three kinds of event functions: the reserve of a sticking force, a sliding velocity, the
+ * force of a closed contact.
  *
  * They follow from the right-hand side and have no bounds, and they may change within a step whose motion is at rest.
  * The dense output is sampled and bisected. On each part the event function is the parabola through both ends and the
@@ -43,7 +44,7 @@ static double compute_slip_tolerance(Integrator *run, int element, const Paramet
     for (int k = N_X; k < 2 * N_X; k++) {
         memcpy(y, run->y, sizeof y);
         y[k] += 1.0 / run->norm.weight[k];
-        if (!evaluate_rhs(run, run->t, y, p, dy, &rhs))
+        if (!evaluate_run_rhs(run, run->t, y, p, dy, &rhs))
             sum += fabs(rhs.friction[element].v - run->rhs.friction[element].v);
     }
     return isfinite(sum) ? sum : 0.0;
@@ -75,7 +76,7 @@ static int collect_stage_samples(const Step *step, Sample begin, Sample end, Sta
 {
     int n = 1;
     samples[0] = begin;
-    for (int i = 0; i < step->n_seen; i++) {
+    for (int i = 0; i < step->n_stored_stages; i++) {
         int position = n;
         if (!(step->node[i] > 0.0 && step->node[i] < 1.0))
             continue;
@@ -125,8 +126,9 @@ static int may_oscillate_between(Step *step, double begin, double end, const Par
 #endif
 
 /*
- * Return whether a term of time alone may oscillate between neighbouring ones of n samples. The answer is computed once
- * for each step and stored in step->swings.
+ * Return whether a term of time alone may oscillate between neighbouring ones of n samples. Samples are tested only if
+ * a term may oscillate over the whole step. The result is stored in step->swings at the first call for a step (before:
+ * negative).
  */
 static int may_oscillate_between_stages(Step *step, const Sample *samples, int n, const Parameters *p)
 {

@@ -1,6 +1,6 @@
 /*
- * Contacts along a step: the first zero of the event function of a joint with play, and the proof that no zero precedes
- * it. The event function is the gap of an open contact, or the penetration of a closed one.
+ * Search for contacts in a step: the first zero of a joint's gap or penetration, with a proof that none precedes it.
+ * The event function is the gap of an open contact, or the penetration of a closed one.
  *
  * classify_by_stages() decides most steps. The second derivative is bounded by BEND_SAFETY times the largest value that
  * the rates of neighbouring stages show. The dense output differs from the stages by DENSE_ERROR tolerances at most.
@@ -23,7 +23,7 @@ typedef struct {
     double error;
 } PartOfStep;
 
-enum { CLEAR, FALLS, UNKNOWN }; /* no zero; one zero, at which the function decreases; undecided */
+enum { NO_ZERO, ONE_ZERO, UNKNOWN }; /* no zero; one zero, at which the function decreases; undecided */
 
 /*
  * Return the event function of a contact and its slope at a fraction of the step, from penetration (m) and penetration
@@ -51,14 +51,15 @@ static Sample evaluate_gap_function(
 static int collect_gap_samples(const Integrator *run, const Step *step, int joint, const Parameters *p,
     Sample *samples)
 {
-    const StageValues event_functions = get_stage_values(step, joint), rates = get_stage_values(step, STAGE_GAP_RATES + joint);
+    const StageValues event_functions = get_stage_values(step, joint),
+                      rates = get_stage_values(step, STAGE_GAP_RATES + joint);
     const double inverse_clearance = 1.0 / radial_clearance(p, joint), sign = run->discrete.contact[joint].closed ? 1.0
         : -1.0;
     const Clearance *clearance_begin = &run->rhs.clearance[joint], *clearance_end = &step->rhs.clearance[joint];
     int n = 1;
     samples[0] = evaluate_gap_function(run, step, joint, 0.0, clearance_begin->delta, clearance_begin->deltadot,
         inverse_clearance);
-    for (int k = 0; k < step->n_seen; k++) {
+    for (int k = 0; k < step->n_stored_stages; k++) {
         const double node = step->node[k];
         int position = n;
         if (!(node > 0.0 && node < 1.0))
@@ -114,7 +115,7 @@ static int is_above_parabolas(Sample a, Sample b, double max_second_derivative, 
 }
 
 /*
- * Classify the event function of a contact in a step by its stages: CLEAR (no zero), FALLS (one zero, at which it
+ * Classify the event function of a contact in a step by its stages: NO_ZERO (no zero), ONE_ZERO (one zero, at which it
  * decreases) or UNKNOWN. *first_negative: the node of the first stage at which it is negative by more than the error of
  * the dense output, else 1. Called if is_far_from_zero() does not decide.
  */
@@ -147,7 +148,7 @@ static int classify_by_stages(const Integrator *run, const Step *step, int joint
             return UNKNOWN;
         falls = 1;
     }
-    return falls && samples[n - 1].f < 0.0 ? FALLS : CLEAR;
+    return falls && samples[n - 1].f < 0.0 ? ONE_ZERO : NO_ZERO;
 }
 
 /* Return the minimum of the cubic f + u (r + u (c + u d)) for u from 0 to 1/2. */
@@ -160,8 +161,8 @@ static double find_cubic_minimum(double f, double r, double c, double d)
 }
 
 /*
- * Classify an event function between samples a and b with slopes: CLEAR (no value below `bound`), FALLS (one zero, at
- * which it decreases) or UNKNOWN. It differs from their cubic by 16 error u^2 (1 - u)^2 at most, as the error of
+ * Classify an event function between samples a and b with slopes: NO_ZERO (no value below `bound`), ONE_ZERO (one zero,
+ * at which it decreases) or UNKNOWN. It differs from their cubic by 16 error u^2 (1 - u)^2 at most, as the error of
  * Hermite's cubic does, and its rate by 3.1 error. Called for each part of the dense output that is bisected.
  */
 static int classify_by_cubic(Sample a, Sample b, double error, double bound)
@@ -171,13 +172,13 @@ static int classify_by_cubic(Sample a, Sample b, double error, double bound)
     const int is_positive_at_end = b.f >= (b.s < 1.0 || b.slope > 0.0 ? bound : 0.0);
     if (is_positive_at_end && find_cubic_minimum(a.f, slope_a, c - deviation, d) >= bound
         && find_cubic_minimum(b.f, -slope_b, c + 3.0 * d - deviation, -d) >= bound)
-        return CLEAR;
+        return NO_ZERO;
     double steepest = max_of(slope_a, slope_b);
     if (d < 0.0 && c > 0.0 && c < -3.0 * d)
         steepest = max_of(steepest, slope_a - c * c / (3.0 * d));
     if (!(steepest + 3.1 * error < 0.0))
         return UNKNOWN;
-    return is_positive_at_end ? CLEAR : FALLS;
+    return is_positive_at_end ? NO_ZERO : ONE_ZERO;
 }
 
 /*
@@ -193,8 +194,8 @@ static double compute_cubic_error(Sample a, Sample middle, Sample b)
 }
 
 /*
- * Find the first zero of the event function of a contact on the dense output, by bisection. Return FALLS with the
- * bracket low, high, or CLEAR up to max_fraction of the step. first_negative: fraction at which it is probably
+ * Find the first zero of the event function of a contact on the dense output, by bisection. Return ONE_ZERO with the
+ * bracket low, high, or NO_ZERO up to max_fraction of the step. first_negative: fraction at which it is probably
  * negative; the first part ends there if that is within the first half of the step. Parts are not divided further at
  * event times, after MAX_SAMPLES, or if an evaluation fails; then the sign at their end decides. Called if the stages
  * do not decide.
@@ -217,7 +218,7 @@ static int find_first_gap_zero(
     for (int n_samples = 0; n_parts > 0 && begin.s < max_fraction;) {
         const PartOfStep part = parts[n_parts - 1];
         const double width = part.end.s - begin.s;
-        int result = begin.f >= bound ? classify_by_cubic(begin, part.end, part.error, bound) : FALLS;
+        int result = begin.f >= bound ? classify_by_cubic(begin, part.end, part.error, bound) : ONE_ZERO;
         if (result == UNKNOWN) {
             const Sample middle = width > min_width && n_parts <= MAX_BISECTIONS && n_samples++ < MAX_SAMPLES
                 ? evaluate_gap_point(run, step, begin.s + 0.5 * width, joint, p) : (Sample){0.0, NAN, NAN};
@@ -228,17 +229,17 @@ static int find_first_gap_zero(
                 n_parts++;
                 continue;
             }
-            result = part.end.f < (part.end.s < 1.0 ? bound : 0.0) ? FALLS : CLEAR;
+            result = part.end.f < (part.end.s < 1.0 ? bound : 0.0) ? ONE_ZERO : NO_ZERO;
         }
-        if (result == FALLS) {
+        if (result == ONE_ZERO) {
             *low = begin;
             *high = part.end;
-            return FALLS;
+            return ONE_ZERO;
         }
         begin = part.end;
         n_parts--;
     }
-    return CLEAR;
+    return NO_ZERO;
 }
 
 /*
@@ -251,14 +252,14 @@ static int has_gap_zero(Integrator *run, Step *step, int joint, const Parameters
     Sample *high)
 {
     double first_negative = 1.0;
-    int result = is_far_from_zero(run, step, joint, p) ? CLEAR
+    int result = is_far_from_zero(run, step, joint, p) ? NO_ZERO
         : classify_by_stages(run, step, joint, p, &first_negative);
     *low = get_bracket_begin(run, step, joint);
     *high = get_bracket_end(run, step, joint);
     if (result == UNKNOWN)
-        result = compute_dense_output(run, p, step) ? high->f < 0.0 ? FALLS : CLEAR
+        result = compute_dense_output(run, p, step) ? high->f < 0.0 ? ONE_ZERO : NO_ZERO
             : find_first_gap_zero(run, step, joint, p, max_fraction, first_negative, low, high);
     if (low->f < 0.0 && low->f >= compute_penetration_rounding(p, joint) && low->slope > 0.0)
         low->f = 0.0; /* within rounding, and increasing */
-    return result == FALLS;
+    return result == ONE_ZERO;
 }

@@ -1,7 +1,8 @@
 /*
- * Interval arithmetic with first derivatives: bounds of an expression and of its slope along a step, while its
- * arguments stay within their bounds. The unit of slopes is the whole step. Source: R. E. Moore, R. B. Kearfott, M. J.
- * Cloud, Introduction to Interval Analysis (2009), chapters 5 and 6. Rounding errors are not included.
+ * Interval arithmetic with first derivatives: bounds of an expression and of its slope along a step. The bounds hold
+ * while the arguments of the expression stay within their bounds. The unit of slopes is the whole step. Source: R. E.
+ * Moore, R. B. Kearfott, M. J. Cloud, Introduction to Interval Analysis (2009), chapters 5 and 6. Rounding errors are
+ * not included.
  */
 #ifndef GUDGEON_RANGES_H
 #define GUDGEON_RANGES_H
@@ -268,8 +269,8 @@ static inline int contains_sequence_point(double lower, double upper, double fir
 }
 
 /*
- * Return the derivative of period_branch(x, 1): 4 where an even period begins, -4 where an odd one does, linear
- * between.
+ * Return the derivative by x of period_branch(x, 1), the switching function of mod(x, 1). It has the period 2: 4 at
+ * even integers x, -4 at odd ones, and linear between. Called for the bounds of slopes.
  */
 static inline double compute_period_slope(double x)
 {

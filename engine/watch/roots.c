@@ -1,6 +1,6 @@
 /*
- * Location of events on the dense output of a step: samples of the event functions, and the tolerance to which a zero
- * is located. Read zeros.h first.
+ * Location of events on the dense output of a step, from samples of event functions, to a time tolerance. Read zeros.h
+ * first.
  */
 #define ONSET_TIME_TOLERANCE 1e-9   /* of a step, after the onset of a contact, at most */
 #define MAX_END_OVERSHOOT 1e-6     /* of a step, after the end of a contact, at most */
@@ -44,7 +44,7 @@ static int evaluate_contacts_at(Integrator *run, double t, const double *y, cons
 {
 #if N_RIGID
     double dy[N_Y];
-    return evaluate_rhs(run, t, y, p, dy, rhs);
+    return evaluate_run_rhs(run, t, y, p, dy, rhs);
 #else
     count_evaluations(run, 1);
     if (is_cancelled(&run->cancellation))
@@ -102,7 +102,7 @@ static int find_dense_sample(const DenseSamples *samples, double fraction, int g
 {
     for (int i = samples->n; i > 0 && i > samples->n - N_DENSE_SAMPLES; i--)
         if (samples->fraction[(i - 1) % N_DENSE_SAMPLES] == fraction
-            && gaps_only >= samples->joints_alone[(i - 1) % N_DENSE_SAMPLES])
+            && gaps_only >= samples->has_gaps_only[(i - 1) % N_DENSE_SAMPLES])
             return (i - 1) % N_DENSE_SAMPLES;
     return -1;
 }
@@ -115,7 +115,7 @@ static int add_dense_sample(Integrator *run, const Step *step, double fraction, 
 {
     const int index = run->roots.samples.n++ % N_DENSE_SAMPLES;
     run->roots.samples.fraction[index] = fraction;
-    run->roots.samples.joints_alone[index] = gaps_only;
+    run->roots.samples.has_gaps_only[index] = gaps_only;
     for (int i = 0; i < (gaps_only ? N_CLEARANCES : N_EVENT_FUNCTIONS); i++)
         run->roots.samples.event_function[index][i] = event_function(&run->discrete, rhs, i);
     for (int i = 0; i < N_CLEARANCES; i++)
@@ -216,7 +216,7 @@ static Bracket build_stage_bracket(const Step *step, int event, Sample low, Samp
 {
     Sample nearest = {NAN, NAN, NAN}, second_nearest = nearest;
     const StageValues stages = get_stage_values(step, event);
-    for (int i = 0; i < step->n_seen; i++) {
+    for (int i = 0; i < step->n_stored_stages; i++) {
         const Sample sample = {step->node[i], read_stage(stages, i), NAN};
         if (!(sample.s > low.s && sample.s < high.s && sample.f == sample.f))
             continue;

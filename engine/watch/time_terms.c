@@ -1,7 +1,7 @@
 /*
- * Transients in terms of time alone: pulses that are at rest at all nodes of a step and active between them. Bounds
- * over the intervals between the nodes are known (ranges.h). A term is checked where it exceeds the values at both ends
- * of an interval by more than a quarter of its range at all nodes.
+ * Detection of pulses: terms of time alone that are at rest at all nodes of a step and active between them. Bounds over
+ * the intervals between the nodes are known (ranges.h). A term is checked where it exceeds the values at both ends of
+ * an interval by more than a quarter of its range at all nodes.
  */
 
 /*

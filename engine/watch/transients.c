@@ -1,4 +1,4 @@
-/* Steps that miss a transient: terms of time alone that act between the stages (time_terms.c). */
+/* Rejection of steps that miss a pulse, a term of time alone that acts between the stages (time_terms.c). */
 #if N_PULSES
 #define HARMLESS_DEFECT 30.0 /* of the tolerance: change of a step by a missed term that is accepted */
 
@@ -28,7 +28,7 @@ static int has_small_defect(void *context, double fraction, int is_certain)
     interpolate(run, step, fraction - offset, before);
     interpolate(run, step, fraction, y);
     interpolate(run, step, fraction + offset, after);
-    if (evaluate_rhs(run, step->t + fraction * step->h, y, defect->p, dy, &rhs))
+    if (evaluate_run_rhs(run, step->t + fraction * step->h, y, defect->p, dy, &rhs))
         return 0;
     /* friction or a rigid contact may change its mode before a motion begins */
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)

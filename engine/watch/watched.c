@@ -1,8 +1,8 @@
 /*
- * Switching points of the user's expressions and user events along a step, for scenes in which they have bounds. Stages
- * of a long step may miss an oscillation of such a function. Bounds of the dense output over any part of it give bounds
- * of the functions (ranges.h). Parts over which a function may be negative are bisected until it is monotone or clear
- * of zero. No zero of the dense output is missed.
+ * Search for switching points and user events in a step by interval bounds, which miss no zero. Stages of a long step
+ * may miss an oscillation of such a function. Bounds of the dense output over any part of it give bounds of the
+ * functions (ranges.h). Parts over which a function may be negative are bisected until it is monotone or clear of zero.
+ * No zero of the dense output is missed.
  */
 /* The dense output of a step in powers of the fraction s, for its bounds; begin t and length h of the step, s. */
 typedef struct {
@@ -155,8 +155,8 @@ static void bound_state(const DensePolynomial *polynomial, double begin, double 
 
 #endif
 /*
- * Compute bounds (N_WATCHED) of all watched event functions, multiplied by branch or sign, from bounds of time t and of
- * the state y.
+ * Compute bounds (N_WATCHED) of all watched event functions from bounds of time t and of the state y. Each is
+ * multiplied by the frozen branch of its switching function, or by the stored sign of its user event.
  */
 static void bound_event_functions_by_ranges(const Integrator *run, Range t, const Range *y, const Parameters *p,
     Range *bounds)
@@ -262,7 +262,7 @@ static int classify_event_functions(void *context, double begin, double end, int
 /*
  * Return whether no watched function can be negative between the stages of an explicit step. Bounds of the state are
  * the range of the stages, extended by a quarter; they decide most steps. Functions that are held at zero count as not
- * negative. Called by find_watched_zeros() before the dense output is bounded.
+ * negative. Called by bracket_first_zeros() before the dense output is bounded.
  */
 static int is_clear_by_stages(Integrator *run, const Step *step, EventUncertainties *uncertainties, const Parameters *p)
 {
@@ -288,11 +288,11 @@ static int is_clear_by_stages(Integrator *run, const Step *step, EventUncertaint
 
 #endif
 /*
- * Find the first zero of the watched functions along a tried step. step->from and step->to of each function enclose it;
- * 0: none. If bounds by the stages exclude zeros, or without dense output, nothing is searched. Called by
+ * Bracket the first zero of each watched event function along a tried step: step->from and step->to enclose it; both 0:
+ * none. If bounds by the stages exclude zeros, or without dense output, nothing is searched. Called by
  * find_first_event().
  */
-static void find_watched_zeros(Integrator *run, Step *step, const Parameters *p)
+static void bracket_first_zeros(Integrator *run, Step *step, const Parameters *p)
 {
     WatchedStep search = {.run = run, .step = step, .p = p, .powers = {.t = step->t, .h = step->h}};
     for (int i = 0; i < N_WATCHED; i++)
@@ -315,7 +315,7 @@ static int is_unresolved(const Integrator *run, const Step *step, const Paramete
 }
 
 /*
- * Return the fraction of the step at which a watched function is first negative, as find_watched_zeros() has found it,
+ * Return the fraction of the step at which a watched function is first negative, as bracket_first_zeros() has found it,
  * and its value there in *value; 0: nowhere. index: of the watched function.
  */
 static double find_first_negative_sample(const Integrator *run, const Step *step, int index, const Parameters *p,

@@ -1,1 +1,1 @@
-"""Φ, loads, play and events of one scene in SymPy: the Model and the System."""
+"""Derives the equations of one scene in SymPy: constraints Φ, applied forces, joints with play, events."""

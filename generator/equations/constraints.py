@@ -1,4 +1,4 @@
-"""Constraint equations: Φ, Φ_q, ν and γ of each joint and drive (physics.md, section 1), derived in one way for all."""
+"""Constraint equations Φ = 0 of joints and drives, with Φ_q, ν and γ for velocities and accelerations."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ import sympy as sp
 
 from gudgeon.generator.equations.fields import JointFields
 from gudgeon.generator.equations.geometry import BodySymbols, Geometry, PointFrame
-from gudgeon.generator.ir.differentiation import partial
+from gudgeon.generator.ir.differentiation import compute_partial_derivative
 from gudgeon.generator.ir.finite_slopes import Upon
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import GROUND, Drive, Joint, PointRef
-from gudgeon.generator.symbols.from_expressions import quantity_to_sympy, to_sympy
+from gudgeon.generator.symbols.from_expressions import convert_quantity_to_sympy, convert_to_sympy
 from gudgeon.generator.symbols.storage import Freezable, Place
 from gudgeon.generator.symbols.switches import Apart, Largest, Pick, Smallest
 from gudgeon.language.functions import CORNERED
-from gudgeon.language.tree import functions
+from gudgeon.language.tree import list_functions
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Constraints(Freezable):
         `geometry` supplies the symbols and points; the symbol of time is made here.
         """
         self.geometry, self.symbols = geometry, geometry.symbols
-        self.t = self.symbols.new("time", Place("t"), "time", "s")
+        self.t = self.symbols.add_symbol("time", Place("t"), "time", "s")
         self.drive_angles: dict[str, tuple[sp.Symbol, sp.Symbol, sp.Symbol]] = {}
 
     def joint_rows(self, joint: Joint) -> list[Row]:
@@ -103,7 +103,7 @@ class Constraints(Freezable):
         `name`: the drive, from which the names of the symbols are made. With its direction u: d length = u · dr and du
         = (ẑ × u)(ẑ × u · dr)/length. Written out, the second derivatives of the root would be thousands of terms.
         """
-        define, rules = self.symbols.define, self.symbols.rules
+        define, rules = self.symbols.add_definition, self.symbols.rules
         difference = (second.x - first.x, second.y - first.y)
         x, y = (
             define(f"{name}_span_{axis}", value, None, "span") for axis, value in zip("xy", difference, strict=True)
@@ -115,7 +115,7 @@ class Constraints(Freezable):
         )
         rules[length], rules[direction_x], rules[direction_y] = {}, {}, {}
         for q in [*(q for q, _ in self._find_coordinate_pairs(self._list_bodies(first, second))), self.t]:
-            dx, dy = (self.symbols.diff(value, q) for value in difference)
+            dx, dy = (self.symbols.differentiate(value, q) for value in difference)
             if dx == dy == 0:
                 continue
             rules[length][q] = direction_x * dx + direction_y * dy
@@ -130,13 +130,13 @@ class Constraints(Freezable):
         """
         if drive.name in self.drive_angles:
             return self.drive_angles[drive.name][0]
-        parameter_table, define = self.geometry.slots, self.symbols.define
+        parameter_table, define = self.geometry.parameter_table, self.symbols.add_definition
 
-        def symbol_of(path: str) -> sp.Symbol:
+        def find_symbol(path: str) -> sp.Symbol:
             """Return the symbol of time or of a parameter by its name in the file."""
             return self.t if path == "t" else parameter_table.entries[f"parameters.{path}"].symbol
 
-        expression = quantity_to_sympy(drive.value, symbol_of)
+        expression = convert_quantity_to_sympy(drive.value, find_symbol)
         f = define(f"{drive.name}_value", expression, None, f"drive {drive.name}")
         first_derivative = _differentiate_by_time(expression, self.t)
         rate = define(f"{drive.name}_rate", first_derivative, None, "its rate")
@@ -157,7 +157,7 @@ class Constraints(Freezable):
 
         `bodies`: those that phi depends on; γ is expanded if that has fewer operations.
         """
-        diff, t = self.symbols.diff, self.t
+        diff, t = self.symbols.differentiate, self.t
         coordinate_pairs = self._find_coordinate_pairs(bodies)
         phi_q = {q: entry for q, _ in coordinate_pairs if (entry := sp.expand(diff(phi, q))) != 0}
         phi_q_v = sum((phi_q[q] * v for q, v in coordinate_pairs if q in phi_q), sp.Integer(0))
@@ -177,9 +177,9 @@ def rate_jumps(drive: Drive) -> bool:
 
     The linkage then follows by an impulse. Results are cached.
     """
-    if not CORNERED.isdisjoint(functions(drive.value.value)):
+    if not CORNERED.isdisjoint(list_functions(drive.value.value)):
         return True
-    return bool(to_sympy(drive.value.value, lambda path: sp.Symbol(path, real=True)).has(sp.Abs))
+    return bool(convert_to_sympy(drive.value.value, lambda path: sp.Symbol(path, real=True)).has(sp.Abs))
 
 
 _SWITCHING_CLASSES = (
@@ -206,7 +206,7 @@ def _differentiate_by_time(value: sp.Expr, t: sp.Symbol) -> sp.Expr:
     if value.has(*_SWITCHING_CLASSES):
         value = value.replace(Pick, lambda side, a, b: Pick(side.replace(sp.sign, Apart), a, b))
         value = value.replace(sp.Abs, _make_differentiable_abs).replace(sp.Max, Largest).replace(sp.Min, Smallest)
-    rate = partial(value, t)
+    rate = compute_partial_derivative(value, t)
     if not rate.has(*_SWITCHING_CLASSES):
         return rate
     rate = rate.replace(sp.DiracDelta, lambda *_: sp.Integer(0))

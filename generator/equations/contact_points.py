@@ -33,11 +33,11 @@ class Wall:
 
 
 @dataclass(frozen=True)
-class Place:
+class ContactPoint:
     """One contact point, with its name in the file ("guide.front_upper"), in code, and the points of both bodies.
 
-    The radii of `pair` are lever arms of the contact (for a corner: half the guide's width, ρ). Those of `of_laws` give
-    the
+    The radii of `pair` are lever arms of the contact (for a corner: half the guide's width, ρ). Those of
+    `law_symbols` give the
     stiffness: a wall is flat, R_i = ∞.
     """
 
@@ -46,13 +46,13 @@ class Place:
     first: PointFrame
     second: PointFrame
     pair: PairSymbols
-    of_laws: PairSymbols
+    law_symbols: PairSymbols
     wall: Wall | None = None
 
 
-def places_of(
+def iterate_contact_points(
     joint: Joint, dimensions: Bearing | Guide, geometry: Geometry, parameter_table: ParameterTable
-) -> Iterator[Place]:
+) -> Iterator[ContactPoint]:
     """Yield the contact points of a joint with play: one of a revolute joint, four of a translational one.
 
     `dimensions`: dimensions of the bearing or guide, which become parameters in `parameter_table`.
@@ -61,7 +61,7 @@ def places_of(
         yield from _make_corner_points(joint, dimensions, geometry, parameter_table)
         return
     bearing_symbols = _make_bearing_symbols(dimensions, parameter_table)
-    yield Place(
+    yield ContactPoint(
         joint.name,
         joint.name,
         geometry.point(joint.first),
@@ -76,29 +76,29 @@ def _make_bearing_symbols(bearing: Bearing, parameter_table: ParameterTable) -> 
 
     The radius of the journal is derived: that of the bearing less the clearance.
     """
-    R_i, c = parameter_table.use(bearing.radius), parameter_table.use(bearing.clearance)
+    R_i, c = parameter_table.get_or_add(bearing.radius), parameter_table.get_or_add(bearing.clearance)
     R_j = parameter_table.derive(f"R_j_{bearing.name}", R_i - c, "journal radius")
     return PairSymbols(
-        R_i, R_j, c, parameter_table.use(bearing.length), *_make_elastic_constants(bearing, parameter_table)
+        R_i, R_j, c, parameter_table.get_or_add(bearing.length), *_make_elastic_constants(bearing, parameter_table)
     )
 
 
 def _make_elastic_constants(dimensions: Bearing | Guide, parameter_table: ParameterTable) -> list[sp.Expr]:
     """Return E_i, ν_i, E_j, ν_j of bearing and journal (or guide and slider) as parameters."""
     materials = dimensions.bearing_material, dimensions.journal_material
-    return [parameter_table.use(material.numbers[key]) for material in materials for key in ("E", "nu")]
+    return [parameter_table.get_or_add(material.numbers[key]) for material in materials for key in ("E", "nu")]
 
 
 def _make_corner_points(
     joint: Joint, guide: Guide, geometry: Geometry, parameter_table: ParameterTable
-) -> Iterator[Place]:
+) -> Iterator[ContactPoint]:
     """Yield the four corners of a slider in its guide as contact points, each with its wall.
 
     Parameters for their distances from the slider's point are derived here; labels differ from names of joints.
     """
     first = geometry.point(joint.first)
-    a, b, c = (parameter_table.use(quantity) for quantity in (guide.half_length, guide.half_height, guide.gap))
-    radius = sp.Integer(0) if guide.corner_radius is None else parameter_table.use(guide.corner_radius)
+    a, b, c = (parameter_table.get_or_add(quantity) for quantity in (guide.half_length, guide.half_height, guide.gap))
+    radius = sp.Integer(0) if guide.corner_radius is None else parameter_table.get_or_add(guide.corner_radius)
     distances = (("reach", a - radius, "half-length"), ("rise", b - radius, "half-height"))
     axial_distance, normal_distance = (
         parameter_table.derive(f"{symbol_name}_{guide.name}", x, f"{meaning} less radius")
@@ -117,8 +117,8 @@ def _make_corner_points(
         x, y = front * axial_distance, upper * normal_distance
         offset = (along_x * x - along_y * y, along_y * x + along_x * y)
         wall = Wall((-upper * axis_y, upper * axis_x), normal_distance)
-        second = geometry.beside(joint.second, offset, label)
-        yield Place(
+        second = geometry.point_at_offset(joint.second, offset, label)
+        yield ContactPoint(
             f"{joint.name}.{corner}", label, first, second, corner_symbols, replace(corner_symbols, R_i=sp.oo), wall
         )
 

@@ -1,4 +1,4 @@
-"""The equations of a joint with play around its force laws, as steps in the order of their use.
+"""Equations of a contact in a joint with play, in order of evaluation: gap, penetration, slip, force.
 
 They follow physics.md, sections 2 to 4. The emitted C and the printed equations both come from these steps. What is
 not an equation is in engine/ and templates/c/play: the normal at e = 0, free or closed, the approach speed δ̇⁻ that
@@ -47,12 +47,12 @@ along = _make_symbol("along")  # position of a slider's corner along its guide
 de_n, across, lean = map(_make_symbol, ("de_n", "across", "lean"))  # rates along e and across it, w′/e
 
 
-def of_part(symbol: sp.Symbol, part: str) -> sp.Symbol:
+def make_part_symbol(symbol: sp.Symbol, part: str) -> sp.Symbol:
     """Return the symbol of F_t, M_i or M_j of one part of the force: "dry" for the dry contact, "film" for the film."""
     return _make_symbol(f"{symbol.name}_{part}")
 
 
-def gap(clearance: Clearance) -> list[Step]:
+def make_gap_equations(clearance: Clearance) -> list[Step]:
     """Return the equations of e, the normal n, the penetration δ and their rates, in the order of their use.
 
     t is n turned by +90°. A bearing with a contour and a slider's corner at a wall have equations of their own.
@@ -83,8 +83,8 @@ def _make_contour_gap(clearance: Clearance, contour: Contour) -> list[Step]:
         Step(u_x, e_x / e),
         Step(u_y, e_y / e),
         Step(beta_i, sp.atan2(e_y, e_x) - theta_i),
-        Step(worn, contour.at(beta_i, 0)),
-        Step(worn_slope, contour.at(beta_i, 1)),
+        Step(worn, contour.compute_depth(beta_i, 0)),
+        Step(worn_slope, contour.compute_depth(beta_i, 1)),
         Step(delta, e - clearance.pair.c - worn),
         Step(beta_rate, (de_y * u_x - de_x * u_y) / e - omega_i),
         Step(deltadot, de_x * u_x + de_y * u_y - worn_slope * beta_rate),
@@ -111,12 +111,12 @@ def _make_wall_gap(clearance: Clearance, wall: Wall) -> list[Step]:
     ]
 
 
-def penetration(clearance: Clearance) -> Step:
+def make_penetration_equation(clearance: Clearance) -> Step:
     """Return the equation of the penetration δ of a joint; without a contour it depends on e alone."""
-    return next(step for step in gap(clearance) if step.symbol == delta)
+    return next(step for step in make_gap_equations(clearance) if step.symbol == delta)
 
 
-def gap_by_angle(clearance: Clearance) -> list[Step]:
+def make_contour_gap_equations(clearance: Clearance) -> list[Step]:
     """Return the equations of δ, δ̇ and ė_t of a contour in directions along e and across it.
 
     `de_n` and `across` are the rates of e in these directions, `worn` and `worn_slope` the depth w and its derivative
@@ -131,7 +131,7 @@ def gap_by_angle(clearance: Clearance) -> list[Step]:
     ]
 
 
-def before_dry(clearance: Clearance) -> list[Step]:
+def make_lever_arm_equations(clearance: Clearance) -> list[Step]:
     """Return the equations that precede the laws of a dry contact: lever arms of the contact point and slip v_t.
 
     The contact point is at mid-penetration. With `clip_ratio` the clipped ratio of velocities follows.
@@ -149,7 +149,7 @@ def before_dry(clearance: Clearance) -> list[Step]:
     ]
 
 
-def pressing(clearance: Clearance) -> list[Step]:
+def make_contour_normal_force(clearance: Clearance) -> list[Step]:
     """Return the equation of the normal force of a contour, on which friction depends.
 
     The list is empty without a contour.
@@ -157,7 +157,7 @@ def pressing(clearance: Clearance) -> list[Step]:
     return [Step(F_N, steep * _make_symbol("F_n"))] if clearance.contour else []
 
 
-def along_eccentricity(F_n: sp.Expr, tangential: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+def resolve_contour_force(F_n: sp.Expr, tangential: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """Return the force of a contour along e and across it.
 
     −F_n acts along the gradient of δ, the friction force `tangential` across it.
@@ -165,25 +165,25 @@ def along_eccentricity(F_n: sp.Expr, tangential: sp.Expr) -> tuple[sp.Expr, sp.E
     return -F_n + tangential * lean / steep, F_n * lean + tangential / steep
 
 
-def after_dry(clearance: Clearance) -> list[Step]:
+def make_dry_moment_equations(clearance: Clearance) -> list[Step]:
     """Return the equations of the moments of the dry contact about the centres of bearing i and journal j.
 
     With a contour the bearing takes −w′ F_n in addition.
     """
-    tangential = of_part(F_along_t, "dry")
+    tangential = make_part_symbol(F_along_t, "dry")
     moment = -worn_slope * _make_symbol("F_n") if clearance.contour else 0
     return [
-        Step(of_part(M_i, "dry"), -a_i * tangential + moment),
-        Step(of_part(M_j, "dry"), a_j * tangential),
+        Step(make_part_symbol(M_i, "dry"), -a_i * tangential + moment),
+        Step(make_part_symbol(M_j, "dry"), a_j * tangential),
     ]
 
 
-def at_wall(F_n: sp.Expr) -> Step:
+def make_wall_moment_equation(F_n: sp.Expr) -> Step:
     """Return the equation of the moment about the guide's point, with the lever arm of the normal force F_n."""
-    return Step(M_i, of_part(M_i, "dry") - along * F_n)
+    return Step(M_i, make_part_symbol(M_i, "dry") - along * F_n)
 
 
-def before_film(clearance: Clearance, film: LawEquations) -> list[Step]:
+def make_film_input_equations(clearance: Clearance, film: LawEquations) -> list[Step]:
     """Return the equations of the eccentricity ratio ε and of the effective squeeze velocity w over the clearance.
 
     ε is capped at EPSILON_MAX. A film may have a clearance of its own, and its option selects relative or summed
@@ -198,23 +198,26 @@ def before_film(clearance: Clearance, film: LawEquations) -> list[Step]:
     ]
 
 
-def after_film(film: LawEquations) -> list[Step]:
+def make_film_moment_equations(film: LawEquations) -> list[Step]:
     """Return the equations of the moments of the film about both centres.
 
     Without `shear` the resultant acts at the journal's centre, and the journal's moment is 0. With it, it acts at the
     middle between both centres, and the drag is added.
     """
-    tangential = of_part(F_along_t, "film")
+    tangential = make_part_symbol(F_along_t, "film")
     if not film.options.get("shear", False):
-        return [Step(of_part(M_i, "film"), -e * tangential), Step(of_part(M_j, "film"), sp.Integer(0))]
+        return [
+            Step(make_part_symbol(M_i, "film"), -e * tangential),
+            Step(make_part_symbol(M_j, "film"), sp.Integer(0)),
+        ]
     drag = _make_symbol("T0") * (omega_j - omega_i)
     return [
-        Step(of_part(M_i, "film"), drag - e * tangential / 2),
-        Step(of_part(M_j, "film"), -drag - e * tangential / 2),
+        Step(make_part_symbol(M_i, "film"), drag - e * tangential / 2),
+        Step(make_part_symbol(M_j, "film"), -drag - e * tangential / 2),
     ]
 
 
-def blend(clearance: Clearance, closed: bool = False) -> list[Step]:
+def make_blend_equations(clearance: Clearance, closed: bool = False) -> list[Step]:
     """Return the equations of the fraction of the dry contact: 0 at e = c, 1 at e = c + e_0 (the paper's Eq.
 
     17). A law of mixed lubrication replaces it. For a `closed` contact it has no switching point at e = c, which
@@ -231,7 +234,7 @@ def blend(clearance: Clearance, closed: bool = False) -> list[Step]:
     return [Step(share, fraction if closed else sp.Max(0, fraction))]
 
 
-def resultant(clearance: Clearance) -> list[Step]:
+def make_resultant_equations(clearance: Clearance) -> list[Step]:
     """Return the equations of the force on the journal in ground axes, and of the moments if parts are blended.
 
     A film and a dry contact are blended by the fraction `share`; a wall has the moment of its normal force in addition.
@@ -241,9 +244,12 @@ def resultant(clearance: Clearance) -> list[Step]:
     equations: list[Step] = []
     if dry and film:
         equations += (
-            blend(clearance) if clearance.mixed is None else []
+            make_blend_equations(clearance) if clearance.mixed is None else []
         )  # a law of mixed lubrication is printed by itself
-        blended = {symbol: (of_part(symbol, "dry"), of_part(symbol, "film")) for symbol in (F_along_t, M_i, M_j)}
+        blended = {
+            symbol: (make_part_symbol(symbol, "dry"), make_part_symbol(symbol, "film"))
+            for symbol in (F_along_t, M_i, M_j)
+        }
         blended = {F_along_n: (normal, radial), **blended}
         equations += [
             Step(symbol, share * dry_value + (1 - share) * film_value)
@@ -252,8 +258,8 @@ def resultant(clearance: Clearance) -> list[Step]:
         normal_force = F_along_n
     else:
         normal_force = normal if dry else radial
-    tangential = F_along_t if dry and film else of_part(F_along_t, "dry" if dry else "film")
-    equations += [at_wall(_make_symbol("F_n"))] if clearance.wall else []
+    tangential = F_along_t if dry and film else make_part_symbol(F_along_t, "dry" if dry else "film")
+    equations += [make_wall_moment_equation(_make_symbol("F_n"))] if clearance.wall else []
     return [
         *equations,
         Step(F_x, normal_force * n_x - tangential * n_y),
@@ -261,11 +267,11 @@ def resultant(clearance: Clearance) -> list[Step]:
     ]
 
 
-def moments(clearance: Clearance) -> tuple[sp.Symbol, sp.Symbol]:
+def find_moment_symbols(clearance: Clearance) -> tuple[sp.Symbol, sp.Symbol]:
     """Return the symbols of the moments about both centres, by which parts of the force the joint has."""
     if clearance.normal is not None and clearance.film is not None:
         return M_i, M_j
     part = "film" if clearance.normal is None else "dry"
     if clearance.wall:
-        return M_i, of_part(M_j, part)
-    return of_part(M_i, part), of_part(M_j, part)
+        return M_i, make_part_symbol(M_j, part)
+    return make_part_symbol(M_i, part), make_part_symbol(M_j, part)

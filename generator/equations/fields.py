@@ -1,4 +1,4 @@
-"""The fields of a joint and of a force element as expressions, for the files that define their types."""
+"""Values of a joint's or a force element's keys as SymPy expressions, for the files that define these types."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ import sympy as sp
 from gudgeon.errors import Location
 from gudgeon.generator.equations.geometry import Geometry, PointFrame
 from gudgeon.generator.mechanism import GROUND, ForceElement, Joint, PointRef, Quantity, Vector
-from gudgeon.generator.symbols.derivatives import derivative
-from gudgeon.generator.symbols.from_expressions import quantity_to_sympy
-from gudgeon.generator.symbols.parameter_table import Owned, ParameterTable
-from gudgeon.language.tree import Name, names
+from gudgeon.generator.symbols.derivatives import differentiate
+from gudgeon.generator.symbols.from_expressions import convert_quantity_to_sympy
+from gudgeon.generator.symbols.parameter_table import ParameterRole, ParameterTable
+from gudgeon.language.tree import Name, iterate_names
 
 ZERO = sp.Integer(0)
 
@@ -23,11 +23,11 @@ class JointFields:
 
     def __init__(self, joint: Joint, geometry: Geometry) -> None:
         """Begin with one joint, whose fields become parameters of the geometry's table when they are read."""
-        self._joint, self._parameter_table, self._geometry = joint, geometry.slots, geometry
+        self._joint, self._parameter_table, self._geometry = joint, geometry.parameter_table, geometry
 
     def direction(self, name: str) -> tuple[sp.Expr, sp.Expr]:
         """Return a vector field as a unit vector; along an axis it is exactly (±1, 0) or (0, ±1)."""
-        return unit_vector(self._joint.vectors[name], self._joint.name, name, self._parameter_table)
+        return derive_unit_vector(self._joint.vectors[name], self._joint.name, name, self._parameter_table)
 
     def angle_of(self, name: str) -> sp.Expr:
         """Return the angle of a vector field in its body's frame, in rad, as a derived parameter."""
@@ -36,18 +36,18 @@ class JointFields:
             f"{self._joint.name}_{name}_angle",
             sp.atan2(y, x),
             "direction of the axis",
-            role=Owned(self._joint.name, f"{name}_angle"),
+            role=ParameterRole(self._joint.name, f"{name}_angle"),
         )
 
     def quantity(self, name: str, default: sp.Expr) -> sp.Expr:
         """Return a number field as a parameter, or `default` if the user specified none."""
         quantity = self._joint.quantities.get(name)
-        return sp.sympify(default) if quantity is None else self._parameter_table.use(quantity)
+        return sp.sympify(default) if quantity is None else self._parameter_table.get_or_add(quantity)
 
     def vector(self, name: str) -> tuple[sp.Expr, sp.Expr]:
         """Return both components of a vector field as parameters."""
         x, y = self._joint.vectors[name]
-        return self._parameter_table.use(x), self._parameter_table.use(y)
+        return self._parameter_table.get_or_add(x), self._parameter_table.get_or_add(y)
 
     def option(self, name: str) -> str:
         """Return the value of a field with fixed choices."""
@@ -63,7 +63,7 @@ class JointFields:
         local, owner = self.direction(name), self._joint.options[body]
         if owner == GROUND:
             return local
-        return self._geometry.turn(self._geometry.bodies[owner], local, f"axis_{owner}")
+        return self._geometry.rotate_vector(self._geometry.bodies[owner], local, f"axis_{owner}")
 
     def profile(self, name: str, cam: sp.Expr, carrier: sp.Expr) -> sp.Expr:
         """Return the profile of a cam as a symbol with rules for its derivatives.
@@ -76,7 +76,7 @@ class JointFields:
             sp.Dummy("phi", real=True),
             self._parameter_table.entries,
         )
-        value = quantity_to_sympy(
+        value = convert_quantity_to_sympy(
             self._joint.quantities[name],
             lambda path: phi if path == "phi" else parameter_table[f"parameters.{path}"].symbol,
         )
@@ -84,11 +84,13 @@ class JointFields:
         for suffix in ("", "_slope", "_bend", "_third"):
             meaning = f"{suffix[1:] or 'value'} of {self._joint.name}'s {name}"
             derivatives.append(
-                symbols.define(f"{self._joint.name}_{name}{suffix}", value.xreplace({phi: angle}), None, meaning)
+                symbols.add_definition(
+                    f"{self._joint.name}_{name}{suffix}", value.xreplace({phi: angle}), None, meaning
+                )
             )
-            value = derivative(value, phi)
+            value = differentiate(value, phi)
         bases = sorted({base for s in angle.free_symbols for base in symbols.rules.get(s, (s,))}, key=str)
-        rates = {base: rate for base in bases if (rate := symbols.diff(angle, base)) != 0}
+        rates = {base: rate for base in bases if (rate := symbols.differentiate(angle, base)) != 0}
         for function, next_derivative in pairwise(derivatives):
             symbols.rules[function] = {base: rate * next_derivative for base, rate in rates.items()}
         return derivatives[0]
@@ -96,10 +98,13 @@ class JointFields:
     def derive(self, name: str, expression: sp.Expr) -> sp.Expr:
         """Return a derived parameter of the joint from an expression of parameters; it is computed once a run."""
         return self._parameter_table.derive(
-            f"{self._joint.name}_{name}", expression, f"of joint {self._joint.name}", role=Owned(self._joint.name, name)
+            f"{self._joint.name}_{name}",
+            expression,
+            f"of joint {self._joint.name}",
+            role=ParameterRole(self._joint.name, name),
         )
 
-    def at_guess(self, name: str, expression: sp.Expr) -> sp.Expr:
+    def evaluate_at_guess(self, name: str, expression: sp.Expr) -> sp.Expr:
         """Return `expression` as a derived parameter, with each body's angle at its value in the start.
 
         A set value is used before a guess; an angle with neither is 0.
@@ -109,37 +114,42 @@ class JointFields:
         for body in self._geometry.bodies.values():
             key = f"{body.name}.theta"
             quantity = start.set.get(key) or start.guess.get(key)
-            values[body.theta] = ZERO if quantity is None else self._parameter_table.use(quantity)
+            values[body.theta] = ZERO if quantity is None else self._parameter_table.get_or_add(quantity)
         return self.derive(name, expression.xreplace(values))
 
 
-def unit_vector(vector: Vector, owner: str, name: str, parameter_table: ParameterTable) -> tuple[sp.Expr, sp.Expr]:
+def derive_unit_vector(
+    vector: Vector, owner: str, name: str, parameter_table: ParameterTable
+) -> tuple[sp.Expr, sp.Expr]:
     """Return the direction of a vector of the file as a unit vector; along an axis it is exactly (±1, 0) or (0, ±1).
 
     `owner` and `name`: the joint or element and its field, for the names of derived parameters. The sign of a component
-    along an axis is recorded in `slots.signs`, since the equations rely on it.
+    along an axis is recorded in `parameter_table.signs`, since the equations rely on it.
     """
-    x, y = parameter_table.use(vector[0]), parameter_table.use(vector[1])
+    x, y = parameter_table.get_or_add(vector[0]), parameter_table.get_or_add(vector[1])
     length = sp.sqrt(x**2 + y**2)
 
-    def component(axis: str, value: sp.Expr, other_value: sp.Expr) -> sp.Expr:
-        """Return one component: 0, ±1 by the sign of the value, or a derived parameter.
+    def derive_component(axis: str, value: sp.Expr, other_value: sp.Expr) -> sp.Expr:
+        """Return the component of the unit vector along `axis` ("x" or "y"): 0, ±1, or a derived parameter.
 
-        `value`, `other_value`: both components of the vector.
+        `value` is the vector's component along the axis, `other_value` the other component. If the other one is 0 and
+        `value` is a parameter that does not depend on others, the result is ±1, and the sign is recorded.
         """
         if value == 0:
             return ZERO
         if other_value == 0:
             entry = next((e for e in parameter_table.entries.values() if e.symbol == value), None)
-            if entry is not None and not entry.follows:  # only its sign matters, and the sign is structural
+            if (
+                entry is not None and not entry.depends_on_parameters
+            ):  # only its sign matters, and the sign is structural
                 if entry.address not in parameter_table.signs:
                     parameter_table.signs[entry.address] = ">" if entry.default > 0 else "<"
                 return sp.Integer(1 if entry.default > 0 else -1)
         return parameter_table.derive(
-            f"{owner}_{name}_{axis}", value / length, "unit vector", role=Owned(owner, name, axis)
+            f"{owner}_{name}_{axis}", value / length, "unit vector", role=ParameterRole(owner, name, axis)
         )
 
-    return component("x", x, y), component("y", y, x)
+    return derive_component("x", x, y), derive_component("y", y, x)
 
 
 class ElementFields:
@@ -151,7 +161,7 @@ class ElementFields:
 
     def direction(self, name: str) -> tuple[sp.Expr, sp.Expr]:
         """Return a vector field as a unit vector."""
-        return unit_vector(self._element.vectors[name], self._element.name, name, self._geometry.slots)
+        return derive_unit_vector(self._element.vectors[name], self._element.name, name, self._geometry.parameter_table)
 
     def quantity(self, name: str) -> sp.Expr:
         """Return a number field as a parameter or expression; 0 if the user specified none."""
@@ -167,27 +177,27 @@ class ElementFields:
         """Return the value of a field with fixed choices."""
         return self._element.options[name]
 
-    def named(self, name: str, value: sp.Expr) -> sp.Expr:
+    def define_local(self, name: str, value: sp.Expr) -> sp.Expr:
         """Return the value as a named local of the emitted code; numbers and symbols are returned unchanged."""
         if value.is_number or value.is_Symbol:
             return value
-        return self._geometry.symbols.define(
+        return self._geometry.symbols.add_definition(
             f"{self._element.name}_{name}", value, None, f"{name} of {self._element.name}"
         )
 
-    def named_vector(self, name: str, value: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
+    def define_local_vector(self, name: str, value: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
         """Return both components as named locals of the emitted code."""
-        return self.named(f"{name}_x", value[0]), self.named(f"{name}_y", value[1])
+        return self.define_local(f"{name}_x", value[0]), self.define_local(f"{name}_y", value[1])
 
     def _convert_quantity(self, quantity: Quantity) -> sp.Expr:
         """Return a quantity: a parameter, or its expression if it contains t, coordinates or velocities."""
-        variable = VariableNames(self._geometry, self._t)
-        if not any(variable.is_variable(name) for name in names(quantity.value)):
-            return self._geometry.slots.use(quantity)
-        return quantity_to_sympy(quantity, variable)
+        variable = MotionNameResolver(self._geometry, self._t)
+        if not any(variable.is_variable(name) for name in iterate_names(quantity.value)):
+            return self._geometry.parameter_table.get_or_add(quantity)
+        return convert_quantity_to_sympy(quantity, variable)
 
 
-class VariableNames:
+class MotionNameResolver:
     """Resolver of names in a force's expression: t, parameters, coordinates and velocities of bodies and points."""
 
     def __init__(self, geometry: Geometry, t: sp.Symbol) -> None:
@@ -206,7 +216,7 @@ class VariableNames:
         if path == "t":
             return self._t
         if "." not in path:
-            return self._geometry.slots.entries[f"parameters.{path}"].symbol
+            return self._geometry.parameter_table.entries[f"parameters.{path}"].symbol
         owner, _, component = path.rpartition(".")
         if owner in self._geometry.bodies:
             return getattr(self._geometry.bodies[owner], component)

@@ -83,10 +83,10 @@ class PointFrame:
 
     def direction(self, local: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
         """Return a direction that is fixed in the body, with `local` its components there, in ground axes."""
-        return local if self.body is None else self.geometry.turn(self.body, local, f"axis_{self.body.name}")
+        return local if self.body is None else self.geometry.rotate_vector(self.body, local, f"axis_{self.body.name}")
 
 
-class Turned(NamedTuple):
+class TurnedComponent(NamedTuple):
     """One component of a vector that turns with a body: of a point's arm or, without a point, of a direction.
 
     `number` counts the directions of a body.
@@ -106,7 +106,7 @@ class Geometry(Freezable):
 
         Bodies of a massless mechanism get mass 1 and one moment of inertia, which define a metric.
         """
-        self.symbols, self.slots, self.mechanism = symbols, parameter_table, scene.mechanism
+        self.symbols, self.parameter_table, self.mechanism = symbols, parameter_table, scene.mechanism
         self.bodies = {
             name: self._make_body_symbols(i, body) for i, (name, body) in enumerate(self.mechanism.bodies.items())
         }
@@ -118,16 +118,17 @@ class Geometry(Freezable):
         if is_massless(self.mechanism):
             unit = self._derive_unit_inertia()
             self.bodies = {name: replace(body, mass=ONE, inertia=unit) for name, body in self.bodies.items()}
-        self.turned: dict[sp.Symbol, Turned] = {}
+        self.turned_components: dict[sp.Symbol, TurnedComponent] = {}
         self._turned: dict[tuple[str, sp.Expr, sp.Expr], tuple[sp.Expr, sp.Expr]] = {}
         self._angles: dict[str, tuple[sp.Symbol, sp.Symbol]] = {}
 
     def _make_body_symbols(self, index: int, body: Body) -> BodySymbols:
         """Return the symbols of the body with an index: three coordinates, three velocities, mass and inertia.
 
-        A body without mass or inertia gets 1 for both.
+        The symbols are added to the model, mass and inertia to its parameters. If any body of the mechanism lacks a
+        mass or an inertia, all bodies get 1 for both; otherwise the body's values are used.
         """
-        new, first_index, name = self.symbols.new, 3 * index, body.name
+        new, first_index, name = self.symbols.add_symbol, 3 * index, body.name
         (x, y, theta), (vx, vy, omega) = (
             [
                 new(f"{name}_{coordinate}", Place(array)[first_index + k], f"{name}.{coordinate}")
@@ -137,7 +138,10 @@ class Geometry(Freezable):
         )
         mass, inertia = ONE, ONE
         if not is_massless(self.mechanism) and body.mass and body.inertia:
-            mass, inertia = self.slots.use(body.mass), self.slots.use(body.inertia, zero=True)
+            mass, inertia = (
+                self.parameter_table.get_or_add(body.mass),
+                self.parameter_table.get_or_add(body.inertia, zero=True),
+            )
         return BodySymbols(name, first_index, x, y, theta, vx, vy, omega, mass, inertia)
 
     def _derive_unit_inertia(self) -> sp.Expr:
@@ -148,7 +152,7 @@ class Geometry(Freezable):
         """
         components = [component for vector in self.local.values() for component in vector if component != 0]
         mean_square = sp.Add(*(component**2 for component in components)) / max(len(components), 1)
-        return self.slots.derive(
+        return self.parameter_table.derive(
             "unit_inertia", mean_square + sp.Float(_MIN_SQUARED_RADIUS, 17), "in place of moments of inertia"
         )
 
@@ -165,14 +169,15 @@ class Geometry(Freezable):
     def _find_body_vector(self, body: Body, point: str, com: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
         """Return a point in the body's own frame, whose origin the user chose, as parameters.
 
-        `com`: the centre of mass in that frame.
+        A point of the file has its coordinates, `com` the centre of mass, and `head` of a bar is (length, 0). Any other
+        name, such as `tail` or `origin`, is (0, 0). `com`: the centre of mass in that frame.
         """
         if point in body.points:
             x, y = body.points[point]
-            return self.slots.use(x), self.slots.use(y)
+            return self.parameter_table.get_or_add(x), self.parameter_table.get_or_add(y)
         if point == "com":
             return com
-        return (self.slots.use(body.length), ZERO) if point == "head" and body.length else (ZERO, ZERO)
+        return (self.parameter_table.get_or_add(body.length), ZERO) if point == "head" and body.length else (ZERO, ZERO)
 
     def _derive_local_vector(self, body: Body, point: str) -> tuple[sp.Expr, sp.Expr]:
         """Return the vector from a body's centre of mass to a point in its frame, as derived parameters.
@@ -180,12 +185,12 @@ class Geometry(Freezable):
         Without a specified centre of mass the middle of the length is used, or else the origin.
         """
         if body.com is not None:
-            com = (self.slots.use(body.com[0]), self.slots.use(body.com[1]))
+            com = (self.parameter_table.get_or_add(body.com[0]), self.parameter_table.get_or_add(body.com[1]))
         else:
-            com = (self.slots.use(body.length) / 2, ZERO) if body.length else (ZERO, ZERO)
+            com = (self.parameter_table.get_or_add(body.length) / 2, ZERO) if body.length else (ZERO, ZERO)
         point_vector = self._find_body_vector(body, point, com)
         x, y = (
-            self.slots.derive_signed(
+            self.parameter_table.derive_signed(
                 f"{body.name}_{point}_{axis}",
                 value - origin,
                 "point from the centre of mass",
@@ -197,19 +202,19 @@ class Geometry(Freezable):
 
     def ground_vector(self, vector: Vector) -> tuple[sp.Expr, sp.Expr]:
         """Return both components of a vector of the ground as parameters."""
-        return self.slots.use(vector[0]), self.slots.use(vector[1])
+        return self.parameter_table.get_or_add(vector[0]), self.parameter_table.get_or_add(vector[1])
 
-    def angle(self, body: BodySymbols) -> tuple[sp.Symbol, sp.Symbol]:
+    def find_cos_and_sin(self, body: BodySymbols) -> tuple[sp.Symbol, sp.Symbol]:
         """Return cos θ and sin θ of a body as symbols with rules; they are defined at the first call."""
         if body.name not in self._angles:
-            define, name = self.symbols.define, body.name
+            define, name = self.symbols.add_definition, body.name
             cos = define(f"cos_theta_{name}", sp.cos(body.theta), None, f"cos of {name}.theta")
             sin = define(f"sin_theta_{name}", sp.sin(body.theta), None, f"sin of {name}.theta")
             self.symbols.rules[cos], self.symbols.rules[sin] = {body.theta: -sin}, {body.theta: cos}
             self._angles[name] = cos, sin
         return self._angles[body.name]
 
-    def turn(
+    def rotate_vector(
         self, body: BodySymbols, s: tuple[sp.Expr, sp.Expr], base_name: str, point: str = ""
     ) -> tuple[sp.Expr, sp.Expr]:
         """Return A(θ) s of a vector s of a body as a pair of symbols; the opposite of a known arm is its negative.
@@ -223,23 +228,25 @@ class Geometry(Freezable):
             x, y = self._turned[body.name, -s[0], -s[1]]
             return -x, -y
         if (body.name, *s) not in self._turned:
-            cos, sin = self.angle(body)
+            cos, sin = self.find_cos_and_sin(body)
             if all(component in (-1, 0, 1) for component in s):  # along an axis of the body: cos and sin themselves
                 return cos * s[0] - sin * s[1], sin * s[0] + cos * s[1]
-            x = self.symbols.define(f"{base_name}_x", cos * s[0] - sin * s[1], None, "A(theta) s, x")
-            y = self.symbols.define(f"{base_name}_y", sin * s[0] + cos * s[1], None, "A(theta) s, y")
+            x = self.symbols.add_definition(f"{base_name}_x", cos * s[0] - sin * s[1], None, "A(theta) s, x")
+            y = self.symbols.add_definition(f"{base_name}_y", sin * s[0] + cos * s[1], None, "A(theta) s, y")
             self.symbols.rules[x], self.symbols.rules[y] = {body.theta: -y}, {body.theta: x}
             self._turned[body.name, *s] = x, y
             first_components = (
                 component
-                for component in self.turned.values()
+                for component in self.turned_components.values()
                 if (component.body, component.point, component.axis) == (body.name, "", "x")
             )
             direction_number = 1 if point else 1 + sum(1 for _ in first_components)
-            self.turned[x], self.turned[y] = (Turned(body.name, point, axis, direction_number) for axis in ("x", "y"))
+            self.turned_components[x], self.turned_components[y] = (
+                TurnedComponent(body.name, point, axis, direction_number) for axis in ("x", "y")
+            )
         return self._turned[body.name, *s]
 
-    def beside(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], base_name: str) -> PointFrame:
+    def point_at_offset(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], base_name: str) -> PointFrame:
         """Return the frame of a point at an offset from a named point, given in its body's frame.
 
         `base_name` is the base of its symbols' names.
@@ -248,14 +255,16 @@ class Geometry(Freezable):
         if ref.body == GROUND:
             return PointFrame(self, None, s)
         body = self.bodies[ref.body]
-        return PointFrame(self, body, self.turn(body, s, f"arm_{base_name}"))
+        return PointFrame(self, body, self.rotate_vector(body, s, f"arm_{base_name}"))
 
     def _find_offset_vector(
         self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], base_name: str
     ) -> tuple[sp.Expr, sp.Expr]:
-        """Return the vector from the centre of mass to a point at an offset from a named point.
+        """Return the vector from the centre of mass to a point at an offset from a named point, in the body's frame.
 
-        On the ground it is the position. The opposite of a known vector is its negative.
+        On the ground it is the position; an empty point name there means the origin. The offset is in the same frame. A
+        component that is 0 at the named point gives the offset alone, any other a derived parameter (base_name, axis).
+        The opposite of a known parameter is its negative.
         """
         if ref.body == GROUND:
             base_vector = self.ground_vector(self.mechanism.ground[ref.point]) if ref.point else (ZERO, ZERO)
@@ -264,7 +273,7 @@ class Geometry(Freezable):
         x, y = (
             increment
             if value == 0
-            else self.slots.derive_signed(f"{base_name}_{axis}", value + increment, "corner of a slider")
+            else self.parameter_table.derive_signed(f"{base_name}_{axis}", value + increment, "corner of a slider")
             for axis, value, increment in zip("xy", base_vector, offset, strict=True)
         )
         return x, y
@@ -284,6 +293,6 @@ class Geometry(Freezable):
         if (
             opposite_name is not None and local_vector[0].could_extract_minus_sign()
         ):  # a bar's tail is its head turned over
-            x, y = self.turn(body, opposite, f"arm_{ref.body}_{opposite_name}", opposite_name)
+            x, y = self.rotate_vector(body, opposite, f"arm_{ref.body}_{opposite_name}", opposite_name)
             return PointFrame(self, body, (-x, -y))
-        return PointFrame(self, body, self.turn(body, local_vector, f"arm_{ref.body}_{ref.point}", ref.point))
+        return PointFrame(self, body, self.rotate_vector(body, local_vector, f"arm_{ref.body}_{ref.point}", ref.point))

@@ -36,12 +36,12 @@ class AppliedElement:
     targets: tuple[PointFrame, ...]
     loads: Loads
 
-    def on_points(self) -> list[PointLoad]:
+    def list_point_loads(self) -> list[PointLoad]:
         """Return the forces and moments of the element, each with the point at which it acts."""
         loads = self.loads.loads
         return [PointLoad(self.targets[load.target], load.x, load.y, load.moment) for load in loads]
 
-    def add_to(self, forces: list[sp.Expr]) -> None:
+    def add_generalized_forces(self, forces: list[sp.Expr]) -> None:
         """Add the generalized forces of the element to `forces` (n) in place.
 
         They are F at the centre of mass and the moment arm × F + M; loads on the ground are skipped.
@@ -79,6 +79,8 @@ def make_friction(
 
     `slip`: its slip velocity and friction forces; `coordinate_pairs`: the coordinates with their velocities.
     """
-    jacobian = {q: entry for q, v in coordinate_pairs if (entry := sp.expand(symbols.diff(slip.v, v))) != 0}
-    gamma = -sum((symbols.diff(slip.v, q) * v for q, v in coordinate_pairs), sp.Integer(0)) - symbols.diff(slip.v, t)
+    jacobian = {q: entry for q, v in coordinate_pairs if (entry := sp.expand(symbols.differentiate(slip.v, v))) != 0}
+    gamma = -sum(
+        (symbols.differentiate(slip.v, q) * v for q, v in coordinate_pairs), sp.Integer(0)
+    ) - symbols.differentiate(slip.v, t)
     return Friction(name, slip, jacobian, sp.expand(gamma))

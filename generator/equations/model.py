@@ -19,17 +19,17 @@ import sympy as sp
 
 from gudgeon.errors import BadValueError
 from gudgeon.generator.equations.constraints import Constraints, Row
-from gudgeon.generator.equations.fields import VariableNames
+from gudgeon.generator.equations.fields import MotionNameResolver
 from gudgeon.generator.equations.geometry import BodySymbols, Geometry
 from gudgeon.generator.equations.loads import AppliedElement, Friction, apply_element, make_friction
 from gudgeon.generator.equations.play import Clearance, make_clearances
-from gudgeon.generator.equations.user_defined_laws import check_own_laws
-from gudgeon.generator.ir.finite_slopes import as_written
+from gudgeon.generator.equations.user_defined_laws import check_user_defined_laws
+from gudgeon.generator.ir.finite_slopes import convert_for_intervals
 from gudgeon.generator.mechanism import EventSpec, Joint, Quantity, Scene
-from gudgeon.generator.symbols.from_expressions import quantity_to_sympy
+from gudgeon.generator.symbols.from_expressions import convert_quantity_to_sympy
 from gudgeon.generator.symbols.parameter_table import ParameterTable
 from gudgeon.generator.symbols.symbols import Symbols
-from gudgeon.language.units import dimension
+from gudgeon.language.units import make_dimension
 
 SIGNS = {"rising": 1, "falling": -1, "both": 0}
 
@@ -49,7 +49,7 @@ def make_event(event: EventSpec, geometry: Geometry, t: sp.Symbol) -> Event:
 
     Raise BadValueError for an expression that is finite for no motion.
     """
-    expression = quantity_to_sympy(event.zero, VariableNames(geometry, t))
+    expression = convert_quantity_to_sympy(event.zero, MotionNameResolver(geometry, t))
     return Event(event.name, expression, event.action, event.direction)
 
 
@@ -59,7 +59,7 @@ def check_event_varies(event: EventSpec, derived_event: Event, geometry: Geometr
     `derived_event`: the event as derived; `geometry`: that of the absolute coordinates.
     """
     moving = {t, *(symbol for body in geometry.bodies.values() for symbol in (*body.q, *body.v))}
-    if not geometry.symbols.explicit(derived_event.expression).free_symbols & moving:
+    if not geometry.symbols.expand_definitions(derived_event.expression).free_symbols & moving:
         message, hint = f"{event.zero.address} never changes: its terms cancel", "expected an expression that varies"
         raise BadValueError(message, event.zero.where, hint)
 
@@ -82,13 +82,13 @@ class NotatedMatrix(sp.Matrix):
         return repr(self) if self.letters else super().__str__()
 
 
-def with_notation(matrix: sp.Matrix, letters: Callable[[], Any] | None) -> NotatedMatrix:
+def set_notation(matrix: sp.Matrix, find_printer: Callable[[], Any] | None) -> NotatedMatrix:
     """Return a matrix with the same entries that prints in a notation.
 
-    `letters` returns the printer of the notation; None: the matrix prints as SymPy does.
+    `find_printer` returns the printer of the notation; None: the matrix prints as SymPy does.
     """
     result = NotatedMatrix._fromrep(matrix._rep)
-    result.letters = letters
+    result.letters = find_printer
     return result
 
 
@@ -117,7 +117,7 @@ def eccentricity_rows(model: Model) -> list[tuple[int, Quantity, Quantity]]:
     """Return the equations of Φ that the start violates by a journal's eccentricity: index, e and its rate.
 
     Φ of such a joint is r_i − r_j = −e (physics.md, section 2), so that Φ + e = 0 and Φ_q v = ν − ė. Φ of a slider is
-    its offset and its tilt, which are −e there (`start_kernel`). Joints without a specified start are left out.
+    its offset and its tilt, which are −e there (`make_start_kernel`). Joints without a specified start are left out.
     """
     starts, result = model.scene.mechanism.start.play, []
     for name in model.scene.play:
@@ -143,12 +143,12 @@ STICK = "baumgarte.stick"
 class Model:
     """Φ(q, t) = 0 and M q̈ + Φ_qᵀ λ = g for one scene; shapes: q (n,), Φ (m,).
 
-    Nothing changes a model after `make_model`. A program derives its functions on a copy of its own (`thawed`).
+    Nothing changes a model after `make_model`. A program derives its functions on a copy of its own (`copy_mutable`).
     """
 
     scene: Scene
     symbols: Symbols
-    slots: ParameterTable
+    parameter_table: ParameterTable
     geometry: Geometry
     constraints: Constraints
     all_rows: tuple[Row, ...]  # the closed linkage: joints with play closed, as the start needs it
@@ -162,19 +162,21 @@ class Model:
     events: tuple[Event, ...] = ()  # what the user watches
     targets: Mapping[str, Callable[[Model], Any]] = field(default_factory=dict)  # of generator/targets
 
-    def without(self, redundancy: Redundancy) -> Model:
+    def remove_redundant_rows(self, redundancy: Redundancy) -> Model:
         """Return the model of the same scene without its redundant constraint equations."""
-        kept = tuple(row for row in self.rows if row.name not in redundancy.dropped)
-        return replace(self, rows=kept, redundancy=redundancy)
+        remaining_rows = tuple(row for row in self.rows if row.name not in redundancy.dropped)
+        return replace(self, rows=remaining_rows, redundancy=redundancy)
 
-    def thawed(self) -> Model:
+    def copy_mutable(self) -> Model:
         """Return a copy whose symbols and derived parameters one program may extend; this model stays unchanged."""
-        symbols = self.symbols.thawed()
-        return replace(self, symbols=symbols, slots=self.slots.thawed().beside(symbols))
+        symbols = self.symbols.copy_mutable()
+        return replace(
+            self, symbols=symbols, parameter_table=self.parameter_table.copy_mutable().copy_for_symbols(symbols)
+        )
 
     def freeze(self) -> None:
         """Make every table of the model read only."""
-        for tables in (self.symbols, self.slots, self.geometry, self.constraints):
+        for tables in (self.symbols, self.parameter_table, self.geometry, self.constraints):
             tables.freeze()
 
     @property
@@ -245,7 +247,7 @@ class Model:
 
         With `joint` None the centre of mass replaces the joint. Values are the defaults of the file.
         """
-        body_symbols, default = self.geometry.bodies[body], self.slots.default
+        body_symbols, default = self.geometry.bodies[body], self.parameter_table.compute_default
         ends = [end for end in (joint.first, joint.second) if end.body == body] if joint else []
         arm = self.geometry.local.get((body, ends[0].point), ()) if ends else ()
         inertia = body_symbols.inertia + sp.Add(*(body_symbols.mass * s**2 for s in arm))
@@ -263,16 +265,16 @@ class Model:
         plainest form
         of all that the emitted C computes at a state.
         """
-        return self.written("numpy")
+        return self.derive_target("numpy")
 
-    def written(self, target: str) -> Any:
+    def derive_target(self, target: str) -> Any:
         """Return the equations in another language, derived once and then cached.
 
         `target`: name of a folder in generator/targets. Raise ValueError for an unknown target.
         """
         if target not in self.targets:
-            known = ", ".join(self.targets) or "none: it was not derived by the pipeline, which knows them"
-            raise ValueError(f"no target {target!r} of a model: there is {known}")
+            known_targets = ", ".join(self.targets) or "none: it was not derived by the pipeline, which knows them"
+            raise ValueError(f"no target {target!r} of a model: there is {known_targets}")
         if target not in self._targets_cache:
             self._targets_cache[target] = self.targets[target](self)
         return self._targets_cache[target]
@@ -288,28 +290,28 @@ class Model:
         Derived symbols are replaced by their definitions; the matrix prints in the scene's notation.
         """
         return self._make_printable_matrix(
-            [as_written(self.symbols.explicit(expression)) for expression in expressions]
+            [convert_for_intervals(self.symbols.expand_definitions(expression)) for expression in expressions]
         )
 
     def _make_printable_matrix(self, entries: list[Any]) -> sp.Matrix:
         """Return a matrix of entries that prints in the notation of the scene's documents, if the model knows it."""
-        return with_notation(
-            sp.Matrix(entries), (lambda: self.written("letters")) if "letters" in self.targets else None
+        return set_notation(
+            sp.Matrix(entries), (lambda: self.derive_target("letters")) if "letters" in self.targets else None
         )
 
     def _repr_latex_(self) -> str:
         """Return Φ(q, t) = 0 as LaTeX for notebooks; "" without a notation."""
-        return f"$\\displaystyle {self.written('letters').equation().latex}$" if "letters" in self.targets else ""
+        return f"$\\displaystyle {self.derive_target('letters').equation().latex}$" if "letters" in self.targets else ""
 
     def _repr_html_(self) -> str | None:
         """Return Φ(q, t) = 0 as HTML for notebooks; None without a notation."""
-        return str(self.written("letters").html()) if "letters" in self.targets else None
+        return str(self.derive_target("letters").html()) if "letters" in self.targets else None
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         """Return Φ(q, t) = 0 as text, HTML and LaTeX, which notebooks ask for first; empty without a notation."""
         if "letters" not in self.targets:
             return {}
-        text = self.written("letters").equation().text
+        text = self.derive_target("letters").equation().text
         return {"text/plain": text, "text/html": self._repr_html_() or "", "text/latex": self._repr_latex_()}
 
     @cached_property
@@ -322,7 +324,7 @@ class Model:
         """Return the constraint Jacobian ∂Φ/∂q as a dense matrix, (m, n), in q, t and parameters."""
         zero = sp.Integer(0)
         return self._make_printable_matrix(
-            [[self.symbols.explicit(row.phi_q.get(q, zero)) for q in self.q] for row in self.rows]
+            [[self.symbols.expand_definitions(row.phi_q.get(q, zero)) for q in self.q] for row in self.rows]
         )
 
     @cached_property
@@ -346,7 +348,7 @@ class Model:
         gx, gy = self.gravity
         forces = [f for body in self.bodies for f in (body.mass * gx, body.mass * gy, sp.Integer(0))]
         for element in self.elements.values():
-            element.add_to(forces)
+            element.add_generalized_forces(forces)
         return self._make_column(forces)
 
 
@@ -356,15 +358,15 @@ def make_model(scene: Scene) -> Model:
     Raise LawError for an inconsistent user-defined law, and BadValueError for an event that never changes or a value
     that is never finite.
     """
-    check_own_laws(scene)
+    check_user_defined_laws(scene)
     mechanism, symbols = scene.mechanism, Symbols()
     parameter_table = ParameterTable(scene, symbols)
     geometry = Geometry(scene, symbols, parameter_table)
     constraints = Constraints(geometry)
-    rate = dimension(time=-1)
+    rate = make_dimension(time=-1)
     baumgarte = (
-        parameter_table.constant("baumgarte.alpha", "alpha", BAUMGARTE, rate),
-        parameter_table.constant("baumgarte.beta", "beta", BAUMGARTE, rate),
+        parameter_table.get_or_add_constant("baumgarte.alpha", "alpha", BAUMGARTE, rate),
+        parameter_table.get_or_add_constant("baumgarte.beta", "beta", BAUMGARTE, rate),
     )
     rows = [row for joint in mechanism.joints.values() for row in constraints.joint_rows(joint)]
     rows += [row for drive in mechanism.drives.values() for row in constraints.drive_rows(drive)]
@@ -418,9 +420,9 @@ def add_material_parameters(scene: Scene, parameter_table: ParameterTable) -> No
             matching = [material for material in materials if choice.numbers.keys() <= material.numbers.keys()]
             for material in matching:
                 for name in choice.numbers:
-                    parameter_table.use(material.numbers[name])
+                    parameter_table.get_or_add(material.numbers[name])
             names = tuple(material.name for material in matching)
-            parameter_table.choice(choice.address, names, scene.materials[choice.address])
+            parameter_table.add_choice(choice.address, names, scene.materials[choice.address])
 
 
 def add_further_parameters(model: Model) -> None:
@@ -432,9 +434,9 @@ def add_further_parameters(model: Model) -> None:
         model.geometry.ground_vector(vector)
     for group in start_values(model).values():
         for quantity, _ in group:
-            model.slots.use(quantity)
+            model.parameter_table.get_or_add(quantity)
     if model.frictions:
-        model.slots.constant(STICK, "alpha_stick", BAUMGARTE, dimension(time=-1))
+        model.parameter_table.get_or_add_constant(STICK, "alpha_stick", BAUMGARTE, make_dimension(time=-1))
 
 
 def stick_gain(model: Model) -> sp.Expr:
@@ -442,4 +444,6 @@ def stick_gain(model: Model) -> sp.Expr:
 
     Methods that project stabilise nothing else.
     """
-    return model.slots.derive("two_alpha_stick", 2 * model.slots.entries[STICK].symbol, "2 alpha of a stick")
+    return model.parameter_table.derive(
+        "two_alpha_stick", 2 * model.parameter_table.entries[STICK].symbol, "2 alpha of a stick"
+    )

@@ -1,16 +1,16 @@
-"""Notes for the user about a scene's equations: what it leaves out, and errors for missing masses."""
+"""Notes for the user about a scene's equations: effects that are left out, and errors for missing masses."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from gudgeon.errors import MissingKeyError, together
+from gudgeon.errors import MissingKeyError, combine_errors
 from gudgeon.generator.equations.constraints import rate_jumps
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.mechanism import Body, Mechanism
 
 
-def scene_notes(model: Model) -> tuple[str, ...]:
+def write_scene_notes(model: Model) -> tuple[str, ...]:
     """Return sentences for the user about a scene: what it leaves out, and consequences of its choices.
 
     Topics are redundant equations, missing masses, excess equations, missing play or film, inner states, impacts,
@@ -22,9 +22,9 @@ def scene_notes(model: Model) -> tuple[str, ...]:
             f"redundant rows left out: {', '.join(model.redundancy.dropped)}; reactions not determined by"
             f" rigid bodies: {', '.join(model.redundancy.indeterminate)}"
         )
-    if lacking := [body.name for body in model.scene.mechanism.bodies.values() if body.lacks]:
+    if massless := [body.name for body in model.scene.mechanism.bodies.values() if body.missing_keys]:
         notes.append(
-            f"no mass or no inertia of {', '.join(lacking)}: no forces, torques and energies that follow from it"
+            f"no mass or no inertia of {', '.join(massless)}: no forces, torques and energies that follow from it"
         )
     if model.degrees_of_freedom < 0:
         notes.append(
@@ -46,7 +46,7 @@ def scene_notes(model: Model) -> tuple[str, ...]:
         notes.append(f"impacts by Newton's restitution in {', '.join(model.rigid)}: no slopes, so no rodas5p, no peers")
     if all(component == 0 for component in model.gravity):
         notes.append("no gravity: no weight terms")
-    jumps = drives_with_jumps(model)
+    jumps = find_drives_with_jumps(model)
     if jumps:
         notes.append(
             f"the rate of {', '.join(jumps)} may jump: the linkage follows by an impulse; smooth_step has no jump"
@@ -59,7 +59,7 @@ def has_jumps(model: Model) -> bool:
     return any(map(rate_jumps, model.scene.mechanism.drives.values()))
 
 
-def drives_with_jumps(model: Model) -> tuple[str, ...]:
+def find_drives_with_jumps(model: Model) -> tuple[str, ...]:
     """Return the names of the drives whose rate may jump; empty if the scene has no degree of freedom."""
     drives = model.scene.mechanism.drives.values() if model.degrees_of_freedom else ()
     return tuple(drive.name for drive in drives if rate_jumps(drive))
@@ -67,12 +67,12 @@ def drives_with_jumps(model: Model) -> tuple[str, ...]:
 
 def check_masses(model: Model) -> None:
     """Raise MissingKeyError for bodies without mass or inertia if the motion of the scene depends on them."""
-    reason = _reason_for_masses(model)
-    if reason and (errors := list(lacking(model.scene.mechanism, f"scene {model.scene.name} {reason}"))):
-        raise together(errors)
+    reason = _explain_need_for_masses(model)
+    if reason and (errors := list(find_missing_masses(model.scene.mechanism, f"scene {model.scene.name} {reason}"))):
+        raise combine_errors(errors)
 
 
-def _reason_for_masses(model: Model) -> str:
+def _explain_need_for_masses(model: Model) -> str:
     """Return why a scene needs masses, for messages: play, degrees of freedom or friction; "" if it does not."""
     if model.clearances:
         return f"has play in {', '.join(clearance.name for clearance in model.clearances)}"
@@ -83,15 +83,15 @@ def _reason_for_masses(model: Model) -> str:
     return ""
 
 
-def lacking(mechanism: Mechanism, reason: str) -> Iterator[MissingKeyError]:
+def find_missing_masses(mechanism: Mechanism, reason: str) -> Iterator[MissingKeyError]:
     """Yield one MissingKeyError for all bodies that lack the same of mass and inertia.
 
     `reason` says why they are needed.
     """
     bodies_by_missing_keys: dict[tuple[str, ...], list[Body]] = {}
     for body in mechanism.bodies.values():
-        if body.lacks:
-            bodies_by_missing_keys.setdefault(tuple(body.lacks), []).append(body)
+        if body.missing_keys:
+            bodies_by_missing_keys.setdefault(tuple(body.missing_keys), []).append(body)
     for missing_keys, bodies in bodies_by_missing_keys.items():
         owner = bodies[0].name if len(bodies) == 1 else "each"
         hint = (

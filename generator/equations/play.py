@@ -8,11 +8,15 @@ from typing import TypeAlias
 
 import sympy as sp
 
-from gudgeon.generator.equations.contact_points import Place, Wall, places_of
+from gudgeon.generator.equations.contact_points import ContactPoint, Wall, iterate_contact_points
 from gudgeon.generator.equations.geometry import Geometry, PointFrame
 from gudgeon.generator.equations.loads import PointLoad
-from gudgeon.generator.equations.user_defined_laws import check_numbers, force_of, number_of
-from gudgeon.generator.kinds.laws.built import build
+from gudgeon.generator.equations.user_defined_laws import (
+    check_sampled_values,
+    find_default_value,
+    read_force_expression,
+)
+from gudgeon.generator.kinds.laws.built import build_law
 from gudgeon.generator.kinds.laws.law import (
     DEEPEST,
     MEAN_CLEARANCE,
@@ -23,10 +27,10 @@ from gudgeon.generator.kinds.laws.law import (
     LawInputs,
     PairSymbols,
     State,
-    laws,
+    find_all_laws,
 )
 from gudgeon.generator.mechanism import Joint, LawUse, Play
-from gudgeon.generator.symbols.curves import contour_of
+from gudgeon.generator.symbols.curves import make_contour_expression
 from gudgeon.generator.symbols.parameter_table import ParameterTable
 from gudgeon.generator.symbols.unevaluated import Whole
 from gudgeon.language.units import VELOCITY
@@ -47,16 +51,16 @@ class LawEquations:
     options: Mapping[str, str | bool]
     variables: tuple[sp.Symbol, ...]
     steps: Mapping[str, sp.Expr]
-    numbers: Mapping[str, sp.Expr]
+    parameters: Mapping[str, sp.Expr]
     derived: Mapping[str, sp.Expr]
 
     @property
     def results(self) -> tuple[str, ...]:
         """Return the names in `steps` of the results of the role and of the rates of inner states."""
-        return tuple(letter_of(self.law, name) for name in self.law.results)
+        return tuple(make_law_identifier(self.law, name) for name in self.law.results)
 
     @property
-    def further(self) -> tuple[str, ...]:
+    def further_variables(self) -> tuple[str, ...]:
         """Return the names of the variables that the law reads in addition to those of its role."""
         return tuple(symbol.name for symbol in self.variables if symbol.name in self.law.further)
 
@@ -68,9 +72,9 @@ class Contour:
     table: str
     count: int
 
-    def at(self, angle: sp.Expr, order: int) -> sp.Expr:
+    def compute_depth(self, angle: sp.Expr, order: int) -> sp.Expr:
         """Return the depth w at an angle in m, or its derivative of an `order` by the angle, as an expression."""
-        return contour_of(self.table, self.count, order, angle)
+        return make_contour_expression(self.table, self.count, order, angle)
 
 
 @dataclass(frozen=True)
@@ -119,7 +123,7 @@ class Clearance:
         return self.friction.law.states if self.friction else ()
 
     @property
-    def also(self) -> tuple[sp.Expr, ...]:
+    def further_arguments(self) -> tuple[sp.Expr, ...]:
         """Return the arguments of its functions in addition to e, ė and angular velocities.
 
         They are the normal of a wall, or the angle of a bearing with a contour.
@@ -139,11 +143,11 @@ class Clearance:
         (vx_i, vy_i), (vx_j, vy_j) = self.first.velocity, self.second.velocity
         return vx_j - vx_i, vy_j - vy_i
 
-    def on_points(self, F: Sequence[sp.Expr], moments: Sequence[sp.Expr]) -> list[PointLoad]:
+    def list_point_loads(self, F: Sequence[sp.Expr], moments: Sequence[sp.Expr]) -> list[PointLoad]:
         """Return the loads on both bodies: F on the journal, −F on the bearing, and both moments."""
         return [PointLoad(self.first, -F[0], -F[1], moments[0]), PointLoad(self.second, F[0], F[1], moments[1])]
 
-    def power(self, F: Sequence[sp.Expr], edot: Sequence[sp.Expr], moments: Sequence[sp.Expr]) -> sp.Expr:
+    def compute_power(self, F: Sequence[sp.Expr], edot: Sequence[sp.Expr], moments: Sequence[sp.Expr]) -> sp.Expr:
         """Return the power F · ė + M_i ω_i + M_j ω_j in W of the force F and moments on the journal and bearing."""
         turning = moments[0] * self.first.omega + moments[1] * self.second.omega
         return F[0] * edot[0] + F[1] * edot[1] + turning
@@ -153,20 +157,22 @@ def make_clearances(joint: Joint, play: Play, geometry: Geometry, parameter_tabl
     """Return the equations of one joint with play, in one object for each of its contact points."""
     clearances = [
         _derive_clearance(joint, play, parameter_table, point)
-        for point in places_of(joint, play.bearing, geometry, parameter_table)
+        for point in iterate_contact_points(joint, play.bearing, geometry, parameter_table)
     ]
     return [replace(clearance, contour=_make_contour(joint, play, parameter_table)) for clearance in clearances]
 
 
-def _derive_clearance(joint: Joint, play: Play, parameter_table: ParameterTable, place: Place) -> Clearance:
+def _derive_clearance(
+    joint: Joint, play: Play, parameter_table: ParameterTable, contact_point: ContactPoint
+) -> Clearance:
     """Return the equations at one contact point: its laws with parameters, transition, and least impact velocity.
 
     The constants that a report prints are collected on the way.
     """
     constants: dict[str, sp.Expr] = {}
-    bearing_symbols = place.pair
+    bearing_symbols = contact_point.pair
 
-    def derive(name: str, expression: sp.Expr, meaning: str) -> sp.Expr:
+    def derive_constant(name: str, expression: sp.Expr, meaning: str) -> sp.Expr:
         """Return a derived parameter named after contact and bearing, and record it among the constants.
 
         Joints with the same contact and bearing share it.
@@ -176,31 +182,35 @@ def _derive_clearance(joint: Joint, play: Play, parameter_table: ParameterTable,
         constants[name] = parameter_table.derive(parameter_name, expression, meaning)
         return constants[name]
 
-    def law(use: LawUse | None, symbols: PairSymbols = place.of_laws) -> LawEquations | None:
+    def derive_law_of_use(use: LawUse | None, symbols: PairSymbols = contact_point.law_symbols) -> LawEquations | None:
         """Return a law of the contact with its symbols, or None if `use` is None.
 
         `symbols`: radii, clearance and elastic constants.
         """
-        return None if use is None else _derive_law(use, symbols, parameter_table, derive)
+        return None if use is None else _derive_law(use, symbols, parameter_table, derive_constant)
 
     contact = play.contact
-    normal, friction, mixed = law(contact.normal), law(contact.friction), law(contact.mixed)
-    film = law(contact.film, replace(bearing_symbols, c=constants.get(MEAN_CLEARANCE, bearing_symbols.c)))
+    normal, friction, mixed = (
+        derive_law_of_use(contact.normal),
+        derive_law_of_use(contact.friction),
+        derive_law_of_use(contact.mixed),
+    )
+    film = derive_law_of_use(contact.film, replace(bearing_symbols, c=constants.get(MEAN_CLEARANCE, bearing_symbols.c)))
     floor: sp.Expr = sp.Integer(0)  # of surfaces that give alone
     if contact.velocity_floor:
-        floor = parameter_table.use(contact.velocity_floor)
+        floor = parameter_table.get_or_add(contact.velocity_floor)
     elif not (normal and normal.law.rigid):
-        floor = parameter_table.constant(
+        floor = parameter_table.get_or_add_constant(
             f"contacts.{contact.name}.velocity_floor", "velocity_floor", VELOCITY_FLOOR, VELOCITY
         )
-    transition = parameter_table.use(contact.transition) if contact.transition is not None else None
+    transition = parameter_table.get_or_add(contact.transition) if contact.transition is not None else None
     constants["c"], constants["R_i"], constants["R_j"] = bearing_symbols.c, bearing_symbols.R_i, bearing_symbols.R_j
     return Clearance(
-        place.name,
-        place.label,
+        contact_point.name,
+        contact_point.label,
         joint,
-        place.first,
-        place.second,
+        contact_point.first,
+        contact_point.second,
         bearing_symbols,
         normal,
         friction,
@@ -210,7 +220,7 @@ def _derive_clearance(joint: Joint, play: Play, parameter_table: ParameterTable,
         floor,
         contact.clip_ratio,
         constants,
-        wall=place.wall,
+        wall=contact_point.wall,
     )
 
 
@@ -218,7 +228,7 @@ def _make_contour(joint: Joint, play: Play, parameter_table: ParameterTable) -> 
     """Return the contour of a bearing as a table of parameters; None if the bearing is a circle."""
     if not play.contour:
         return None
-    return Contour(parameter_table.table(f"contour_{joint.name}", play.contour), len(play.contour))
+    return Contour(parameter_table.get_or_add_array(f"contour_{joint.name}", play.contour), len(play.contour))
 
 
 def _derive_law(
@@ -230,15 +240,19 @@ def _derive_law(
     the law may read but does not are left out. A user-defined law is checked (LawError), and its names get an ending of
     their own.
     """
-    law = laws()[use.law]
+    law = find_all_laws()[use.law]
     variables = {name: sp.Symbol(name, real=True) for name in law.variables}
     force_names = {own_variables.name for own_variables in law.expressions}
     parameters = {
-        name: parameter_table.use(quantity) for name, quantity in use.quantities.items() if name not in force_names
+        name: parameter_table.get_or_add(quantity)
+        for name, quantity in use.quantities.items()
+        if name not in force_names
     }
     for name in force_names:
-        max_penetration = number_of(parameter_table, parameters.get(DEEPEST, bearing_symbols.c))
-        parameters[name] = force_of(use.quantities[name], variables["delta"], max_penetration, parameter_table)
+        max_penetration = find_default_value(parameter_table, parameters.get(DEEPEST, bearing_symbols.c))
+        parameters[name] = read_force_expression(
+            use.quantities[name], variables["delta"], max_penetration, parameter_table
+        )
     derived: dict[str, sp.Expr] = {}
 
     def derive_and_record(name: str, expression: sp.Expr, meaning: str) -> sp.Expr:
@@ -246,32 +260,32 @@ def _derive_law(
         derived[name] = derive(name, expression, meaning)
         return derived[name]
 
-    steps = build(law, LawInputs(parameters, use.options, bearing_symbols, variables, derive_and_record, Whole))
+    steps = build_law(law, LawInputs(parameters, use.options, bearing_symbols, variables, derive_and_record, Whole))
     read_names = {symbol.name for step in steps.values() for symbol in step.free_symbols}
     unread_names = {name for name in law.further if name not in read_names}
     own_variables = tuple(symbol for name, symbol in variables.items() if name not in unread_names)
     if law.name in USER_LAWS:
-        check_numbers(law, own_variables, steps, parameter_table)
+        check_sampled_values(law, own_variables, steps, parameter_table)
     equations = LawEquations(law, use.options, own_variables, steps, parameters, derived)
     return _rename_user_law(equations) if law.name in USER_LAWS else equations
 
 
-def letter_of(law: Law, name: str) -> str:
+def make_law_identifier(law: Law, name: str) -> str:
     """Return the identifier for `name` in a law.
 
     Names of a user-defined law get the ending `__`, except those of the role (`delta`, `F_n`). No fixed name contains
-    `__`, and neither does `made_name`.
+    `__`, and neither does a result of `make_identifier`.
     """
     fixed = {*VARIABLES[law.role], *law.further, *RESULTS[law.role]}
     return f"{name}__" if law.name in USER_LAWS and name not in fixed else name
 
 
 def _rename_user_law(equations: LawEquations) -> LawEquations:
-    """Return the equations of a user-defined law with its abbreviations and states renamed by `letter_of`."""
+    """Return the equations of a user-defined law with its abbreviations and states renamed by `make_law_identifier`."""
     law = equations.law
     symbols = {
-        sp.Symbol(name, real=True): sp.Symbol(letter_of(law, name), real=True)
+        sp.Symbol(name, real=True): sp.Symbol(make_law_identifier(law, name), real=True)
         for name in (*equations.steps, *(state.name for state in law.states))
     }
-    steps = {letter_of(law, name): value.xreplace(symbols) for name, value in equations.steps.items()}
+    steps = {make_law_identifier(law, name): value.xreplace(symbols) for name, value in equations.steps.items()}
     return replace(equations, variables=tuple(symbols.get(s, s) for s in equations.variables), steps=steps)

@@ -1,9 +1,9 @@
-"""The system that is integrated: M q̈ + Φ_qᵀ λ = g with Φ(q, t) = 0, in absolute or tree coordinates.
+"""Equations of motion that are integrated: M q̈ + Φ_qᵀ λ = g, Φ(q, t) = 0, in absolute or tree coordinates.
 
 A model's bodies move with the coordinates of a system: a body's (x, y, θ) have a Jacobian J in them, and
-r̈ = J q̈ + bias. In absolute coordinates J is the identity and M is diagonal (`absolute`); in tree coordinates most of
-Φ is eliminated (generator/reduction/reduction.py). All functions derived from a system (right-hand side, projection,
-Jacobians) hold for both.
+r̈ = J q̈ + bias. In absolute coordinates J is the identity and M is diagonal (`make_absolute_system`); in tree
+coordinates most of Φ is eliminated (generator/reduction/reduction.py). All functions derived from a system
+(right-hand side, projection, Jacobians) hold for both.
 """
 
 from __future__ import annotations
@@ -60,10 +60,10 @@ class System:
     motions: Mapping[str, Motion]  # by body
     mass: Mapping[tuple[int, int], sp.Expr]
     applied: tuple[sp.Expr, ...]  # weights, and what the velocities and prescribed accelerations leave of J^T m a
-    given: tuple[PrescribedCoordinate, ...]
+    prescribed: tuple[PrescribedCoordinate, ...]
     rows: tuple[Row, ...]
     frictions: tuple[Friction, ...]
-    known: tuple[DependentCoordinate, ...] = field(default=(), kw_only=True)  # of driven chains (driven_chains.py)
+    dependent: tuple[DependentCoordinate, ...] = field(default=(), kw_only=True)  # of driven chains (driven_chains.py)
     in_tree: ClassVar[bool] = False  # whether the coordinates are those of a tree
 
     def turning_inertia(self, k: int) -> sp.Expr:
@@ -75,7 +75,9 @@ class System:
         if k % 3 != 2:
             return ZERO
         name = self.model.bodies[k // 3].name
-        return self.model.slots.derive(f"{name}_turning", self.model.turning_inertia(name), "J and m s^2 of its joints")
+        return self.model.parameter_table.derive(
+            f"{name}_turning", self.model.turning_inertia(name), "J and m s^2 of its joints"
+        )
 
     def inertia_of_unit_mass(self, k: int) -> sp.Expr:
         """Return what coordinate k moves if bodies had 1 kg: s² of its joints' points for an angle, else 1.
@@ -84,7 +86,7 @@ class System:
         """
         return sp.Add(*self.model.squared_arms(self.model.bodies[k // 3].name)) if k % 3 == 2 else ONE
 
-    def generalized(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
+    def compute_generalized_forces(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
         """Return the generalized forces (n) Jᵀ f of loads, and those on prescribed coordinates by name.
 
         In absolute coordinates the second result is empty; loads on the ground are skipped.
@@ -98,7 +100,7 @@ class System:
                 forces[k + 2] += point.arm[0] * y - point.arm[1] * x + moment
         return forces, {}
 
-    def acceleration(self, point: PointFrame, a: Mapping[int, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
+    def compute_acceleration(self, point: PointFrame, a: Mapping[int, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
         """Return r̈ of a point at accelerations a of the coordinates: r̈ of the centre of mass + θ̈ ẑ × arm − ω² arm.
 
         Points of the ground give (0, 0).
@@ -112,7 +114,7 @@ class System:
         )
         return x - theta * arm_y - omega**2 * arm_x, y + theta * arm_x - omega**2 * arm_y
 
-    def turning(self, point: PointFrame, a: Mapping[int, sp.Expr]) -> sp.Expr:
+    def compute_angular_acceleration(self, point: PointFrame, a: Mapping[int, sp.Expr]) -> sp.Expr:
         """Return θ̈ of a point's body at accelerations a of the coordinates; 0 for the ground."""
         if point.body is None:
             return ZERO
@@ -120,7 +122,7 @@ class System:
         return sp.Add(*(entry * a[k] for k, entry in motion.jacobian[2].items()), motion.bias[2])
 
 
-def absolute(model: Model) -> System:
+def make_absolute_system(model: Model) -> System:
     """Return the system in the model's own coordinates, three per body, with a diagonal mass matrix."""
     motions = {
         body.name: Motion(tuple({body.index + offset: ONE} for offset in range(3)), (ZERO, ZERO, ZERO))
@@ -137,7 +139,7 @@ def _derive_weights(model: Model) -> tuple[sp.Expr, ...]:
         for axis, component in zip("xy", model.gravity, strict=True):
             weight = body.mass * component
             weight_parameter = (
-                ZERO if weight == 0 else model.slots.derive(f"weight_{body.name}_{axis}", weight, "weight")
+                ZERO if weight == 0 else model.parameter_table.derive(f"weight_{body.name}_{axis}", weight, "weight")
             )
             forces.append(weight_parameter)
         forces.append(ZERO)

@@ -17,11 +17,11 @@ import numpy as np
 import sympy as sp
 
 from gudgeon.errors import BadValueError, LawError
-from gudgeon.generator.kinds.laws.built import PAIR, probe
-from gudgeon.generator.kinds.laws.law import FURTHER, RESULTS, USER_LAWS, VARIABLES, Law, laws
-from gudgeon.generator.kinds.laws.registered import ORIGINS, check_name, prefix
-from gudgeon.generator.mechanism import LawUse, Quantity, Scene, value_at_onset
-from gudgeon.generator.symbols.from_expressions import classes_where, quantity_to_sympy
+from gudgeon.generator.kinds.laws.built import PAIR, probe_law
+from gudgeon.generator.kinds.laws.law import FURTHER_VARIABLES, RESULTS, USER_LAWS, VARIABLES, Law, find_all_laws
+from gudgeon.generator.kinds.laws.registered import ORIGINS, check_law_name, format_law_prefix
+from gudgeon.generator.mechanism import LawUse, Quantity, Scene, make_onset_value
+from gudgeon.generator.symbols.from_expressions import convert_quantity_to_sympy, find_classes
 from gudgeon.generator.symbols.parameter_table import ParameterTable
 from gudgeon.language.functions import Units
 from gudgeon.language.tree import evaluate
@@ -35,36 +35,38 @@ from gudgeon.language.units import (
     TORQUE,
     VELOCITY,
     Dimension,
-    describe,
+    describe_dimension,
 )
 
 N_PENETRATIONS = 400  # penetrations at which a force is sampled
 _MIN_RELATIVE_PENETRATION = 1e-6  # of the largest of them
 
 
-def force_of(force: Quantity, delta: sp.Symbol, max_penetration: float, parameter_table: ParameterTable) -> sp.Expr:
+def read_force_expression(
+    force: Quantity, delta: sp.Symbol, max_penetration: float, parameter_table: ParameterTable
+) -> sp.Expr:
     """Return a force of the file as an expression of `delta` and parameters, checked up to a penetration in m.
 
     If SymPy does not see that the force at δ = 0 is 0, its value there becomes a parameter, which every run checks.
     Raise BadValueError for a force that does not depend on δ, is not finite, pulls, or has no slope at δ = 0.
     """
 
-    def symbol(path: str) -> sp.Expr:
+    def find_symbol(path: str) -> sp.Expr:
         """Return the symbol of a name in the expression: `delta` or a parameter."""
         if path == "delta":
             return delta
         parameter: sp.Symbol = parameter_table.entries[f"parameters.{path}"].symbol
-        parameter_table.symbols.adopt(parameter)
+        parameter_table.symbols.add_shared_parameter(parameter)
         return parameter
 
-    value = quantity_to_sympy(force, symbol)
+    value = convert_quantity_to_sympy(force, find_symbol)
     if not value.has(delta):
         hint = "expected an expression such as 1e8 N/m * delta: its terms cancel"
         raise BadValueError(f"{force.address} does not follow delta, the penetration", force.where, hint)
     _check_force(force, max_penetration, parameter_table)
     _check_slope(force, value, delta, parameter_table)
     if value.subs(delta, 0) != 0:
-        parameter_table.use(value_at_onset(force))
+        parameter_table.get_or_add(make_onset_value(force))
     return value
 
 
@@ -119,8 +121,8 @@ _RESULTS: Mapping[str, Dimension] = {
     "share": DIMENSIONLESS,
 }
 _PAIR: Mapping[str, Dimension] = {"E_i": PRESSURE, "E_j": PRESSURE, "nu_i": DIMENSIONLESS, "nu_j": DIMENSIONLESS}
-_SAME_UNIT_FUNCTIONS = classes_where(lambda f: f.units is Units.SAME)
-_RATIO_FUNCTIONS = classes_where(lambda f: f.units is Units.RATIO)
+_SAME_UNIT_FUNCTIONS = find_classes(lambda f: f.units is Units.SAME)
+_RATIO_FUNCTIONS = find_classes(lambda f: f.units is Units.RATIO)
 
 
 class _Flexible:
@@ -136,7 +138,7 @@ def check_units(law: Law, use: LawUse) -> None:
 
     `use`: the law as the file uses it, with options and quantities.
     """
-    probed_law = probe(law, use.options, use.quantities)
+    probed_law = probe_law(law, use.options, use.quantities)
     dimension_of_symbol: dict[str, _DimensionOrFlexible] = {f"probe_{name}": _PAIR.get(name, LENGTH) for name in PAIR}
     dimension_of_symbol |= {
         f"probe_{name}": quantity.dimension or _ANY_UNIT for name, quantity in use.quantities.items()
@@ -145,9 +147,9 @@ def check_units(law: Law, use: LawUse) -> None:
     dimension_of_symbol |= {state.name: LENGTH for state in law.states}
     units = _DimensionFinder(law, dimension_of_symbol)
     for name, value in probed_law.derived.items():
-        dimension_of_symbol[f"probe_{name}"] = units.of(name, value)
+        dimension_of_symbol[f"probe_{name}"] = units.find_dimension(name, value)
     for name, step in probed_law.steps.items():
-        dimension_found = units.of(name, step)
+        dimension_found = units.find_dimension(name, step)
         dimension_of_symbol[name] = dimension_found
         expected_dimension = VELOCITY if name.endswith("_rate") else _RESULTS.get(name)
         if (
@@ -158,7 +160,8 @@ def check_units(law: Law, use: LawUse) -> None:
         ):
             hint = "a number with a unit is one of its fields: number(name, meaning, DIMENSION, default=…)"
             raise LawError(
-                f"{units.message_prefix}{name} is {describe(dimension_found)}, expected {describe(expected_dimension)}",
+                f"{units.message_prefix}{name} is {describe_dimension(dimension_found)}, expected "
+                f"{describe_dimension(expected_dimension)}",
                 hint=hint,
             )
 
@@ -174,9 +177,9 @@ class _DimensionFinder:
     @property
     def message_prefix(self) -> str:
         """Return the beginning of a message: the law and the file that defines it."""
-        return prefix(self.law.name, ORIGINS.get(self.law.name))
+        return format_law_prefix(self.law.name, ORIGINS.get(self.law.name))
 
-    def of(self, name: str, expression: sp.Expr) -> _DimensionOrFlexible:
+    def find_dimension(self, name: str, expression: sp.Expr) -> _DimensionOrFlexible:
         """Return the dimension of an expression in the step `name`, from a cache.
 
         Raise LawError if its terms have unlike units.
@@ -188,7 +191,8 @@ class _DimensionFinder:
     def _compute_dimension(self, name: str, expression: sp.Expr) -> _DimensionOrFlexible:
         """Return the dimension of an expression without reading the cache.
 
-        Numbers, and quantities that may have any unit, give a flexible dimension.
+        A number gives `_PLAIN_NUMBER`, a symbol without a fixed unit `_ANY_UNIT`. Raise LawError if terms have unlike
+        units, or if an exponent or the argument of a function such as sin has a unit.
         """
         if expression.is_number:
             return _PLAIN_NUMBER
@@ -196,7 +200,7 @@ class _DimensionFinder:
             return self.known.get(expression.name, _ANY_UNIT)
         if expression.is_Pow or isinstance(expression, sp.exp):
             return self._raise_dimension(name, *expression.as_base_exp())
-        dimensions = [self.of(name, part) for part in expression.args]
+        dimensions = [self.find_dimension(name, part) for part in expression.args]
         if expression.is_Mul:
             return self._multiply_dimensions(dimensions)
         if expression.is_Add or isinstance(expression, (*_SAME_UNIT_FUNCTIONS, *_RATIO_FUNCTIONS)):
@@ -223,14 +227,15 @@ class _DimensionFinder:
             ),
             None,
         )
-        unlike_text = describe(known_dimensions[1]) if len(known_dimensions) > 1 else ""
+        unlike_text = describe_dimension(known_dimensions[1]) if len(known_dimensions) > 1 else ""
         if known_dimensions and plain_number is not None and not unlike_text and known_dimensions[0] != DIMENSIONLESS:
             unlike_text = f"{float(plain_number):g}, a pure number"
         if unlike_text:
             operation = "adds" if expression.is_Add else f"takes {type(expression).__name__} of"
             text = sp.sstr(_restore_law_names(expression))[:120]
             raise LawError(
-                f"{self.message_prefix}{name} {operation} {describe(known_dimensions[0])} and {unlike_text}: {text}",
+                f"{self.message_prefix}{name} {operation} {describe_dimension(known_dimensions[0])} and "
+                f"{unlike_text}: {text}",
                 hint="a number with a unit is one of the law's fields",
             )
         return known_dimensions[0] if known_dimensions else _ANY_UNIT if _ANY_UNIT in dimensions else _PLAIN_NUMBER
@@ -238,11 +243,11 @@ class _DimensionFinder:
     def _raise_dimension(self, name: str, base: sp.Expr, exponent: sp.Expr) -> _DimensionOrFlexible:
         """Return the dimension of base**exponent.
 
-        It is flexible if the base has a unit and the exponent is not a number. Raise LawError if the exponent has a
-        unit.
+        A base without a unit, or with any unit, keeps its dimension. A base with a unit and an exponent that is not a
+        number give `_ANY_UNIT`. Raise LawError if the exponent has a unit.
         """
-        self._check_dimensionless(name, "an exponent", self.of(name, exponent))
-        base_dimension = self.of(name, base)
+        self._check_dimensionless(name, "an exponent", self.find_dimension(name, exponent))
+        base_dimension = self.find_dimension(name, base)
         if not isinstance(base_dimension, Dimension) or base_dimension == DIMENSIONLESS:
             return base_dimension
         return base_dimension ** Fraction(str(exponent)).limit_denominator(1000) if exponent.is_number else _ANY_UNIT
@@ -253,7 +258,10 @@ class _DimensionFinder:
         `description`: the value in the message, such as "an exponent".
         """
         if isinstance(dimension, Dimension) and dimension != DIMENSIONLESS:
-            message = f"{name} has {description} of {describe(dimension)}, expected {describe(DIMENSIONLESS)}"
+            message = (
+                f"{name} has {description} of {describe_dimension(dimension)}, expected "
+                f"{describe_dimension(DIMENSIONLESS)}"
+            )
             raise LawError(
                 f"{self.message_prefix}{message}", hint="divide by a number of that unit: one of the law's fields"
             )
@@ -262,7 +270,8 @@ class _DimensionFinder:
     def _multiply_dimensions(dimensions: list[_DimensionOrFlexible]) -> _DimensionOrFlexible:
         """Return the dimension of a product from those of its factors.
 
-        It is flexible if one may have any unit, or if all are plain numbers.
+        Return `_ANY_UNIT` if one factor may have any unit. Otherwise plain numbers do not count; return `_PLAIN_NUMBER`
+        if all factors are plain numbers.
         """
         if _ANY_UNIT in dimensions:
             return _ANY_UNIT
@@ -295,10 +304,10 @@ _STATE = (0.0, 1e-6, -1e-6)
 _UNITS = {"delta": "m", "deltadot": "m/s", "F_n": "N", "v_t": "m/s", "w_n": "1/s", "w_t": "1/s"}
 
 
-def check_own_laws(scene: Scene) -> None:
+def check_user_defined_laws(scene: Scene) -> None:
     """Raise LawError if a name in a user-defined law of the scene has two meanings, or if units do not fit."""
     for play in scene.play.values():
-        laws_in_use = [(laws()[use.law], use) for use in play.contact.laws]
+        laws_in_use = [(find_all_laws()[use.law], use) for use in play.contact.laws]
         if any(law.name in USER_LAWS for law, _ in laws_in_use):
             names = {law.name: _LawNames(law, use) for law, use in laws_in_use}
             for law, use in (pair for pair in laws_in_use if pair[0].name in USER_LAWS):
@@ -312,7 +321,7 @@ class _LawNames:
 
     def __init__(self, law: Law, use: LawUse) -> None:
         """Collect the names of locals and parameters by building the law with probe symbols."""
-        probed_law = probe(law, use.options, use.quantities)
+        probed_law = probe_law(law, use.options, use.quantities)
         self.law = law
         self.locals = [
             *(state.name for state in law.states),
@@ -322,11 +331,15 @@ class _LawNames:
 
     def check(self) -> None:
         """Raise LawError for a name that is not an identifier, occurs twice, or has a fixed meaning for the law."""
-        fixed_names = {*PAIR, "transition", *itertools.chain(*VARIABLES.values(), *FURTHER.values(), *RESULTS.values())}
+        fixed_names = {
+            *PAIR,
+            "transition",
+            *itertools.chain(*VARIABLES.values(), *FURTHER_VARIABLES.values(), *RESULTS.values()),
+        }
         all_names = [*self.locals, *self.numbers]
         for name in all_names:
             try:
-                check_name(name, "number or abbreviation")
+                check_law_name(name, "number or abbreviation")
             except LawError as error:
                 raise LawError(f"{_format_law_prefix(self.law)}{error.message}", hint=error.hint) from None
             if name in fixed_names or all_names.count(name) > 1:
@@ -351,10 +364,10 @@ def _check_common_names(dry_laws: Sequence[_LawNames]) -> None:
 
 def _format_law_prefix(law: Law) -> str:
     """Return the beginning of a message: the law and the file that defines it."""
-    return prefix(law.name, ORIGINS.get(law.name))
+    return format_law_prefix(law.name, ORIGINS.get(law.name))
 
 
-def check_numbers(
+def check_sampled_values(
     law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str, sp.Expr], parameter_table: ParameterTable
 ) -> None:
     """Raise LawError if a step of a law is not a finite real number at a sampled state, with the values of the file.
@@ -362,7 +375,8 @@ def check_numbers(
     `variables`: the symbols that are sampled. A fraction `share` must be between 0 and 1, and 0 at δ = 0.
     """
     parameter_values = {
-        symbol: np.float64(number_of(parameter_table, symbol)) for symbol in _find_parameters(steps, parameter_table)
+        symbol: np.float64(find_default_value(parameter_table, symbol))
+        for symbol in _find_parameters(steps, parameter_table)
     }
     arguments, function_by_name = [*parameter_values, *variables], {}
     for name, step in steps.items():
@@ -393,17 +407,17 @@ def check_numbers(
 
 def _find_parameters(steps: Mapping[str, sp.Expr], parameter_table: ParameterTable) -> set[sp.Symbol]:
     """Return the parameters that the steps of a law read."""
-    members = set(parameter_table.members())
+    members = set(parameter_table.list_symbols())
     return {symbol for step in steps.values() for symbol in step.free_symbols if symbol in members}
 
 
-def number_of(parameter_table: ParameterTable, symbol: sp.Symbol) -> float:
+def find_default_value(parameter_table: ParameterTable, symbol: sp.Symbol) -> float:
     """Return the default value of a parameter or of a derived parameter; NaN if it is not real."""
     for entry in parameter_table.entries.values():
         if entry.symbol == symbol:
             return entry.default
     value = parameter_table.derived[symbol]
     result = value.xreplace(
-        {symbol_: sp.Float(number_of(parameter_table, symbol_), 17) for symbol_ in value.free_symbols}
+        {symbol_: sp.Float(find_default_value(parameter_table, symbol_), 17) for symbol_ in value.free_symbols}
     )
     return float(result) if result.is_real else math.nan

@@ -1,1 +1,1 @@
-"""Declares what a mechanism file may contain, checks the shape of files, and applies overrides by address."""
+"""Declares what a mechanism file may contain, checks its structure, and replaces values by their path."""

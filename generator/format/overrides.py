@@ -1,4 +1,4 @@
-"""Applies overrides to a file's tree before it is read: values at addresses such as contacts.dry.normal.geometry."""
+"""Replaces values in a YAML tree before it is read, by paths such as contacts.dry.normal.geometry."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from gudgeon.errors import BadValueError, InputError, Location
 from gudgeon.generator.field import DEPTHS, MAPPING, POINTS, RESULTS, SCALARS, VECTOR, Field
 from gudgeon.generator.format.sections import FILE
 from gudgeon.generator.format.shapes import OVERRIDE
-from gudgeon.generator.yaml import Items, Map, Text, kind_of
-from gudgeon.language.names import unknown_name
+from gudgeon.generator.yaml import Items, Map, Text, describe_node
+from gudgeon.language.names import make_unknown_name_error
 
 WHOLE = 2.0**53  # smaller whole numbers are exact in binary64
 _AXES = {"x": 0, "y": 1}
@@ -47,7 +47,7 @@ def _split_address(root: Map, address: str) -> list[str]:
         if field is not None and field.keys is not None:  # the rest is the name of a coordinate: L7.theta
             component = keys[-1:] if len(keys) - i > 2 and keys[-1] in _AXES else []  # of a point: upper.P.x
             return [*keys[:i], ".".join(keys[i : len(keys) - len(component)]), *component]
-        field = field and field.below(key)
+        field = field and field.find_field(key)
     return keys
 
 
@@ -79,7 +79,7 @@ class _Address:
     def unknown(self) -> InputError:
         """Return the UnknownNameError for an address that the file does not have, with the nearest addresses."""
         known_addresses = [*_iterate_addresses(self.root), *self.root.get("parameters", ())]
-        return unknown_name("address", self.text, known_addresses, None)
+        return make_unknown_name_error("address", self.text, known_addresses, None)
 
 
 def _replace_text(node: Any, keys: list[str], text: Text, address: _Address, field: Field | None, depth: int) -> Any:
@@ -90,7 +90,9 @@ def _replace_text(node: Any, keys: list[str], text: Text, address: _Address, fie
     """
     if not keys:
         if isinstance(node, (Map, Items)) and not (field is not None and field.kind == RESULTS):
-            raise BadValueError(f"{address.text} is {kind_of(node)}", None, _format_inner_addresses(address.text, node))
+            raise BadValueError(
+                f"{address.text} is {describe_node(node)}", None, _format_inner_addresses(address.text, node)
+            )
         return text
     first_key, other_keys = keys[0], keys[1:]
     if field is not None and field.kind == POINTS:
@@ -113,9 +115,9 @@ def _replace_text(node: Any, keys: list[str], text: Text, address: _Address, fie
         )
     if not isinstance(node, Map):
         raise address.unknown()
-    field_of_child = field and field.below(first_key, node)
+    field_of_child = field and field.find_field(first_key, node)
     if first_key in node:
-        key, child = node.key(first_key), node[first_key]
+        key, child = node.find_key(first_key), node[first_key]
     else:
         if (
             not _may_add_key(field, field_of_child, keys, depth)

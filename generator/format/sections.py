@@ -1,4 +1,4 @@
-"""Declares the sections of a mechanism file and their keys, each once.
+"""Declares the top-level keys of a mechanism file (bodies, joints, scenes and others) and the keys below them.
 
 Joints, drives, forces and laws are declared in their own folders of generator/kinds; `kinds` of a field returns them.
 """
@@ -24,7 +24,7 @@ from gudgeon.generator.field import (
     Kind,
     flag,
     mapping,
-    name_in,
+    name_of_entry,
     number,
     record,
     vector,
@@ -33,7 +33,7 @@ from gudgeon.generator.field import (
 from gudgeon.generator.kinds.drives import DRIVES
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.kinds.laws.law import Law, called
+from gudgeon.generator.kinds.laws.law import Law, find_laws_of_role
 from gudgeon.language.curves import ENDS, EXTRAPOLATE, INTERPOLATIONS, NATURAL, SPLINE, STOP
 from gudgeon.language.units import (
     ACCELERATION,
@@ -76,8 +76,8 @@ BEARING = record(
         required=True,
         bounds=(Bound(">", 0.0, "a bearing's length is positive"),),
     ),
-    name_in("materials", "bearing_material", "material of the hole"),
-    name_in("materials", "journal_material", "material of the pin"),
+    name_of_entry("materials", "bearing_material", "material of the hole"),
+    name_of_entry("materials", "journal_material", "material of the pin"),
 )
 
 GUIDE = record(
@@ -115,8 +115,8 @@ GUIDE = record(
             Bound("<=", "half_height", "a corner's radius is at most half the slider's height"),
         ),
     ),
-    name_in("materials", "guide_material", "material of the slot"),
-    name_in("materials", "slider_material", "material of the slider"),
+    name_of_entry("materials", "guide_material", "material of the slot"),
+    name_of_entry("materials", "slider_material", "material of the slider"),
 )
 
 
@@ -155,14 +155,14 @@ def _format_law_title(law: Law, name: str) -> str:
 def _make_law_field(role: str, meaning: str) -> Field:
     """Return the field of a contact for the laws of one role; its kinds are found when they are needed."""
 
-    def kinds() -> Mapping[str, Kind]:
+    def find_law_kinds() -> Mapping[str, Kind]:
         """Return the laws of the role by each of their names, with the keys that each name allows."""
         return {
             name: Kind(_format_law_title(law, name), law.fields_as(name), like="" if name == law.name else law.name)
-            for name, law in called(role).items()
+            for name, law in find_laws_of_role(role).items()
         }
 
-    return Field(role, LAW, meaning, kinds=kinds)
+    return Field(role, LAW, meaning, kinds=find_law_kinds)
 
 
 _ELASTIC = "unused in bearings"
@@ -223,7 +223,7 @@ SHAPE = record(
         DENSITY,
         bounds=(Bound(">", 0.0, "a density is positive"),),
     ),
-    name_in("materials", "material", "material whose density is used; instead of `density`", required=False),
+    name_of_entry("materials", "material", "material whose density is used; instead of `density`", required=False),
     number(
         "thickness",
         "thickness, together with density or material",
@@ -276,7 +276,7 @@ BODY = record(
 CONTACT = record(
     "contact",
     "what happens between journal and bearing: a normal law, a film, or both",
-    name_in("contacts", "extends", "contact from which missing keys are taken", required=False),
+    name_of_entry("contacts", "extends", "contact from which missing keys are taken", required=False),
     _make_law_field("normal", "law of the normal force"),
     _make_law_field("friction", "law of dry friction"),
     _make_law_field("film", "law of the oil film"),
@@ -354,11 +354,11 @@ SIMULATE = record(
 PLAY = record(
     "play",
     "the play in a joint",
-    name_in(
+    name_of_entry(
         "bearings", "bearing", "bearing of a revolute joint: its dimensions", False, either="guide", otherwise="a guide"
     ),
-    name_in("guides", "guide", "guide of a translational joint: its dimensions", False, otherwise="a bearing"),
-    name_in("contacts", "contact", "contact whose laws apply"),
+    name_of_entry("guides", "guide", "guide of a translational joint: its dimensions", False, otherwise="a bearing"),
+    name_of_entry("contacts", "contact", "contact whose laws apply"),
     Field(
         "contour",
         DEPTHS,
@@ -379,7 +379,7 @@ _OF_MATERIAL = (
 SCENE = record(
     "scene",
     "which joints have play, and what goes with that",
-    name_in("scenes", "extends", "scene whose entries are added to its own", required=False),
+    name_of_entry("scenes", "extends", "scene whose entries are added to its own", required=False),
     mapping("play", "joints with play", PLAY),
     mapping("parameters", "other values of parameters in this scene", number("value", "the value here", None)),
     mapping("events", "events of this scene, in addition to the file's", EVENT),
@@ -387,7 +387,7 @@ SCENE = record(
     mapping(
         "materials",
         "other materials in this scene: bearings.NAME.journal_material, bodies.NAME.shape.material",
-        name_in("materials", "value", "the material here"),
+        name_of_entry("materials", "value", "the material here"),
         addresses=_OF_MATERIAL,
     ),
     SIMULATE,
@@ -429,7 +429,7 @@ FILE = record(
     "file",
     "a mechanism",
     Field("format", WORD, "the version of this format", values=(FORMAT,), required=True),
-    name_in("", "name", "the mechanism's name"),
+    name_of_entry("", "name", "the mechanism's name"),
     Field("title", TEXT, "title of the mechanism, one line", otherwise="the name"),
     vector("gravity", "acceleration, in ground axes", ACCELERATION, otherwise="none"),
     mapping("parameters", "parameters by name, which every expression may use", number("value", "the number", None)),

@@ -1,4 +1,4 @@
-"""Checks the shape of a file's tree: which keys exist, and which nodes are texts, lists or mappings.
+"""Checks the structure of a mechanism file: which keys exist, and which values are texts, lists or mappings.
 
 Findings are reported as errors at their location. Entries of joints, drives, forces and laws are checked by the reader
 once it knows their kind.
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
-from gudgeon.errors import BadValueError, InputError, Location, MissingKeyError, UnknownKeyError, together
+from gudgeon.errors import BadValueError, InputError, Location, MissingKeyError, UnknownKeyError, combine_errors
 from gudgeon.generator.field import (
     CORNERS,
     DEPTHS,
@@ -27,8 +27,8 @@ from gudgeon.generator.field import (
     Field,
 )
 from gudgeon.generator.format.sections import FILE, FORMAT, SECTIONS
-from gudgeon.generator.yaml import Items, Map, Text, kind_of
-from gudgeon.language.names import known_hint, nearest, unknown_name
+from gudgeon.generator.yaml import Items, Map, Text, describe_node
+from gudgeon.language.names import find_nearest_name, format_name_hint, make_unknown_name_error
 
 MAX_FINDINGS = 50
 OVERRIDE = "override of "  # the "file" of a text that comes from an override
@@ -56,7 +56,7 @@ class Checked:
 
     root: Map
     errors: tuple[InputError, ...] = ()
-    left_out: frozenset[str] = frozenset()
+    removed_names: frozenset[str] = frozenset()
 
 
 def check_shape(root: Map) -> Checked:
@@ -71,7 +71,7 @@ def check_shape(root: Map) -> Checked:
     sections = {
         name: value
         for name, value in root.items()
-        if not (isinstance(value, Text) and value.is_nothing and name in _MAY_BE_EMPTY)
+        if not (isinstance(value, Text) and value.is_null and name in _MAY_BE_EMPTY)
     }
     document = Map.make(sections, root.where)
     errors: list[InputError] = []
@@ -85,7 +85,7 @@ def check_shape(root: Map) -> Checked:
             break
         for finding in findings:
             document = _remove_wrong_entry(document, finding, left_out)
-    raise together(errors)
+    raise combine_errors(errors)
 
 
 STUDIES = "gudgeon-study/"  # prefix of the format of study files
@@ -101,7 +101,7 @@ def check_format(root: Map) -> None:
     if file_format != FORMAT:
         is_study = isinstance(file_format, Text) and file_format.startswith(STUDIES)
         remark = "; this file is a study, whose runs `gudgeon study FILE` makes" if is_study else ""
-        raise BadValueError(f"format is {kind_of(file_format)}", file_format.where, f"expected {FORMAT}{remark}")
+        raise BadValueError(f"format is {describe_node(file_format)}", file_format.where, f"expected {FORMAT}{remark}")
 
 
 @dataclass(frozen=True)
@@ -205,14 +205,14 @@ def _remove_node(node: Map, path: Path) -> Map:
     if first_key not in node or other_keys and not isinstance(node[first_key], Map):
         return node
     if other_keys:
-        return Map.make({**node, node.key(first_key): _remove_node(node[first_key], other_keys)}, node.where)
+        return Map.make({**node, node.find_key(first_key): _remove_node(node[first_key], other_keys)}, node.where)
     return Map.make({key: value for key, value in node.items() if key != first_key}, node.where)
 
 
 def _make_errors(findings: Sequence[_Finding], document: Map) -> list[InputError]:
     """Return the findings as errors; a missing key is not reported if a mistyped one stands in its place."""
     paths_of_mistyped_keys = {
-        (*finding.path[:-1], nearest(str(finding.path[-1]), finding.unknown))
+        (*finding.path[:-1], find_nearest_name(str(finding.path[-1]), finding.unknown))
         for finding in findings
         if finding.unknown is not None
     }
@@ -224,22 +224,31 @@ def _make_errors(findings: Sequence[_Finding], document: Map) -> list[InputError
 
 
 def _make_error(finding: _Finding, document: Map) -> InputError:
-    """Return one finding as an error at its location; an empty node is located by its key."""
+    """Return one finding as an error at its location: an unknown key, a missing key, or else a wrong value.
+
+    An empty node has no location; the error has that of its key.
+    """
     path, parent_path = finding.path, finding.path[:-1]
     if finding.unknown is not None:
-        key = _find_node(document, parent_path).key(str(path[-1]))
-        return unknown_key(
+        key = _find_node(document, parent_path).find_key(str(path[-1]))
+        return make_unknown_key_error(
             key, finding.unknown, _format_address(parent_path), _make_hint_for_foreign_key(parent_path, key.lower())
         )
     if finding.missing:
-        return missing_key(str(path[-1]), _find_node(document, parent_path).where, _format_address(parent_path))
+        return make_missing_key_error(
+            str(path[-1]), _find_node(document, parent_path).where, _format_address(parent_path)
+        )
     node = _find_node(document, path)
     location = node.where
-    if isinstance(node, Text) and node.is_nothing and path and isinstance(path[-1], str):
+    if isinstance(node, Text) and node.is_null and path and isinstance(path[-1], str):
         location = (
-            _find_node(document, parent_path).key(path[-1]).where
+            _find_node(document, parent_path).find_key(path[-1]).where
         )  # an empty node has no location: the key's is used
-    fault = f"has {len(node)} component{'s' * (len(node) != 1)}" if finding.expected == _TWO else f"is {kind_of(node)}"
+    fault = (
+        f"has {len(node)} component{'s' * (len(node) != 1)}"
+        if finding.expected == _TWO
+        else f"is {describe_node(node)}"
+    )
     return BadValueError(f"{_format_address(path)} {fault}", location, f"expected {finding.expected}")
 
 
@@ -255,7 +264,7 @@ def _make_hint_for_foreign_key(parent_path: Path, key: str) -> str:
     return ""
 
 
-def unknown_key(key: Text, known_keys: Iterable[str], owner_address: str, hint: str = "") -> InputError:
+def make_unknown_key_error(key: Text, known_keys: Iterable[str], owner_address: str, hint: str = "") -> InputError:
     """Return the error for a key that its mapping does not know; for the address of an override, UnknownNameError.
 
     `known_keys` are the allowed keys, `owner_address` is the mapping's address. `hint` replaces the list of the nearest
@@ -263,13 +272,15 @@ def unknown_key(key: Text, known_keys: Iterable[str], owner_address: str, hint: 
     """
     if key.where.file.startswith(OVERRIDE):
         address = key.where.file.removeprefix(OVERRIDE)
-        return unknown_name("address", address, [f"{address.rpartition('.')[0]}.{name}" for name in known_keys], None)
+        return make_unknown_name_error(
+            "address", address, [f"{address.rpartition('.')[0]}.{name}" for name in known_keys], None
+        )
     return UnknownKeyError(
-        f"unknown key {str(key)[:60]!r} in {owner_address}", key.where, hint or known_hint(key, known_keys, 20)
+        f"unknown key {str(key)[:60]!r} in {owner_address}", key.where, hint or format_name_hint(key, known_keys, 20)
     )
 
 
-def missing_key(name: str, location: Location, owner_address: str) -> MissingKeyError:
+def make_missing_key_error(name: str, location: Location, owner_address: str) -> MissingKeyError:
     """Return the error for a key that a mapping needs.
 
     `location` and `owner_address` are the mapping's location and address.

@@ -1,1 +1,1 @@
-"""Straight-line functions: statements, passes over them, derivatives."""
+"""Represents generated functions as straight-line statements, with passes that transform or differentiate them."""

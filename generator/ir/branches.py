@@ -1,4 +1,4 @@
-"""Branches of expressions as statements of their own, so that each choice is made once and has a name.
+"""Conditional expressions as separate named statements, so that each condition is evaluated once.
 
 Values stay as they are and keep the order of their terms; a printer writes the name that `Branches` knows for a branch.
 """
@@ -17,7 +17,7 @@ from gudgeon.generator.symbols.switches import BranchOf, Pick
 
 
 @dataclass(frozen=True)
-class JointsAlone(Line):
+class ReturnIfOnlyJoints(Line):
     """The end of a function if no accelerations are requested: the joints with play have been evaluated."""
 
 
@@ -33,7 +33,7 @@ class Branch(Line):
     comment: str = ""
 
     @property
-    def side(self) -> sp.Expr:
+    def branch(self) -> sp.Expr:
         """Return the symbol of the active branch, a sign.
 
         It chooses `then` or `otherwise`.
@@ -41,12 +41,12 @@ class Branch(Line):
         return self.value.args[0]
 
     @property
-    def then(self) -> sp.Expr:
+    def value_above(self) -> sp.Expr:
         """Return the value on the branch that is not below zero."""
         return self.value.args[1]
 
     @property
-    def otherwise(self) -> sp.Expr:
+    def value_below(self) -> sp.Expr:
         """Return the value on the branch below zero."""
         return self.value.args[2]
 
@@ -61,7 +61,7 @@ class Branch(Line):
         return self.target.names if isinstance(self.target, Place) else NONE
 
     @property
-    def defines(self) -> str:  # type: ignore[override]
+    def declared_local(self) -> str:  # type: ignore[override]
         """Return the local that is declared, or ""."""
         return self.target if isinstance(self.target, str) else ""
 
@@ -78,7 +78,7 @@ class Branches:
         self._used_names = set(used_names)
         self._switching_functions: dict[sp.Expr, sp.Expr] = {}  # sides, and the difference whose sign each is
 
-    def lines(self, lines: Iterable[Line]) -> list[Line]:
+    def insert_branches(self, lines: Iterable[Line]) -> list[Line]:
         """Return the lines with a `Branch` line inserted before the first line that reads each branch.
 
         An assignment whose value is itself a branch becomes a `Branch` line. The names found are added to `names`.
@@ -90,14 +90,14 @@ class Branches:
                 for argument in line.value.args:
                     result += self._make_branch_lines(argument)
                 result.append(Branch(line.target, line.value, line.comment))
-                if line.defines:
-                    self.names[line.value] = line.defines
+                if line.declared_local:
+                    self.names[line.value] = line.declared_local
                 continue
             for expression in line.expressions:
                 result += self._make_branch_lines(expression)
             result.append(line)
             if isinstance(line, Statement) and isinstance(line.value, BranchOf):
-                self._switching_functions[sp.Symbol(line.defines, real=True)] = line.value.args[1]
+                self._switching_functions[sp.Symbol(line.declared_local, real=True)] = line.value.args[1]
         return result
 
     def _make_branch_lines(self, expression: sp.Basic) -> list[Line]:

@@ -1,4 +1,4 @@
-"""A kernel at complex numbers, as a kernel of real ones: each statement becomes its real and its imaginary part.
+"""Generated functions of complex numbers: each statement becomes its real and its imaginary part.
 
 Newton's matrix of a method whose stages are solved together is that of a single stage at complex h γ. Its kernels are
 therefore derived once and printed twice, for single runs and for lanes. Statements without complex operands stay
@@ -12,11 +12,11 @@ from dataclasses import replace
 
 import sympy as sp
 
-from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, Section, without_unused
+from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, Section, remove_unused_locals
 from gudgeon.generator.ir.signatures import Access, Argument
 from gudgeon.generator.ir.statements import Call, Declare, Guard, Line, Statement
 from gudgeon.generator.ir.values import Conditional, Test, Value
-from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, key_of
+from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, find_key
 from gudgeon.generator.symbols.switches import Size
 
 SUFFIX, IMAGINARY = "_complex", "_i"
@@ -24,14 +24,14 @@ ZERO = sp.Integer(0)
 Parts = tuple[sp.Expr, sp.Expr]
 
 
-def at_complex(kernel: Kernel, complex_arrays: Iterable[Key], zero_arguments: Iterable[str] = ()) -> Kernel:
+def convert_to_complex(kernel: Kernel, complex_arrays: Iterable[Key], zero_arguments: Iterable[str] = ()) -> Kernel:
     """Return the kernel for complex arguments, with "_complex" appended to its name.
 
     `complex_arrays`: the arguments, array elements and places that are complex. `zero_arguments`: names of arguments
     that are 0 there and are left out. Unused locals are removed. Raise ValueError for a line that has no complex
     counterpart.
     """
-    return _ComplexConverter(kernel, frozenset(complex_arrays), frozenset(zero_arguments)).kernel()
+    return _ComplexConverter(kernel, frozenset(complex_arrays), frozenset(zero_arguments)).convert_kernel()
 
 
 class _ComplexConverter:
@@ -43,7 +43,7 @@ class _ComplexConverter:
         self.before: list[Line] = []  # what the next line reads
         self.counts = {"size": 0, "divisor": 0, "factor": 0}
 
-    def kernel(self) -> Kernel:
+    def convert_kernel(self) -> Kernel:
         """Return the complex version of the kernel: all sections and arguments converted, without unused locals.
 
         Raise ValueError for a line that cannot be converted.
@@ -60,7 +60,7 @@ class _ComplexConverter:
             sections=sections,
             doc=(*self.source.doc, "At complex eta: real and imaginary parts alternate."),
         )
-        return without_unused(converted)
+        return remove_unused_locals(converted)
 
     def _convert_argument(self, argument: Argument) -> list[Argument]:
         """Return the arguments that replace one in the complex kernel.
@@ -126,7 +126,7 @@ class _ComplexConverter:
         real array gets the real part alone.
         """
         real, imaginary = self._split_value(line.value)
-        if local := line.defines:
+        if local := line.declared_local:
             if imaginary == ZERO:
                 return [replace(line, value=real)]
             self.locals.add(local)
@@ -164,7 +164,7 @@ class _ComplexConverter:
     def _find_part_symbols(self, symbol: sp.Symbol) -> Parts | None:
         """Return the symbols of the real and of the imaginary part of a symbol, or None if the symbol is real."""
         name = symbol.name
-        if places := self._find_part_places(key_of(symbol)):
+        if places := self._find_part_places(find_key(symbol)):
             return PlaceSymbol(places[0]), PlaceSymbol(places[1])
         return (symbol, sp.Symbol(name + IMAGINARY)) if name in self.locals or name in self.complex else None
 
@@ -234,11 +234,11 @@ class _ComplexConverter:
         if imaginary == ZERO:
             return [line]
         local = self._make_local("size", Size(real) + Size(imaginary))
-        if test.of_itself:
+        if test.is_relative_to_value:
             bound: tuple[sp.Basic | float, ...] = (test.bound[0], local)
         else:
             bound = tuple(self._convert_bound(x) if isinstance(x, Size) else x for x in test.bound)
-        return [replace(line, test=replace(test, value=local, bound=bound, size=False))]
+        return [replace(line, test=replace(test, value=local, bound=bound, compares_magnitude=False))]
 
     def _convert_bound(self, magnitude: sp.Expr) -> sp.Expr:
         """Return the magnitude in a bound as a local with |real| + |imaginary|.

@@ -1,4 +1,4 @@
-"""Data dependence within a function: marks of some lines, passed to all lines that these depend on."""
+"""Data dependence within a generated function: from marked lines to all lines on which they depend."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import sympy as sp
 from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.readable import Readable
 from gudgeon.generator.ir.statements import Statement
-from gudgeon.generator.symbols.storage import Key, Place, key_of
+from gudgeon.generator.symbols.storage import Key, Place, find_key
 from gudgeon.generator.symbols.switches import Pick
 
 Marks = frozenset[str]
@@ -20,29 +20,29 @@ NO_MARKS: Marks = frozenset()
 
 
 @dataclass(frozen=True)
-class Slices:
+class LineMarks:
     """Marks of each line of a function by what it stores to, and of the parameters that it reads."""
 
-    stored: Mapping[Key, Marks]
-    numbers: Mapping[Place, Marks]
+    by_target: Mapping[Key, Marks]
+    by_parameter: Mapping[Place, Marks]
 
 
-def slices(function: Readable, marks: Callable[[Statement | Branch], Marks]) -> Slices:
+def propagate_marks(function: Readable, marks: Callable[[Statement | Branch], Marks]) -> LineMarks:
     """Return the marks of all statements and parameters of a function, propagated backwards along the data dependence.
 
     A line has its own marks, `marks(line)`, and those of all later lines that depend on it. The result maps the target
     of each line, and each parameter that is read, to a set of marks; entries without marks are left out.
     """
     marks_by_name: defaultdict[Key, set[str]] = defaultdict(set)
-    stored: defaultdict[Key, set[str]] = defaultdict(set)
+    marks_of_stored: defaultdict[Key, set[str]] = defaultdict(set)
     name_of_place: dict[Key, Key] = {place: name for name, place in function.names.items() if isinstance(place, Place)}
     for section in reversed(function.sections):
         for line in reversed(section.statements):
             if not isinstance(line, (Statement, Branch)):
                 continue
-            name = line.defines or name_of_place.get(line.target, line.target)
+            name = line.declared_local or name_of_place.get(line.target, line.target)
             line_marks = marks_by_name[name] | marks(line)
-            stored[line.target] |= line_marks
+            marks_of_stored[line.target] |= line_marks
             for key in _find_read_keys(line, function):
                 marks_by_name[key] |= line_marks
     marks_of_parameters: defaultdict[Place, set[str]] = defaultdict(set)
@@ -50,7 +50,7 @@ def slices(function: Readable, marks: Callable[[Statement | Branch], Marks]) -> 
         place = function.names.get(name, name)
         if isinstance(place, Place) and place.is_parameter:
             marks_of_parameters[place] |= line_marks
-    return Slices(_freeze_sets(stored), _freeze_sets(marks_of_parameters))
+    return LineMarks(_freeze_sets(marks_of_stored), _freeze_sets(marks_of_parameters))
 
 
 def _find_read_keys(line: Statement | Branch, function: Readable) -> set[Key]:
@@ -58,7 +58,7 @@ def _find_read_keys(line: Statement | Branch, function: Readable) -> set[Key]:
 
     The target of the line itself is not included.
     """
-    keys = {key_of(symbol) for expression in line.expressions for symbol in expression.free_symbols} | set(line.reads)
+    keys = {find_key(symbol) for expression in line.expressions for symbol in expression.free_symbols} | set(line.reads)
     if isinstance(line, Statement) and isinstance(line.value, Place):
         keys.add(line.value)
     for expression in line.expressions:
@@ -72,6 +72,6 @@ def _freeze_sets(marks_by_key: Mapping[Any, set[str]]) -> dict[Any, Marks]:
     return {key: frozenset(marks) for key, marks in marks_by_key.items() if marks}
 
 
-def free_names(expression: sp.Expr) -> set[str]:
+def find_symbol_names(expression: sp.Expr) -> set[str]:
     """Return the set of names of the free symbols of an expression."""
     return {symbol.name for symbol in expression.free_symbols}

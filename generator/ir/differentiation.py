@@ -1,4 +1,4 @@
-"""Forward differentiation: d expression / d base, through the derived symbols of a model.
+"""Forward-mode differentiation of expressions by the chain rule, through intermediate variables.
 
 A derived symbol has a tangent, the non-zero derivatives by the base symbols (coordinates, velocities, time, or other
 variables by which a kernel is differentiated). It follows from the symbol's rules, else from its definition. Tangents
@@ -12,11 +12,17 @@ from collections.abc import Iterable, Mapping
 
 import sympy as sp
 
-from gudgeon.generator.ir.finite_slopes import finite_slope, flat_at_zero, has_distance, overflowing, written
+from gudgeon.generator.ir.finite_slopes import (
+    differentiate_with_quotients,
+    find_overflowing_terms,
+    has_root_of_squares,
+    make_finite_slope,
+    make_slope_or_zero,
+)
 from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.reciprocals import base_name, is_division
 from gudgeon.generator.ir.statements import Statement
-from gudgeon.generator.symbols.derivatives import symbols_of
+from gudgeon.generator.symbols.derivatives import find_symbols
 from gudgeon.generator.symbols.symbols import Symbols
 
 Tangent = Mapping[sp.Symbol, sp.Expr]  # base symbol -> derivative by it; absent: zero
@@ -51,7 +57,7 @@ class Tangents:
         self._powers: dict[sp.Expr, sp.Symbol] = {}
         self._known: dict[sp.Symbol, Tangent] = {base: {base: ONE} for base in bases}
 
-    def inside(self, renamed: Mapping[sp.Symbol, sp.Symbol]) -> Tangents:
+    def make_for_variables(self, renamed: Mapping[sp.Symbol, sp.Symbol]) -> Tangents:
         """Return tangents in the same kernel for expressions that use other names for the variables.
 
         `renamed` maps each of those variables to its symbol in this kernel; these symbols are the new bases. Branches
@@ -61,14 +67,14 @@ class Tangents:
         tangents._branches, tangents._powers, tangents._symbol_map = self._branches, self._powers, renamed
         return tangents
 
-    def know(self, symbol: sp.Symbol, tangent: Tangent) -> None:
+    def store_tangent(self, symbol: sp.Symbol, tangent: Tangent) -> None:
         """Store the tangent of a symbol that the kernel computes without a definition.
 
         Entries that are more than a number or ± a symbol become locals of the kernel.
         """
         self._known[symbol] = {base: self._store_derivative(symbol, base, value) for base, value in tangent.items()}
 
-    def of(self, symbol: sp.Symbol) -> Tangent:
+    def get_tangent(self, symbol: sp.Symbol) -> Tangent:
         """Return the tangent of a symbol, its non-zero derivatives by base symbol; empty for a constant.
 
         It is computed once, from the symbol's rules or else its definition, and stored.
@@ -76,41 +82,45 @@ class Tangents:
         if symbol not in self._known:
             self._known[symbol] = {}  # a parameter, or a multiplier that is held constant
             if symbol in self._symbols.rules:
-                self.know(symbol, self.through(self._symbols.rules[symbol]))
+                self.store_tangent(symbol, self.apply_chain_rule(self._symbols.rules[symbol]))
             elif symbol in self._symbols.definitions and not self._symbols.info[symbol].home:
-                self.know(symbol, self.gradient(self._symbols.definitions[symbol], symbol))
+                self.store_tangent(symbol, self.compute_gradient(self._symbols.definitions[symbol], symbol))
         return self._known[symbol]
 
-    def through(self, tangent: Tangent) -> Tangent:
+    def apply_chain_rule(self, tangent: Tangent) -> Tangent:
         """Return the tangent by the base symbols of a value from its derivatives by other symbols (chain rule)."""
-        return self.sum((factor, self.of(symbol)) for symbol, factor in tangent.items())
+        return self.sum_tangents((factor, self.get_tangent(symbol)) for symbol, factor in tangent.items())
 
-    def held(self, expression: sp.Expr) -> sp.Expr:
+    def hold_branches(self, expression: sp.Expr) -> sp.Expr:
         """Return the expression with each switching function replaced by its active branch.
 
-        The variables of `inside` are replaced by those of the kernel. A branch that is read for the first time is
-        assigned by a new line of the kernel.
+        The variables of `evaluate_inside` are replaced by those of the kernel. A branch that is read for the first
+        time is assigned by a new line of the kernel.
         """
         n_known = len(self._branches)
-        fixed = self._symbols.switches.hold(expression, self._owner, self._branches)
+        fixed = self._symbols.switches.hold_branches(expression, self._owner, self._branches)
         for branch, value in list(self._branches.items())[n_known:]:
-            self._build.line(Statement(branch.name, value.xreplace(self._symbol_map)))
+            self._build.append_line(Statement(branch.name, value.xreplace(self._symbol_map)))
         return fixed.xreplace(self._symbol_map)
 
-    def gradient(self, expression: sp.Expr, known_as: sp.Symbol | None = None) -> Tangent:
+    def compute_gradient(self, expression: sp.Expr, known_as: sp.Symbol | None = None) -> Tangent:
         """Return the non-zero derivatives of an expression by base symbol, with branches fixed.
 
         `known_as`: a symbol that holds the value of the expression; a square root is then differentiated by dividing by
         that symbol.
         """
-        fixed = self.held(expression)
+        fixed = self.hold_branches(expression)
         order = sorted(fixed.free_symbols, key=lambda s: s.name)
         if known_as is not None and fixed.is_Pow and fixed.exp == sp.Rational(1, 2):
             scale = sp.Rational(1, 2) / (known_as + TINY)
-            return self.sum((partial(fixed.base, s) * scale, self.of(s)) for s in order)
-        return self.sum((partial(fixed, s), self.of(s)) for s in order if self.of(s))
+            return self.sum_tangents(
+                (compute_partial_derivative(fixed.base, s) * scale, self.get_tangent(s)) for s in order
+            )
+        return self.sum_tangents(
+            (compute_partial_derivative(fixed, s), self.get_tangent(s)) for s in order if self.get_tangent(s)
+        )
 
-    def sum(self, parts: Iterable[tuple[sp.Expr, Tangent]]) -> Tangent:
+    def sum_tangents(self, parts: Iterable[tuple[sp.Expr, Tangent]]) -> Tangent:
         """Return Σ factor · tangent of pairs (factor, tangent), by base symbol; sums that vanish are left out."""
         terms: dict[sp.Symbol, list[sp.Expr]] = {}
         for factor, tangent in parts:
@@ -126,9 +136,9 @@ class Tangents:
         """
         if value.is_Number or value.is_Symbol or (-value).is_Symbol:
             return value
-        return self._build.local(f"{symbol.name}_by_{base.name}", self.shared(value))
+        return self._build.append_local(f"{symbol.name}_by_{base.name}", self.share_powers_of(value))
 
-    def shared(self, value: sp.Expr) -> sp.Expr:
+    def share_powers_of(self, value: sp.Expr) -> sp.Expr:
         """Return the value with its denominators stored as locals that derivatives reuse.
 
         With `share_powers` its powers become locals too. A value without powers is returned unchanged.
@@ -155,28 +165,33 @@ class Tangents:
         Its name is the prefix and the name of its base, or "sum" if the base is not a symbol.
         """
         if value not in self._powers:
-            self._powers[value] = self._build.local(f"{prefix}_{base_name(value)}", value)
+            self._powers[value] = self._build.append_local(f"{prefix}_{base_name(value)}", value)
         return self._powers[value]
 
 
-def partial(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
+def compute_partial_derivative(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
     """Return ∂/∂symbol of a smooth expression; x^n gives n x^(n−1), not n x^n/x, which is 0/0 at 0.
 
-    Terms that may overflow get a `Slope` with a difference quotient. A root of a sum of squares gets derivative 0 where
-    it is 0/0.
+    Sums are differentiated term by term, and a product that is linear in `symbol` gives its other factors. Terms that
+    may overflow get a `Slope` with a difference quotient. A root of a sum of squares gets derivative 0 where it is 0/0.
     """
     if expression.is_Add:
-        return sp.Add(*(partial(term, symbol) for term in expression.args if symbol in symbols_of(term)))
+        return sp.Add(
+            *(compute_partial_derivative(term, symbol) for term in expression.args if symbol in find_symbols(term))
+        )
     if expression.is_Mul and symbol in expression.args:  # most terms are linear: SymPy's own way is slower
         other_factors = [factor for factor in expression.args if factor != symbol]
-        if not any(symbol in symbols_of(factor) for factor in other_factors):
+        if not any(symbol in find_symbols(factor) for factor in other_factors):
             return sp.Mul(*other_factors)
-    terms = {term: sp.Dummy(real=True) for term in overflowing(expression, symbol)}
+    terms = {term: sp.Dummy(real=True) for term in find_overflowing_terms(expression, symbol)}
     if terms and expression not in terms:
         renamed, terms_by_dummy = expression.xreplace(terms), {dummy: term for term, dummy in terms.items()}
-        inner_terms = (written(renamed, dummy) * partial(term, symbol) for term, dummy in terms.items())
-        return sp.Add(partial(renamed, symbol), *inner_terms).xreplace(terms_by_dummy)
-    derivative = written(expression, symbol)
+        inner_terms = (
+            differentiate_with_quotients(renamed, dummy) * compute_partial_derivative(term, symbol)
+            for term, dummy in terms.items()
+        )
+        return sp.Add(compute_partial_derivative(renamed, symbol), *inner_terms).xreplace(terms_by_dummy)
+    derivative = differentiate_with_quotients(expression, symbol)
     if terms:
-        return finite_slope(expression, symbol, derivative)
-    return flat_at_zero(derivative) if has_distance(expression, symbol) else derivative
+        return make_finite_slope(expression, symbol, derivative)
+    return make_slope_or_zero(derivative) if has_root_of_squares(expression, symbol) else derivative

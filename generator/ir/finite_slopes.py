@@ -1,4 +1,4 @@
-"""Derivatives that stay finite where the inner values of a term, or their squares, overflow.
+"""Derivatives of force terms that stay finite where inner values of a term, or their squares, overflow.
 
 A term such as 1/(1 + e^u), 1/cosh u, atan(e^u) or e^(-1/x) is saturated where its derivative as written is ∞/∞ or
 0 · ∞. There a difference quotient over a short distance gives the derivative: most often exactly 0. The form of a term
@@ -11,13 +11,13 @@ from __future__ import annotations
 
 import sympy as sp
 
-from gudgeon.generator.symbols.derivatives import derivative, symbols_of
-from gudgeon.generator.symbols.from_expressions import CLASSES, classes_where, derivative_at
+from gudgeon.generator.symbols.derivatives import differentiate, find_symbols
+from gudgeon.generator.symbols.from_expressions import CLASSES, convert_derivative, find_classes
 from gudgeon.generator.symbols.switches import Largest, Pick, Smallest
 from gudgeon.generator.symbols.unevaluated import Share
 
-_SATURATING_CLASSES = classes_where(lambda f: f.saturates)
-_OVERFLOWING_CLASSES = classes_where(lambda f: f.is_exponential or f.has_pole)
+_SATURATING_CLASSES = find_classes(lambda f: f.saturates)
+_OVERFLOWING_CLASSES = find_classes(lambda f: f.is_exponential or f.has_pole)
 _ZERO_QUOTIENT = (sp.Integer(0), sp.Integer(0), sp.Integer(1))  # a rise, and a way
 _MAX_SAFE_POWER = 8  # a power of which neither the value nor its square overflows for a number of a mechanism
 
@@ -30,7 +30,7 @@ class Slope(sp.Function):
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
         """Return the derivative of d, which holds where d is finite."""
-        return derivative(self.args[0], s)
+        return differentiate(self.args[0], s)
 
 
 class Upon(sp.Function):
@@ -60,7 +60,7 @@ class JustBehind(sp.Function):
     is_real = True
 
 
-def overflowing(expression: sp.Expr, symbol: sp.Symbol) -> list[sp.Expr]:
+def find_overflowing_terms(expression: sp.Expr, symbol: sp.Symbol) -> list[sp.Expr]:
     """Return the outermost terms of an expression that may be finite where their derivative by `symbol` overflows.
 
     These are terms of a saturating function or negative power whose inner values may overflow, and terms that are a
@@ -77,7 +77,7 @@ def overflowing(expression: sp.Expr, symbol: sp.Symbol) -> list[sp.Expr]:
         parts = (part for argument in expression.args for part in sp.preorder_traversal(argument))
         if any(_may_overflow(part, symbol) for part in parts):
             return [expression]
-    return [term for argument in expression.args for term in overflowing(argument, symbol)]
+    return [term for argument in expression.args for term in find_overflowing_terms(argument, symbol)]
 
 
 def _is_saturating(term: sp.Expr) -> bool:
@@ -102,8 +102,8 @@ def _may_overflow(part: sp.Basic, symbol: sp.Symbol) -> bool:
     )
 
 
-def finite_slope(term: sp.Expr, symbol: sp.Symbol, derivative: sp.Expr) -> Slope:
-    """Return ∂term/∂symbol as a `Slope`: `derivative` where that is finite, else a difference quotient of the term.
+def make_finite_slope(term: sp.Expr, symbol: sp.Symbol, derivative: sp.Expr) -> Slope:
+    """Return ∂term/∂symbol as a `Slope`: `differentiate` where that is finite, else a difference quotient of the term.
 
     The quotient is replaced by 0 for terms with switching points and for derivatives of a `Slope` with a quotient.
     """
@@ -113,7 +113,7 @@ def finite_slope(term: sp.Expr, symbol: sp.Symbol, derivative: sp.Expr) -> Slope
     return Slope(derivative, term.xreplace({symbol: above}), term.xreplace({symbol: below}), above - below)
 
 
-def has_distance(expression: sp.Expr, symbol: sp.Symbol) -> bool:
+def has_root_of_squares(expression: sp.Expr, symbol: sp.Symbol) -> bool:
     """Return whether an expression contains a root of a sum of squares that depends on `symbol`.
 
     Other fractional powers count too. The derivative of such a root is 0/0 where the sum vanishes.
@@ -135,26 +135,26 @@ def _is_square(term: sp.Expr) -> bool:
     return bool(number > 0 and all(factor.is_Pow and factor.exp.is_even for factor in sp.Mul.make_args(rest)))
 
 
-def flat_at_zero(derivative: sp.Expr) -> Slope:
+def make_slope_or_zero(derivative: sp.Expr) -> Slope:
     """Return the derivative as a Slope that is 0 where the derivative is not finite."""
     return Slope(derivative, *_ZERO_QUOTIENT)
 
 
-def as_written(expression: sp.Expr) -> sp.Expr:
+def convert_for_intervals(expression: sp.Expr) -> sp.Expr:
     """Return the expression in the form for interval arithmetic, in which 0 · ∞ is 0.
 
     It has no `Slope`, and conditional branches become Heaviside functions. Branches that are held over a step stay.
     """
-    expression = without_slopes(expression)
-    return expression.replace(Pick, _branch_to_heaviside) if expression.has(Pick) else expression
+    expression = remove_slopes(expression)
+    return expression.replace(Pick, _replace_branch_by_heaviside) if expression.has(Pick) else expression
 
 
-def without_slopes(expression: sp.Expr) -> sp.Expr:
+def remove_slopes(expression: sp.Expr) -> sp.Expr:
     """Return the expression with each `Slope` replaced by its derivative, without the test for overflow."""
     return expression.replace(Slope, lambda derivative, *_: derivative) if expression.has(Slope) else expression
 
 
-def _branch_to_heaviside(branch: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
+def _replace_branch_by_heaviside(branch: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
     """Return a branch that a sign chooses as b + H(x) (a − b); a branch held over a step is returned as a `Pick`.
 
     `branch` is the sign or held branch; `a` and `b` are the values above and below zero.
@@ -164,66 +164,75 @@ def _branch_to_heaviside(branch: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
     return b + sp.Heaviside(branch.replace(sp.sign, lambda x: x)) * (a - b)
 
 
-_EXPONENTIAL_CLASSES = classes_where(lambda f: f.is_exponential)
-_SQUARING_CLASSES = classes_where(lambda f: f.squares_argument)  # whose derivatives square a product factor by factor
+_EXPONENTIAL_CLASSES = find_classes(lambda f: f.is_exponential)
+_SQUARING_CLASSES = find_classes(lambda f: f.squares_argument)  # whose derivatives square a product factor by factor
 _MAX_SAFE_DECADES = 100  # decades from 1 beyond which the square of a number may overflow together with other factors
 
 
-def far_terms(expression: sp.Expr, symbol: sp.Symbol) -> list[sp.Expr]:
+def find_extreme_terms(expression: sp.Expr, symbol: sp.Symbol) -> list[sp.Expr]:
     """Return the outermost terms whose derivative must keep quotients v′/v together.
 
     These are squared values that may overflow, and terms that are a `Slope` or `Share` already. Empty if the expression
     does not depend on `symbol`.
     """
-    if symbol not in symbols_of(expression):
+    if symbol not in find_symbols(expression):
         return []
-    if isinstance(expression, (Share, Slope)) or _squares_extreme_value(expression):
+    if isinstance(expression, (Share, Slope)) or _may_square_extreme_value(expression):
         return [expression]
-    return [term for argument in expression.args for term in far_terms(argument, symbol)]
+    return [term for argument in expression.args for term in find_extreme_terms(argument, symbol)]
 
 
-def written(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
+def differentiate_with_quotients(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
     """Return ∂/∂symbol of a smooth expression in the form that keeps quotients v′/v together.
 
-    Terms without values that may overflow are differentiated by SymPy.
+    A `Slope` is differentiated through its first argument, a `Share` inside the `Share`. A power vⁿ that may overflow
+    gives n vⁿ Share(v′/v). An expression without terms that may overflow is differentiated by SymPy.
     """
     if isinstance(expression, Slope):
-        return written(expression.args[0], symbol)
+        return differentiate_with_quotients(expression.args[0], symbol)
     if isinstance(expression, Share):
-        return Share(written(expression.args[0], symbol))
-    terms = {term: sp.Dummy(real=True) for term in far_terms(expression, symbol)}
+        return Share(differentiate_with_quotients(expression.args[0], symbol))
+    terms = {term: sp.Dummy(real=True) for term in find_extreme_terms(expression, symbol)}
     if not terms:
         return _differentiate_by_sympy(expression, symbol)
     if expression in terms and expression.is_Pow:
-        return expression.exp * expression * Share(written(expression.base, symbol) / expression.base)
+        return (
+            expression.exp * expression * Share(differentiate_with_quotients(expression.base, symbol) / expression.base)
+        )
     if expression in terms:
         (argument,), inner_terms = expression.args, sp.Dummy(real=True)
         if derivative_text := _find_unsquared_derivative(expression):
-            outer_derivative = derivative_at(derivative_text, inner_terms, expression)
+            outer_derivative = convert_derivative(derivative_text, inner_terms, expression)
         else:
-            outer_derivative = derivative(expression.func(inner_terms), inner_terms)
+            outer_derivative = differentiate(expression.func(inner_terms), inner_terms)
         outer_derivative = outer_derivative.xreplace({inner_terms: Share(argument)})
-        return outer_derivative * written(argument, symbol)
+        return outer_derivative * differentiate_with_quotients(argument, symbol)
     renamed, terms_by_dummy = expression.xreplace(terms), {dummy: term for term, dummy in terms.items()}
-    inner_terms = (derivative(renamed, dummy) * written(term, symbol) for term, dummy in terms.items())
+    inner_terms = (
+        differentiate(renamed, dummy) * differentiate_with_quotients(term, symbol) for term, dummy in terms.items()
+    )
     return sp.Add(_differentiate_by_sympy(renamed, symbol), *inner_terms).xreplace(terms_by_dummy)
 
 
-def for_readers(expression: sp.Expr) -> sp.Expr:
+def remove_numerical_forms(expression: sp.Expr) -> sp.Expr:
     """Return the expression as a document prints it: without `Slope` and `Share`, which only keep its values finite."""
-    plain = without_slopes(expression)
-    return plain.replace(Share, lambda x: x) if plain.has(Share) else plain
+    expression_without_slopes = remove_slopes(expression)
+    return (
+        expression_without_slopes.replace(Share, lambda x: x)
+        if expression_without_slopes.has(Share)
+        else expression_without_slopes
+    )
 
 
 def _differentiate_by_sympy(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
     """Return ∂/∂symbol as SymPy computes it; powers with variable exponents are combined."""
-    rate = derivative(expression, symbol)
+    rate = differentiate(expression, symbol)
     if any(power.exp.free_symbols and power.base.has(symbol) for power in expression.atoms(sp.Pow)):
         rate = sp.powsimp(rate, combine="exp")
     return rate
 
 
-def _squares_extreme_value(power: sp.Expr) -> bool:
+def _may_square_extreme_value(power: sp.Expr) -> bool:
     """Return whether differentiation of a term would square a value whose square may overflow or vanish.
 
     Such terms are v^-n with a number n, and atan(v) and similar functions.

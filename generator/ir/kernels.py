@@ -1,7 +1,7 @@
-"""Kernels: named inputs → named temporaries → named outputs, ready to be printed in any language.
+"""Kernels: generated functions with named inputs, temporaries and outputs, which can be printed in any language.
 
 A `KernelBuilder` collects the statements of one function and adds before them what they need: the coordinates and
-parameters that they read and the definitions (cosines, arms, drives) that they use. A `Pool` stores values of one
+parameters that they read and the definitions (cosines, arms, drives) that they use. A `ValuePool` stores values of one
 function for others, each once up to its sign.
 """
 
@@ -13,9 +13,9 @@ from dataclasses import dataclass, field, replace
 import sympy as sp
 
 from gudgeon.generator.ir.signatures import Argument
-from gudgeon.generator.ir.statements import Branches, Line, Rescue, Statement
+from gudgeon.generator.ir.statements import Branches, Line, SolveDependentRows, Statement
 from gudgeon.generator.ir.values import Value
-from gudgeon.generator.symbols.derivatives import symbols_of
+from gudgeon.generator.symbols.derivatives import find_symbols
 from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
 from gudgeon.generator.symbols.switches import BranchOf, Switches
 from gudgeon.generator.symbols.symbols import SymbolInfo, Symbols
@@ -41,23 +41,24 @@ class Kernel:
     inline: bool = False
     attribute: str = ""  # of the compiler: "noinline"
     names: Mapping[Key, Key] = field(default_factory=dict)  # what symbols are called in its text
-    first_corner: int | None = None  # switches are counted from the argument `corner`; None: by their own numbers
+    first_switch: int | None = None  # switches are counted from the argument `first_switch`; None: by their own numbers
 
     @property
     def operations(self) -> int:
         """Return the number of additions, multiplications, divisions and function calls of the statements.
 
-        Lines that are neither an assignment of an expression nor a `Rescue` are not counted.
+        Lines that are neither an assignment of an expression nor a `SolveDependentRows` are not counted.
         """
         return sum(
             count_operations(value)
             for section in self.sections
             for line in section.statements
-            if isinstance(line, Rescue) or (isinstance(line, Statement) and isinstance(line.value, sp.Basic))
+            if isinstance(line, SolveDependentRows)
+            or (isinstance(line, Statement) and isinstance(line.value, sp.Basic))
             for value in line.expressions
         )
 
-    def has(self, function: type[sp.Function]) -> bool:
+    def contains_function(self, function: type[sp.Function]) -> bool:
         """Return whether the value of any statement contains a SymPy function of a class."""
         statements = (s for section in self.sections for s in section.statements if isinstance(s, Statement))
         return any(isinstance(s.value, sp.Expr) and s.value.has(function) for s in statements)
@@ -119,12 +120,12 @@ def hold_branches(
         for statement in section.statements:
             if isinstance(statement, Statement) and isinstance(statement.value, sp.Expr):
                 if isinstance(statement.value, BranchOf):  # assigned by the author of the kernel: once is enough
-                    if (branch_symbol := sp.Symbol(statement.defines, real=True)) not in branches:
+                    if (branch_symbol := sp.Symbol(statement.declared_local, real=True)) not in branches:
                         branches[branch_symbol] = statement.value
                         statements.append(statement)
                     continue
                 n_known = len(branches)
-                value = switches.hold(statement.value, owner, branches, only_known)
+                value = switches.hold_branches(statement.value, owner, branches, only_known)
                 statements += [Statement(s.name, branch) for s, branch in list(branches.items())[n_known:]]
                 statement = replace(statement, value=value)
             statements.append(statement)
@@ -132,7 +133,7 @@ def hold_branches(
     return result
 
 
-def without_unread(lines: Sequence[Line], read_names: set[str]) -> list[Line]:
+def remove_unread_lines(lines: Sequence[Line], read_names: set[str]) -> list[Line]:
     """Return the lines, in order, without those that define a local which no later line reads.
 
     `read_names` is changed in place: on entry the names that lines after these read, on return also those that these
@@ -140,14 +141,14 @@ def without_unread(lines: Sequence[Line], read_names: set[str]) -> list[Line]:
     """
     result: list[Line] = []
     for line in reversed(lines):
-        if line.defines and line.defines not in read_names:
+        if line.declared_local and line.declared_local not in read_names:
             continue
         read_names |= line.reads
         result.append(line)
     return result[::-1]
 
 
-def changed(line: Line, change: Callable[[sp.Basic], Value]) -> Line:
+def change_expression(line: Line, change: Callable[[sp.Basic], Value]) -> Line:
     """Return a statement with `change` applied to its expression.
 
     Lines without an expression are returned unchanged.
@@ -158,23 +159,25 @@ def changed(line: Line, change: Callable[[sp.Basic], Value]) -> Line:
 
 
 LINEARIZATION = "lin"  # the argument that holds the linearized equations of motion
-HELD = "branches of switching functions that are held, if any"  # title of the lines from which a kernel reads sides
+HELD_BRANCHES_TITLE = (
+    "branches of switching functions that are held, if any"  # title of the lines from which a kernel reads sides
+)
 
 
 def declare_branches(kernel: Kernel, output_target: str = "nobody") -> Kernel:
     """Return the kernel with a first section that declares the held branches.
 
     A kernel that reads no branch is returned unchanged. `output_target`: where the kernel writes its switching
-    functions: "", "nobody" or "rhs", see `Branches`.
+    functions, "", "nobody" or "rhs" (see `Branches`).
     """
-    if not _reads_branches(kernel):
+    if not _has_branch_reads(kernel):
         return kernel
-    return replace(kernel, sections=(Section(HELD, (Branches(output_target),)), *kernel.sections))
+    return replace(kernel, sections=(Section(HELD_BRANCHES_TITLE, (Branches(output_target),)), *kernel.sections))
 
 
-def _reads_branches(kernel: Kernel) -> bool:
+def _has_branch_reads(kernel: Kernel) -> bool:
     """Return whether a kernel reads the branch of a switching function, outside the section that declares branches."""
-    lines = (s for section in kernel.sections if section.title != HELD for s in section.statements)
+    lines = (s for section in kernel.sections if section.title != HELD_BRANCHES_TITLE for s in section.statements)
     return any("branch" in line.reads for line in lines)
 
 
@@ -191,28 +194,28 @@ class KernelBuilder:
         """Return whether any line so far jumps to the code for a vanishing pivot."""
         return any(getattr(line, "jumps", False) for _, lines in self._sections for line in lines)
 
-    def section(self, title: str) -> None:
+    def begin_section(self, title: str) -> None:
         """Begin a section with a title."""
         self._sections.append((title, []))
 
-    def line(self, line: Line) -> None:
+    def append_line(self, line: Line) -> None:
         """Append a line to the current section; a local that it declares must have an unused name."""
         self._sections[-1][1].append(line)
 
-    def local(self, name: str, value: Value, comment: str = "") -> sp.Symbol:
+    def append_local(self, name: str, value: Value, comment: str = "") -> sp.Symbol:
         """Append the assignment of a value to a new local and return its symbol.
 
         Its name is `name`, with a suffix if that is used already.
         """
-        unique = self._symbols.unique(name)
+        unique = self._symbols.make_unique_name(name)
         self._sections[-1][1].append(Statement(unique, value, comment))
         return sp.Symbol(unique, real=True)
 
-    def out(self, target: Place, value: Value, comment: str = "") -> None:
+    def append_store(self, target: Place, value: Value, comment: str = "") -> None:
         """Append a statement that stores a value at a place of an argument or array."""
         self._sections[-1][1].append(Statement(target, value, comment))
 
-    def build(
+    def build_kernel(
         self,
         arguments: Sequence[Argument],
         status: bool = False,
@@ -230,7 +233,7 @@ class KernelBuilder:
         if prune:
             self._sections = _prune_sections(self._sections)
         lines = [s for _, group in self._sections for s in group]
-        declared = {line.defines for line in lines if line.defines}
+        declared = {line.declared_local for line in lines if line.declared_local}
         expressions = [x for line in lines for x in line.expressions]
         definitions, inputs = self._resolve(expressions, declared)
         symbol_info = self._symbols.info
@@ -262,7 +265,7 @@ class KernelBuilder:
             sections = hold_branches(self._symbols.switches, owner, sections, only_known)
         nonempty = tuple(section for section in sections if section.statements)
         read_names = {name for section in nonempty for line in section.statements for name in line.reads}
-        names = self._symbols.shorter(read_names)
+        names = self._symbols.find_shorter_names(read_names)
         return Kernel(self._name, self._doc, tuple(arguments), nonempty, status, inline, names=names)
 
     def _resolve(self, expressions: Iterable[sp.Expr], declared: set[str]) -> tuple[list[sp.Symbol], list[sp.Symbol]]:
@@ -273,14 +276,14 @@ class KernelBuilder:
         """
         info, definitions = self._symbols.info, self._symbols.definitions
         found: set[sp.Symbol] = set()
-        pending = [s for expression in expressions for s in symbols_of(expression)]
+        pending = [s for expression in expressions for s in find_symbols(expression)]
         while pending:
             symbol = pending.pop()
             if symbol in found or symbol.name in declared or symbol not in info:
                 continue
             found.add(symbol)
             if not info[symbol].home:
-                pending.extend(symbols_of(definitions[symbol]))
+                pending.extend(find_symbols(definitions[symbol]))
         ordered = [symbol for symbol in info if symbol in found]
         return [s for s in ordered if not info[s].home], [s for s in ordered if info[s].home]
 
@@ -288,22 +291,24 @@ class KernelBuilder:
 def _prune_sections(sections: Iterable[tuple[str, Sequence[Line]]]) -> list[tuple[str, list[Line]]]:
     """Return the sections, as pairs of title and lines, without locals that no later line reads."""
     read_names: set[str] = set()
-    return [(title, without_unread(lines, read_names)) for title, lines in reversed(list(sections))][::-1]
+    return [(title, remove_unread_lines(lines, read_names)) for title, lines in reversed(list(sections))][::-1]
 
 
-def without_unused(kernel: Kernel) -> Kernel:
+def remove_unused_locals(kernel: Kernel) -> Kernel:
     """Return the kernel without locals that nothing reads, such as pivots of coordinates that no equation contains.
 
     Empty sections are removed, and the declaration of branches if no line reads a branch any more.
     """
     pruned = _prune_sections((section.title, section.statements) for section in kernel.sections)
     result = replace(kernel, sections=tuple(Section(title, tuple(lines)) for title, lines in pruned if lines))
-    if _reads_branches(result):
+    if _has_branch_reads(result):
         return result
-    return replace(result, sections=tuple(section for section in result.sections if section.title != HELD))
+    return replace(
+        result, sections=tuple(section for section in result.sections if section.title != HELD_BRANCHES_TITLE)
+    )
 
 
-class Pool:
+class ValuePool:
     """Values of one function that others read; `keep` stores a value and returns the symbol that reads it."""
 
     def __init__(self, symbols: Symbols, array: Place) -> None:
@@ -313,7 +318,7 @@ class Pool:
         self._index_by_value: dict[sp.Expr, int] = {}
         self.size = 0
 
-    def keep(self, build: KernelBuilder, value: sp.Expr, name: str) -> sp.Expr:
+    def store_value(self, build: KernelBuilder, value: sp.Expr, name: str) -> sp.Expr:
         """Store a value in the pool and return ± the symbol of its element; `name` is the base of its name.
 
         A number, a parameter, or a value that is stored already up to its sign is not stored again.
@@ -323,11 +328,11 @@ class Pool:
                 return value
             if sign * value in self._symbols_by_value:
                 return sign * self._symbols_by_value[sign * value]
-        symbol = self._symbols.new(name, self.array[self._store(build, value)])
+        symbol = self._symbols.add_symbol(name, self.array[self._store(build, value)])
         self._symbols_by_value[value], self._index_by_value[symbol] = symbol, self._index_by_value[value]
         return symbol
 
-    def adopt(self, build: KernelBuilder, value: sp.Expr) -> sp.Expr:
+    def store_local(self, build: KernelBuilder, value: sp.Expr) -> sp.Expr:
         """Store the local of which a value is ±, so that other functions read it under the same name; return the value.
 
         Nothing is stored if the value has no symbol or its symbol is registered already.
@@ -337,7 +342,7 @@ class Pool:
             self._symbols.info[symbol] = SymbolInfo(self.array[self._store(build, symbol)], "", "")
         return value
 
-    def place(self, build: KernelBuilder, value: sp.Expr) -> tuple[int, int]:
+    def find_index_and_sign(self, build: KernelBuilder, value: sp.Expr) -> tuple[int, int]:
         """Return (index, sign) of a value in the pool.
 
         A value that is not stored yet, such as a number or parameter, is stored first.
@@ -349,7 +354,7 @@ class Pool:
 
     def _store(self, build: KernelBuilder, value: sp.Expr) -> int:
         """Append a statement that stores a value at the next free index, and return that index."""
-        build.out(self.array[self.size], value)
+        build.append_store(self.array[self.size], value)
         self._index_by_value[value] = self.size
         self.size += 1
         return self._index_by_value[value]

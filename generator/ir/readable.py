@@ -1,4 +1,4 @@
-"""Readable form of a function: branches as lines, and no copies of values under other names.
+"""Readable form of a generated function: branches as separate lines, no copies of values under other names.
 
 Only the text changes: values stay as they are, with the order of their terms, so that every target computes the
 same bits. The names of symbols in the text are in `Kernel.names`, those of branches in `Readable.branches`.
@@ -29,36 +29,36 @@ class Readable:
     sections: tuple[Section, ...]
     names: Mapping[Key, Key] = field(default_factory=dict)
     branches: Mapping[sp.Expr, str] = field(default_factory=dict)
-    first_corner: int | None = None
+    first_switch: int | None = None
 
 
 @dataclass(frozen=True)
-class ShareOfPi:
-    """A number count π/of, computed from left to right: the same bits as the number that it replaces."""
+class FractionOfPi:
+    """A number `numerator` · π / `denominator`, computed from left to right."""
 
-    count: int
-    of: int
+    numerator: int
+    denominator: int
 
     @property
     def value(self) -> float:
-        """Return the float `count` · π / `of`, rounded as a target rounds it."""
-        return self.count * math.pi / self.of
+        """Return the float `numerator` · π / `denominator`, rounded as a target rounds it."""
+        return self.numerator * math.pi / self.denominator
 
     @property
     def is_one(self) -> bool:
         """Return whether the number is π itself."""
-        return self.count == self.of == 1
+        return self.numerator == self.denominator == 1
 
-    def text(self, pi: str, integer_suffix: str = "") -> str:
+    def format(self, pi: str, integer_suffix: str = "") -> str:
         """Return the source text of the number, such as "3*PI/2".
 
         `pi` is the name of π in the language, `integer_suffix` the suffix of its integer literals.
         """
-        numerator = {1: pi, -1: f"-{pi}"}.get(self.count, f"{self.count}{integer_suffix}*{pi}")
-        return numerator if self.of == 1 else f"{numerator}/{self.of}{integer_suffix}"
+        numerator = {1: pi, -1: f"-{pi}"}.get(self.numerator, f"{self.numerator}{integer_suffix}*{pi}")
+        return numerator if self.denominator == 1 else f"{numerator}/{self.denominator}{integer_suffix}"
 
 
-def share_of_pi(number: sp.Expr) -> ShareOfPi | None:
+def convert_to_fraction_of_pi(number: sp.Expr) -> FractionOfPi | None:
     """Return a number as a simple fraction of π that has the same bits as a float; None if there is none.
 
     `number`: a SymPy float, or a rational number times π.
@@ -68,26 +68,30 @@ def share_of_pi(number: sp.Expr) -> ShareOfPi | None:
     ratio, remainder = number.as_coeff_Mul()
     if remainder is not sp.pi or not ratio.is_Rational or ratio.q == 1:
         return None
-    fraction = ShareOfPi(int(ratio.p), int(ratio.q))
+    fraction = FractionOfPi(int(ratio.p), int(ratio.q))
     return fraction if fraction.value == float(ratio) * math.pi else None
 
 
 @lru_cache(10_000)
-def _find_fraction_of_pi(value: float) -> ShareOfPi | None:
-    """Return a float as a fraction count·π/of with the same bits, of a divisor of 360, or None.
+def _find_fraction_of_pi(value: float) -> FractionOfPi | None:
+    """Return a float as a fraction numerator · π / denominator with the same bits, or None if there is none.
 
-    Results are cached. |count| is at most 1000.
+    The denominator is the smallest possible divisor of 360; |numerator| is from 1 to 1000. Results are cached.
     """
     if not 0 < abs(value) <= _MAX_NUMERATOR * math.pi:
         return None
-    candidates = (ShareOfPi(round(value * divisor / math.pi), divisor) for divisor in _DENOMINATORS)
+    candidates = (FractionOfPi(round(value * divisor / math.pi), divisor) for divisor in _DENOMINATORS)
     return next(
-        (fraction for fraction in candidates if 0 < abs(fraction.count) <= _MAX_NUMERATOR and fraction.value == value),
+        (
+            fraction
+            for fraction in candidates
+            if 0 < abs(fraction.numerator) <= _MAX_NUMERATOR and fraction.value == value
+        ),
         None,
     )
 
 
-def readable(kernel: Kernel, branching: bool = True) -> Readable:
+def make_readable(kernel: Kernel, branching: bool = True) -> Readable:
     """Return the readable form of a kernel: without copies of arguments and parameters, with a line for each branch.
 
     `branching`: False leaves the branches inside the expressions. Empty sections are removed; values and the order of
@@ -96,23 +100,26 @@ def readable(kernel: Kernel, branching: bool = True) -> Readable:
     arguments = {argument.name for argument in kernel.arguments}
     names = dict(kernel.names)
     used_names = {
-        name for section in kernel.sections for line in section.statements for name in (*line.reads, line.defines)
+        name
+        for section in kernel.sections
+        for line in section.statements
+        for name in (*line.reads, line.declared_local)
     }
     branches = Branches(used_names | arguments | {str(name_) for name_ in names.values()})
     sections = []
     for section in kernel.sections:
         lines = _remove_copies(section.statements, arguments, names)
-        sections.append(Section(section.title, tuple(branches.lines(lines) if branching else lines)))
+        sections.append(Section(section.title, tuple(branches.insert_branches(lines) if branching else lines)))
     nonempty = tuple(section for section in sections if section.statements)
-    return Readable(nonempty, names, branches.names, kernel.first_corner)
+    return Readable(nonempty, names, branches.names, kernel.first_switch)
 
 
-def lines(statements: Sequence[Statement]) -> Readable:
+def make_readable_statements(statements: Sequence[Statement]) -> Readable:
     """Return the readable form of statements that are printed in a function of a template.
 
     They form one section without a title.
     """
-    return readable(Kernel("", (), (), (Section("", tuple(statements)),)))
+    return make_readable(Kernel("", (), (), (Section("", tuple(statements)),)))
 
 
 def _remove_copies(lines: Sequence[Line], arguments: Collection[str], names: dict[Key, Key]) -> list[Line]:
@@ -123,12 +130,12 @@ def _remove_copies(lines: Sequence[Line], arguments: Collection[str], names: dic
     """
     result: list[Line] = []
     for line in lines:
-        place = line.value if isinstance(line, Statement) and line.defines else None
+        place = line.value if isinstance(line, Statement) and line.declared_local else None
         if isinstance(place, Place) and (place.is_parameter or (not place.path and place.base in arguments)):
-            names[line.defines] = place
+            names[line.declared_local] = place
             continue
         if result and (merged := _merge_copy_to_parameter(result[-1], line)):
-            names[result[-1].defines] = merged.target
+            names[result[-1].declared_local] = merged.target
             result[-1] = merged
             continue
         result.append(line)
@@ -137,8 +144,8 @@ def _remove_copies(lines: Sequence[Line], arguments: Collection[str], names: dic
 
 def _merge_copy_to_parameter(first: Line, second: Line) -> Statement | None:
     """Return `p.x = value` for the lines `y = value` and `p.x = y`, where p.x is a parameter; None for other lines."""
-    if not (isinstance(first, Statement) and isinstance(second, Statement) and first.defines):
+    if not (isinstance(first, Statement) and isinstance(second, Statement) and first.declared_local):
         return None
-    is_copy = second.value == sp.Symbol(first.defines, real=True)
+    is_copy = second.value == sp.Symbol(first.declared_local, real=True)
     is_stored = is_copy and isinstance(second.target, Place) and second.target.is_parameter
     return replace(first, target=second.target) if is_stored else None

@@ -1,4 +1,4 @@
-"""Divisions as products: one reciprocal for each denominator, those of parameters alone computed once a run.
+"""Divisions as products with reciprocals; reciprocals of parameters alone are computed once per run.
 
 A division occupies the processor's divider for as long as several products take. Force laws divide by the same
 few lengths repeatedly.
@@ -29,7 +29,7 @@ def base_name(power: sp.Basic) -> str:
     return power.base.name if power.base.is_Symbol else "sum"
 
 
-def hoisted(parameter_table: ParameterTable, value: sp.Expr) -> sp.Expr:
+def hoist_reciprocals(parameter_table: ParameterTable, value: sp.Expr) -> sp.Expr:
     """Return the value with reciprocals of constant denominators as derived parameters, which are computed once a run.
 
     `parameter_table`: the table of parameters, to which they are added. A value without powers is returned unchanged.
@@ -39,15 +39,15 @@ def hoisted(parameter_table: ParameterTable, value: sp.Expr) -> sp.Expr:
         """Return whether a part is a division by parameters alone."""
         return is_division(part) and parameter_table.is_constant(part.base)
 
-    def to_derived_parameter(part: sp.Pow) -> sp.Expr:
+    def derive_parameter(part: sp.Pow) -> sp.Expr:
         """Return the division as a power of a derived parameter 1/x, which is added to the table."""
         name = base_name(part)
         return parameter_table.derive(f"inverse_{name}", 1 / part.base, f"1/{name}") ** -part.exp
 
-    return value.replace(is_constant_division, to_derived_parameter) if value.has(sp.Pow) else value
+    return value.replace(is_constant_division, derive_parameter) if value.has(sp.Pow) else value
 
 
-def with_reciprocals(kernel: Kernel) -> Kernel:
+def share_reciprocals(kernel: Kernel) -> Kernel:
     """Return the kernel with each denominator that occurs more than once computed once, as a local `inverse_…`."""
     return replace(kernel, sections=tuple(_share_denominators(kernel.sections)))
 
@@ -62,7 +62,7 @@ def _share_denominators(sections: tuple[Section, ...]) -> list[Section]:
     count_by_denominator = Counter(
         part.base for value in values for part in sp.preorder_traversal(value) if is_division(part)
     )
-    used_names = {s.defines for s in statements}
+    used_names = {s.declared_local for s in statements}
     reciprocals: dict[sp.Expr, sp.Symbol] = {}
 
     def is_repeated_division(part: sp.Basic) -> bool:

@@ -1,4 +1,4 @@
-"""Taylor series of a straight-line function: its statements at order 0, and the rest of them at each higher order.
+"""Taylor coefficients of a generated straight-line function: order 0 first, then each higher order.
 
 Where arguments are series in time every local is one too, and its coefficient of order k follows from those of its
 operands (A. Jorba, M. Zou, A software package for the numerical integration of ODEs by means of high-order Taylor
@@ -19,8 +19,8 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from gudgeon.generator.ir.branches import JointsAlone
-from gudgeon.generator.ir.kernels import Kernel, Section, changed, without_unread
+from gudgeon.generator.ir.branches import ReturnIfOnlyJoints
+from gudgeon.generator.ir.kernels import Kernel, Section, change_expression, remove_unread_lines
 from gudgeon.generator.ir.series_rules import (
     NEXT,
     ORDER,
@@ -29,16 +29,24 @@ from gudgeon.generator.ir.series_rules import (
     VALUES,
     WIDE,
     Factor,
-    Gathered,
     Lowered,
-    NoSeries,
+    NoTaylorSeries,
     Product,
     Rules,
+    StoreRow,
     make_order_zero_symbol,
 )
-from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO, Access, Argument, result, source
-from gudgeon.generator.ir.statements import Call, Guard, Jump, Line, Rescue, Return, Statement, Status
-from gudgeon.generator.symbols.storage import Place, PlaceSymbol, key_of
+from gudgeon.generator.ir.signatures import (
+    PARAMETERS,
+    STATE,
+    ZERO,
+    Access,
+    Argument,
+    make_input_argument,
+    make_output_argument,
+)
+from gudgeon.generator.ir.statements import Call, Guard, Jump, Line, Return, SolveDependentRows, Statement, Status
+from gudgeon.generator.symbols.storage import Place, PlaceSymbol, find_key
 
 Titled = tuple[str, Line]  # a line and its section's title
 
@@ -61,15 +69,15 @@ def split_late_sums(lines: Iterable[Titled], unique: Callable[[str], str]) -> li
             value: sp.Expr = line.value
             parts = sorted(sp.Add.make_args(value), key=find_depth)
             terms = parts[:1]
-            for previous, term in itertools.pairwise(parts if line.defines else []):
+            for previous, term in itertools.pairwise(parts if line.declared_local else []):
                 if find_depth(term) > find_depth(previous) and len(terms) > 1:
-                    name = unique(f"{line.defines}_known")
+                    name = unique(f"{line.declared_local}_known")
                     ordered.append((title, Statement(name, sp.Add(*terms))))
                     depth_by_local[name] = find_depth(previous)
                     terms = [sp.Symbol(name, real=True)]
                 terms.append(term)
-            depth_by_local[line.defines] = 1 + find_depth(value)
-            line = replace(line, value=sp.Add(*terms)) if line.defines else line
+            depth_by_local[line.declared_local] = 1 + find_depth(value)
+            line = replace(line, value=sp.Add(*terms)) if line.declared_local else line
         ordered.append((title, line))
     return ordered
 
@@ -80,7 +88,11 @@ def differences(statements: Iterable[Statement]) -> dict[str, tuple[sp.Expr, str
     The result maps each such local to (a − b, the local of the other function, sign in its derivative). A local whose
     partner is missing is left out.
     """
-    values = {line.defines: line.value for line in statements if line.defines and isinstance(line.value, sp.Expr)}
+    values = {
+        line.declared_local: line.value
+        for line in statements
+        if line.declared_local and isinstance(line.value, sp.Expr)
+    }
     trigonometric = {name: value for name, value in values.items() if isinstance(value, (sp.cos, sp.sin))}
     functions_by_angle: dict[sp.Expr, dict[type, str]] = {}
     for target, value in values.items():
@@ -101,7 +113,7 @@ def differences(statements: Iterable[Statement]) -> dict[str, tuple[sp.Expr, str
 
 LEFT, RIGHT = "left", "right"  # arguments: the factors of each product
 FindPlace = Callable[[Place], Place | None]  # place of a result; None: it is not requested
-_SKIPPED_LINES = (Status, JointsAlone, Jump, Rescue)
+_SKIPPED_LINES = (Status, ReturnIfOnlyJoints, Jump, SolveDependentRows)
 _DOC_VALUES = (
     "Accelerations a and powers at a state, order 0 of their series, and what higher orders read of it.",
     "Returns 0, or the number of the pivot that vanished.",
@@ -122,7 +134,7 @@ class Series:
 
     values: Kernel
     terms: Kernel
-    kept: tuple[str, ...]
+    stored_names: tuple[str, ...]
     products: tuple[Product, ...]
 
 
@@ -141,17 +153,17 @@ class Linear:
     unknowns: Mapping[int, sp.Symbol]
 
 
-def series_of(kernel: Kernel, find_place: FindPlace, name: str, linear: Linear | None = None) -> Series:
+def derive_taylor_series(kernel: Kernel, find_place: FindPlace, name: str, linear: Linear | None = None) -> Series:
     """Return the functions for the Taylor series of a kernel's results.
 
     `expected(place)`: the place of a result in the new functions, or None if it is not requested. `linear`: a linear
-    system that the kernel solves. Raise NoSeries for operations without a series.
+    system that the kernel solves. Raise NoTaylorSeries for operations without a series.
     """
     lines = _find_needed_lines(kernel, find_place)
     builder = _Series(lines, linear)
     for title, line in lines:
-        builder.line(title, line)
-    return builder.finished(name)
+        builder.convert_line(title, line)
+    return builder.make_series(name)
 
 
 def _find_needed_lines(kernel: Kernel, find_place: FindPlace) -> list[Titled]:
@@ -180,7 +192,7 @@ def _find_needed_lines(kernel: Kernel, find_place: FindPlace) -> list[Titled]:
 
 def _replace_places(line: Line, local: Mapping[sp.Basic, sp.Basic]) -> Line:
     """Return a line in whose expression the symbols of places are replaced by those of locals."""
-    return changed(line, lambda value: value.xreplace(local))
+    return change_expression(line, lambda value: value.xreplace(local))
 
 
 class _Series(Rules):
@@ -193,20 +205,20 @@ class _Series(Rules):
         the linear system of the kernel or None.
         """
         statements = [line for _, line in lines if isinstance(line, Statement)]
-        super().__init__({line.defines for line in statements})
+        super().__init__({line.declared_local for line in statements})
         self._values: list[Titled] = []
         self._terms: list[Titled] = []
         self._angle_differences = differences(statements)
         self._name_of_function = {
-            line.value: line.defines for line in statements if isinstance(line.value, sp.Function)
+            line.value: line.declared_local for line in statements if isinstance(line.value, sp.Function)
         }
         self._title, self._linear = "", linear
 
-    def line(self, title: str, line: Line) -> None:
+    def convert_line(self, title: str, line: Line) -> None:
         """Convert the next line of the kernel and append it to both functions.
 
-        A test of a pivot is added to order 0 alone, and a return is skipped. Raise NoSeries for other lines that are
-        not assignments.
+        A test of a pivot is added to order 0 alone, and a return is skipped. Raise NoTaylorSeries for other lines
+        that are not assignments.
         """
         self._title = title
         match line:
@@ -219,18 +231,18 @@ class _Series(Rules):
             case Return():
                 pass
             case _:
-                raise NoSeries(f"a {type(line).__name__.lower()} of the right-hand side is no expression")
+                raise NoTaylorSeries(f"a {type(line).__name__.lower()} of the right-hand side is no expression")
 
     def _add_read(self, line: Statement, place: Place) -> None:
         """Append a line that reads time, state or a parameter to both functions.
 
-        The local is recorded as a parameter or as varying. Raise NoSeries for other places.
+        The local is recorded as a parameter or as varying. Raise NoTaylorSeries for other places.
         """
-        if not line.defines or place.base not in ("t", "q", "v", "p"):
-            raise NoSeries(f"{place} is no function of time and state")
+        if not line.declared_local or place.base not in ("t", "q", "v", "p"):
+            raise NoTaylorSeries(f"{place} is no function of time and state")
         self._values.append((self._title, line))
         self._terms.append((self._title, line))
-        (self.parameters if place.base == "p" else self.varying).add(line.defines)
+        (self.parameters if place.base == "p" else self.varying).add(line.declared_local)
 
     def _add_assignment(self, line: Statement, value: sp.Expr) -> None:
         """Append an assignment to both functions.
@@ -238,14 +250,14 @@ class _Series(Rules):
         At order k a result is multiplied by 1/(k + 1). Lines that factorize the linear system are added to order 0
         alone. A local that its partner function has defined is skipped.
         """
-        if not line.defines:
+        if not line.declared_local:
             self._values.append((self._title, line))
             order_k = ZERO if self.is_constant(value) else value * NEXT
             self._terms.append((self._title, replace(line, value=order_k, comment="")))
         elif self._linear and self._title == self._linear.title:
             self._values.append((self._title, line))
-        elif line.defines not in self.varying:  # else the partner function has defined it already
-            self.define(line.defines, value)
+        elif line.declared_local not in self.varying:  # else the partner function has defined it already
+            self.define(line.declared_local, value)
 
     def define(self, target: str, value: sp.Expr, as_series: bool = False) -> sp.Symbol:
         """Append a local to both functions, or to order 0 alone if it is constant, and return its symbol.
@@ -306,7 +318,7 @@ class _Series(Rules):
             return self.symbol_by_value[value]
         return self.define(self._name_of_function.get(value) or self.make_unique_name(type(value).__name__), value)
 
-    def finished(self, name: str) -> Series:
+    def make_series(self, name: str) -> Series:
         """Return both functions without locals that nothing reads, the values that order k reads, and the sums S_k.
 
         Called once, after all lines have been converted.
@@ -316,7 +328,7 @@ class _Series(Rules):
             n_products = len(products)
             terms = _prune_lines([*self._terms, *_make_factor_stores(products)])
             read_keys = {
-                key_of(s) for _, line in terms for expression in line.expressions for s in expression.free_symbols
+                find_key(s) for _, line in terms for expression in line.expressions for s in expression.free_symbols
             }
             products = [product for product in self.products.values() if Place(SUMS)[product.name] in read_keys]
         kept_values = tuple(
@@ -346,11 +358,11 @@ class _Series(Rules):
 
 def _make_arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:
     """Return the arguments of the function for order 0 and of that for order k."""
-    rates = (result("a"), result("power"))
-    factors = (result(LEFT, "Wide"), result(RIGHT, "Wide"))
+    rates = (make_output_argument("a"), make_output_argument("power"))
+    factors = (make_output_argument(LEFT, "Wide"), make_output_argument(RIGHT, "Wide"))
     order = tuple(Argument(symbol.name, access=Access.CONSTANT) for symbol in (ORDER, SHARE, NEXT))
-    lower_orders = (source(VALUES, "TaylorValues"), source(SUMS, "TaylorFactors"))
-    values = (*STATE, PARAMETERS, result(VALUES, "TaylorValues"), *rates)
+    lower_orders = (make_input_argument(VALUES, "TaylorValues"), make_input_argument(SUMS, "TaylorFactors"))
+    values = (*STATE, PARAMETERS, make_output_argument(VALUES, "TaylorValues"), *rates)
     return values, (*order, *STATE, PARAMETERS, *lower_orders, *rates, *factors)
 
 
@@ -365,14 +377,14 @@ def _make_factor_stores(products: Sequence[Product]) -> list[Titled]:
     title, lines = "factors of the sums of higher orders", list[Titled]()
     for row, start in enumerate(range(0, len(products), WIDE)):
         group = products[start : start + WIDE]
-        lines.append((title, Gathered(LEFT, row, tuple(make_coefficient(product.left) for product in group))))
-        lines.append((title, Gathered(RIGHT, row, tuple(make_coefficient(product.right) for product in group))))
+        lines.append((title, StoreRow(LEFT, row, tuple(make_coefficient(product.left) for product in group))))
+        lines.append((title, StoreRow(RIGHT, row, tuple(make_coefficient(product.right) for product in group))))
     return lines
 
 
 def _prune_lines(lines: list[Titled]) -> list[Titled]:
     """Return the titled lines without locals that no later line reads."""
-    kept_ids = {id(line) for line in without_unread([line for _, line in lines], set())}
+    kept_ids = {id(line) for line in remove_unread_lines([line for _, line in lines], set())}
     return [item for item in lines if id(item[1]) in kept_ids]
 
 

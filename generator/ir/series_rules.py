@@ -1,4 +1,4 @@
-"""Order k of each operation on Taylor series, from order k of its operands and from sums over lower orders.
+"""Taylor coefficients of order k of each operation, from the coefficients of its operands.
 
 A function c = f(u) satisfies a differential equation whose other coefficients are known series: sines have
 c' = u' cos u, a power a c' = n a' c, an inverse tangent (1 + u^2) c' = u'. Rates stand in sums as j u_j, so that the
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from gudgeon.generator.ir.statements import Line
-from gudgeon.generator.symbols.from_expressions import CLASSES, derivative_at
+from gudgeon.generator.symbols.from_expressions import CLASSES, convert_derivative
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 VALUES, SUMS = "at", "sum"  # arguments: coefficients of order 0, sums S_k
@@ -23,7 +23,7 @@ WIDE = 8  # products of a row
 _HALF = sp.Rational(1, 2)
 
 
-class NoSeries(Exception):
+class NoTaylorSeries(Exception):
     """Raised with the reason, in words, why a function has no Taylor series."""
 
 
@@ -45,7 +45,7 @@ class Product:
 
 
 @dataclass(frozen=True)
-class Gathered(Line):
+class StoreRow(Line):
     """A line that stores values as one row of an array of vectors, so that readers of the row need not wait."""
 
     array: str
@@ -121,8 +121,9 @@ class Rules(ABC):
     def expand_orders(self, value: sp.Expr, symbol_of_value: sp.Symbol | None = None) -> Lowered:
         """Return a value at order 0 and at order k, both in names of locals.
 
-        A sum is split into its terms. `symbol_of_value`: the symbol of the local that is being defined as this value,
-        which a rule may read; None defines a new local.
+        A constant is 0 at order k, and a symbol is itself at both. A sum is split into its terms; products, powers and
+        functions have rules of their own. `symbol_of_value`: the symbol of the local that is being defined as this
+        value, which a rule may read. Without it, a power with another exponent or a function defines a new local.
         """
         if self.is_constant(value):
             return value, sp.Integer(0)
@@ -207,10 +208,10 @@ class Rules(ABC):
         """Return a power at orders 0 and k.
 
         c = a^n follows from a c' = n a' c, a square root from a = c c, and 1/a as a quotient. `symbol_of_value`: the
-        symbol of c. Raise NoSeries if the exponent varies.
+        symbol of c. Raise NoTaylorSeries if the exponent varies.
         """
         if not self.is_constant(value.exp):
-            raise NoSeries("a power has an exponent that moves")
+            raise NoTaylorSeries("a power has an exponent that moves")
         a, n = self.define_value(value.base), value.exp
         if n.is_Integer and n < -1:
             a, n = self.define_value(value.base**-n), sp.Integer(-1)
@@ -230,11 +231,11 @@ class Rules(ABC):
     def _expand_function(self, value: sp.Expr, symbol_of_value: sp.Symbol) -> Lowered:
         """Return a function of series at orders 0 and k, by its derivative; atan2 has a rule of its own.
 
-        `symbol_of_value`: the symbol of the value. Raise NoSeries if the derivative is not known.
+        `symbol_of_value`: the symbol of the value. Raise NoTaylorSeries if the derivative is not known.
         """
         derivative = CLASSES[type(value)].derivative if type(value) in CLASSES else ""
         if not derivative and not isinstance(value, sp.atan2):
-            raise NoSeries(f"{type(value).__name__.lower()}() has corners, or its series is not known")
+            raise NoTaylorSeries(f"{type(value).__name__.lower()}() has corners, or its series is not known")
         u = [self.define_series(x) for x in value.args]
         order_k = (
             _expand_by_derivative(self, derivative, u[0], symbol_of_value)
@@ -324,7 +325,7 @@ def _expand_by_derivative(rules: Rules, derivative: str, u: sp.Symbol, symbol_of
     A derivative that is a sum of terms n w gives c' = u' w for each. `derivative`: its text in the table of functions;
     `symbol_of_value`: the symbol of c.
     """
-    numerator, denominator = sp.fraction(derivative_at(derivative, u, symbol_of_value))
+    numerator, denominator = sp.fraction(convert_derivative(derivative, u, symbol_of_value))
     if denominator != 1:
         return rules.integrate_quotient(
             numerator * u, denominator if denominator.is_Symbol else rules.define_value(denominator), symbol_of_value

@@ -1,4 +1,4 @@
-"""Arguments of kernels: their types, how they are accessed, and those that many kernels share."""
+"""Argument lists of generated functions: types, access, and lists that many functions share."""
 
 from __future__ import annotations
 
@@ -45,29 +45,29 @@ class Argument:
         return Place(self.name)[step]
 
 
-def source(name: str, type: Type = Number.REAL) -> Argument:
+def make_input_argument(name: str, type: Type = Number.REAL) -> Argument:
     """Return the argument for an array or struct that the function reads; `type` is that of its elements."""
     return Argument(name, type, Access.READ)
 
 
-def result(name: str, type: Type = Number.REAL) -> Argument:
+def make_output_argument(name: str, type: Type = Number.REAL) -> Argument:
     """Return the argument for an array, struct or number that the function writes; `type` is that of its elements."""
     return Argument(name, type, Access.WRITTEN)
 
 
 # Corners: the sides that are held over a step (or none), and where the switching functions go.
-BRANCHES = (source("branch"), result("g"))
+BRANCHES = (make_input_argument("branch"), make_output_argument("g"))
 
 TIME = Argument("t", access=Access.CONSTANT)
-STATE = (TIME, source("q"), source("v"))
-DISCRETE = source("discrete", "DiscreteState")
-PARAMETERS = source(storage.PARAMETERS, "Parameters")
-RHS = result("rhs", "RhsOutputs")
-CONTACT = source("contact", "ContactState")  # of one contact
+STATE = (TIME, make_input_argument("q"), make_input_argument("v"))
+DISCRETE = make_input_argument("discrete", "DiscreteState")
+PARAMETERS = make_input_argument(storage.PARAMETERS, "Parameters")
+RHS = make_output_argument("rhs", "RhsOutputs")
+CONTACT = make_input_argument("contact", "ContactState")  # of one contact
 ZERO = sp.Integer(0)
 
 
-def acting_on(index: int) -> tuple[Place, ...]:
+def make_contact_arguments(index: int) -> tuple[Place, ...]:
     """Return the last arguments of a call of the function of joint `index` with play.
 
     They are its contact state, the parameters, and the arguments for branches.

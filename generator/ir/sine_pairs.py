@@ -1,4 +1,4 @@
-"""Cosines and sines in vectors: the pairs of a kernel are computed four at a time (trigonometry.c).
+"""Sines and cosines of several angles in SIMD vectors, four at a time (engine/scene/trigonometry.h).
 
 Library calls for each pair cost more than half of a small right-hand side. Four angles in one vector take hardly
 longer than one; an incomplete last group repeats its last angle. A single pair takes a twentieth of the time of a
@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from gudgeon.generator.ir.kernels import Kernel, Section, changed
+from gudgeon.generator.ir.kernels import Kernel, Section, change_expression
 from gudgeon.generator.ir.statements import Line, Sines, Statement
 from gudgeon.generator.symbols.storage import Place
 
@@ -21,7 +21,7 @@ _MAX_VECTORS = 4  # groups, beyond which they are computed in a loop
 _MakeLines = Callable[[Sequence[sp.Symbol], Sequence[Statement], int], tuple[list[Line], int]]
 
 
-def pair_sines(kernel: Kernel) -> Kernel:
+def vectorize_sines(kernel: Kernel) -> Kernel:
     """Return the kernel with cosines and sines computed four angles at a time, as soon as their angles are known."""
     return _group_functions(kernel, _make_vectors)
 
@@ -37,7 +37,8 @@ def call_sines_by_lane(kernel: Kernel) -> Kernel:
 def _group_functions(kernel: Kernel, make_lines: _MakeLines) -> Kernel:
     """Return the kernel with cosines and sines grouped section by section.
 
-    A value of an earlier section is not computed again. `make_lines` makes the lines for some angles.
+    A cosine or sine that an earlier section computes is not computed again (a common subexpression). `make_lines` makes
+    the lines for some angles.
     """
     symbol_of_function: dict[sp.Expr, sp.Symbol] = {}
     sections: list[Section] = []
@@ -47,17 +48,19 @@ def _group_functions(kernel: Kernel, make_lines: _MakeLines) -> Kernel:
         new_section, n_groups = _group_section(Section(section.title, simplified), make_lines, n_groups)
         sections.append(new_section)
         for statement in section.statements:
-            if _find_angle(statement) is not None and isinstance(statement, Statement) and statement.defines:
-                symbol_of_function.setdefault(sp.sympify(statement.value), sp.Symbol(statement.defines, real=True))
+            if _find_angle(statement) is not None and isinstance(statement, Statement) and statement.declared_local:
+                symbol_of_function.setdefault(
+                    sp.sympify(statement.value), sp.Symbol(statement.declared_local, real=True)
+                )
     return replace(kernel, sections=tuple(sections))
 
 
 def _reuse_known(line: Line, known_symbols: Mapping[sp.Expr, sp.Symbol]) -> Line:
-    """Return a line that reads a cosine or sine of an earlier section instead of computing it.
+    """Return a line with common subexpressions replaced: cosines and sines that an earlier section computes.
 
-    Other lines are returned unchanged.
+    `known_symbols` gives the symbol of the local that holds each of them. Other lines are returned unchanged.
     """
-    return changed(line, lambda value: known_symbols.get(value, value))
+    return change_expression(line, lambda value: known_symbols.get(value, value))
 
 
 def _find_angle(statement: Line) -> sp.Symbol | None:

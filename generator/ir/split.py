@@ -1,4 +1,4 @@
-"""Division of a long function into parts that a compiler can handle.
+"""Division of a long generated function into parts that a C compiler can handle.
 
 Compilers allocate registers for a function as a whole, in more than linear time: the dynamics of 64 four-bars as one
 function of ten thousand statements would take gcc a minute. So a kernel of more than 850 lines becomes several of
@@ -6,7 +6,8 @@ function of ten thousand statements would take gcc a minute. So a kernel of more
 under the same name in both. Shorter kernels, that is all except long chains, stay as they are.
 Runs of plain statements and of tests of pivots are divided. Lines that declare, call or jump stay in the function
 itself, and so do lines that read names which only such lines know.
-Before that, statements are moved near those that read them (`nearby`). As derived, a kernel first computes all
+Before that, statements are moved near those that read them (`order_near_readers`). As derived, a kernel first
+computes all
 directions and arms, then all pivots, then all substitutions: in a long one each value has left the registers and the
 nearest cache before it is read. Here a result or a test of a pivot is preceded by what it needs, and what can be
 computed from the values at hand is computed then. Each statement stays as it is and follows what it reads: the numbers
@@ -20,7 +21,7 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 
 from gudgeon.generator.ir.kernels import Kernel, Section
-from gudgeon.generator.ir.signatures import Access, Number, result, source
+from gudgeon.generator.ir.signatures import Access, Number, make_input_argument, make_output_argument
 from gudgeon.generator.ir.statements import (
     AssignStatus,
     Call,
@@ -36,7 +37,7 @@ from gudgeon.generator.ir.statements import (
 from gudgeon.generator.symbols.storage import Place
 
 
-def nearby(reads: Sequence[frozenset[str]], defines: Sequence[str]) -> list[int]:
+def order_near_readers(reads: Sequence[frozenset[str]], defines: Sequence[str]) -> list[int]:
     """Return an order of statements in which each is near those that read it, as a list of indices.
 
     Statement k reads the names `reads[k]` and defines `defines[k]` ("": a result or a test). Each follows the
@@ -99,10 +100,10 @@ class Item:
     @property
     def defines(self) -> str:
         """Return the local that the line declares, or ""."""
-        return self.what.defines
+        return self.what.declared_local
 
 
-def cut(kernel: Kernel) -> tuple[Kernel, ...]:
+def split_kernel(kernel: Kernel) -> tuple[Kernel, ...]:
     """Return the parts of a long kernel and, last, the function that calls them.
 
     A kernel of at most _MAX_LINES lines, or one without enough movable lines, is returned unchanged as the only
@@ -114,8 +115,8 @@ def cut(kernel: Kernel) -> tuple[Kernel, ...]:
     pieces = _divide_lines(items)
     if not any(map(_is_part, pieces)):
         return (kernel,)
-    added_arguments = tuple(source(name, kind) for name, kind in _find_sine_arrays(kernel).items())
-    array_name = _unused_name("passed", items)
+    added_arguments = tuple(make_input_argument(name, kind) for name, kind in _find_sine_arrays(kernel).items())
+    array_name = _find_unused_name("passed", items)
     parameter_table = _number_passed_locals(pieces)
     splitter = _Splitter(
         replace(kernel, arguments=(*kernel.arguments, *added_arguments)), parameter_table, array_name, copies
@@ -123,7 +124,7 @@ def cut(kernel: Kernel) -> tuple[Kernel, ...]:
     title = "values that pass between the parts"
     main_items = [Item(title, Declare(Number.REAL, array_name, (max(len(parameter_table), 1),)), frozenset(), False)]
     parts: list[Kernel] = []
-    stored: set[str] = set()
+    stored_names: set[str] = set()
     for k, piece in enumerate(pieces):
         if not _is_part(piece):
             main_items += piece
@@ -133,16 +134,16 @@ def cut(kernel: Kernel) -> tuple[Kernel, ...]:
         available = {item.defines for item in main_items if item.defines}
         main_items += [
             splitter.store(name)
-            for name in sorted((passed_reads - defined) & available - stored, key=parameter_table.__getitem__)
+            for name in sorted((passed_reads - defined) & available - stored_names, key=parameter_table.__getitem__)
         ]
-        stored |= passed_reads & available
+        stored_names |= passed_reads & available
         name = f"{kernel.name}_part_{len(parts) + 1}"
-        parts.append(splitter.part(name, piece))
+        parts.append(splitter.make_part(name, piece))
         later_reads = {
             name_ for later in pieces[k + 1 :] if not _is_part(later) for item in later for name_ in item.reads
         }
         main_items += splitter.call(name, piece, later_reads)
-        stored |= defined & set(parameter_table)
+        stored_names |= defined & set(parameter_table)
     return (*parts, replace(kernel, sections=_group_sections(_insert_sources(main_items, copies))))
 
 
@@ -156,7 +157,7 @@ def _list_lines(kernel: Kernel) -> tuple[list[Item], dict[str, Item]]:
     constant = {argument.name for argument in kernel.arguments if argument.access in (Access.CONSTANT, Access.READ)}
     constant |= set(_find_sine_arrays(kernel))
     known_names = (
-        {line.defines for _, line in titled_lines} | {argument.name for argument in kernel.arguments} | constant
+        {line.declared_local for _, line in titled_lines} | {argument.name for argument in kernel.arguments} | constant
     )
     unmovable_names = {
         name for _, line in titled_lines if not _is_movable_line(line) for name in line.reads | line.writes
@@ -182,7 +183,9 @@ def _is_movable_line(line: Line) -> bool:
 
 def _find_copied_argument(line: Line) -> str:
     """Return the name of the argument or array that a statement copies to a local; "" for other lines."""
-    return line.value.base if isinstance(line, Statement) and line.defines and isinstance(line.value, Place) else ""
+    return (
+        line.value.base if isinstance(line, Statement) and line.declared_local and isinstance(line.value, Place) else ""
+    )
 
 
 def _find_sine_arrays(kernel: Kernel) -> dict[str, str]:
@@ -234,7 +237,7 @@ def _number_passed_locals(pieces: Sequence[Sequence[Item]]) -> dict[str, int]:
     return {name: index for index, name in enumerate(name for name in piece_of_local if name in passed_names)}
 
 
-def _unused_name(name: str, items: Sequence[Item]) -> str:
+def _find_unused_name(name: str, items: Sequence[Item]) -> str:
     """Return the name with underscores appended until no line of `items` reads or defines it."""
     used_names = {read_name for item in items for read_name in (*item.reads, item.defines)}
     while name in used_names:
@@ -243,11 +246,11 @@ def _unused_name(name: str, items: Sequence[Item]) -> str:
 
 
 def _order_nearby(items: list[Item]) -> list[Item]:
-    """Return the lines in the order of `nearby`, or unchanged if one reads an array that another writes."""
+    """Return the lines in the order of `order_near_readers`, or unchanged if one reads an array that another writes."""
     written_arrays = frozenset().union(*(item.what.writes for item in items))
     if any(written_arrays & item.what.reads for item in items):
         return items
-    return [items[k] for k in nearby([item.reads for item in items], [item.defines for item in items])]
+    return [items[k] for k in order_near_readers([item.reads for item in items], [item.defines for item in items])]
 
 
 def _make_load(name: str, place: Place) -> Item:
@@ -293,7 +296,7 @@ class _Splitter:
         """Return the line that reads a local of an earlier part from the array of passed values."""
         return _make_load(name, Place(self.passed)[self.slots[name]])
 
-    def part(self, name: str, piece: list[Item]) -> Kernel:
+    def make_part(self, name: str, piece: list[Item]) -> Kernel:
         """Return one part as a function.
 
         It reads values of other parts, executes its lines, and stores values for other parts. It returns a status if it
@@ -316,7 +319,7 @@ class _Splitter:
         return Kernel(
             name,
             (f"A part of `{self.kernel.name}`, which calls it.",),
-            (*self.kernel.arguments, result(self.passed)),
+            (*self.kernel.arguments, make_output_argument(self.passed)),
             _group_sections([*lines, *end_lines]),
             has_test,
             attribute="noinline",

@@ -1,4 +1,4 @@
-"""Lines of functions in no particular language, which know what they read, write and declare."""
+"""Statements of generated functions in no particular language; each knows what it reads, writes and declares."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import ClassVar
 import sympy as sp
 
 from gudgeon.generator.ir.signatures import Type
-from gudgeon.generator.ir.values import NONE, Names, Test, Value, names_in
+from gudgeon.generator.ir.values import NONE, Names, Test, Value, find_read_names
 from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
 
 
@@ -18,7 +18,7 @@ class Line:
     """A line of a function: expressions and names that it reads, arrays that it writes, the local that it declares."""
 
     writes: ClassVar[Names] = NONE
-    defines: ClassVar[str] = ""
+    declared_local: ClassVar[str] = ""
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
@@ -33,7 +33,7 @@ class Line:
     @cached_property
     def reads(self) -> Names:
         """Return all names that the line reads: in expressions and elsewhere."""
-        return self.names.union(*map(names_in, self.expressions))
+        return self.names.union(*map(find_read_names, self.expressions))
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ class Statement(Line):
         return self.target.names if isinstance(self.target, Place) else NONE
 
     @property
-    def defines(self) -> str:  # type: ignore[override]
+    def declared_local(self) -> str:  # type: ignore[override]
         """Return the local that is declared, or ""."""
         return self.target if isinstance(self.target, str) else ""
 
@@ -108,19 +108,19 @@ class Guard(Line):
     """A test, or a call that must return 0; if it fails, the function fails with a number.
 
     To fail is to return the number, or to store it as `pivot` and to jump to the code for dependent equations. With
-    `only`
+    `condition`
     the test is made only where that holds.
     """
 
     test: Test | Call
     number: int
     jumps: bool = False
-    only: Test | None = None
+    condition: Test | None = None
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """Return the expressions in the test or call, and those of the condition `only` if there is one."""
-        return (*self.test.expressions, *(self.only.expressions if self.only else ()))
+        """Return the expressions in the test or call, and those of the condition `condition` if there is one."""
+        return (*self.test.expressions, *(self.condition.expressions if self.condition else ()))
 
     @property
     def names(self) -> Names:
@@ -190,7 +190,7 @@ class Jump(Line):
 
 
 @dataclass(frozen=True)
-class Rescue(Line):
+class SolveDependentRows(Line):
     """The code for a vanished pivot, which finds the dependent equations.
 
     It solves by the rank of the equations or, without forces, in absolute coordinates.
@@ -246,7 +246,7 @@ class LargestRow(Line):
 
 
 @dataclass(frozen=True)
-class Unread(Line):
+class MarkUnread(Line):
     """A mark that a local is deliberately not read."""
 
     name: str
@@ -261,7 +261,7 @@ class Unread(Line):
 class Branches(Line):
     """The declaration of held branches, and of where switching functions are written: "" nowhere, "nobody", "rhs"."""
 
-    message: str
+    output_target: str
     held: bool = True
 
     @property
@@ -270,12 +270,12 @@ class Branches(Line):
 
         These are `branch`, the outputs for switching functions, and `discrete` if branches are held.
         """
-        outputs = {"": [], "nobody": ["g"], "rhs": ["g", "rhs"]}[self.message]
+        outputs = {"": [], "nobody": ["g"], "rhs": ["g", "rhs"]}[self.output_target]
         return frozenset(["branch", *outputs, *(["discrete"] if self.held else [])])
 
 
 @dataclass(frozen=True)
-class RunNumbers(Line):
+class DeclareParameters(Line):
     """The declaration of p, read from the linearization."""
 
     writes: ClassVar[Names] = frozenset([PARAMETERS])

@@ -12,7 +12,7 @@ from typing import ClassVar, TypeAlias
 
 import sympy as sp
 
-from gudgeon.generator.symbols.derivatives import symbols_of
+from gudgeon.generator.symbols.derivatives import find_symbols
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 from gudgeon.generator.symbols.switches import BranchOf, Size
 
@@ -21,12 +21,12 @@ NONE: Names = frozenset()
 
 
 @lru_cache(20_000)
-def names_in(value: sp.Basic) -> Names:
+def find_read_names(value: sp.Basic) -> Names:
     """Return the names that an expression reads: locals and arguments; with a `BranchOf` also `branch` and `g`.
 
     A symbol of a place counts as the argument that contains it. Results are cached.
     """
-    names = frozenset(s.place.base if isinstance(s, PlaceSymbol) else s.name for s in symbols_of(value))
+    names = frozenset(s.place.base if isinstance(s, PlaceSymbol) else s.name for s in find_symbols(value))
     return names | ({"branch", "g"} if value.has(BranchOf) else NONE)
 
 
@@ -50,7 +50,7 @@ class Test:
     value: sp.Basic
     relation: str = ""  # ">", "!=", "=="; of ">" NaN fails
     bound: tuple[sp.Basic | float, ...] = ()
-    size: bool = False
+    compares_magnitude: bool = False
 
     @property
     def names(self) -> Names:
@@ -58,7 +58,7 @@ class Test:
 
         There are none if the bound is a fraction of the value itself.
         """
-        if self.of_itself:
+        if self.is_relative_to_value:
             return NONE
         return frozenset(x.place.base for x in self.bound if isinstance(x, Threshold) and x.place)
 
@@ -68,14 +68,14 @@ class Test:
         return (self.value, *(x for x in self.bound if isinstance(x, sp.Basic)))
 
     @property
-    def of_itself(self) -> bool:
+    def is_relative_to_value(self) -> bool:
         """Return whether the bound is a fraction, between 0 and 1, of the value itself.
 
         The test then means value > 0 and finite.
         """
         if self.relation != ">" or len(self.bound) != 2 or not isinstance(self.bound[0], float):
             return False
-        return 0 < self.bound[0] < 1 and self.bound[1] == (Size(self.value) if self.size else self.value)
+        return 0 < self.bound[0] < 1 and self.bound[1] == (Size(self.value) if self.compares_magnitude else self.value)
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ class Sum:
 
 
 @dataclass(frozen=True)
-class Defaulted:
+class ParameterOrDefault:
     """Parameter k as it is given, or else its default."""
 
     k: int
@@ -120,4 +120,4 @@ class Defaulted:
         return (self.default,)
 
 
-Value: TypeAlias = sp.Basic | Place | Conditional | Sum | Defaulted
+Value: TypeAlias = sp.Basic | Place | Conditional | Sum | ParameterOrDefault

@@ -1,1 +1,1 @@
-"""Every function of a scene, before it is text."""
+"""Builds all functions of a scene (motion, constraints, outputs, events) as statements, before any text is printed."""

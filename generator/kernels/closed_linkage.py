@@ -9,13 +9,13 @@ import sympy as sp
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model, start_values
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, Section
-from gudgeon.generator.ir.signatures import PARAMETERS, STATE, Number, result, source
+from gudgeon.generator.ir.signatures import PARAMETERS, STATE, Number, make_input_argument, make_output_argument
 from gudgeon.generator.ir.statements import Statement
-from gudgeon.generator.ir.values import Defaulted
+from gudgeon.generator.ir.values import ParameterOrDefault
 from gudgeon.generator.symbols.storage import Place
 
 
-def prepare_kernel(model: Model) -> Kernel:
+def make_prepare_kernel(model: Model) -> Kernel:
     """Return the C function that fills the parameter table of a run.
 
     Values that are given replace the defaults of the file; then the derived parameters are computed from them. It must
@@ -23,37 +23,41 @@ def prepare_kernel(model: Model) -> Kernel:
     """
     parameters: list[Statement] = []
     info = model.symbols.info
-    for index, entry in enumerate(model.slots.entries.values()):
-        comment = f"{entry.address}, from 0: {', '.join(entry.words)}" if entry.words else entry.address
-        parameters.append(Statement(entry.symbol.name, Defaulted(index, entry.value), comment))
-        parameters.append(Statement(model.slots.place(entry.symbol), entry.symbol))
+    for index, entry in enumerate(model.parameter_table.entries.values()):
+        comment = f"{entry.address}, from 0: {', '.join(entry.choice_words)}" if entry.choice_words else entry.address
+        parameters.append(Statement(entry.symbol.name, ParameterOrDefault(index, entry.value), comment))
+        parameters.append(Statement(model.parameter_table.find_place(entry.symbol), entry.symbol))
     derived: list[Statement] = []
-    for symbol, value in model.slots.derived.items():
+    for symbol, value in model.parameter_table.derived.items():
         derived.append(Statement(symbol.name, value, info[symbol].meaning))
-        derived.append(Statement(model.slots.place(symbol), symbol))
+        derived.append(Statement(model.parameter_table.find_place(symbol), symbol))
     return Kernel(
         "prepare",
         ("Fill all parameters of a run: given values or defaults, then derived parameters.",),
-        (source("given"), source("is_given", Number.BYTE), result(PARAMETERS.name, PARAMETERS.type)),
+        (
+            make_input_argument("given"),
+            make_input_argument("is_given", Number.BYTE),
+            make_output_argument(PARAMETERS.name, PARAMETERS.type),
+        ),
         (Section("slots", tuple(parameters)), Section("derived", tuple(derived))),
     )
 
 
-def mass_kernel(model: Model) -> Kernel:
+def make_mass_kernel(model: Model) -> Kernel:
     """Return the C function that writes the diagonal of the mass matrix M in absolute coordinates to `m` (n)."""
     build = KernelBuilder(
         model.symbols, "mass_matrix", ["The diagonal of the mass matrix M (n) in absolute coordinates."]
     )
-    build.section("M")
+    build.begin_section("M")
     for k, mass in enumerate(model.masses):
-        build.out(Place("m")[k], mass)
-    return build.build((PARAMETERS, result("m")))
+        build.append_store(Place("m")[k], mass)
+    return build.build_kernel((PARAMETERS, make_output_argument("m")))
 
 
-def row_kernels(model: Model) -> list[Kernel]:
+def make_row_kernels(model: Model) -> list[Kernel]:
     """Return the C functions of the constraint equations of the closed linkage: Φ, Φ_q (dense, row by row), ν and γ."""
 
-    def kernel(
+    def make_kernel(
         name: str, doc: str, array: str, velocity: bool, value: Callable[[Row], sp.Expr], unit_suffix: str = ""
     ) -> Kernel:
         """Return the C function `name` that writes one value of each constraint equation to the array `array`.
@@ -62,22 +66,24 @@ def row_kernels(model: Model) -> list[Kernel]:
         the unit, such as "/s".
         """
         build = KernelBuilder(model.symbols, name, [doc])
-        build.section("rows")
+        build.begin_section("rows")
         for row_index, row in enumerate(model.all_rows):
-            build.out(
+            build.append_store(
                 Place(array)[row_index],
                 value(row),
                 f"{row.name}, {row.unit}{unit_suffix}{_describe_absence(model, row)}",
             )
-        arguments = (*STATE, PARAMETERS, result(array))
-        return build.build(arguments if velocity else (*STATE[:2], *arguments[3:]))
+        arguments = (*STATE, PARAMETERS, make_output_argument(array))
+        return build.build_kernel(arguments if velocity else (*STATE[:2], *arguments[3:]))
 
     note = " Rows marked 'open' or 'redundant' do not constrain the motion."
     note *= any(_describe_absence(model, row) for row in model.all_rows)
     return [
-        kernel("constraints", f"Phi(q, t) of the closed linkage; m and rad.{note}", "phi", False, lambda row: row.phi),
+        make_kernel(
+            "constraints", f"Phi(q, t) of the closed linkage; m and rad.{note}", "phi", False, lambda row: row.phi
+        ),
         _make_jacobian_kernel(model),
-        kernel(
+        make_kernel(
             "velocity_rhs",
             "Right-hand side nu = -Phi_t of the velocity constraints Phi_q v = nu (closed linkage).",
             "nu",
@@ -85,7 +91,7 @@ def row_kernels(model: Model) -> list[Kernel]:
             lambda row: row.nu,
             "/s",
         ),
-        kernel(
+        make_kernel(
             "acceleration_rhs",
             "Right-hand side gamma of the accelerations, Phi_q a = gamma (closed linkage).",
             "gamma_rows",
@@ -116,15 +122,17 @@ def _make_jacobian_kernel(model: Model) -> Kernel:
         "jacobian",
         ["The Jacobian Phi_q of the closed linkage, dense, row by row; zero entries are not written."],
     )
-    build.section("non-zeros")
+    build.begin_section("non-zeros")
     column_of = {q: k for k, q in enumerate(model.q)}
     for row_index, row in enumerate(model.all_rows):
         for q, value in row.phi_q.items():
-            build.out(Place("phi_q")[row_index * len(model.q) + column_of[q]], value, f"d {row.name} / d {q.name}")
-    return build.build((*STATE[:2], PARAMETERS, result("phi_q")))
+            build.append_store(
+                Place("phi_q")[row_index * len(model.q) + column_of[q]], value, f"d {row.name} / d {q.name}"
+            )
+    return build.build_kernel((*STATE[:2], PARAMETERS, make_output_argument("phi_q")))
 
 
-def start_kernel(model: Model) -> Kernel:
+def make_start_kernel(model: Model) -> Kernel:
     """Return the C function that writes the values of the file's `start`: guesses, set values and rates.
 
     Eccentricities of journals and their rates follow those of coordinates.
@@ -134,9 +142,9 @@ def start_kernel(model: Model) -> Kernel:
         "start_values",
         ["Values of the file's start: guesses, set values, then rates; those of journals follow."],
     )
-    build.section("start")
+    build.begin_section("start")
     for key, group in start_values(model).items():
         for k, (quantity, sign) in enumerate(group):
-            build.out(Place(key)[k], sign * model.slots.use(quantity), quantity.address)
-    arguments = (PARAMETERS, *(result(key) for key in ("guess", "set", "rates")))
-    return build.build(arguments)
+            build.append_store(Place(key)[k], sign * model.parameter_table.get_or_add(quantity), quantity.address)
+    arguments = (PARAMETERS, *(make_output_argument(key) for key in ("guess", "set", "rates")))
+    return build.build_kernel(arguments)

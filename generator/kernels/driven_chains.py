@@ -1,4 +1,4 @@
-"""Kernels of kinematically determined loops (driven chains): Newton steps onto their closures, and three rates.
+"""Functions for loops that drives alone determine: Newton steps, and three time derivatives of the coordinates.
 
 With c the dependent coordinates and Φ_c the Jacobian of their closures, block by block
 (generator/solvers/square_rows.py):
@@ -19,10 +19,17 @@ import sympy as sp
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.differentiation import Tangents
-from gudgeon.generator.ir.kernels import HELD, Kernel, KernelBuilder, Section, declare_branches, without_unused
-from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, Number, result
-from gudgeon.generator.ir.sine_pairs import pair_sines
-from gudgeon.generator.ir.statements import Branches, LargestRow, Return, Statement, Unread
+from gudgeon.generator.ir.kernels import (
+    HELD_BRANCHES_TITLE,
+    Kernel,
+    KernelBuilder,
+    Section,
+    declare_branches,
+    remove_unused_locals,
+)
+from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, Number, make_output_argument
+from gudgeon.generator.ir.sine_pairs import vectorize_sines
+from gudgeon.generator.ir.statements import Branches, LargestRow, MarkUnread, Return, Statement
 from gudgeon.generator.reduction.driven_chains import Chain
 from gudgeon.generator.solvers.square_rows import SquareRows
 from gudgeon.generator.symbols.storage import Place
@@ -30,7 +37,7 @@ from gudgeon.generator.symbols.switches import BranchOf
 
 ZERO = sp.Integer(0)
 STEP, RATES, THIRD, DIRECTIONS = "chain_step", "chain_rates", "chain_third", "chain_directions"
-TOLD_SIDES = Section(HELD, (Branches(""),))
+HELD_BRANCHES_SECTION = Section(HELD_BRANCHES_TITLE, (Branches(""),))
 
 
 class ChainKernels:
@@ -47,11 +54,15 @@ class ChainKernels:
         """
         self.system, self.chain, self.symbols = system, chain, system.model.symbols
         loop_system = replace(
-            system, q=tuple(k.q for k in chain.known), v=tuple(k.rate for k in chain.known), rows=chain.rows, known=()
+            system,
+            q=tuple(k.q for k in chain.known),
+            v=tuple(k.rate for k in chain.known),
+            rows=chain.rows,
+            dependent=(),
         )
         self.square = SquareRows(loop_system, ["." in name for name in chain.names])
         self.first = len(system.q)  # of the chains' coordinates in q and v
-        kernels = [pair_sines(without_unused(kernel)) for kernel in self._make_kernels()]
+        kernels = [vectorize_sines(remove_unused_locals(kernel)) for kernel in self._make_kernels()]
         branches = [
             statement.value
             for kernel in kernels
@@ -59,8 +70,8 @@ class ChainKernels:
             for statement in section.statements
             if isinstance(statement, Statement) and isinstance(statement.value, BranchOf)
         ]
-        self.corners = self._make_switch_kernel(branches) if branches else None
-        self.kernels = [*map(declare_branches, kernels), *([self.corners] if self.corners else [])]
+        self.switch_kernel = self._make_switch_kernel(branches) if branches else None
+        self.kernels = [*map(declare_branches, kernels), *([self.switch_kernel] if self.switch_kernel else [])]
         self.size = self._derive_extent() if any("." in name for name in chain.names) else ZERO
 
     def _make_kernels(self) -> list[Kernel]:
@@ -87,19 +98,19 @@ class ChainKernels:
                 "Cosines and sines of all angles in the closures of dependent loops, stored in q after coordinates.",
             ],
         )
-        build.section("directions")
+        build.begin_section("directions")
         first_index = self.first + len(self.chain.names)
         symbols = [symbol for direction in self.chain.directions for symbol in (direction.cos, direction.sin)]
         for k, symbol in enumerate(symbols):
-            build.out(Place("out")[first_index + k], self.symbols.definitions[symbol], symbol.name)
-        return build.build((*STATE[:2], DISCRETE, PARAMETERS, result("out")), owner="")
+            build.append_store(Place("out")[first_index + k], self.symbols.definitions[symbol], symbol.name)
+        return build.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, make_output_argument("out")), owner="")
 
     def _derive_extent(self) -> sp.Expr:
         """Return the length in m that scales steps of a slide, as a derived parameter.
 
         It is the root of the sum of squares of all points' coordinates, also on the ground.
         """
-        geometry, parameter_table = self.system.model.geometry, self.system.model.slots
+        geometry, parameter_table = self.system.model.geometry, self.system.model.parameter_table
         ground = map(geometry.ground_vector, self.system.model.scene.mechanism.ground.values())
         squares = [x**2 for point in (*geometry.local.values(), *ground) for x in point]
         return parameter_table.derive("extent", sp.sqrt(sp.Add(*squares)), "extent of all points")
@@ -119,24 +130,24 @@ class ChainKernels:
                 "the largest |Phi|. Returns 0, or the number of a row that depends on others here.",
             ],
         )
-        build.section("closures of the chains")
+        build.begin_section("closures of the chains")
         named_rows = zip(self.square.names, self.chain.rows, strict=True)
-        phi = [build.local(f"phi_{name}", row.phi) for name, row in named_rows]
-        build.section("the largest")
-        build.line(LargestRow(tuple(phi)))
+        phi = [build.append_local(f"phi_{name}", row.phi) for name, row in named_rows]
+        build.begin_section("the largest")
+        build.append_line(LargestRow(tuple(phi)))
         solvers = self.square.factorize(build)
-        build.section("Newton's step")
+        build.begin_section("Newton's step")
         newton = self.square.solve(build, solvers, phi, "newton")
-        build.section("correction by the curvature of the constraints")
+        build.begin_section("correction by the curvature of the constraints")
         correction_step = self.square.solve(
             build, solvers, [self._compute_curvature(row, newton) / 2 for row in self.chain.rows], "bend"
         )
         for k, (newton_component, correction) in enumerate(zip(newton, correction_step, strict=True)):
-            build.out(Place("step")[k], newton_component + correction)
-            build.out(Place("bend")[k], correction)
-        build.line(Return())
-        outs = (result("step"), result("bend"), result("row", Number.INTEGER))
-        return build.build((*STATE[:2], DISCRETE, PARAMETERS, *outs), status=True, owner="", prune=True)
+            build.append_store(Place("step")[k], newton_component + correction)
+            build.append_store(Place("bend")[k], correction)
+        build.append_line(Return())
+        outs = (make_output_argument("step"), make_output_argument("bend"), make_output_argument("row", Number.INTEGER))
+        return build.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, *outs), status=True, owner="", prune=True)
 
     def _compute_curvature(self, row: Row, x: Sequence[sp.Expr]) -> sp.Expr:
         """Return Φ_cc[x, x] of one constraint equation, its second derivative along the step x.
@@ -145,7 +156,9 @@ class ChainKernels:
         """
         step_of = dict(zip([k.q for k in self.chain.known], x, strict=True))
         slope = sp.Add(*(entry * step_of[q] for q, entry in row.phi_q.items()))
-        return sp.expand(sp.Add(*(self.symbols.diff(slope, q) * component for q, component in step_of.items())))
+        return sp.expand(
+            sp.Add(*(self.symbols.differentiate(slope, q) * component for q, component in step_of.items()))
+        )
 
     def _make_rate_kernel(self) -> Kernel:
         """Return the C function of the first and second rates ċ, c̈ at coordinates that close the loops.
@@ -164,20 +177,22 @@ class ChainKernels:
         )
         dependent, rows = self.chain.known, self.chain.rows
         solvers = self.square.factorize(build)
-        build.section("rates")
+        build.begin_section("rates")
         rates = self.square.solve(build, solvers, [row.nu for row in rows], "rate")
         for k, value in zip(dependent, rates, strict=True):  # by the name under which all expressions know it
-            build.line(Statement(k.rate.name, value))
+            build.append_line(Statement(k.rate.name, value))
         for symbol in self._find_rate_symbols():
-            build.line(Statement(symbol.name, self.symbols.definitions[symbol]))
-        build.section("second rates")
+            build.append_line(Statement(symbol.name, self.symbols.definitions[symbol]))
+        build.begin_section("second rates")
         second_rates = self.square.solve(build, solvers, [row.gamma for row in rows], "second")
-        build.section("results")
+        build.begin_section("results")
         for index, (coordinate, value) in enumerate(zip(dependent, second_rates, strict=True), self.first):
-            build.out(Place("v")[index], coordinate.rate)
-            build.out(Place("v")[index + len(dependent)], value)
-        build.line(Return())
-        return build.build((*STATE[:2], DISCRETE, PARAMETERS, result("v")), status=True, owner="", prune=True)
+            build.append_store(Place("v")[index], coordinate.rate)
+            build.append_store(Place("v")[index + len(dependent)], value)
+        build.append_line(Return())
+        return build.build_kernel(
+            (*STATE[:2], DISCRETE, PARAMETERS, make_output_argument("v")), status=True, owner="", prune=True
+        )
 
     def _make_third_rate_kernel(self) -> Kernel:
         """Return the C function of the third rates, by forward differentiation: d/dt of γ − Φ_c c̈ at the same c̈.
@@ -194,19 +209,21 @@ class ChainKernels:
         )
         dependent, t = self.chain.known, self.system.model.t
         solvers = self.square.factorize(build)
-        build.section("third rates")
+        build.begin_section("third rates")
         tangents = Tangents(self.symbols, build, (t,))
         for k in dependent:
-            tangents.know(k.q, {t: k.rate})
-            tangents.know(k.rate, {t: k.second})
+            tangents.store_tangent(k.q, {t: k.rate})
+            tangents.store_tangent(k.rate, {t: k.second})
         residuals = [
             sp.Add(row.gamma, *(-row.phi_q.get(k.q, ZERO) * k.second for k in dependent)) for row in self.chain.rows
         ]
-        residual_rates = [tangents.gradient(value).get(t, ZERO) for value in residuals]
+        residual_rates = [tangents.compute_gradient(value).get(t, ZERO) for value in residuals]
         for index, value in enumerate(self.square.solve(build, solvers, residual_rates, "third")):
-            build.out(Place("out")[index], value)
-        build.line(Return())
-        return build.build((*STATE, DISCRETE, PARAMETERS, result("out")), status=True, owner="", prune=True)
+            build.append_store(Place("out")[index], value)
+        build.append_line(Return())
+        return build.build_kernel(
+            (*STATE, DISCRETE, PARAMETERS, make_output_argument("out")), status=True, owner="", prune=True
+        )
 
     def _find_rate_symbols(self) -> list[sp.Symbol]:
         """Return the defined symbols that depend on the loops' rates but on no rate or coordinate of the system.
@@ -232,10 +249,10 @@ class ChainKernels:
         `branches`: their branches, also repeated ones.
         """
         build = KernelBuilder(self.symbols, "loop_switches", ["Switching functions of the drives of dependent loops."])
-        build.section("corners")
+        build.begin_section("corners")
         for branch in dict.fromkeys(branches):
             name = f"side_{branch.args[0]}"
-            build.line(Statement(name, branch))
-            build.line(Unread(name))
-        kernel = build.build((*STATE[:2], DISCRETE, PARAMETERS, result("g")), owner="")
-        return replace(kernel, sections=(TOLD_SIDES, *kernel.sections))
+            build.append_line(Statement(name, branch))
+            build.append_line(MarkUnread(name))
+        kernel = build.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, make_output_argument("g")), owner="")
+        return replace(kernel, sections=(HELD_BRANCHES_SECTION, *kernel.sections))

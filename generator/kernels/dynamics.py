@@ -12,13 +12,21 @@ from gudgeon.generator.equations.loads import PointLoad
 from gudgeon.generator.equations.model import Model, stick_gain
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.equations.system import System
-from gudgeon.generator.ir.branches import JointsAlone
+from gudgeon.generator.ir.branches import ReturnIfOnlyJoints
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, declare_branches
-from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, RHS, STATE, ZERO, acting_on, result
-from gudgeon.generator.ir.statements import Call, Jump, Rescue, Return, Statement, Status, When
+from gudgeon.generator.ir.signatures import (
+    DISCRETE,
+    PARAMETERS,
+    RHS,
+    STATE,
+    ZERO,
+    make_contact_arguments,
+    make_output_argument,
+)
+from gudgeon.generator.ir.statements import Call, Jump, Return, SolveDependentRows, Statement, Status, When
 from gudgeon.generator.ir.values import Sum, Test
 from gudgeon.generator.solvers.kkt import KKT
-from gudgeon.generator.solvers.pivots import LEAST, LEAST_SIZE, friction_mode
+from gudgeon.generator.solvers.pivots import RUN_SINGULAR, RUN_VANISHING, append_friction_mode
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 _DOC = (
@@ -31,7 +39,7 @@ _MAX_PIVOTS = 60  # listed in the comment
 OnDependence = Callable[[KernelBuilder, KKT, Mapping[int, sp.Expr]], None]
 
 
-def dynamics_kernel(
+def make_dynamics_kernel(
     system: System,
     kkt: KKT,
     name: str = "dynamics",
@@ -46,49 +54,53 @@ def dynamics_kernel(
     Φ̇ are not computed: for methods that project.
     """
     model = system.model
-    build = KernelBuilder(model.symbols, name, (*doc, *elimination_lines(kkt)))
+    build = KernelBuilder(model.symbols, name, (*doc, *describe_elimination(kkt)))
     if kkt.rows and not model.has_changing_constraints:
-        build.section("status")
-        build.line(Status())
+        build.begin_section("status")
+        build.append_line(Status())
     _append_events(model, build)
-    loads = [load for element in model.elements.values() for load in element.on_points()]
+    loads = [load for element in model.elements.values() for load in element.list_point_loads()]
     for index, clearance in enumerate(model.clearances):
         loads += _append_clearance_call(build, index, clearance)
     if model.clearances and not stabilised:
-        build.section("if a is NULL, only the joints with play are evaluated")
-        build.line(JointsAlone())
-    generalized_loads, prescribed_forces = system.generalized(loads)
+        build.begin_section("if a is NULL, only the joints with play are evaluated")
+        build.append_line(ReturnIfOnlyJoints())
+    generalized_loads, prescribed_forces = system.compute_generalized_forces(loads)
     forces = [applied_force + load for applied_force, load in zip(system.applied, generalized_loads, strict=True)]
     slips = _append_slips(model, build, kkt, forces)
     b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != 0}
     b.update(_append_constraint_rhs(model, build, kkt, stabilised))
     b.update(slips)
     # with changing constraints a vanishing pivot is reported, not handled
-    factor = kkt.factorize(build) if model.has_changing_constraints else kkt.factorize(build, True, LEAST, LEAST_SIZE)
+    factor = (
+        kkt.factorize(build)
+        if model.has_changing_constraints
+        else kkt.factorize(build, True, RUN_SINGULAR, RUN_VANISHING)
+    )
     x = kkt.solve(build, factor, b)
-    build.section("results")
+    build.begin_section("results")
     for k, _ in enumerate(system.q):
-        build.out(Place("a")[k], x[k])
+        build.append_store(Place("a")[k], x[k])
     for r, _ in enumerate(kkt.rows):
-        build.out(RHS["lambda"][r], x[kkt.n + r])
+        build.append_store(RHS["lambda"][r], x[kkt.n + r])
     _append_friction_forces(build, kkt, x)
     _append_half_squares(build, kkt.system, x)
     if kkt.rows and not model.has_changing_constraints:
         (rescue or _append_dependent_rows)(build, kkt, b)
     _append_powers(build, kkt, prescribed_forces)
-    build.line(Return(pivot=bool(kkt.rows and not model.has_changing_constraints)))
-    arguments = (*STATE, DISCRETE, PARAMETERS, result("a"), RHS)
-    kernel = build.build(arguments, status=True, owner="")
+    build.append_line(Return(pivot=bool(kkt.rows and not model.has_changing_constraints)))
+    arguments = (*STATE, DISCRETE, PARAMETERS, make_output_argument("a"), RHS)
+    kernel = build.build_kernel(arguments, status=True, owner="")
     return declare_branches(kernel, "rhs")
 
 
-def elimination_lines(kkt: KKT) -> list[str]:
+def describe_elimination(kkt: KKT) -> list[str]:
     """Return comment lines that name the unknowns in the order in which the pivots eliminate them.
 
     An unknown is an acceleration, by its coordinate, or a multiplier, by its constraint equation. At most 60 pivots are
     listed; without pivots the list is empty.
     """
-    names = [coordinate_name(kkt.system.model.symbols.info[q].meaning) for q in kkt.system.q]
+    names = [format_coordinate_name(kkt.system.model.symbols.info[q].meaning) for q in kkt.system.q]
     names += [f"lambda of {row.name}" for row in kkt.rows] + [
         f"lambda of {friction.name}" for friction in kkt.frictions
     ]
@@ -99,7 +111,7 @@ def elimination_lines(kkt: KKT) -> list[str]:
     return [heading, *("    " + line.replace("\0", " ") for line in textwrap.wrap(f"{text}.", 104))] if blocks else []
 
 
-def coordinate_name(meaning: str) -> str:
+def format_coordinate_name(meaning: str) -> str:
     """Return the name of a coordinate for comments.
 
     The angle of a tree, whose meaning is the name of its body, gets ".theta".
@@ -110,9 +122,9 @@ def coordinate_name(meaning: str) -> str:
 def _append_events(model: Model, build: KernelBuilder) -> None:
     """Append the user's event functions, which are written at every state, also where a pivot vanishes."""
     if model.events:
-        build.section("events")
+        build.begin_section("events")
     for index, event in enumerate(model.events):
-        build.out(RHS["event"][index], event.expression, event.name)
+        build.append_store(RHS["event"][index], event.expression, event.name)
 
 
 def _append_clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> list[PointLoad]:
@@ -121,20 +133,23 @@ def _append_clearance_call(build: KernelBuilder, index: int, clearance: Clearanc
     They are the force and the moments that the call returns; a moment on the ground is 0.
     """
     name, out = clearance.label, RHS["clearance"][index]
-    build.section(f"clearance {clearance.kind} {clearance.name}")
-    e = [build.local(f"e_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity, strict=True)]
-    edot = [
-        build.local(f"edot_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity_rate, strict=True)
+    build.begin_section(f"clearance {clearance.kind} {clearance.name}")
+    e = [
+        build.append_local(f"e_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity, strict=True)
     ]
-    arguments = (clearance.first.omega, clearance.second.omega, *clearance.also)
-    build.line(Call(f"clearance_{name}_", (*e, *edot, *arguments, *acting_on(index)), (out,)))
-    F = [build.local(f"F_{name}_{axis}", out[f"F{axis}"]) for axis in "xy"]
+    edot = [
+        build.append_local(f"edot_{name}_{axis}", value)
+        for axis, value in zip("xy", clearance.eccentricity_rate, strict=True)
+    ]
+    arguments = (clearance.first.omega, clearance.second.omega, *clearance.further_arguments)
+    build.append_line(Call(f"clearance_{name}_", (*e, *edot, *arguments, *make_contact_arguments(index)), (out,)))
+    F = [build.append_local(f"F_{name}_{axis}", out[f"F{axis}"]) for axis in "xy"]
     moments = [
-        ZERO if point.body is None else build.local(f"M_{name}_{body_role}", out[f"moment_{body_role}"])
+        ZERO if point.body is None else build.append_local(f"M_{name}_{body_role}", out[f"moment_{body_role}"])
         for point, body_role in ((clearance.first, "first"), (clearance.second, "second"))
     ]
-    build.out(out["power"], clearance.power(F, edot, moments))
-    return clearance.on_points(F, moments)
+    build.append_store(out["power"], clearance.compute_power(F, edot, moments))
+    return clearance.list_point_loads(F, moments)
 
 
 def _append_constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabilised: bool) -> dict[int, sp.Expr]:
@@ -144,22 +159,22 @@ def _append_constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabili
     """
     if not stabilised:
         if kkt.rows:
-            build.section("constraints: gamma")
-        named_rhs = (build.local(f"rhs_{row.name.replace('.', '_')}", row.gamma) for row in kkt.rows)
+            build.begin_section("constraints: gamma")
+        named_rhs = (build.append_local(f"rhs_{row.name.replace('.', '_')}", row.gamma) for row in kkt.rows)
         return {kkt.n + index: rhs for index, rhs in enumerate(named_rhs)}
     alpha, beta = model.baumgarte
-    two_alpha = model.slots.derive("two_alpha", 2 * alpha, "2 alpha")
-    beta_squared = model.slots.derive("beta_squared", beta**2, "beta^2")
+    two_alpha = model.parameter_table.derive("two_alpha", 2 * alpha, "2 alpha")
+    beta_squared = model.parameter_table.derive("beta_squared", beta**2, "beta^2")
     rhs: dict[int, sp.Expr] = {}
     if kkt.rows:
-        build.section("constraints: Phi, Phi_dot = Phi_q v - nu, gamma")
+        build.begin_section("constraints: Phi, Phi_dot = Phi_q v - nu, gamma")
     for index, row in enumerate(kkt.rows):
         name = row.name.replace(".", "_")
-        phi = build.local(f"phi_{name}", row.phi)
-        phi_dot = build.local(f"phi_dot_{name}", row.phi_q_v - row.nu)
-        rhs[kkt.n + index] = build.local(f"rhs_{name}", row.gamma - two_alpha * phi_dot - beta_squared * phi)
-        build.out(RHS["phi"][index], phi)
-        build.out(RHS["phi_dot"][index], phi_dot)
+        phi = build.append_local(f"phi_{name}", row.phi)
+        phi_dot = build.append_local(f"phi_dot_{name}", row.phi_q_v - row.nu)
+        rhs[kkt.n + index] = build.append_local(f"rhs_{name}", row.gamma - two_alpha * phi_dot - beta_squared * phi)
+        build.append_store(RHS["phi"][index], phi)
+        build.append_store(RHS["phi_dot"][index], phi_dot)
     return rhs
 
 
@@ -171,20 +186,20 @@ def _append_slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.
     """
     stick_rhs: dict[int, sp.Expr] = {}
     if kkt.frictions:
-        build.section("friction: slip, or stick as a constraint equation")
+        build.begin_section("friction: slip, or stick as a constraint equation")
     coordinate_index = {q: k for k, q in enumerate(kkt.system.q)}
     two_alpha = stick_gain(model) if kkt.frictions else ZERO
     for index, friction in enumerate(kkt.frictions):
         name, node = friction.name, kkt.first_friction + index
-        v = build.local(f"slip_{name}", friction.slip.v)
-        kkt.sticks[node], sign = friction_mode(build, name, index)
-        force = build.local(f"kinetic_{name}", -sign * friction.slip.kinetic_at(v))
+        v = build.append_local(f"slip_{name}", friction.slip.v)
+        kkt.stick_symbols[node], sign = append_friction_mode(build, name, index)
+        force = build.append_local(f"kinetic_{name}", -sign * friction.slip.kinetic_at(v))
         for q, entry in friction.jacobian.items():
             forces[coordinate_index[q]] += entry * force
-        stick_rhs[node] = build.local(f"rhs_{name}", friction.gamma - two_alpha * v)
+        stick_rhs[node] = build.append_local(f"rhs_{name}", friction.gamma - two_alpha * v)
         for key, value in (("v", v), ("static_limit", friction.slip.static), ("speed", friction.slip.speed)):
-            build.out(RHS["friction"][index][key], value)
-        build.out(RHS["friction"][index]["force"], force)
+            build.append_store(RHS["friction"][index][key], value)
+        build.append_store(RHS["friction"][index]["force"], force)
     return stick_rhs
 
 
@@ -196,11 +211,11 @@ def _append_friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr
     coordinate_index = {q: k for k, q in enumerate(kkt.system.q)}
     for index, friction in enumerate(kkt.frictions):
         rate = sum((entry * x[coordinate_index[q]] for q, entry in friction.jacobian.items()), -friction.gamma)
-        build.out(RHS["friction"][index]["rate"], rate)
-        stick = kkt.sticks[kkt.first_friction + index]
+        build.append_store(RHS["friction"][index]["rate"], rate)
+        stick = kkt.stick_symbols[kkt.first_friction + index]
         target = RHS["friction"][index]["force"]
         force = Statement(target, -x[kkt.first_friction + index], f"stick of {friction.name}")
-        build.line(When(Test(stick, "!=", (0.0,)), force))
+        build.append_line(When(Test(stick, "!=", (0.0,)), force))
 
 
 def _append_half_squares(build: KernelBuilder, system: System, x: Mapping[int, sp.Expr]) -> None:
@@ -211,16 +226,16 @@ def _append_half_squares(build: KernelBuilder, system: System, x: Mapping[int, s
     for index, clearance in enumerate(system.model.clearances):
         if clearance.rigid and clearance.wall:
             outward = _compute_outward_acceleration(system, clearance, clearance.wall, x)
-            build.out(RHS["clearance"][index]["half_square_rate"], outward, "at a wall delta'' itself")
+            build.append_store(RHS["clearance"][index]["half_square_rate"], outward, "at a wall delta'' itself")
         elif clearance.rigid:
             journal_acceleration, bearing_acceleration = (
-                system.acceleration(point, x) for point in (clearance.second, clearance.first)
+                system.compute_acceleration(point, x) for point in (clearance.second, clearance.first)
             )
             e, edot = clearance.eccentricity, clearance.eccentricity_rate
             value = sp.Add(
                 *(e[i] * (journal_acceleration[i] - bearing_acceleration[i]) + edot[i] ** 2 for i in range(2))
             )
-            build.out(RHS["clearance"][index]["half_square_rate"], value, "e . e'' + e' . e'")
+            build.append_store(RHS["clearance"][index]["half_square_rate"], value, "e . e'' + e' . e'")
 
 
 def _compute_outward_acceleration(
@@ -231,10 +246,10 @@ def _compute_outward_acceleration(
     δ̈ = ë · n + ω̇_i along + 2 ω_i ė · t − ω_i² e · n, from δ̇ = ė · n + ω_i e · t.
     """
     journal_acceleration, bearing_acceleration = (
-        system.acceleration(point, x) for point in (clearance.second, clearance.first)
+        system.compute_acceleration(point, x) for point in (clearance.second, clearance.first)
     )
     (n_x, n_y), e, edot = wall.normal, clearance.eccentricity, clearance.eccentricity_rate
-    omega, angular_acceleration = clearance.first.omega, system.turning(clearance.first, x)
+    omega, angular_acceleration = clearance.first.omega, system.compute_angular_acceleration(clearance.first, x)
     lever_arm, tangential_rate = e[1] * n_x - e[0] * n_y, edot[1] * n_x - edot[0] * n_y
     linear_acceleration = (journal_acceleration[0] - bearing_acceleration[0]) * n_x + (
         journal_acceleration[1] - bearing_acceleration[1]
@@ -253,10 +268,10 @@ def _append_dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Ex
     """
     if not build.has_jumps:
         return
-    build.line(Jump())
-    build.section("a pivot vanished: constraint equations depend on each other here")
+    build.append_line(Jump())
+    build.begin_section("a pivot vanished: constraint equations depend on each other here")
     force, rhs = (tuple(b.get(k, ZERO) for k in nodes) for nodes in (range(kkt.n), range(kkt.n, kkt.n + len(kkt.rows))))
-    build.line(Rescue(force, rhs))
+    build.append_line(SolveDependentRows(force, rhs))
 
 
 def _append_powers(build: KernelBuilder, kkt: KKT, prescribed_forces: Mapping[str, sp.Expr]) -> None:
@@ -268,17 +283,19 @@ def _append_powers(build: KernelBuilder, kkt: KKT, prescribed_forces: Mapping[st
     model = kkt.system.model
     multipliers = {r: PlaceSymbol(RHS["lambda"][r]) for r, row in enumerate(kkt.rows) if row.nu != 0}
     drive_power = sp.Add(*(-multiplier * kkt.rows[r].nu for r, multiplier in multipliers.items()))
-    for prescribed in kkt.system.given:
+    for prescribed in kkt.system.prescribed:
         effort = sp.Add(*(m * PlaceSymbol(Place("a")[k]) for k, m in prescribed.mass.items())) - prescribed.applied
         for r, friction in enumerate(kkt.frictions):
             force = PlaceSymbol(RHS["friction"][r]["force"])
-            effort -= model.symbols.written_out(friction.slip.v, prescribed.rate) * force
+            effort -= model.symbols.differentiate_definitions(friction.slip.v, prescribed.rate) * force
         drive_power += prescribed.rate * (effort - prescribed_forces.get(prescribed.name, ZERO))
     clearances = tuple(RHS["clearance"][i]["power"] for i in range(len(model.clearances)))
-    build.out(RHS["power"][0], drive_power)
+    build.append_store(RHS["power"][0], drive_power)
     friction_symbols = [
         [PlaceSymbol(RHS["friction"][r][field]) for field in ("force", "v", "speed")] for r in range(len(kkt.frictions))
     ]
     friction = sp.Add(*(force * (v + speed) for force, v, speed in friction_symbols))
-    build.out(RHS["power"][1], sp.Add(*(element.loads.power for element in model.elements.values())) + friction)
-    build.out(RHS["power"][2], Sum(clearances) if clearances else ZERO)
+    build.append_store(
+        RHS["power"][1], sp.Add(*(element.loads.power for element in model.elements.values())) + friction
+    )
+    build.append_store(RHS["power"][2], Sum(clearances) if clearances else ZERO)

@@ -1,4 +1,4 @@
-"""Event functions and transients of a scene, as functions of their own that the step search evaluates.
+"""Event functions and short pulses of a scene, evaluated separately in the search for events in a step.
 
 Event functions are the switching functions of the scene and the events of the user. Each is evaluated along a step
 apart from the rest of the right-hand side, by bounds over parts of the step (engine/watch/watched.c): an expression
@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.ir.finite_slopes import as_written
+from gudgeon.generator.ir.finite_slopes import convert_for_intervals
 from gudgeon.generator.ir.kernels import Kernel, Section, declare_branches
 from gudgeon.generator.ir.signatures import PARAMETERS, RHS, TIME
 from gudgeon.generator.ir.statements import Branches, Line, Statement
@@ -33,13 +33,13 @@ _RANGES_DOC = ("Ranges of the scene's own switching functions and of the user's 
 _FORCE_OUTPUTS = RHS.name  # what reads this is known only once forces or accelerations are
 
 
-def event_function_kernel(dynamics: Kernel, model: Model, loop_switches: Kernel | None = None) -> Kernel | None:
+def make_event_function_kernel(dynamics: Kernel, model: Model, loop_switches: Kernel | None = None) -> Kernel | None:
     """Return the C function that evaluates the event functions alone; None if there are none or they depend on forces.
 
     It is the part of the right-hand side `dynamics` that the switching functions and user events read. `loop_switches`:
     the function of the switching functions of kinematically determined loops, which `dynamics` lacks.
     """
-    switch_indices = {switch.index for switch in model.symbols.switches.of("")}
+    switch_indices = {switch.index for switch in model.symbols.switches.list_switches("")}
     if not switch_indices and not model.events:
         return None
     sections_in = _merge_sections(loop_switches, dynamics)
@@ -50,10 +50,10 @@ def event_function_kernel(dynamics: Kernel, model: Model, loop_switches: Kernel 
         if isinstance(statement, Statement) and (output := _make_output_statement(statement, switch_indices))
     }
     statement_by_local = {
-        statement.defines: statement
+        statement.declared_local: statement
         for section in sections_in
         for statement in section.statements
-        if isinstance(statement, Statement) and statement.defines
+        if isinstance(statement, Statement) and statement.declared_local
     }
     needed_statements: set[Statement] = set()
     pending = list(output_by_statement.values())
@@ -95,13 +95,15 @@ def _merge_sections(*kernels: Kernel | None) -> list[Section]:
     merged = []
     for kernel in kernels:
         for section in kernel.sections if kernel else ():
-            lines = tuple(line for line in section.statements if line.defines not in defined_names)
+            lines = tuple(line for line in section.statements if line.declared_local not in defined_names)
             merged.append(Section(section.title, lines))
-        defined_names |= {line.defines for section in merged for line in section.statements if line.defines}
+        defined_names |= {
+            line.declared_local for section in merged for line in section.statements if line.declared_local
+        }
     return merged
 
 
-def ranges_kernel(watched: Kernel, switch_indices: Sequence[int], events: int) -> Kernel:
+def make_ranges_kernel(watched: Kernel, switch_indices: Sequence[int], events: int) -> Kernel:
     """Return the C function of the ranges of all event functions over ranges of t, q and v.
 
     `watched`: the function of their values; `switch_indices`: the numbers of the switching functions. These are written
@@ -178,14 +180,15 @@ class TimeTerms:
     def count(self) -> int:
         """Return the number of terms, 0 without a kernel."""
         statements = [s for section in self.kernel.sections for s in section.statements] if self.kernel else []
-        return sum(isinstance(s, Statement) and not s.defines for s in statements)
+        return sum(isinstance(s, Statement) and not s.declared_local for s in statements)
 
 
-def time_terms(dynamics: Kernel, rests: bool) -> TimeTerms:
+def find_time_terms(dynamics: Kernel, rests: bool) -> TimeTerms:
     """Return the terms of time alone, read by a right-hand side, that the stages of a step may miss.
 
-    `rests`: stick or a rigid contact may hold the motion while forces vary, so that sines count too. At most
-    MAX_TIME_TERMS are returned, with their function.
+    `rests`: stick or a rigid contact may hold the motion while forces vary, so that sines and cosines count too; they
+    come after the others. The result holds the number of the others as `pulses`, and the C function of the first
+    MAX_TIME_TERMS terms, None if there are no terms.
     """
     collector = _collect_terms(dynamics, False)
     terms = list(collector.terms)[:MAX_TIME_TERMS]
@@ -202,14 +205,17 @@ def _collect_terms(dynamics: Kernel, may_rest: bool) -> _TermCollector:
     for section in dynamics.sections:
         for statement in section.statements:
             if isinstance(statement, Statement):
-                collector.read(statement)
+                collector.read_statement(statement)
     return collector
 
 
 def _make_terms_kernel(dynamics: Kernel, collector: _TermCollector, terms: list[sp.Expr]) -> Kernel:
     """Return the C function that evaluates the collected terms at a time and writes them to `out`."""
     stores = [Statement(Place("out")[k], term) for k, term in enumerate(terms)]
-    sections = (Section("parameters and time", tuple(collector.needed(terms))), Section("terms", tuple(stores)))
+    sections = (
+        Section("parameters and time", tuple(collector.list_needed_definitions(terms))),
+        Section("terms", tuple(stores)),
+    )
     arguments = (TIME, PARAMETERS, RHS)
     renamed = replace(dynamics, name=_TIME_TERMS, doc=_TIME_TERMS_DOC)
     return replace(renamed, arguments=arguments, sections=sections, status=False)
@@ -218,14 +224,14 @@ def _make_terms_kernel(dynamics: Kernel, collector: _TermCollector, terms: list[
 class _TermCollector:
     """Collector of terms of time alone from statements; `terms` keeps the order in which they are found."""
 
-    def __init__(self, rests: bool) -> None:
+    def __init__(self, may_rest: bool) -> None:
         """Begin without terms and known locals.
 
-        With `rests`, sines and cosines count as terms too, exponentials do not.
+        With `may_rest`, sines and cosines count as terms too, exponentials do not.
         """
-        self.shown_functions = (PeriodsOf, sp.exp) if rests else (PeriodsOf, *_LINEAR)
+        self.shown_functions = (PeriodsOf, sp.exp) if may_rest else (PeriodsOf, *_LINEAR)
         self.known: dict[str, Statement] = {}  # locals that time and parameters determine
-        self.definition_of_timed: dict[
+        self.definition_by_local: dict[
             str, sp.Expr
         ] = {}  # those of them that depend on time, with definitions inserted
         self.terms: dict[sp.Expr, None] = {}
@@ -233,14 +239,16 @@ class _TermCollector:
         self._is_shown: dict[sp.Expr, bool] = {}  # parts recur in the derivatives of what is nested
         self._names: dict[sp.Expr, frozenset[str]] = {}
 
-    def read(self, statement: Statement) -> None:
-        """Collect the terms of time in one statement, and record if its local depends on time and parameters alone.
+    def read_statement(self, statement: Statement) -> None:
+        """Add the terms of time in one statement to `terms`, and record a local that time and parameters determine.
 
-        A value that also depends on the state contributes those of its parts that do not.
+        Such a local is stored in `known`, and if it depends on time in `definition_by_local`. A value that also depends
+        on the state contributes those of its parts that do not. A value that is read from an array is recorded only if
+        the array is the time or the parameters. Statements must come in the order of the function.
         """
         if isinstance(statement.value, sp.Expr):
-            statement = replace(statement, value=as_written(statement.value))
-        value, local = statement.value, statement.defines
+            statement = replace(statement, value=convert_for_intervals(statement.value))
+        value, local = statement.value, statement.declared_local
         if not isinstance(value, sp.Basic):
             if local and isinstance(value, Place) and value.base in (TIME.name, PARAMETERS.name):
                 self.known[local] = statement
@@ -259,30 +267,30 @@ class _TermCollector:
                 if isinstance(part, sp.Expr):
                     self.collect(part)
         if local in self.known and self.depends_on_time_only(value):
-            self.definition_of_timed[local] = self.written_out(value)
+            self.definition_by_local[local] = self.insert_definitions(value)
 
-    def written_out(self, value: sp.Expr) -> sp.Expr:
+    def insert_definitions(self, value: sp.Expr) -> sp.Expr:
         """Return the expression with the locals that depend on time replaced by their definitions."""
-        if self.names_in(value).isdisjoint(self.definition_of_timed):
+        if self.find_names(value).isdisjoint(self.definition_by_local):
             return value
         replacements = {
-            symbol: self.definition_of_timed[symbol.name]
+            symbol: self.definition_by_local[symbol.name]
             for symbol in value.free_symbols
-            if symbol.name in self.definition_of_timed
+            if symbol.name in self.definition_by_local
         }
         return value.xreplace(replacements) if replacements else value
 
-    def names_in(self, value: sp.Expr) -> frozenset[str]:
+    def find_names(self, value: sp.Expr) -> frozenset[str]:
         """Return the names of the symbols in an expression; the result is cached for each subexpression."""
         if value not in self._names:
-            parts = (self.names_in(part) for part in value.args)
+            parts = (self.find_names(part) for part in value.args)
             self._names[value] = frozenset({value.name}) if value.is_Symbol else frozenset().union(*parts)
         return self._names[value]
 
     def depends_on_time_only(self, value: sp.Expr) -> bool:
         """Return whether an expression depends on time, and on nothing but time and parameters."""
-        names = self.names_in(value)
-        return names <= self.known.keys() and (self.time in names or not names.isdisjoint(self.definition_of_timed))
+        names = self.find_names(value)
+        return names <= self.known.keys() and (self.time in names or not names.isdisjoint(self.definition_by_local))
 
     def collect(self, value: sp.Expr) -> None:
         """Add the terms of an expression that stages may miss to `terms`, and such terms within them.
@@ -310,16 +318,16 @@ class _TermCollector:
         Steps end at switching points, so that each branch counts by itself.
         """
         if value not in self._is_shown:
-            self._is_shown[value] = self._compute_is_shown(self.written_out(value))
+            self._is_shown[value] = self._compute_is_shown(self.insert_definitions(value))
         return self._is_shown[value]
 
     def _compute_is_shown(self, value: sp.Expr) -> bool:
         """Return `is_shown_by_stages` of an expression without reading the cache.
 
-        Sums, products and low powers of such expressions are shown, and sines or exponentials of an argument linear in
-        time.
+        An expression without time is shown. Sums, products and low powers of such expressions are shown, and those of
+        the functions `shown_functions` whose argument is linear in time. Of a held branch its second argument counts.
         """
-        if self.time not in self.names_in(value):
+        if self.time not in self.find_names(value):
             return True
         match value:
             case sp.Symbol():
@@ -337,12 +345,12 @@ class _TermCollector:
 
         Sums of such terms, and products with one factor that depends on time, count.
         """
-        time_parts = [part for part in value.args if self.time in self.names_in(part)]
+        time_parts = [part for part in value.args if self.time in self.find_names(part)]
         if isinstance(value, (sp.Add, sp.Mul)):
             return (len(time_parts) < 2 or isinstance(value, sp.Add)) and all(map(self.is_linear, time_parts))
         return value.is_Symbol or not time_parts
 
-    def needed(self, terms: list[sp.Expr]) -> list[Statement]:
+    def list_needed_definitions(self, terms: list[sp.Expr]) -> list[Statement]:
         """Return the definitions of the locals that the terms read, directly or not, in their order.
 
         Held branches are replaced by signs.

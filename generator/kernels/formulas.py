@@ -9,7 +9,7 @@ import sympy as sp
 from sympy.printing.str import StrPrinter
 
 from gudgeon.generator.equations.play import LawEquations
-from gudgeon.generator.symbols.symbols import plain_name
+from gudgeon.generator.symbols.symbols import strip_identifier
 
 _WIDTH = 110
 _MEANINGS = {
@@ -44,13 +44,16 @@ class _Plain(StrPrinter):
         return f"({self._print(e.args[0])})"
 
 
-def formula_lines(law: LawEquations, names: Mapping[sp.Symbol, str]) -> list[str]:
+def format_formulas(law: LawEquations, names: Mapping[sp.Symbol, str]) -> list[str]:
     """Return the equations of a law as lines of text, then the meanings of its variables.
 
     `names`: names of parameters in the law's function; others keep the names of the file. Lines are wrapped at 110
     characters.
     """
-    name_of_symbol = {**{s: plain_name(s) for e in law.steps.values() for s in sp.sympify(e).free_symbols}, **names}
+    name_of_symbol = {
+        **{s: strip_identifier(s) for e in law.steps.values() for s in sp.sympify(e).free_symbols},
+        **names,
+    }
     variables = {symbol.name for symbol in law.variables}
     symbol_map = {
         s: sp.Symbol(name, real=True) for s, name in name_of_symbol.items() if s.name not in {*variables, *law.steps}

@@ -1,25 +1,25 @@
-"""Kernels of a kinematically driven scene (dof = 0) in tree coordinates: Newton's step, rates, motion of all bodies."""
+"""Functions of a scene without degrees of freedom in tree coordinates: Newton's step, rates, motion of bodies."""
 
 from __future__ import annotations
 
 import sympy as sp
 
 from gudgeon.generator.equations.system import System
-from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, without_unused
-from gudgeon.generator.ir.signatures import PARAMETERS, STATE, result
-from gudgeon.generator.ir.sine_pairs import pair_sines
+from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, remove_unused_locals
+from gudgeon.generator.ir.signatures import PARAMETERS, STATE, make_output_argument
+from gudgeon.generator.ir.sine_pairs import vectorize_sines
 from gudgeon.generator.ir.statements import Largest, Return
 from gudgeon.generator.solvers.square_rows import SquareRows
 from gudgeon.generator.symbols.storage import Place
 
 
-def kinematic_kernels(system: System, rows: SquareRows) -> list[Kernel]:
+def make_kinematic_kernels(system: System, rows: SquareRows) -> list[Kernel]:
     """Return the C functions `close_step` (at a position) and `arrive` (at a position with its rates).
 
     `rows`: the closures of the tree as a square system.
     """
     return [
-        pair_sines(without_unused(kernel))
+        vectorize_sines(remove_unused_locals(kernel))
         for kernel in (_make_close_step_kernel(system, rows), _make_arrive_kernel(system, rows))
     ]
 
@@ -37,21 +37,21 @@ def _make_close_step_kernel(system: System, rows: SquareRows) -> Kernel:
             "`worst`: the largest |Phi|. Returns 0, or the number of a row that depends on others here.",
         ],
     )
-    build.section("closures")
-    phi = [build.local(f"phi_{name}", row.phi) for name, row in zip(rows.names, system.rows, strict=True)]
+    build.begin_section("closures")
+    phi = [build.append_local(f"phi_{name}", row.phi) for name, row in zip(rows.names, system.rows, strict=True)]
     solvers = rows.factorize(build)
-    build.section("Newton's step")
+    build.begin_section("Newton's step")
     step = rows.solve(build, solvers, phi, "step")
-    build.section("rates")
+    build.begin_section("rates")
     rates = rows.solve(build, solvers, [row.nu for row in system.rows], "rate")
-    build.section("results")
+    build.begin_section("results")
     for k, (component, rate) in enumerate(zip(step, rates, strict=True)):
-        build.out(Place("step")[k], component)
-        build.out(Place("rates")[k], rate)
-    build.line(Largest("worst", tuple(phi)))
-    build.line(Return())
-    outs = (result(name) for name in ("step", "rates", "worst"))
-    return build.build((*STATE[:2], PARAMETERS, *outs), status=True)
+        build.append_store(Place("step")[k], component)
+        build.append_store(Place("rates")[k], rate)
+    build.append_line(Largest("worst", tuple(phi)))
+    build.append_line(Return())
+    outs = (make_output_argument(name) for name in ("step", "rates", "worst"))
+    return build.build_kernel((*STATE[:2], PARAMETERS, *outs), status=True)
 
 
 def _make_arrive_kernel(system: System, rows: SquareRows) -> Kernel:
@@ -69,24 +69,24 @@ def _make_arrive_kernel(system: System, rows: SquareRows) -> Kernel:
         ],
     )
     bodies = system.model.bodies
-    build.section("positions and velocities of the bodies")
+    build.begin_section("positions and velocities of the bodies")
     for body in bodies:
         for k, (q, v) in enumerate(zip(body.q, body.v, strict=True), body.index):
-            build.out(Place("all_q")[k], q)
-            build.out(Place("all_v")[k], v)
-    build.section("rates of the closures")
+            build.append_store(Place("all_q")[k], q)
+            build.append_store(Place("all_v")[k], v)
+    build.begin_section("rates of the closures")
     named_rows = zip(rows.names, system.rows, strict=True)
-    phi_dot = [build.local(f"phi_dot_{name}", row.phi_q_v - row.nu) for name, row in named_rows]
-    build.line(Largest("worst", tuple(phi_dot)))
+    phi_dot = [build.append_local(f"phi_dot_{name}", row.phi_q_v - row.nu) for name, row in named_rows]
+    build.append_line(Largest("worst", tuple(phi_dot)))
     solvers = rows.factorize(build)
-    build.section("accelerations")
+    build.begin_section("accelerations")
     a = rows.solve(build, solvers, [row.gamma for row in system.rows], "second")
     for k, value in enumerate(a):
-        build.out(Place("a")[k], value)
+        build.append_store(Place("a")[k], value)
     for body in bodies:
         motion = system.motions[body.name]
         for k, (row_entries, bias) in enumerate(zip(motion.jacobian, motion.bias, strict=True), body.index):
-            build.out(Place("all_a")[k], sp.Add(bias, *(entry * a[j] for j, entry in row_entries.items())))
-    build.line(Return())
-    outs = (result(name) for name in ("a", "all_q", "all_v", "all_a", "worst"))
-    return build.build((*STATE, PARAMETERS, *outs), status=True)
+            build.append_store(Place("all_a")[k], sp.Add(bias, *(entry * a[j] for j, entry in row_entries.items())))
+    build.append_line(Return())
+    outs = (make_output_argument(name) for name in ("a", "all_q", "all_v", "all_a", "worst"))
+    return build.build_kernel((*STATE, PARAMETERS, *outs), status=True)

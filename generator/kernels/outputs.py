@@ -8,13 +8,13 @@ from gudgeon.contract.boundary import N_REACTION_COLUMNS, REACTION_COLUMN_NAMES,
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder
-from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO, result, source
+from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO, make_input_argument, make_output_argument
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import Joint
 from gudgeon.generator.symbols.storage import Place
 
 
-def outputs_kernel(model: Model) -> Kernel:
+def make_outputs_kernel(model: Model) -> Kernel:
     """Return the C function of reactions, drive torques, element results and energies from q, q̇ and λ.
 
     Reactions are written for each joint without play; a drive whose equation was left out has torque 0.
@@ -28,33 +28,35 @@ def outputs_kernel(model: Model) -> Kernel:
         ],
     )
     multiplier: dict[str, sp.Expr] = {}
-    build.section("multipliers")
+    build.begin_section("multipliers")
     for row_index, row in enumerate(model.rows):
-        multiplier[row.name] = build.local(f"multiplier_{row.name.replace('.', '_')}", Place("lambda")[row_index])
-    build.section("reactions")
+        multiplier[row.name] = build.append_local(
+            f"multiplier_{row.name.replace('.', '_')}", Place("lambda")[row_index]
+        )
+    build.begin_section("reactions")
     rows_by_owner: dict[str, list[Row]] = {}
     for row in model.rows:
         rows_by_owner.setdefault(row.owner, []).append(row)
-    for j, joint in enumerate(constraining_joints(model)):
+    for j, joint in enumerate(find_constraining_joints(model)):
         for k, value in enumerate(_compute_reaction(model, joint, rows_by_owner.get(joint.name, []), multiplier)):
             target = Place("reactions")[N_REACTION_COLUMNS * j + k]
-            build.out(target, value, f"{joint.name}.{REACTION_COLUMN_NAMES[k]}")
+            build.append_store(target, value, f"{joint.name}.{REACTION_COLUMN_NAMES[k]}")
     for d, name in enumerate(model.scene.mechanism.drives):
-        build.out(Place("torques")[d], -multiplier.get(name, ZERO), f"{name}")
-    for k, (name, (value, _)) in enumerate(element_series(model).items()):
-        build.out(Place("series")[k], value, name)
-    build.section("energy")
+        build.append_store(Place("torques")[d], -multiplier.get(name, ZERO), f"{name}")
+    for k, (name, (value, _)) in enumerate(find_element_series(model).items()):
+        build.append_store(Place("series")[k], value, name)
+    build.begin_section("energy")
     kinetic = sp.Add(*(m * v**2 / 2 for m, v in zip(model.masses, model.v, strict=True)))
-    build.out(Place("energy")[ENERGY_kinetic], kinetic)
+    build.append_store(Place("energy")[ENERGY_kinetic], kinetic)
     gx, gy = model.gravity
     gravity_energies = (-body.mass * (gx * body.x + gy * body.y) for body in model.bodies)
-    stored = (element.loads.potential for element in model.elements.values())
-    build.out(Place("energy")[ENERGY_potential], sp.Add(*gravity_energies, *stored))
-    results = (result(name) for name in ("reactions", "torques", "series", "energy"))
-    return build.build((*STATE, PARAMETERS, source("lambda"), *results))
+    potentials = (element.loads.potential for element in model.elements.values())
+    build.append_store(Place("energy")[ENERGY_potential], sp.Add(*gravity_energies, *potentials))
+    results = (make_output_argument(name) for name in ("reactions", "torques", "series", "energy"))
+    return build.build_kernel((*STATE, PARAMETERS, make_input_argument("lambda"), *results))
 
 
-def element_series(model: Model) -> dict[str, tuple[sp.Expr, str]]:
+def find_element_series(model: Model) -> dict[str, tuple[sp.Expr, str]]:
     """Return the results of the force elements by name: "coil.F" -> (value, unit)."""
     return {
         f"{name}.{series_name}": value
@@ -63,7 +65,7 @@ def element_series(model: Model) -> dict[str, tuple[sp.Expr, str]]:
     }
 
 
-def constraining_joints(model: Model) -> list[Joint]:
+def find_constraining_joints(model: Model) -> list[Joint]:
     """Return the joints that constrain the motion, those without play, in the order of the file."""
     return [joint for joint in model.scene.mechanism.joints.values() if joint.name not in model.scene.play]
 

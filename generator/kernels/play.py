@@ -1,4 +1,4 @@
-"""The functions of a joint with play: its laws (each once a scene), the steps around them, and their derivatives."""
+"""Functions of a joint with play: force laws, kinematics of the contact, and derivatives of the force."""
 
 from __future__ import annotations
 
@@ -10,27 +10,27 @@ import sympy as sp
 from gudgeon.generator.equations import contact_steps as contact
 from gudgeon.generator.equations.contact_steps import Step
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.equations.play import Clearance, LawEquations, letter_of
+from gudgeon.generator.equations.play import Clearance, LawEquations, make_law_identifier
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, Section, hold_branches
-from gudgeon.generator.ir.reciprocals import hoisted, with_reciprocals
-from gudgeon.generator.ir.signatures import BRANCHES, CONTACT, PARAMETERS, Argument, result
+from gudgeon.generator.ir.reciprocals import hoist_reciprocals, share_reciprocals
+from gudgeon.generator.ir.signatures import BRANCHES, CONTACT, PARAMETERS, Argument, make_output_argument
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Conditional, Test
-from gudgeon.generator.kernels.formulas import formula_lines
-from gudgeon.generator.kernels.shared import SharedFunctionCall, SharedFunctions, joint_numbers
+from gudgeon.generator.kernels.formulas import format_formulas
+from gudgeon.generator.kernels.shared import SharedFunctionCall, SharedFunctions, name_joint_parameters
 from gudgeon.generator.kinds.laws.law import USER_LAWS
 from gudgeon.generator.solvers.contact_slopes import (
-    DEEP,
-    dry_derivative_kernel,
-    film_derivative_kernel,
-    fraction_derivative_kernel,
-    in_place,
-    without_stored_speed,
+    DEPTH_STATEMENT,
+    make_dry_derivative_kernel,
+    make_film_derivative_kernel,
+    make_fraction_derivative_kernel,
+    read_parameters_at_places,
+    replace_stored_speed,
 )
 from gudgeon.generator.symbols.storage import Place, Result
 
 
-def law_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> dict[str, SharedFunctionCall]:
+def make_law_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> dict[str, SharedFunctionCall]:
     """Return the calls of a joint's laws by role (normal, friction, film), for those that it has.
 
     The functions are added to `shared`.
@@ -39,8 +39,8 @@ def law_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> di
     for law in (clearance.normal, clearance.friction, clearance.film):
         if law is not None:
             kernel = _make_law_kernel(model, clearance, law)
-            names_of_parameters = joint_numbers(model, clearance)
-            calls[law.law.role] = shared.call(
+            names_of_parameters = name_joint_parameters(model, clearance)
+            calls[law.law.role] = shared.add_call(
                 kernel, names_of_parameters, clearance.label, _find_parameter_meanings(model, law)
             )
     return calls
@@ -51,12 +51,14 @@ def _find_parameter_meanings(model: Model, equations: LawEquations) -> dict[str,
     info = model.symbols.info
     law = equations.law
     derived = {
-        letter_of(law, name): info[symbol].meaning for name, symbol in equations.derived.items() if symbol in info
+        make_law_identifier(law, name): info[symbol].meaning
+        for name, symbol in equations.derived.items()
+        if symbol in info
     }
-    return derived | {letter_of(law, parameter.name): parameter.meaning for parameter in law.parameters}
+    return derived | {make_law_identifier(law, parameter.name): parameter.meaning for parameter in law.parameters}
 
 
-def law_name(equations: LawEquations) -> str:
+def make_law_name(equations: LawEquations) -> str:
     """Return the C name of a law, with the options that are not the defaults.
 
     A user-defined law gets "own_" before its name and "__" after it, so that no other function has the name.
@@ -76,30 +78,32 @@ def _make_law_kernel(model: Model, clearance: Clearance, equations: LawEquations
     Reciprocals are shared, and branches are those of the joint's switches.
     """
     results = equations.results
-    fields = joint_numbers(model, clearance)
+    fields = name_joint_parameters(model, clearance)
     names = {symbol: fields[info.home] for symbol, info in model.symbols.info.items() if info.home in fields}
-    build = KernelBuilder(model.symbols, law_name(equations), law_doc(equations, names))
-    build.section("")
+    build = KernelBuilder(model.symbols, make_law_name(equations), describe_law(equations, names))
+    build.begin_section("")
     for name, equation in equations.steps.items():
-        value = hoisted(model.slots, sp.sympify(equation))
+        value = hoist_reciprocals(model.parameter_table, sp.sympify(equation))
         if name in results:
-            build.out(Result(f"{name}_out"), value)
+            build.append_store(Result(f"{name}_out"), value)
         else:
-            build.line(Statement(name, value))
+            build.append_line(Statement(name, value))
     variables = (Argument(symbol.name) for symbol in equations.variables)
-    result_arguments = (result(f"{name}_out") for name in results)
-    kernel = build.build((*variables, PARAMETERS, *BRANCHES, *result_arguments), inline=True, owner=clearance.name)
-    return with_reciprocals(kernel)
+    result_arguments = (make_output_argument(f"{name}_out") for name in results)
+    kernel = build.build_kernel(
+        (*variables, PARAMETERS, *BRANCHES, *result_arguments), inline=True, owner=clearance.name
+    )
+    return share_reciprocals(kernel)
 
 
-def law_doc(equations: LawEquations, names: Mapping[sp.Symbol, str] | None = None) -> list[str]:
+def describe_law(equations: LawEquations, names: Mapping[sp.Symbol, str] | None = None) -> list[str]:
     """Return the lines of a law's C comment: title, formula, source, validity, options and their sources.
 
     `names`: names of parameters in the formula; None: as in the law's file.
     """
     law = equations.law
     if names is None:
-        parameters = {**equations.numbers, **equations.derived}
+        parameters = {**equations.parameters, **equations.derived}
         names = {symbol: name for name, symbol in parameters.items() if symbol.is_Symbol}
     options_text = [f"{name}: {value}" for name, value in equations.options.items()]
     default_options = {option.name: option.default for option in law.options}
@@ -111,7 +115,7 @@ def law_doc(equations: LawEquations, names: Mapping[sp.Symbol, str] | None = Non
     ]
     return [
         f"{law.title}.",
-        *formula_lines(equations, names),
+        *format_formulas(equations, names),
         f"Source: {law.source}.",
         f"Valid: {law.validity}.",
         *([f"Options: {', '.join(options_text)}."] if options_text else []),
@@ -136,32 +140,32 @@ _GUARDED_CONTOUR = {
 
 
 @dataclass(frozen=True)
-class Pin:
+class JointFunctions:
     """One joint with play: statements before and after the calls of its laws, in the order of contact_steps.py."""
 
     clearance: Clearance
     laws: Mapping[str, SharedFunctionCall]  # by role, as far as it has them
     gap: Statements
     before_dry: Statements = ()
-    pressing: Statements = ()  # between the normal law and friction
+    contour_normal_force: Statements = ()  # between the normal law and friction
     after_dry: Statements = ()
     before_film: Statements = ()
     after_film: Statements = ()
     share: Statements = ()  # of the dry contact in the transition from film to contact
-    corners: range = range(0)  # numbers of its switches
+    switch_indices: range = range(0)  # numbers of its switches
 
     @property
-    def further(self) -> tuple[str, ...]:
+    def further_variables(self) -> tuple[str, ...]:
         """Return the names of the variables that the normal law reads in addition to δ and δ̇/δ̇⁻."""
-        return self.clearance.normal.further if self.clearance.normal else ()
+        return self.clearance.normal.further_variables if self.clearance.normal else ()
 
     @property
-    def given(self) -> tuple[Place, ...]:
+    def further_places(self) -> tuple[Place, ...]:
         """Return the places of these further variables at a joint.
 
         For rigid surfaces it is the force in the contact state.
         """
-        return (CONTACT["force"],) if self.clearance.rigid else tuple(map(Place, self.further))
+        return (CONTACT["force"],) if self.clearance.rigid else tuple(map(Place, self.further_variables))
 
     @property
     def has_transition(self) -> bool:
@@ -169,31 +173,36 @@ class Pin:
         return self.clearance.film is not None and self.clearance.normal is not None
 
 
-def make_pin(model: Model, clearance: Clearance, shared: SharedFunctions) -> Pin:
+def make_joint_functions(model: Model, clearance: Clearance, shared: SharedFunctions) -> JointFunctions:
     """Return a joint with play with its laws, the statements around them, and its switches.
 
     Functions of laws are added to `shared`.
     """
     name, film = clearance.name, clearance.film
 
-    def held(steps: Sequence[Step]) -> Statements:
+    def make_guarded_statements(steps: Sequence[Step]) -> Statements:
         """Return the statements of some steps, with guards at the centre and with held branches."""
         return _make_statements(model, steps, name, _guard_values(clearance, steps))
 
-    laws, parts = law_calls(model, clearance, shared), {}
+    laws, parts = make_law_calls(model, clearance, shared), {}
     if clearance.normal is not None:
-        parts["before_dry"] = held([without_stored_speed(step) for step in contact.before_dry(clearance)])
-        parts["pressing"] = held(contact.pressing(clearance))
-        parts["after_dry"] = held(contact.after_dry(clearance))
+        parts["before_dry"] = make_guarded_statements(
+            [replace_stored_speed(step) for step in contact.make_lever_arm_equations(clearance)]
+        )
+        parts["contour_normal_force"] = make_guarded_statements(contact.make_contour_normal_force(clearance))
+        parts["after_dry"] = make_guarded_statements(contact.make_dry_moment_equations(clearance))
     if film is not None:
-        parts["before_film"] = held(contact.before_film(clearance, film))
-        parts["after_film"] = held(contact.after_film(film))
-    gap = held(contact.gap(clearance))
+        parts["before_film"] = make_guarded_statements(contact.make_film_input_equations(clearance, film))
+        parts["after_film"] = make_guarded_statements(contact.make_film_moment_equations(film))
+    gap = make_guarded_statements(contact.make_gap_equations(clearance))
     if film is not None and clearance.normal is not None:
-        parts["share"] = (*((DEEP,) if clearance.mixed else ()), *held(contact.blend(clearance, closed=True)))
-    indices = [switch.index for switch in model.symbols.switches.of(name)]
-    corners = range(min(indices, default=0), max(indices, default=-1) + 1)
-    return Pin(clearance, laws, gap, corners=corners, **parts)
+        parts["share"] = (
+            *((DEPTH_STATEMENT,) if clearance.mixed else ()),
+            *make_guarded_statements(contact.make_blend_equations(clearance, closed=True)),
+        )
+    indices = [switch.index for switch in model.symbols.switches.list_switches(name)]
+    switch_range = range(min(indices, default=0), max(indices, default=-1) + 1)
+    return JointFunctions(clearance, laws, gap, switch_indices=switch_range, **parts)
 
 
 def _guard_values(clearance: Clearance, steps: Sequence[Step]) -> Mapping[sp.Symbol, Conditional]:
@@ -227,30 +236,32 @@ def _make_statements(
     """
     statements = []
     for step in steps:
-        statements.append(Statement(step.symbol.name, guards.get(step.symbol) or in_place(model, step.value)))
+        statements.append(
+            Statement(step.symbol.name, guards.get(step.symbol) or read_parameters_at_places(model, step.value))
+        )
         if step.symbol == contact.e and guards:  # of what has a centre
             statements.append(Statement("inverse_e", 1 / contact.e))
     (section,) = hold_branches(model.symbols.switches, owner, [Section("", tuple(statements))])
     return tuple(item for item in section.statements if isinstance(item, Statement))
 
 
-def joint_derivative_calls(
-    model: Model, clearance: Clearance, shared: SharedFunctions
-) -> dict[str, SharedFunctionCall]:
+def make_derivative_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> dict[str, SharedFunctionCall]:
     """Return the calls of the derivatives of the film, the dry contact and their blend ("share"), if present.
 
     The functions are added to `shared`.
     """
     kernels = {}
     if clearance.film is not None:
-        kernels["film"] = film_derivative_kernel(model, clearance, clearance.film)
+        kernels["film"] = make_film_derivative_kernel(model, clearance, clearance.film)
     if clearance.normal is not None:
-        kernels["dry"] = dry_derivative_kernel(model, clearance, clearance.normal)
+        kernels["dry"] = make_dry_derivative_kernel(model, clearance, clearance.normal)
     if len(kernels) == 2:
-        kernels["share"] = fraction_derivative_kernel(model, clearance)
-    names_of_parameters = joint_numbers(model, clearance)
+        kernels["share"] = make_fraction_derivative_kernel(model, clearance)
+    names_of_parameters = name_joint_parameters(model, clearance)
     return {
-        part: shared.call(replace(kernel, name=_make_slope_name(clearance, part)), names_of_parameters, clearance.label)
+        part: shared.add_call(
+            replace(kernel, name=_make_slope_name(clearance, part)), names_of_parameters, clearance.label
+        )
         for part, kernel in kernels.items()
     }
 
@@ -261,4 +272,4 @@ def _make_slope_name(clearance: Clearance, part: str) -> str:
     part: "film", "dry" or "share".
     """
     laws = {"film": [clearance.film], "dry": [clearance.normal, clearance.friction], "share": [clearance.mixed]}[part]
-    return "_".join([f"{part}_slopes", *(law_name(law) for law in laws if law)])
+    return "_".join([f"{part}_slopes", *(make_law_name(law) for law in laws if law)])

@@ -16,25 +16,25 @@ import sympy as sp
 
 from gudgeon.contract.methods import STAGES
 from gudgeon.generator.equations.model import Model, stick_gain
-from gudgeon.generator.equations.system import System, absolute
-from gudgeon.generator.ir.kernels import Kernel, without_unused
+from gudgeon.generator.equations.system import System, make_absolute_system
+from gudgeon.generator.ir.kernels import Kernel, remove_unused_locals
 from gudgeon.generator.ir.series import Series
-from gudgeon.generator.ir.sine_pairs import pair_sines
+from gudgeon.generator.ir.sine_pairs import vectorize_sines
 from gudgeon.generator.kernels import closed_linkage, outputs
 from gudgeon.generator.kernels.driven_chains import ChainKernels
-from gudgeon.generator.kernels.dynamics import dynamics_kernel
-from gudgeon.generator.kernels.event_functions import WATCHED, TimeTerms, event_function_kernel, time_terms
-from gudgeon.generator.kernels.kinematic import kinematic_kernels
-from gudgeon.generator.kernels.play import Pin, joint_derivative_calls, make_pin
-from gudgeon.generator.kernels.projection import closing_kernel, projection_kernel
-from gudgeon.generator.kernels.reduced import has_singular_fallback, motion_kernels, reduced_kernels
+from gudgeon.generator.kernels.dynamics import make_dynamics_kernel
+from gudgeon.generator.kernels.event_functions import WATCHED, TimeTerms, find_time_terms, make_event_function_kernel
+from gudgeon.generator.kernels.kinematic import make_kinematic_kernels
+from gudgeon.generator.kernels.play import JointFunctions, make_derivative_calls, make_joint_functions
+from gudgeon.generator.kernels.projection import make_closing_kernel, make_projection_kernel
+from gudgeon.generator.kernels.reduced import has_singular_fallback, make_conversion_kernels, make_reduced_kernels
 from gudgeon.generator.kernels.shared import SharedFunctionCall, SharedFunctions
 from gudgeon.generator.kernels.taylor import NAME as TAYLOR
-from gudgeon.generator.kernels.taylor import taylor_series
+from gudgeon.generator.kernels.taylor import make_taylor_series
 from gudgeon.generator.reduction.driven_chains import Chain
-from gudgeon.generator.reduction.reduction import TreeSystem, reduce
+from gudgeon.generator.reduction.reduction import TreeSystem, reduce_model
 from gudgeon.generator.solvers.kkt import KKT
-from gudgeon.generator.solvers.newton import Newton, at_complex_step
+from gudgeon.generator.solvers.newton import Newton, make_complex_kernels
 from gudgeon.generator.solvers.sparsity import Block
 from gudgeon.generator.solvers.square_rows import SquareRows
 
@@ -47,60 +47,61 @@ class Integrated:
     kkt: KKT
     angles: tuple[int, ...]
     reduced: bool
-    watched: Kernel | None  # event functions, if they do not depend on forces (event_functions.py)
+    event_functions: Kernel | None  # event functions, if they do not depend on forces (event_functions.py)
     pivots: tuple[str, ...]  # equations to which a status number of motion() refers
     chain: Chain | None = None
 
     @property
-    def corners(self) -> list[int]:
+    def switch_indices(self) -> list[int]:
         """Return the numbers of the scene's own switches, without those of joints with play."""
-        return sorted(switch.index for switch in self.system.model.symbols.switches.of(""))
+        return sorted(switch.index for switch in self.system.model.symbols.switches.list_switches(""))
 
 
 @dataclass(frozen=True)
 class TreeFunctions:
     """The functions of the reduced formulation; `around` convert between tree coordinates and absolute ones.
 
-    `plain`: kernels of the motion before sines and cosines are paired in vectors, `kernels`: after. `rescued`: where a
-    pivot vanishes, the absolute formulation solves.
+    `plain`: kernels of the motion before sines and cosines are paired in vectors, `kernels`: after. `has_fallback`:
+    where a pivot vanishes, the absolute formulation solves.
     """
 
     system: TreeSystem
-    around: tuple[Kernel, ...]
-    plain: tuple[Kernel, ...]
+    conversions: tuple[Kernel, ...]
+    unpaired_kernels: tuple[Kernel, ...]
     kernels: tuple[Kernel, ...]
-    rescued: bool
+    has_fallback: bool
     chains: ChainKernels | None
 
     @property
-    def every(self) -> tuple[Kernel, ...]:
+    def all_kernels(self) -> tuple[Kernel, ...]:
         """Return all functions of the reduced formulation in the order of printing."""
-        return (*self.around, *self.kernels, *(self.chains.kernels if self.chains else ()))
+        return (*self.conversions, *self.kernels, *(self.chains.kernels if self.chains else ()))
 
 
 @dataclass(frozen=True)
 class Methods:
     """The functions that integrators need in addition to the right-hand side.
 
-    `slopes`: derivatives of contact forces, by joint with play and part, which call the functions `sloping`; `closing`
-    projects onto the constraints, `plain_closing` is the same before sines are paired. `gains` by name: 2α and β² of
+    `slopes`: derivatives of contact forces, by joint with play and part, which call the functions
+    `derivative_kernels`; `closing`
+    projects onto the constraints, `unpaired_closing` is the same before sines are paired. `gains` by name: 2α and β² of
     Baumgarte's terms, 2α of a sticking friction, as far as they exist.
     """
 
     newton: Newton
-    slopes: Mapping[str, Mapping[str, SharedFunctionCall]]
-    sloping: tuple[Kernel, ...]
+    derivative_calls: Mapping[str, Mapping[str, SharedFunctionCall]]
+    derivative_kernels: tuple[Kernel, ...]
     closing: Kernel
-    plain_closing: Kernel
+    unpaired_closing: Kernel
     gains: Mapping[str, sp.Expr]
-    at_complex: tuple[Kernel, ...] = ()  # Newton's factor, substitute and solve once more
+    complex_kernels: tuple[Kernel, ...] = ()  # Newton's factor, substitute and solve once more
 
     @property
     def kernels(self) -> tuple[Kernel, ...]:
         """Return the functions of Newton's method, then those of the derivatives of contact forces."""
         newton = self.newton
-        newton_kernels = (newton.linearize, newton.factor, newton.substitute, newton.solve)
-        return (*newton_kernels, *self.sloping, *self.at_complex)
+        newton_kernels = (newton.linearize_kernel, newton.factor_kernel, newton.substitute_kernel, newton.solve_kernel)
+        return (*newton_kernels, *self.derivative_kernels, *self.complex_kernels)
 
 
 @dataclass(frozen=True)
@@ -114,7 +115,7 @@ class KinematicFunctions:
     kernels: tuple[Kernel, ...]
     pivots: tuple[str, ...]
     rows: SquareRows | None
-    solved: KKT | None
+    projection_kkt: KKT | None
 
     @property
     def groups(self) -> tuple[Block, ...]:
@@ -133,22 +134,22 @@ class Program:
     model: Model
     formulation: str
     kkt: KKT
-    closed: tuple[Kernel, ...]
+    closed_linkage: tuple[Kernel, ...]
     dynamics: Kernel
-    watched: Kernel | None
+    event_functions: Kernel | None
     laws: tuple[Kernel, ...]  # of joints with play, each once
-    pins: tuple[Pin, ...]
+    joints: tuple[JointFunctions, ...]
     tree: TreeFunctions | None
     integrated: Integrated
-    terms: TimeTerms  # of time alone, which may hide within a step
+    time_terms: TimeTerms  # of time alone, which may hide within a step
     methods: Methods | None
-    course: KinematicFunctions | None
+    kinematics: KinematicFunctions | None
     series: Series | None = None  # of Taylor's method
 
     @cached_property
     def prepare(self) -> Kernel:
         """Return the C function that fills the parameter table; call it when all parameters have been derived."""
-        return closed_linkage.prepare_kernel(self.model)
+        return closed_linkage.make_prepare_kernel(self.model)
 
     @property
     def integrates(self) -> bool:
@@ -156,9 +157,9 @@ class Program:
         return self.methods is not None
 
     @property
-    def staged(self) -> bool:
+    def has_complex_stages(self) -> bool:
         """Return whether methods have the complex functions with which they solve all stages together."""
-        return bool(self.methods and self.methods.at_complex)
+        return bool(self.methods and self.methods.complex_kernels)
 
     @property
     def right_hand_side(self) -> list[Kernel]:
@@ -166,8 +167,8 @@ class Program:
 
         These are left out in the reduced formulation or if they depend on forces.
         """
-        watches = self.watched is not None and self.formulation == "full" and self.integrates
-        return [self.dynamics, self.watched] if watches and self.watched else [self.dynamics]
+        watches = self.event_functions is not None and self.formulation == "full" and self.integrates
+        return [self.dynamics, self.event_functions] if watches and self.event_functions else [self.dynamics]
 
     @property
     def has_lanes(self) -> bool:
@@ -188,21 +189,21 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
     methods that solve their stages together; scenes with a film and the full formulation have them anyway. TAYLOR is
     the reduced one with the Taylor series of the motion; it raises BadValueError where the motion is not smooth.
     """
-    model, full, staged = model.thawed(), formulation == "full", formulation == STAGES
+    model, full, staged = model.copy_mutable(), formulation == "full", formulation == STAGES
     integrates = bool(model.degrees_of_freedom or model.clearances or model.frictions)
-    system = absolute(model)
+    system = make_absolute_system(model)
     kkt = KKT(system)
-    dynamics = dynamics_kernel(system, kkt)
+    dynamics = make_dynamics_kernel(system, kkt)
     closed = (
-        closed_linkage.mass_kernel(model),
-        *closed_linkage.row_kernels(model),
-        closed_linkage.start_kernel(model),
-        outputs.outputs_kernel(model),
+        closed_linkage.make_mass_kernel(model),
+        *closed_linkage.make_row_kernels(model),
+        closed_linkage.make_start_kernel(model),
+        outputs.make_outputs_kernel(model),
     )
     laws = SharedFunctions()
-    pins = tuple(make_pin(model, clearance, laws) for clearance in model.clearances)
+    pins = tuple(make_joint_functions(model, clearance, laws) for clearance in model.clearances)
     tree, in_tree = _derive_tree_functions(model, kkt.pivots) if not full else (None, None)
-    watched = event_function_kernel(dynamics, model)
+    watched = make_event_function_kernel(dynamics, model)
     angles = tuple(int(model.symbols.info[q].meaning.endswith(".theta")) for q in model.q)
     absolute_system = Integrated(system, kkt, angles, False, watched, kkt.pivots)
     integrated = in_tree or absolute_system
@@ -217,12 +218,12 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
         pins,
         tree,
         integrated,
-        time_terms(dynamics, rests=bool(model.frictions or model.rigid)),
+        find_time_terms(dynamics, rests=bool(model.frictions or model.rigid)),
         methods=_derive_methods(model, integrated, staged or not integrated.reduced) if integrates else None,
-        course=None if integrates else _derive_kinematic_functions(model, kkt, integrated),
+        kinematics=None if integrates else _derive_kinematic_functions(model, kkt, integrated),
     )
     if formulation == TAYLOR:
-        program = replace(program, series=taylor_series(program))
+        program = replace(program, series=make_taylor_series(program))
     for model_ in (model, integrated.system.model):
         model_.freeze()
     return program
@@ -233,10 +234,12 @@ def _derive_tree_functions(model: Model, pivots: tuple[str, ...]) -> tuple[TreeF
 
     `pivots`: names of the equations to which a status number of the absolute formulation refers.
     """
-    system = reduce(model)
-    conversions = tuple(pair_sines(without_unused(kernel)) for kernel in motion_kernels(model, system))
-    unpaired, kkt, chains = reduced_kernels(system)
-    kernels, rescued = tuple(pair_sines(kernel) for kernel in unpaired), has_singular_fallback(system)
+    system = reduce_model(model)
+    conversions = tuple(
+        vectorize_sines(remove_unused_locals(kernel)) for kernel in make_conversion_kernels(model, system)
+    )
+    unpaired, kkt, chains = make_reduced_kernels(system)
+    kernels, rescued = tuple(vectorize_sines(kernel) for kernel in unpaired), has_singular_fallback(system)
     tree = TreeFunctions(system, conversions, tuple(unpaired), kernels, rescued, chains)
     pivots = pivots if rescued else kkt.pivots
     if system.chain:
@@ -253,18 +256,22 @@ def _derive_methods(model: Model, integrated: Integrated, staged: bool) -> Metho
     surfaces never.
     """
     sloping = SharedFunctions()
-    slopes = {clearance.name: joint_derivative_calls(model, clearance, sloping) for clearance in model.clearances}
+    slopes = {clearance.name: make_derivative_calls(model, clearance, sloping) for clearance in model.clearances}
     newton = Newton(integrated.system)
     gains = {"stick": stick_gain(model)} if model.frictions else {}
     if not integrated.reduced:
         alpha, beta = model.baumgarte
-        gains["two_alpha"] = model.slots.derive("two_alpha", 2 * alpha)
-        gains["beta_squared"] = model.slots.derive("beta_squared", beta**2)
-    closing = closing_kernel(integrated.system)
-    paired_closing = pair_sines(without_unused(closing)) if integrated.reduced else without_unused(closing)
+        gains["two_alpha"] = model.parameter_table.derive("two_alpha", 2 * alpha)
+        gains["beta_squared"] = model.parameter_table.derive("beta_squared", beta**2)
+    closing = make_closing_kernel(integrated.system)
+    paired_closing = (
+        vectorize_sines(remove_unused_locals(closing)) if integrated.reduced else remove_unused_locals(closing)
+    )
     has_film = any(clearance.film is not None for clearance in model.clearances)
-    at_complex = at_complex_step(newton) if (staged or has_film) and not model.rigid else ()
-    return Methods(newton, slopes, tuple(sloping.kernels), paired_closing, without_unused(closing), gains, at_complex)
+    at_complex = make_complex_kernels(newton) if (staged or has_film) and not model.rigid else ()
+    return Methods(
+        newton, slopes, tuple(sloping.kernels), paired_closing, remove_unused_locals(closing), gains, at_complex
+    )
 
 
 def _derive_kinematic_functions(model: Model, kkt: KKT, integrated: Integrated) -> KinematicFunctions:
@@ -274,8 +281,10 @@ def _derive_kinematic_functions(model: Model, kkt: KKT, integrated: Integrated) 
     in absolute coordinates replaces them.
     """
     rows = SquareRows(integrated.system, [not angle for angle in integrated.angles])
-    if integrated.reduced and rows.fits:
+    if integrated.reduced and rows.is_solvable:
         names = tuple(row.name for row in integrated.system.rows)
-        return KinematicFunctions(tuple(kinematic_kernels(integrated.system, rows)), (*names, *kkt.pivots), rows, None)
-    projection, solved = projection_kernel(kkt.system, model.rows, "project")
-    return KinematicFunctions((without_unused(projection),), (*solved.pivots, *kkt.pivots), None, solved)
+        return KinematicFunctions(
+            tuple(make_kinematic_kernels(integrated.system, rows)), (*names, *kkt.pivots), rows, None
+        )
+    projection, solved = make_projection_kernel(kkt.system, model.rows, "project")
+    return KinematicFunctions((remove_unused_locals(projection),), (*solved.pivots, *kkt.pivots), None, solved)

@@ -1,4 +1,4 @@
-"""Projection onto the constraints: the smallest changes of positions and velocities, in the metric of M."""
+"""Projection of states onto the constraints: smallest changes of positions and velocities in the norm of M."""
 
 from __future__ import annotations
 
@@ -9,23 +9,23 @@ import sympy as sp
 from gudgeon.generator.equations.constraints import Row, rate_jumps
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, declare_branches
-from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, result, source
+from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, make_input_argument, make_output_argument
 from gudgeon.generator.ir.statements import Largest, Return
 from gudgeon.generator.solvers.kkt import KKT
-from gudgeon.generator.solvers.pivots import LEAST_SIZE
+from gudgeon.generator.solvers.pivots import RUN_VANISHING
 from gudgeon.generator.symbols.storage import Place
 
-LEAST_MASS = 1e-4  # of the mass of all bodies: the least that a body counts in projections
-FILM_MASS = 1e6  # times the mass of all bodies: what projections give to motions that squeeze a film
+MIN_MASS_FRACTION = 1e-4  # of the mass of all bodies: the least that a body counts in projections
+FILM_MASS_FACTOR = 1e6  # times the mass of all bodies: what projections give to motions that squeeze a film
 
 
-def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple[Kernel, KKT]:
+def make_projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple[Kernel, KKT]:
     """Return the C function of x = M⁻¹Φ_qᵀ(Φ_q M⁻¹Φ_qᵀ)⁻¹ r, and the KKT elimination that it prints.
 
     x is the smallest in the metric of M with Φ_q x = r. `rows`: the equations; `name`: the function's name. Light
     bodies count with a least mass.
     """
-    system = with_least_masses(system)
+    system = raise_light_masses(system)
     model, kkt = system.model, KKT(system, rows)
     build = KernelBuilder(
         model.symbols,
@@ -36,22 +36,22 @@ def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple
             "Returns 0, or the number of the pivot that vanished.",
         ],
     )
-    build.section("right-hand side")
+    build.begin_section("right-hand side")
     row_index = {row.name: k for k, row in enumerate(model.all_rows)}
     r = {
-        kkt.n + k: build.local(f"r_{row.name.replace('.', '_')}", Place("r")[row_index[row.name]])
+        kkt.n + k: build.append_local(f"r_{row.name.replace('.', '_')}", Place("r")[row_index[row.name]])
         for k, row in enumerate(kkt.rows)
     }
     x = kkt.solve(build, kkt.factorize(build), r, "step_")
-    build.section("results")
+    build.begin_section("results")
     for k, _ in enumerate(system.q):
-        build.out(Place("x")[k], x[k])
-    build.line(Return())
-    arguments = (*STATE[:2], source("r"), PARAMETERS, result("x"))
-    return build.build(arguments, status=True), kkt
+        build.append_store(Place("x")[k], x[k])
+    build.append_line(Return())
+    arguments = (*STATE[:2], make_input_argument("r"), PARAMETERS, make_output_argument("x"))
+    return build.build_kernel(arguments, status=True), kkt
 
 
-def with_film_masses(system: System) -> System:
+def add_film_masses(system: System) -> System:
     """Return the system with M + κ Bᵀ B, B = ∂e/∂q of the joints with films, for projections.
 
     κ is 1e6 times the mass of all bodies. Without films or equations the system itself is returned.
@@ -60,11 +60,13 @@ def with_film_masses(system: System) -> System:
     films = [clearance for clearance in model.clearances if clearance.film is not None]
     if not films or not system.rows:
         return system
-    kappa = model.slots.derive("film_mass", FILM_MASS * sp.Add(*(body.mass for body in model.bodies)), "of projections")
+    kappa = model.parameter_table.derive(
+        "film_mass", FILM_MASS_FACTOR * sp.Add(*(body.mass for body in model.bodies)), "of projections"
+    )
     mass = dict(system.mass)
     for film in films:
         for unit_force in ((sp.S.One, sp.S.Zero), (sp.S.Zero, sp.S.One)):
-            row, _ = system.generalized(film.on_points(unit_force, (sp.S.Zero, sp.S.Zero)))
+            row, _ = system.compute_generalized_forces(film.list_point_loads(unit_force, (sp.S.Zero, sp.S.Zero)))
             for i, factor_i in enumerate(row):
                 for j, factor_j in enumerate(row[: i + 1]):
                     if factor_i != 0 and factor_j != 0:
@@ -72,35 +74,35 @@ def with_film_masses(system: System) -> System:
     return replace(system, mass=mass)
 
 
-def with_least_masses(system: System) -> System:
+def raise_light_masses(system: System) -> System:
     """Return the system with no body lighter than 1e-4 of the mass of all, for projections.
 
     In the metric of M the equations of both joints of a light body nearly depend on each other. Errors of the
     constraints may be measured by any masses. Ordinary machines keep their masses, to the bit. A system with a drive
     whose rate jumps is returned unchanged: its projection is an impulse, which needs M.
     """
-    model, derive = system.model, system.model.slots.derive
+    model, derive = system.model, system.model.parameter_table.derive
     if any(rate_jumps(drive) for drive in model.scene.mechanism.drives.values()):
         return system
-    least_body_mass = LEAST_MASS * sp.Add(*(body.mass for body in model.bodies))
+    least_body_mass = MIN_MASS_FRACTION * sp.Add(*(body.mass for body in model.bodies))
     mass = dict(system.mass)
     for k, q in enumerate(system.q):
         own_mass, least_mass = mass[k, k], least_body_mass * system.inertia_of_unit_mass(k)
-        if least_mass != 0 and model.slots.is_constant(own_mass):
+        if least_mass != 0 and model.parameter_table.is_constant(own_mass):
             name = f"{'tree_' if system.in_tree else ''}metric_{q.name}"
             mass[k, k] = derive(name, sp.Max(own_mass, least_mass), "of projections")
-            model.slots.unwritten.add(mass[k, k])
+            model.parameter_table.internal_parameters.add(mass[k, k])
     return replace(system, mass=mass)
 
 
-def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
+def make_closing_kernel(system: System, name: str = "closing_step") -> Kernel:
     """Return the C function of one Newton step onto Φ = 0 and one onto Φ̇ = 0, with one factorization.
 
     A film turns a change of ė by a tolerance into a force that nothing carries, so that e and ė are kept as they are.
     `name`: the function's name.
     """
-    metric_system = with_least_masses(system)
-    kkt = KKT(with_film_masses(metric_system), system.rows)
+    metric_system = raise_light_masses(system)
+    kkt = KKT(add_film_masses(metric_system), system.rows)
     film_comment = (
         []
         if kkt.system is metric_system
@@ -115,21 +117,23 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
             "`worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.",
         ],
     )
-    build.section("Phi and Phi_dot")
+    build.begin_section("Phi and Phi_dot")
     phi, phi_dot = {}, {}
     for r, row in enumerate(kkt.rows):
         row_name = row.name.replace(".", "_")
-        phi[kkt.n + r] = build.local(f"phi_{row_name}", row.phi)
-        phi_dot[kkt.n + r] = build.local(f"phi_dot_{row_name}", row.phi_q_v - row.nu)
-    factor = kkt.factorize(build, threshold=LEAST_SIZE, pair_threshold=LEAST_SIZE)  # nearer, rounding would be blown up
+        phi[kkt.n + r] = build.append_local(f"phi_{row_name}", row.phi)
+        phi_dot[kkt.n + r] = build.append_local(f"phi_dot_{row_name}", row.phi_q_v - row.nu)
+    factor = kkt.factorize(
+        build, threshold=RUN_VANISHING, pair_threshold=RUN_VANISHING
+    )  # nearer, rounding would be blown up
     x, velocity_step = kkt.solve(build, factor, phi, "dq_"), kkt.solve(build, factor, phi_dot, "dv_")
-    build.section("results")
+    build.begin_section("results")
     for k, _ in enumerate(system.q):
-        build.out(Place("dq")[k], x[k])
-        build.out(Place("dv")[k], velocity_step[k])
-    build.line(Largest("worst", tuple(phi.values())))
-    build.line(Return())
-    outs = (result(name) for name in ("dq", "dv", "worst"))
+        build.append_store(Place("dq")[k], x[k])
+        build.append_store(Place("dv")[k], velocity_step[k])
+    build.append_line(Largest("worst", tuple(phi.values())))
+    build.append_line(Return())
+    outs = (make_output_argument(name) for name in ("dq", "dv", "worst"))
     # a switching function of lengths and parameters alone is not an event function, so its branch is not held
-    kernel = build.build((*STATE, DISCRETE, PARAMETERS, *outs), status=True, owner="", only_known=True)
+    kernel = build.build_kernel((*STATE, DISCRETE, PARAMETERS, *outs), status=True, owner="", only_known=True)
     return declare_branches(kernel)

@@ -1,4 +1,4 @@
-"""The kernels of the reduced formulation: right-hand side in tree coordinates, conversion to and from absolute ones."""
+"""Functions of the reduced equations: right-hand side in tree coordinates, conversion to and from absolute ones."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ import sympy as sp
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.fields import JointFields
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, without_unused
-from gudgeon.generator.ir.signatures import PARAMETERS, STATE, Argument, result, source
-from gudgeon.generator.ir.statements import Jump, Rescue
+from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, remove_unused_locals
+from gudgeon.generator.ir.signatures import PARAMETERS, STATE, Argument, make_input_argument, make_output_argument
+from gudgeon.generator.ir.statements import Jump, SolveDependentRows
 from gudgeon.generator.kernels.driven_chains import ChainKernels
-from gudgeon.generator.kernels.dynamics import dynamics_kernel
-from gudgeon.generator.kernels.event_functions import event_function_kernel, reads_coordinate_beyond
-from gudgeon.generator.kernels.projection import projection_kernel
+from gudgeon.generator.kernels.dynamics import make_dynamics_kernel
+from gudgeon.generator.kernels.event_functions import make_event_function_kernel, reads_coordinate_beyond
+from gudgeon.generator.kernels.projection import make_projection_kernel
 from gudgeon.generator.reduction.reduction import TreeSystem
 from gudgeon.generator.reduction.tree import Link
 from gudgeon.generator.solvers.kkt import KKT
@@ -37,30 +37,30 @@ def has_singular_fallback(system: TreeSystem) -> bool:
     return bool(system.rows and not system.model.has_changing_constraints)
 
 
-def motion_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
+def make_conversion_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
     """Return the C functions that convert tree coordinates to absolute ones and back."""
     return [_make_expand_kernel(system), *_make_reduce_kernels(model, system)]
 
 
-def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, ChainKernels | None]:
+def make_reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, ChainKernels | None]:
     """Return closures, right-hand side, event functions and projection in tree coordinates, with the KKT elimination.
 
     The functions of kinematically determined loops are returned last, or None; their switches are among the event
     functions. Event functions are left out for a driven motion, or if they read dependent coordinates.
     """
     kkt = KKT(system, allow_early_pairs=has_singular_fallback(system))
-    dynamics = dynamics_kernel(system, kkt, DYNAMICS, _DOC, stabilised=False, rescue=_append_absolute_solution)
-    projection, _ = projection_kernel(system, system.rows, "reduced_project")
+    dynamics = make_dynamics_kernel(system, kkt, DYNAMICS, _DOC, stabilised=False, rescue=_append_absolute_solution)
+    projection, _ = make_projection_kernel(system, system.rows, "reduced_project")
     chains = ChainKernels(system, system.chain) if system.chain else None
     is_driven = len(system.q) == len(system.rows) and not (system.model.clearances or system.frictions)
-    loop_switches = chains.corners if chains else None
+    loop_switches = chains.switch_kernel if chains else None
     watched = (
-        None if is_driven else event_function_kernel(dynamics, system.model, loop_switches)
+        None if is_driven else make_event_function_kernel(dynamics, system.model, loop_switches)
     )  # a driven motion has no events here
     if watched and system.chain and reads_coordinate_beyond(watched, len(system.q)):
         watched = None  # chains are closed by rates()
     kernels = (*_make_closure_kernels(system), dynamics, *([watched] if watched else []), projection)
-    return [without_unused(kernel) for kernel in kernels], kkt, chains
+    return [remove_unused_locals(kernel) for kernel in kernels], kkt, chains
 
 
 def _append_absolute_solution(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
@@ -70,9 +70,9 @@ def _append_absolute_solution(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp
     """
     if not build.has_jumps:
         return
-    build.line(Jump())
-    build.section("a pivot vanished: constraint equations depend on each other here")
-    build.line(Rescue())
+    build.append_line(Jump())
+    build.begin_section("a pivot vanished: constraint equations depend on each other here")
+    build.append_line(SolveDependentRows())
 
 
 def _make_expand_kernel(system: TreeSystem) -> Kernel:
@@ -87,12 +87,12 @@ def _make_expand_kernel(system: TreeSystem) -> Kernel:
             "Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.",
         ],
     )
-    build.section("bodies")
+    build.begin_section("bodies")
     for body in system.model.bodies:
         for index, (q, v) in enumerate(zip(body.q, body.v, strict=True)):
-            build.out(Place("all_q")[body.index + index], q)
-            build.out(Place("all_v")[body.index + index], v)
-    return build.build((*STATE, PARAMETERS, result("all_q"), result("all_v")))
+            build.append_store(Place("all_q")[body.index + index], q)
+            build.append_store(Place("all_v")[body.index + index], v)
+    return build.build_kernel((*STATE, PARAMETERS, make_output_argument("all_q"), make_output_argument("all_v")))
 
 
 def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
@@ -101,7 +101,7 @@ def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
     The second one is left out if the absolute formulation never solves.
     """
     coordinate_pairs = list(zip(model.q, model.v, strict=True))
-    differentiate = model.symbols.diff
+    differentiate = model.symbols.differentiate
     names = (*system.unknowns, *(system.chain.names if system.chain else ()))
     positions = _express_tree_coordinates(model, system, names)
     rates = [sp.Add(*(differentiate(coordinate, q) * v for q, v in coordinate_pairs)) for coordinate in positions]
@@ -112,30 +112,32 @@ def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
             "Tree coordinates s and their rates of an absolute state; its other coordinates are ignored.",
         ],
     )
-    state.section("tree coordinates")
+    state.begin_section("tree coordinates")
     for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
-        state.out(Place("s")[k], position, names[k])
-        state.out(Place("s_rate")[k], rate)
+        state.append_store(Place("s")[k], position, names[k])
+        state.append_store(Place("s_rate")[k], rate)
     accelerations = KernelBuilder(
         model.symbols,
         "reduce_accelerations",
         ["Second rates a of the tree coordinates, from absolute accelerations all_a."],
     )
-    accelerations.section("tree coordinates")
+    accelerations.begin_section("tree coordinates")
     for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
         if k == len(system.unknowns):
             break
         velocity_terms = (
             differentiate(position, q) * PlaceSymbol(Place("all_a")[index]) for index, q in enumerate(model.q)
         )
-        accelerations.out(
+        accelerations.append_store(
             Place("a")[k],
             sp.Add(*velocity_terms, *(differentiate(rate, q) * v for q, v in coordinate_pairs)),
             system.unknowns[k],
         )
-    kernels = [state.build((*STATE, PARAMETERS, result("s"), result("s_rate")))]
+    kernels = [state.build_kernel((*STATE, PARAMETERS, make_output_argument("s"), make_output_argument("s_rate")))]
     if has_singular_fallback(system):
-        kernels.append(accelerations.build((*STATE, source("all_a"), PARAMETERS, result("a"))))
+        kernels.append(
+            accelerations.build_kernel((*STATE, make_input_argument("all_a"), PARAMETERS, make_output_argument("a")))
+        )
     return kernels
 
 
@@ -167,21 +169,21 @@ def _compute_slide(model: Model, link: Link) -> sp.Expr:
 def _make_closure_kernels(system: TreeSystem) -> list[Kernel]:
     """Return the two C functions of Φ of the loop closures and of its rate Φ̇, each one value per closure."""
 
-    def kernel(name: str, doc: str, velocity: bool, value: Callable[[Row], sp.Expr]) -> Kernel:
+    def make_kernel(name: str, doc: str, velocity: bool, value: Callable[[Row], sp.Expr]) -> Kernel:
         """Return the C function `name` that writes one value of each closure to `out`.
 
         `velocity`: the value depends on rates.
         """
         build = KernelBuilder(system.model.symbols, name, [doc])
-        build.section("rows")
+        build.begin_section("rows")
         for r, row in enumerate(system.rows):
-            build.out(Place("out")[r], value(row), row.name)
+            build.append_store(Place("out")[r], value(row), row.name)
         arguments: Sequence[Argument] = STATE if velocity else STATE[:2]
-        return build.build((*arguments, PARAMETERS, result("out")))
+        return build.build_kernel((*arguments, PARAMETERS, make_output_argument("out")))
 
     return [
-        kernel("closures", "Phi of the loop closures in tree coordinates; m and rad.", False, lambda row: row.phi),
-        kernel(
+        make_kernel("closures", "Phi of the loop closures in tree coordinates; m and rad.", False, lambda row: row.phi),
+        make_kernel(
             "closure_rates",
             "Rate Phi_q v - nu of the loop closures in tree coordinates.",
             True,

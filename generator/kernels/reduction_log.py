@@ -1,6 +1,4 @@
-"""The record of a scene's reduction, from what the generator has done; runtime/contract/reduction_log.py has its
-fields.
-"""
+"""Record of how the generator reduced a scene's equations; fields in runtime/contract/reduction_log.py."""
 
 from __future__ import annotations
 
@@ -27,8 +25,11 @@ def build_reduction_log(
     freedom is left.
     """
     tree = system.tree if isinstance(system, TreeSystem) else None
-    steps = [*_opening_steps(model), *(_reduction_steps(model, system) if isinstance(system, TreeSystem) else ())]
-    unknown_names = _unknown_names(model, system)
+    steps = [
+        *_make_opening_steps(model),
+        *(_make_reduction_steps(model, system) if isinstance(system, TreeSystem) else ()),
+    ]
+    unknown_names = _list_unknown_names(model, system)
     return ReductionLog(
         coordinates=tuple(model.symbols.info[q].meaning for q in model.q),
         rows=tuple(row.name for row in model.all_rows),
@@ -45,7 +46,7 @@ def build_reduction_log(
     )
 
 
-def _unknown_names(model: Model, system: System) -> tuple[str, ...]:
+def _list_unknown_names(model: Model, system: System) -> tuple[str, ...]:
     """Return the names of the unknowns of a system: tree coordinates, or all absolute coordinates."""
     if isinstance(system, TreeSystem):
         return system.unknowns
@@ -58,13 +59,13 @@ def _describe_solve(kkt: KKT) -> Solve:
     return Solve(
         kkt.n,
         len(elimination.order) - kkt.n,
-        kkt.n + 2 * len(kkt.entry),
+        kkt.n + 2 * len(kkt.entries),
         sum(map(len, elimination.structure.values())),
         elimination.products,
     )
 
 
-def _opening_steps(model: Model) -> Iterator[Step]:
+def _make_opening_steps(model: Model) -> Iterator[Step]:
     """Yield the steps from the closed linkage to the equations of the scene.
 
     The first opens the joints with play, the second removes redundant equations; either may be empty.
@@ -76,19 +77,19 @@ def _opening_steps(model: Model) -> Iterator[Step]:
     yield Step(message.REDUNDANT, tuple(dict.fromkeys(owner[name] for name in dropped)), rows_gone=dropped)
 
 
-def _reduction_steps(model: Model, system: TreeSystem) -> Iterator[Step]:
+def _make_reduction_steps(model: Model, system: TreeSystem) -> Iterator[Step]:
     """Yield the steps from the absolute constraint equations to the loop closures of the tree.
 
     They concern angles, hubs, joints, slides and loops that drives determine.
     """
-    yield from _angle_steps(model, system.tree)
-    yield from _hub_steps(system.tree)
+    yield from _make_angle_steps(model, system.tree)
+    yield from _make_hub_steps(system.tree)
     links = [link for link in system.tree.links if link.joint]
     for step_kind in (message.HINGES, message.SLIDES):
         matching_links = [link for link in links if link.slides == (step_kind == message.SLIDES)]
         yield Step(
             step_kind,
-            _owner_names(matching_links),
+            _list_joint_names(matching_links),
             tuple(f"{link.body}.{axis}" for link in matching_links for axis in "xy"),
             tuple(name for link in matching_links for name in link.coordinates),
             tuple(row for link in matching_links for row in link.rows),
@@ -102,12 +103,12 @@ def _reduction_steps(model: Model, system: TreeSystem) -> Iterator[Step]:
         yield Step(message.CHAIN, tuple(dict.fromkeys(row.owner for row in system.chain.rows)), removed, rows_gone=rows)
 
 
-def _owner_names(links: Iterable[Link]) -> tuple[str, ...]:
+def _list_joint_names(links: Iterable[Link]) -> tuple[str, ...]:
     """Return the names of the joints of some links of the tree, without links that have no joint."""
     return tuple(link.joint.name for link in links if link.joint)
 
 
-def _angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
+def _make_angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
     """Yield the elimination of angles that equations give in other angles: prescribed, constant and dependent ones.
 
     Each equation used has eliminated one angle.
@@ -133,14 +134,14 @@ def _angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
         )
 
 
-def _hub_steps(tree: Tree) -> Iterator[Step]:
+def _make_hub_steps(tree: Tree) -> Iterator[Step]:
     """Yield the exchange of the file's pairs of points at shared points for the pairs that tree and closures use.
 
     Hubs whose pairs stay are left out.
     """
     for hub in tree.hubs:
         joints_in_use = [link.joint for link in tree.links if link.joint in hub.pairs]
-        joints_in_use += [joint for joint in tree.closing if joint in hub.pairs]
+        joints_in_use += [joint for joint in tree.closing_pairs if joint in hub.pairs]
         added_rows = tuple(
             row for joint in joints_in_use if joint and joint not in hub.joints for row in hub.rows_of(joint)
         )

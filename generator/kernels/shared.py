@@ -13,16 +13,16 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.equations.play import Clearance, LawEquations, letter_of
+from gudgeon.generator.equations.play import Clearance, LawEquations, make_law_identifier
 from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.signatures import BRANCHES, PARAMETERS, Argument, Number
 from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.ir.values import Conditional
-from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, key_of
+from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, find_key
 from gudgeon.generator.symbols.switches import BranchOf
 
-CORNER = Argument("corner", Number.INTEGER)
-NOTHING: Mapping[str, str] = {}
+FIRST_SWITCH = Argument("corner", Number.INTEGER)
+NO_MEANINGS: Mapping[str, str] = {}
 _BRANCH_PREFIX = "side_"
 
 
@@ -31,8 +31,8 @@ class SharedFunctionCall:
     """A joint's call of a shared function: the function, the parameters passed to it, its first switch."""
 
     kernel: Kernel
-    numbers: tuple[Place, ...]
-    corner: int | None  # None: it has no switches
+    parameters: tuple[Place, ...]
+    first_switch: int | None  # None: it has no switches
 
 
 class SharedFunctions:
@@ -43,8 +43,12 @@ class SharedFunctions:
         self.kernels: list[Kernel] = []
         self._kernel_by_key: dict[object, Kernel] = {}
 
-    def call(
-        self, kernel: Kernel, parameter_names: Mapping[Place, str], joint: str, meanings: Mapping[str, str] = NOTHING
+    def add_call(
+        self,
+        kernel: Kernel,
+        parameter_names: Mapping[Place, str],
+        joint: str,
+        meanings: Mapping[str, str] = NO_MEANINGS,
     ) -> SharedFunctionCall:
         """Return the call that replaces a joint's own function, and store the shared function if it is new.
 
@@ -67,9 +71,9 @@ class SharedFunctions:
             arguments=_make_arguments(kernel, names, first_switch is not None),
             sections=_remove_parameter_copies(kernel),
             names={**kernel.names, **text_names},
-            first_corner=first_switch,
+            first_switch=first_switch,
         )
-        key = (kernel.name, shared_kernel.arguments, *_distinguishing_parts(shared_kernel))
+        key = (kernel.name, shared_kernel.arguments, *_list_distinguishing_parts(shared_kernel))
         if key not in self._kernel_by_key:
             is_name_used = any(kernel_.name == kernel.name for kernel_ in self.kernels)
             self._kernel_by_key[key] = (
@@ -79,45 +83,49 @@ class SharedFunctions:
         return SharedFunctionCall(self._kernel_by_key[key], tuple(parameters), first_switch)
 
 
-def joint_numbers(model: Model, clearance: Clearance) -> dict[Place, str]:
+def name_joint_parameters(model: Model, clearance: Clearance) -> dict[Place, str]:
     """Return the names of parameters in the equations of a joint with play by place, those of its laws first.
 
     Then follow dimensions, derived parameters, the transition, parameters of user expressions and reciprocals. A
     parameter or name that occurs twice counts once.
     """
     laws = clearance.laws
-    named_symbols = [(letter_of(law.law, name), value) for law in laws for name, value in law.numbers.items()]
+    named_symbols = [
+        (make_law_identifier(law.law, name), value) for law in laws for name, value in law.parameters.items()
+    ]
     dimensions = clearance.pair
     named_symbols += [
         (name, getattr(dimensions, name)) for name in ("R_i", "R_j", "c", "L", "E_i", "nu_i", "E_j", "nu_j")
     ]
-    named_symbols += [(letter_of(law.law, name), value) for law in laws for name, value in law.derived.items()]
+    named_symbols += [
+        (make_law_identifier(law.law, name), value) for law in laws for name, value in law.derived.items()
+    ]
     named_symbols += [("transition", clearance.transition)]
     info = model.symbols.info
     used_names = {
         *(name for name, _ in named_symbols),
         *(name for law in laws for name in (*law.law.variables, *law.steps)),
     }
-    for name, symbol in _file_parameters(model, laws):
+    for name, symbol in _list_file_parameters(model, laws):
         named_symbols.append((f"{name}_file_parameters" if name in used_names else name, symbol))
     place_of_symbol = {symbol: symbol_info.home for symbol, symbol_info in info.items() if symbol_info.home}
     name_of_place: dict[Place, str] = {}
     for name, symbol in named_symbols:
         if symbol in place_of_symbol and name not in name_of_place.values():
             name_of_place.setdefault(place_of_symbol[symbol], name)
-    for symbol, value in model.slots.derived.items():  # reciprocals
+    for symbol, value in model.parameter_table.derived.items():  # reciprocals
         if value.is_Pow and value.exp == -1 and place_of_symbol.get(value.base) in name_of_place:
             name_of_place.setdefault(place_of_symbol[symbol], f"inverse_{name_of_place[place_of_symbol[value.base]]}")
     return name_of_place
 
 
-def _file_parameters(model: Model, laws: Iterable[LawEquations]) -> Iterator[tuple[str, sp.Symbol]]:
+def _list_file_parameters(model: Model, laws: Iterable[LawEquations]) -> Iterator[tuple[str, sp.Symbol]]:
     """Yield the parameters that laws' user expressions read, with their names, in the file's order."""
-    user_expressions = [law.numbers[expression.name] for law in laws for expression in law.law.expressions]
+    user_expressions = [law.parameters[expression.name] for law in laws for expression in law.law.expressions]
     used_symbols = set().union(*(value.free_symbols for value in user_expressions))
-    for entry in model.slots.entries.values():
+    for entry in model.parameter_table.entries.values():
         if entry.symbol in used_symbols:
-            yield model.slots.field(entry.symbol), entry.symbol
+            yield model.parameter_table.find_field_name(entry.symbol), entry.symbol
 
 
 def _name_parameters(kernel: Kernel, parameter_names: Mapping[Place, str]) -> tuple[dict[Key, str], list[Place]]:
@@ -126,7 +134,7 @@ def _name_parameters(kernel: Kernel, parameter_names: Mapping[Place, str]) -> tu
     `parameter_names`: names by place; other parameters keep their field's name and follow.
     """
     place_of_key: dict[Key, Place] = {
-        line.defines: place for line in _iterate_lines(kernel) if (place := _find_copied_parameter(line))
+        line.declared_local: place for line in _iterate_lines(kernel) if (place := _find_copied_parameter(line))
     }
     for line in _iterate_lines(kernel):
         for expression in line.expressions:
@@ -175,7 +183,7 @@ def _make_arguments(kernel: Kernel, parameter_names: list[str], has_switches: bo
         elif argument not in BRANCHES or has_switches:
             result.append(argument)
         if argument == BRANCHES[-1] and has_switches:
-            result.append(CORNER)
+            result.append(FIRST_SWITCH)
     return tuple(result)
 
 
@@ -189,16 +197,16 @@ def _find_switch_indices(kernel: Kernel) -> set[int]:
     }
 
 
-def _distinguishing_parts(kernel: Kernel) -> Iterator[object]:
+def _list_distinguishing_parts(kernel: Kernel) -> Iterator[object]:
     """Yield the parts that distinguish two functions, in the names of the printed text.
 
     For each line these are its target, its kind and its expressions.
     """
-    first_switch = kernel.first_corner or 0
+    first_switch = kernel.first_switch or 0
 
     def rename_symbols(value: sp.Basic) -> sp.Basic:
         """Return an expression with its symbols named, and its switches counted, as in the printed text."""
-        known_names = {s: kernel.names[key] for s in value.free_symbols if (key := key_of(s)) in kernel.names}
+        known_names = {s: kernel.names[key] for s in value.free_symbols if (key := find_key(s)) in kernel.names}
         symbols = {s: sp.Symbol(str(name), real=True) for s, name in known_names.items()}
         branches = {part: BranchOf(part.args[0] - first_switch, part.args[1]) for part in value.atoms(BranchOf)}
         return value.xreplace(branches).xreplace(symbols)

@@ -1,4 +1,4 @@
-"""Taylor series of the motion in tree coordinates: which scenes have them, and why others do not."""
+"""Taylor series of the motion in tree coordinates, for integration: which scenes have them, and why others do not."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from gudgeon.errors import BadValueError
-from gudgeon.generator.equations.notes import drives_with_jumps
-from gudgeon.generator.ir.kernels import KernelBuilder, without_unused
-from gudgeon.generator.ir.series import Linear, Series, series_of
-from gudgeon.generator.ir.series_rules import NoSeries
+from gudgeon.generator.equations.notes import find_drives_with_jumps
+from gudgeon.generator.ir.kernels import KernelBuilder, remove_unused_locals
+from gudgeon.generator.ir.series import Linear, Series, derive_taylor_series
+from gudgeon.generator.ir.series_rules import NoTaylorSeries
 from gudgeon.generator.ir.signatures import RHS
 from gudgeon.generator.ir.values import Threshold
-from gudgeon.generator.kernels.dynamics import dynamics_kernel
+from gudgeon.generator.kernels.dynamics import make_dynamics_kernel
 from gudgeon.generator.kernels.reduced import DYNAMICS, has_singular_fallback
 from gudgeon.generator.reduction.reduction import TreeSystem
 from gudgeon.generator.solvers.kkt import FACTORS, KKT
@@ -27,36 +27,36 @@ if TYPE_CHECKING:
 NAME = "taylor"
 
 
-def taylor_series(program: Program) -> Series:
+def make_taylor_series(program: Program) -> Series:
     """Return the Taylor series of accelerations and powers of a program.
 
     Raise BadValueError if the motion is not smooth.
     """
     try:
         return _check_and_derive(program)
-    except NoSeries as why:
+    except NoTaylorSeries as why:
         raise BadValueError(f"method 'taylor' is for smooth motion: {why}", hint="use auto") from None
 
 
 def _check_and_derive(program: Program) -> Series:
-    """Return the series, or raise NoSeries with the first reason why the scene has none.
+    """Return the series, or raise NoTaylorSeries with the first reason why the scene has none.
 
     Reasons are play, friction that may stick, driven loops, switching points, jumps of a drive, and that nothing is
     integrated.
     """
     model, tree = program.model, program.tree
     if tree is None or not program.integrates:
-        raise NoSeries("nothing is integrated in coordinates of a tree")
+        raise NoTaylorSeries("nothing is integrated in coordinates of a tree")
     if model.clearances:
-        raise NoSeries(f"joint {model.clearances[0].name} has play, whose contacts come and go")
+        raise NoTaylorSeries(f"joint {model.clearances[0].name} has play, whose contacts come and go")
     if model.frictions:
-        raise NoSeries(f"the friction of {model.frictions[0].name} may stick")
+        raise NoTaylorSeries(f"the friction of {model.frictions[0].name} may stick")
     if tree.chains:
-        raise NoSeries("drives lead a chain of bodies through a loop of its own")
+        raise NoTaylorSeries("drives lead a chain of bodies through a loop of its own")
     if model.symbols.switches.count or program.integrated.system.model.symbols.switches.count:
-        raise NoSeries("an expression has corners (where, abs, min, max, sign, mod, ramp)")
-    if drives_with_jumps(model):
-        raise NoSeries("the rate of a drive may jump")
+        raise NoTaylorSeries("an expression has corners (where, abs, min, max, sign, mod, ramp)")
+    if find_drives_with_jumps(model):
+        raise NoTaylorSeries("the rate of a drive may jump")
     return _derive_series(tree.system)
 
 
@@ -66,10 +66,12 @@ def _derive_series(system: TreeSystem) -> Series:
     The right-hand side is derived again, with a record of its linear system.
     """
     kkt = _RecordedKKT(system, allow_early_pairs=has_singular_fallback(system))
-    dynamics = without_unused(dynamics_kernel(system, kkt, DYNAMICS, stabilised=False, rescue=_ignore_vanishing_pivot))
+    dynamics = remove_unused_locals(
+        make_dynamics_kernel(system, kkt, DYNAMICS, stabilised=False, rescue=_ignore_vanishing_pivot)
+    )
     diagonal = {(k, k): system.mass[k, k] for k in range(kkt.n) if (k, k) in system.mass}
-    linear = Linear(FACTORS, {**kkt.entry, **diagonal}, kkt.loads, kkt.unknowns)
-    return series_of(dynamics, _find_result_place, NAME, linear)
+    linear = Linear(FACTORS, {**kkt.entries, **diagonal}, kkt.loads, kkt.unknowns)
+    return derive_taylor_series(dynamics, _find_result_place, NAME, linear)
 
 
 class _RecordedKKT(KKT):
@@ -96,8 +98,8 @@ class _RecordedKKT(KKT):
         self, build: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""
     ) -> dict[int, sp.Expr]:
         """Append the solution; record the names of the right-hand sides and the symbols of the unknowns, by node."""
-        build.section("right-hand side")
-        load_symbols = {k: build.local(f"load_{self.names[k]}", b.get(k, ZERO)) for k in self.elimination.order}
+        build.begin_section("right-hand side")
+        load_symbols = {k: build.append_local(f"load_{self.names[k]}", b.get(k, ZERO)) for k in self.elimination.order}
         self.loads = {symbol.name: k for k, symbol in load_symbols.items()}
         x = super().solve(build, factor, load_symbols, prefix)
         self.unknowns = {k: symbol for k, symbol in x.items() if symbol.is_Symbol}
@@ -107,7 +109,7 @@ class _RecordedKKT(KKT):
 def _ignore_vanishing_pivot(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
     """Append nothing for a vanishing pivot: another method takes the step then.
 
-    It is passed to `dynamics_kernel` as `rescue`.
+    It is passed to `make_dynamics_kernel` as `rescue`.
     """
 
 

@@ -1,4 +1,4 @@
-"""Finds extensions of one file each: a new joint, law or force element is one new file in its folder."""
+"""Finds joint types, force laws and force elements: each is defined by one file in its folder."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TypeVar
 T = TypeVar("T")
 
 
-def declared(package: str, attribute: str, kind: type[T]) -> Iterator[T]:
+def iterate_declarations(package: str, attribute: str, kind: type[T]) -> Iterator[T]:
     """Yield `attribute` of each module of `package` whose value is of type `kind`, in the order of module names.
 
     The modules are imported; modules without such a value are skipped.

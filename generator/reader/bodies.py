@@ -13,10 +13,10 @@ from gudgeon.generator.mechanism import GROUND, Body, JournalStart, Quantity, St
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import FieldContext, read_fields, read_vector
 from gudgeon.generator.reader.materials import Materials
-from gudgeon.generator.reader.point_names import PointNames, coordinate_of
-from gudgeon.generator.reader.shapes import MassProperties, read_sides
+from gudgeon.generator.reader.point_names import PointNames, find_coordinate_dimension
+from gudgeon.generator.reader.shapes import MassProperties, read_triangle_points
 from gudgeon.generator.yaml import Items, Map, Text
-from gudgeon.language.names import unknown_name
+from gudgeon.language.names import make_unknown_name_error
 from gudgeon.language.tree import Number
 from gudgeon.language.units import DIMENSIONLESS, LENGTH
 
@@ -28,7 +28,7 @@ def read_gravity(reader: Reader, root: Map) -> Vector | None:
     """Return gravity in ground axes (m/s²) as two quantities; None if the file has none."""
     if "gravity" not in root:
         return None
-    return read_vector(reader, root["gravity"], root.key("gravity"), SECTIONS["gravity"], "gravity")
+    return read_vector(reader, root["gravity"], root.find_key("gravity"), SECTIONS["gravity"], "gravity")
 
 
 def read_bodies(reader: Reader, root: Map, materials: Materials) -> dict[str, Body]:
@@ -36,9 +36,9 @@ def read_bodies(reader: Reader, root: Map, materials: Materials) -> dict[str, Bo
 
     An error is collected if the section is empty; errors of single values are collected as well.
     """
-    if not root["bodies"] and not reader.left_out:
+    if not root["bodies"] and not reader.removed_names:
         reader.errors.append(BadValueError("bodies is empty", root.where, "expected one body at least"))
-    return {str(name): _read_body(reader, name, body, materials) for name, body in root["bodies"].pairs()}
+    return {str(name): _read_body(reader, name, body, materials) for name, body in root["bodies"].list_entries()}
 
 
 def _read_body(reader: Reader, name: Text, node: Map, materials: Materials) -> Body:
@@ -51,17 +51,17 @@ def _read_body(reader: Reader, name: Text, node: Map, materials: Materials) -> B
     values = read_fields(
         reader, node, [f for f in BODY.fields if not (is_slender and f.name == "inertia")], FieldContext(address)
     )
-    points = read_sides(reader, node, address)
-    for point, point_node in node.part("points").pairs():
+    points = read_triangle_points(reader, node, address)
+    for point, point_node in node.get_mapping("points").list_entries():
         points[str(point)] = read_vector(reader, point_node, point, POINT, f"{address}.points.{point}")
     mass_properties = MassProperties(reader, address, values, materials)
-    with reader.collect():
+    with reader.collect_errors():
         if is_slender:
             mass_properties.set_slender_inertia(node["inertia"].where)
         if "shape" in node:
             implied_points = _make_implied_points(mass_properties.length, address, name)
             mass_properties.set_shape(
-                node.part("shape"), node.key("shape"), {**points, **implied_points}, "inertia" in node
+                node.get_mapping("shape"), node.find_key("shape"), {**points, **implied_points}, "inertia" in node
             )
     return Body(
         str(name),
@@ -71,14 +71,15 @@ def _read_body(reader: Reader, name: Text, node: Map, materials: Materials) -> B
         mass_properties.com,
         points,
         name.where,
-        mass_properties.lacks,
+        mass_properties.missing_keys,
     )
 
 
 def _make_implied_points(length: Quantity | None, address: str, name: Text) -> dict[str, Vector]:
-    """Return the implied points that a shape may name: the origin, and tail and head of a bar, in the body's frame.
+    """Return the points that a body has without naming them: {name: vector in the body's frame}.
 
-    `length` is None for a body that is not a bar.
+    Every body has `origin` at (0, 0). A bar also has `tail` at (0, 0) and `head` at (length, 0). `length` is None for a
+    body that is not a bar.
     """
     zero = Quantity(f"{address}.origin", Number(0.0, "0"), LENGTH, name.where)
     bar_points = {} if length is None else {"tail": (zero, zero), "head": (length, zero)}
@@ -89,7 +90,7 @@ def read_ground(reader: Reader, root: Map) -> dict[str, Vector]:
     """Return the ground's points in ground axes (m) by name."""
     return {
         str(point): read_vector(reader, point_node, point, POINT_OF_GROUND, f"ground.{point}")
-        for point, point_node in root.part("ground").pairs()
+        for point, point_node in root.get_mapping("ground").list_entries()
     }
 
 
@@ -98,10 +99,12 @@ def read_start(reader: Reader, root: Map, point_names: PointNames) -> Start:
 
     An error is collected for a coordinate that is both set and guessed.
     """
-    node = root.part("start")
+    node = root.get_mapping("start")
     fields = [field for field in START.fields if field.keys is not None]
-    guesses, fixed, rates = (_read_coordinates(reader, node.part(field.name), field, point_names) for field in fields)
-    for key, _ in node.part("set").pairs():
+    guesses, fixed, rates = (
+        _read_coordinates(reader, node.get_mapping(field.name), field, point_names) for field in fields
+    )
+    for key, _ in node.get_mapping("set").list_entries():
         if key in guesses:
             hint = f"it is guessed at {guesses[key].where}; expected one of the two"
             reader.errors.append(BadValueError(f"{str(key)} is set and guessed", key.where, hint))
@@ -115,12 +118,16 @@ def _read_play_starts(reader: Reader, root: Map) -> dict[str, JournalStart]:
     not exist or has no play in any scene.
     """
     starts: dict[str, JournalStart] = {}
-    joints_with_play = dict.fromkeys(name for scene in root.part("scenes").values() for name in scene.part("play"))
-    for joint, node in root.part("start").part("play").pairs():
-        with reader.collect():
-            if joint not in root.part("joints"):
-                raise unknown_name("joint", joint, root.part("joints"), joint.where)
-            if joint not in joints_with_play and reader.left_out:  # the scene that gives it play may have been left out
+    joints_with_play = dict.fromkeys(
+        name for scene in root.get_mapping("scenes").values() for name in scene.get_mapping("play")
+    )
+    for joint, node in root.get_mapping("start").get_mapping("play").list_entries():
+        with reader.collect_errors():
+            if joint not in root.get_mapping("joints"):
+                raise make_unknown_name_error("joint", joint, root.get_mapping("joints"), joint.where)
+            if (
+                joint not in joints_with_play and reader.removed_names
+            ):  # the scene that gives it play may have been left out
                 continue
             if joint not in joints_with_play:
                 hint = (
@@ -130,7 +137,7 @@ def _read_play_starts(reader: Reader, root: Map) -> dict[str, JournalStart]:
                 )
                 raise BadValueError(f"start.play.{joint}: no scene gives {joint} play", joint.where, hint)
             address = f"start.play.{joint}"
-            is_slider = _is_slider(root.part("joints")[joint])
+            is_slider = _is_slider(root.get_mapping("joints")[joint])
             _check_play_keys(joint, node, is_slider)
             values = read_fields(reader, node, PLAY_START.fields, FieldContext(address))
             if is_slider:
@@ -157,11 +164,11 @@ def _check_play_keys(joint: Text, node: Map, is_slider: bool) -> None:
 
     `node` is the start of the joint; `is_slider`: the joint is a slider in a guide.
     """
-    for key in node.names():
+    for key in node.list_keys():
         if (key in _JOURNAL_KEYS) == is_slider:
-            expected = [field.name for field in PLAY_START.fields if (field.name in _JOURNAL_KEYS) != is_slider]
+            allowed_keys = [field.name for field in PLAY_START.fields if (field.name in _JOURNAL_KEYS) != is_slider]
             phrase = "a slider in its guide" if is_slider else "a journal in its bearing"
-            hint = f"expected {', '.join(expected)}"
+            hint = f"expected {', '.join(allowed_keys)}"
             raise BadValueError(f"start.play.{joint}.{key}: {joint} has the play of {phrase}", key.where, hint)
 
 
@@ -174,7 +181,7 @@ def _make_slider_start(
     """
     dimension = next(field.dimension for field in PLAY_START.fields if field.name == name) or DIMENSIONLESS
     zero = Quantity(f"{address}.{name}", Number(0.0, "0"), dimension, key.where)
-    return reader.keep(replace(quantities.get(name, zero), kept=True))
+    return reader.register_quantity(replace(quantities.get(name, zero), is_always_parameter=True))
 
 
 def _make_journal_start(reader: Reader, vectors: Mapping[str, Vector], field: Field, address: str, key: Text) -> Vector:
@@ -184,13 +191,15 @@ def _make_journal_start(reader: Reader, vectors: Mapping[str, Vector], field: Fi
     """
     zero = Quantity("", Number(0.0, "0"), field.dimension or DIMENSIONLESS, key.where)
     x, y = vectors.get(field.name, (replace(zero, address=f"{address}.x"), replace(zero, address=f"{address}.y")))
-    return reader.keep(replace(x, kept=True)), reader.keep(replace(y, kept=True))
+    return reader.register_quantity(replace(x, is_always_parameter=True)), reader.register_quantity(
+        replace(y, is_always_parameter=True)
+    )
 
 
 def _is_point_of_body(key: Text, point_names: PointNames) -> bool:
     """Return whether a key such as "upper.P" names a point of a body."""
     body, _, point = key.partition(".")
-    return body in point_names.bodies and point in point_names.points(body)
+    return body in point_names.bodies and point in point_names.list_points(body)
 
 
 def _read_guessed_point(
@@ -200,11 +209,14 @@ def _read_guessed_point(
 
     Raises an InputError for a point of the ground or an unknown name.
     """
-    point = point_names.point(key, key.where)
+    point = point_names.resolve_point(key, key.where)
     if point.body == GROUND:
         raise BadValueError(f"{key} rests", key.where, "expected a point of a body: those of the ground need no guess")
     x, y = read_vector(reader, node, key, POINT, address)
-    return {f"{key}.{axis}": reader.keep(replace(quantity, kept=True)) for axis, quantity in (("x", x), ("y", y))}
+    return {
+        f"{key}.{axis}": reader.register_quantity(replace(quantity, is_always_parameter=True))
+        for axis, quantity in (("x", x), ("y", y))
+    }
 
 
 def _make_hints_for_other_parts(key: Text, node: object, field_of_part: Field) -> dict[str, str]:
@@ -229,18 +241,18 @@ def _read_coordinates(reader: Reader, section: Map, field: Field, point_names: P
     coordinate.
     """
     coordinates: dict[str, Quantity] = {}
-    for key, node in section.pairs():
-        with reader.collect():
+    for key, node in section.list_entries():
+        with reader.collect_errors():
             if isinstance(node, Items):
                 coordinates |= _read_guessed_point(reader, key, node, f"start.{field.name}.{key}", point_names)
                 continue
             if field.entry and field.entry.kind == PLACE and _is_point_of_body(key, point_names):
                 raise BadValueError(f"{key} is a point", node.where, "expected where it is about: [x, y]")
-            dimension = coordinate_of(
+            dimension = find_coordinate_dimension(
                 key, field.keys or {}, point_names, key.where, _make_hints_for_other_parts(key, node, field)
             )
-            value = reader.quantity(node, f"start.{field.name}.{key}", dimension)
-            coordinates[str(key)] = reader.keep(
-                replace(value, kept=True)
+            value = reader.read_quantity(node, f"start.{field.name}.{key}", dimension)
+            coordinates[str(key)] = reader.register_quantity(
+                replace(value, is_always_parameter=True)
             )  # a literal 0 is a parameter too: no term depends on it
     return coordinates

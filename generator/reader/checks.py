@@ -10,10 +10,10 @@ from gudgeon.errors import BadValueError, InputError, Location
 from gudgeon.generator.field import RELATIONS
 from gudgeon.generator.mechanism import Condition, Quantity, SceneSpec
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.reader.parameters import parameter_values
-from gudgeon.language.defined import find_undefined_part
-from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary, calls, evaluate, names
-from gudgeon.language.units import si_unit
+from gudgeon.generator.reader.parameters import evaluate_parameters
+from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary, evaluate, iterate_calls, iterate_names
+from gudgeon.language.undefined_parts import find_undefined_part
+from gudgeon.language.units import find_si_unit
 
 EXPRESSIONS = "expressions."  # how the addresses of expressions by name begin
 FINITE = (
@@ -39,7 +39,7 @@ def check_values(reader: Reader, parameters: Mapping[str, Quantity], scenes: Map
         call.arguments[2] for quantity in reader.quantities.values() for call in _find_ramp_calls(quantity)
     )
     for name in {duration.path for duration in durations if isinstance(duration, Name)}.intersection(parameters):
-        reader.require(
+        reader.add_condition(
             parameters[name], ">", 0.0, "a ramp or smooth_step takes that long"
         )  # also for run-time overrides
 
@@ -56,7 +56,7 @@ def _check_with_parameters(
     scene_parameters = scene.parameters if scene else {}
     context = f" in scene {scene.name}" if scene else ""
     try:
-        parameter_numbers = parameter_values({**parameters, **scene_parameters})
+        parameter_numbers = evaluate_parameters({**parameters, **scene_parameters})
     except InputError:
         return ()  # a cycle, reported already
     unreadable = (
@@ -73,10 +73,10 @@ def _check_with_parameters(
     for address, value in values.items():
         if not math.isfinite(value) and address not in unreadable:
             record(address, f"is {value}{context}", FINITE)
-        elif address in reader.wholes and math.isfinite(value) and value != math.floor(value):
-            record(address, f"is {value:.6g}{context}", f"expected a whole {reader.wholes[address]}")
+        elif address in reader.meaning_of_integers and math.isfinite(value) and value != math.floor(value):
+            record(address, f"is {value:.6g}{context}", f"expected a whole {reader.meaning_of_integers[address]}")
     for address, quantity in reader.quantities.items():
-        if address in unreadable or quantity.of or isinstance(quantity.value, Number):
+        if address in unreadable or quantity.operands or isinstance(quantity.value, Number):
             continue
         if ".parameters." not in address or address in values:
             message, hint = _find_invalid_part(quantity, parameter_numbers, not math.isfinite(values.get(address, 0.0)))
@@ -85,12 +85,12 @@ def _check_with_parameters(
     for condition in reader.conditions:
         violation = _describe_violation(condition, values)
         if violation:
-            unit = si_unit(reader.quantities[condition.address].dimension)
+            unit = find_si_unit(reader.quantities[condition.address].dimension)
             value_text, hint = violation
             message = f"is {value_text} {unit}".rstrip() + f"{context}: {condition.message}"
             is_massless = condition.address.endswith(".mass") and values[condition.address] == 0.0
             record(condition.address, message, f"{hint} {unit}".rstrip() + MASSLESS * is_massless)
-    for vector in reader.vectors_not_zero:
+    for vector in reader.nonzero_vectors:
         if all(values.get(component.address) == 0.0 for component in vector):
             record(vector[0].address, f"and .y are both 0{context}", "expected a direction, such as [1, 0]")
     _report_errors(reader, errors, scene_parameters)
@@ -105,7 +105,7 @@ def _find_unreadable(reader: Reader, parameters: Mapping[str, Quantity], order: 
     unreadable: set[str] = set()
     for path, quantity in (*((name, parameters[name]) for name in order), *reader.quantities.items()):
         is_broken = isinstance(quantity.value, Number) and math.isnan(quantity.value.value)
-        if is_broken or any(name.path in unreadable for name in names(quantity.value)):
+        if is_broken or any(name.path in unreadable for name in iterate_names(quantity.value)):
             unreadable.add(path)
     return unreadable
 
@@ -120,9 +120,9 @@ def _report_errors(
     """
     for address, messages_and_hints in errors.items():
         quantity = reader.quantities[address]
-        if not _follows_from_error(reader, quantity, errors):
+        if not _is_caused_by_error(reader, quantity, errors):
             location, description_of_users = (
-                _location_of_cause(quantity, scene_parameters),
+                _find_location_of_cause(quantity, scene_parameters),
                 _describe_users(reader, address),
             )
             reader.errors += [
@@ -131,15 +131,17 @@ def _report_errors(
             ]
 
 
-def _follows_from_error(reader: Reader, quantity: Quantity, wrong_addresses: Container[str]) -> bool:
+def _is_caused_by_error(reader: Reader, quantity: Quantity, wrong_addresses: Container[str]) -> bool:
     """Return whether a number is wrong because another number, or a named expression that it contains, is wrong.
 
     `wrong_addresses` contains the addresses of wrong numbers.
     """
     return any(
-        operand.address in wrong_addresses or _follows_from_error(reader, operand, wrong_addresses)
-        for operand in quantity.of
-    ) or any(f"{EXPRESSIONS}{name}" in wrong_addresses for name in reader.made_of.get(quantity.address, ()))
+        operand.address in wrong_addresses or _is_caused_by_error(reader, operand, wrong_addresses)
+        for operand in quantity.operands
+    ) or any(
+        f"{EXPRESSIONS}{name}" in wrong_addresses for name in reader.named_expressions_used.get(quantity.address, ())
+    )
 
 
 def _describe_users(reader: Reader, address: str) -> str:
@@ -148,7 +150,11 @@ def _describe_users(reader: Reader, address: str) -> str:
     "" for the address of another number, and for an expression that only other expressions use.
     """
     name = address.removeprefix(EXPRESSIONS)
-    users = [user for user, names in reader.made_of.items() if name in names and not user.startswith(EXPRESSIONS)]
+    users = [
+        user
+        for user, names in reader.named_expressions_used.items()
+        if name in names and not user.startswith(EXPRESSIONS)
+    ]
     if name == address or not users:
         return ""
     return f", and {users[0]} and {len(users) - 1} more use it" if len(users) > 1 else f", and {users[0]} uses it"
@@ -169,7 +175,7 @@ def _find_invalid_part(quantity: Quantity, parameter_numbers: Mapping[str, float
         return f"has a part that is {underflow:g}, too small for its digits", hint
     for call in _find_ramp_calls(quantity):
         duration = call.arguments[2]
-        if all(name.path in parameter_numbers for name in names(duration)):
+        if all(name.path in parameter_numbers for name in iterate_names(duration)):
             duration_s = float(evaluate(duration, parameter_numbers.__getitem__))
             if duration_s < 0.0:
                 message = f"has a {call.function} that lasts {duration_s:.6g}: it would end before it begins"
@@ -179,7 +185,7 @@ def _find_invalid_part(quantity: Quantity, parameter_numbers: Mapping[str, float
 
 def _find_ramp_calls(quantity: Quantity) -> list[Call]:
     """Return the calls of ramp and smooth_step in an expression; their third argument is the duration."""
-    return [call for function in ("ramp", "smooth_step") for call in calls(quantity.value, function)]
+    return [call for function in ("ramp", "smooth_step") for call in iterate_calls(quantity.value, function)]
 
 
 def _find_underflow(expr: Expr, parameter_numbers: Mapping[str, float]) -> float | None:
@@ -210,7 +216,7 @@ def _find_underflowing_value(part: Expr, parameter_numbers: Mapping[str, float])
     if (
         not isinstance(part, Binary)
         or part.operator in ("+", "-")
-        or any(n.path not in parameter_numbers for n in names(part))
+        or any(n.path not in parameter_numbers for n in iterate_names(part))
     ):
         return None
     value, left, right = (float(evaluate(x, parameter_numbers.__getitem__)) for x in (part, part.left, part.right))
@@ -223,7 +229,7 @@ def _evaluate_all(reader: Reader, values_by_name: dict[str, float]) -> dict[str,
     Numbers that other numbers depend on are added to `values_by_name`, the values of parameters. Expressions of t or
     motion, and parameters of scenes, are left out.
     """
-    for part in (part for quantity in reader.quantities.values() for part in quantity.of):
+    for part in (part for quantity in reader.quantities.values() for part in quantity.operands):
         values_by_name[part.address] = float(
             evaluate(part.value, values_by_name.__getitem__)
         )  # in their order: parts come first
@@ -231,14 +237,14 @@ def _evaluate_all(reader: Reader, values_by_name: dict[str, float]) -> dict[str,
         address: float(evaluate(quantity.value, values_by_name.__getitem__))
         for address, quantity in reader.quantities.items()
         if not (address.startswith("scenes.") and ".parameters." in address)  # they are parameters of their scene
-        and all(name.path in values_by_name for name in names(quantity.value))  # neither t nor a result
+        and all(name.path in values_by_name for name in iterate_names(quantity.value))  # neither t nor a result
     }
 
 
-def _location_of_cause(quantity: Quantity, scene_parameters: Mapping[str, Quantity]) -> Location:
+def _find_location_of_cause(quantity: Quantity, scene_parameters: Mapping[str, Quantity]) -> Location:
     """Return where a wrong value comes from: the scene's parameter if the number uses one, else the number itself."""
     return next(
-        (scene_parameters[name.path].where for name in names(quantity.value) if name.path in scene_parameters),
+        (scene_parameters[name.path].where for name in iterate_names(quantity.value) if name.path in scene_parameters),
         quantity.where,
     )
 

@@ -15,22 +15,34 @@ from gudgeon.errors import (
     InputErrors,
     Location,
     UnknownNameError,
-    together,
+    combine_errors,
 )
 from gudgeon.generator.field import CONSTANT_IN_TIME, OF_CAM_ANGLE, OF_PENETRATION
 from gudgeon.generator.format.shapes import ANY_NAME, check_shape
 from gudgeon.generator.mechanism import Condition, Quantity, Vector
 from gudgeon.generator.reader.result_names import CamAngleNames, PenetrationNames, ResultDimension
-from gudgeon.generator.reader.unit_or_name import choose_reading
+from gudgeon.generator.reader.unit_or_name import choose_interpretation
 from gudgeon.generator.yaml import NO_MERGE, Map, Text
 from gudgeon.language.curves import Curve
-from gudgeon.language.names import RESERVED, unknown_name
-from gudgeon.language.parser import at, check_dimension, parse
-from gudgeon.language.tree import CurveCall, Expr, Name, Number, Unary, curve_calls, evaluate, names, replaced
-from gudgeon.language.unit_remedies import unit_remedies
+from gudgeon.language.names import RESERVED, make_unknown_name_error
+from gudgeon.language.parser import check_dimension, offset_location, parse
+from gudgeon.language.tree import (
+    CurveCall,
+    Expr,
+    Name,
+    Number,
+    Unary,
+    evaluate,
+    iterate_curve_calls,
+    iterate_names,
+    replace_names,
+)
+from gudgeon.language.unit_remedies import add_unit_hints
 from gudgeon.language.units import DIMENSIONLESS, TIME, Dimension
 
-BROKEN = Name("t")  # the value of a named expression that cannot be read: no further error is reported where it is used
+UNREADABLE_EXPRESSION = Name(
+    "t"
+)  # the value of a named expression that cannot be read: no further error is reported where it is used
 MAX_ERRORS = 50  # reading stops there: each error costs a search for the nearest name
 
 
@@ -38,8 +50,8 @@ MAX_ERRORS = 50  # reading stops there: each error costs a search for the neares
 class NamedExpression:
     """Represent an entry of `expressions:`, which other values use by its name."""
 
-    written: Expr  # as in the file, with the names of other expressions
-    value: Expr  # with the trees of other expressions in place of their names
+    source_tree: Expr  # as in the file, with the names of other expressions
+    expanded_tree: Expr  # with the trees of other expressions in place of their names
     dimension: Dimension | None  # None: it fits any
     where: Location
 
@@ -76,21 +88,25 @@ class Reader:
         self.errors: list[InputError] = []
         self.quantities: dict[str, Quantity] = {}  # by address
         self.conditions: list[Condition] = []
-        self.vectors_not_zero: list[Vector] = []
-        self.wholes: dict[str, str] = {}  # address -> meaning of a number that must be whole
+        self.nonzero_vectors: list[Vector] = []
+        self.meaning_of_integers: dict[str, str] = {}  # address -> meaning of a number that must be whole
         self.curves: dict[str, Curve] = {}
         self.expressions: dict[str, NamedExpression] = {}
-        self.made_of: dict[str, tuple[str, ...]] = {}  # address -> named expressions that its value contains
+        self.named_expressions_used: dict[
+            str, tuple[str, ...]
+        ] = {}  # address -> named expressions that its value contains
         self.tables: dict[str, str] = {}  # path of each table of a curve -> sha256 of its bytes
         self.laws: dict[str, str] = {}  # name of each user-defined law -> key of its definition
         self.parameters: dict[str, Dimension | None] = {}  # None: defined without a unit
-        self.uses: dict[
+        self.candidate_dimensions: dict[
             str, set[Dimension]
         ] = {}  # parameters without a unit -> dimensions of the values in which they stand alone
-        self.left_out: frozenset[str] = frozenset()  # names of entries whose shape is wrong
-        self.refused: set[str] = set()  # names of parameters, curves and expressions that are not allowed
-        self.texts: list[Text] = []  # all parsed expressions
-        self.scopes: dict[str, ResultDimension] = {  # dimension of a name that is not a parameter, by `Field.varies`
+        self.removed_names: frozenset[str] = frozenset()  # names of entries whose shape is wrong
+        self.refused_names: set[str] = set()  # names of parameters, curves and expressions that are not allowed
+        self.parsed_texts: list[Text] = []  # all parsed expressions
+        self.result_scopes: dict[
+            str, ResultDimension
+        ] = {  # dimension of a name that is not a parameter, by `Field.varies`
             OF_PENETRATION: PenetrationNames(self.parameters),
             OF_CAM_ANGLE: CamAngleNames(self.parameters),
         }
@@ -102,19 +118,19 @@ class Reader:
         twice adds ANY_NAME to them, since it may have been meant as a missing key. Raises TooManyErrors if nothing is
         left to read.
         """
-        with self.collect():
+        with self.collect_errors():
             checked = check_shape(root)
             has_duplicates = any(error.message != NO_MERGE for error in self.errors)
             unknown_names = (
                 (ANY_NAME,) if has_duplicates else ()
             )  # the duplicate may have been meant as a key that is missing
-            self.left_out = checked.left_out.union(unknown_names)
+            self.removed_names = checked.removed_names.union(unknown_names)
             self.errors += checked.errors
             return checked.root
         raise TooManyErrors  # nothing is left to read
 
     @contextmanager
-    def collect(self) -> Iterator[None]:
+    def collect_errors(self) -> Iterator[None]:
         """Return a context manager that collects an InputError raised inside and continues after the block.
 
         InputErrors are collected one by one. Raises TooManyErrors at the end if MAX_ERRORS errors were collected.
@@ -134,7 +150,7 @@ class Reader:
         Left out are duplicates, unknown names of entries that `check_shape` removed, and errors in expressions that use
         a refused name: they follow from another error.
         """
-        unique_errors = {_error_key(error): error for error in reversed(self.errors)}.values()
+        unique_errors = {_make_error_key(error): error for error in reversed(self.errors)}.values()
         texts_with_refused_names = self._find_texts_with_refused_names()
         errors = [
             error
@@ -145,7 +161,7 @@ class Reader:
             )
         ]
         if errors:
-            raise together(errors)
+            raise combine_errors(errors)
 
     def _is_unknown_name_of_removed_entry(self, error: InputError) -> bool:
         """Return whether an error reports an unknown name of an entry that `check_shape` removed.
@@ -153,7 +169,9 @@ class Reader:
         If a whole section was removed (ANY_NAME), this holds for every unknown name.
         """
         name = re.match(r"unknown [^']*'([A-Za-z0-9_]+)", error.message)
-        return isinstance(error, UnknownNameError) and bool(self.left_out.intersection((ANY_NAME, name and name[1])))
+        return isinstance(error, UnknownNameError) and bool(
+            self.removed_names.intersection((ANY_NAME, name and name[1]))
+        )
 
     def _find_texts_with_refused_names(self) -> list[Text]:
         """Return the parsed expressions that use a name whose definition was refused.
@@ -161,67 +179,67 @@ class Reader:
         Their errors follow from that refusal. Names that are valid in every expression (t, pi) do not count. [] if no
         name was refused.
         """
-        names = [re.escape(name) for name in self.refused if name not in RESERVED]
+        names = [re.escape(name) for name in self.refused_names if name not in RESERVED]
         pattern = re.compile(rf"(?<![\w.])(?:{'|'.join(names)})(?!\w| *\()")
-        return [text for text in self.texts if pattern.search(text)] if names else []
+        return [text for text in self.parsed_texts if pattern.search(text)] if names else []
 
-    def quantity(self, text: Text, address: str, expected: Dimension | None, varies: str = "") -> Quantity:
+    def read_quantity(self, text: Text, address: str, expected: Dimension | None, varies: str = "") -> Quantity:
         """Read the number or expression at an address, check its dimension, and register and return it as a quantity.
 
         `expected` is its dimension, None if any. `varies` says which names it may use in addition to parameters
         (generator/field.py). Named expressions are replaced by their trees. An error is collected, and the value is NaN
         then.
         """
-        tree: Expr = unreadable_number(text)
+        tree: Expr = make_unreadable_number(text)
         dimension = expected
 
         def read(spelling_text: str) -> tuple[Expr, Dimension | None]:
             """Return the expression tree and dimension of one spelling of the value. Raises InputError.
 
-            A name that is also a unit is interpreted by `choose_reading`. `unit_remedies` calls this function with
-            other spellings.
+            A name that is also a unit is interpreted by `choose_interpretation`. `add_unit_hints` calls this function
+            with other spellings.
             """
             spelling = (
                 text if spelling_text is text else Text.make(spelling_text, text.where, text.plain, text.one_line)
             )
-            parsed = self.parse(spelling, address, constant=not varies)
-            dimensions = self.dimensions_of_names(parsed, text.where, varies)
+            parsed = self.parse_expression(spelling, address, constant=not varies)
+            dimensions = self.find_name_dimensions(parsed, text.where, varies)
             if dimensions:
-                parsed = choose_reading(spelling, parsed, expected, dimensions.get, self.curves)
+                parsed = choose_interpretation(spelling, parsed, expected, dimensions.get, self.curves)
             return parsed, check_dimension(parsed, expected, dimensions.get, text.where)
 
-        with self.collect(), unit_remedies(text, text.where, read, expected, _NumberNames(self, "", False)):
+        with self.collect_errors(), add_unit_hints(text, text.where, read, expected, _NumberNames(self, "", False)):
             tree, dimension = read(text)
         if not isinstance(tree, Number):
             self._record_candidate_dimension(tree, expected)
-            if used_expressions := self.expressions_in_tree(tree):
-                self.made_of[address] = used_expressions
-                tree = replaced(tree, {name: self.expressions[name].value for name in used_expressions})
+            if used_expressions := self.find_named_expressions(tree):
+                self.named_expressions_used[address] = used_expressions
+                tree = replace_names(tree, {name: self.expressions[name].expanded_tree for name in used_expressions})
         self.quantities[address] = Quantity(
             address, tree, DIMENSIONLESS if dimension is None else dimension, text.where
         )
         return self.quantities[address]
 
-    def dimension_of_number(self, name: str) -> Dimension | None:
+    def find_number_dimension(self, name: str) -> Dimension | None:
         """Return the dimension of a parameter or named expression.
 
         None if the name is unknown, or if it was defined without a unit and thus fits any dimension.
         """
         return self.expressions[name].dimension if name in self.expressions else self.parameters.get(name)
 
-    def keep(self, quantity: Quantity) -> Quantity:
+    def register_quantity(self, quantity: Quantity) -> Quantity:
         """Register a quantity under its address, replacing one that is there, and return it."""
         self.quantities[quantity.address] = quantity
         return quantity
 
-    def parse(self, text: Text, address: str, constant: bool = False) -> Expr:
+    def parse_expression(self, text: Text, address: str, constant: bool = False) -> Expr:
         """Parse a scalar of the file and return its expression tree; its text is recorded in `texts`.
 
         `constant`: the value must not contain named expressions. Raises BadValueError for an empty value,
         ExpressionError for a text on several lines, and InputError for other errors.
         """
-        self.texts.append(text)
-        if text.is_nothing:
+        self.parsed_texts.append(text)
+        if text.is_null:
             raise BadValueError(f"{address} has no value", text.where, "expected a number or an expression")
         if not text.one_line:
             raise ExpressionError(
@@ -229,35 +247,36 @@ class Reader:
             )
         return parse(text, text.where, _NumberNames(self, address, constant), self.curves)
 
-    def dimensions_of_names(self, expr: Expr, location: Location, varies: str = "") -> dict[str, Dimension | None]:
+    def find_name_dimensions(self, expr: Expr, location: Location, varies: str = "") -> dict[str, Dimension | None]:
         """Return the dimension of every name in `expr` by name, None for a name that fits any dimension.
 
         `varies` says which names are allowed in addition to parameters. Calls of curves are checked too. Raises an
         ExpressionError or UnknownNameError at a name that is not allowed there, InputErrors for several.
         """
-        for call in curve_calls(expr):
-            check_curve(call, at(location, call.offset), varies != "")
+        for call in iterate_curve_calls(expr):
+            check_curve_call(call, offset_location(location, call.offset), varies != "")
         dimensions: dict[str, Dimension | None] = {}
         errors: dict[str, InputError] = {}
-        for name in names(expr):
+        for name in iterate_names(expr):
             if name.path not in dimensions and name.path not in errors:
                 try:
-                    dimensions[name.path] = self._find_dimension(name, at(location, name.offset), varies)
+                    dimensions[name.path] = self._find_dimension(name, offset_location(location, name.offset), varies)
                 except InputError as error:
                     errors[name.path] = error
         if errors:
-            raise together(errors.values())
+            raise combine_errors(errors.values())
         return dimensions
 
     def _find_dimension(self, name: Name, location: Location, varies: str) -> Dimension | None:
         """Return the dimension of one name; None if it fits any dimension.
 
-        Tried in this order: t, parameters, named expressions, and results in the scope `varies`. Raises an InputError
-        at `location` if the name is unknown or `varies` does not allow it.
+        Tried in this order: t, parameters, named expressions, and results in the scope `varies`. A named expression is
+        checked for names that this value must not contain. Raises an InputError at `location` if the name is unknown or
+        `varies` does not allow it.
         """
-        allows_time, result_dimension = varies not in CONSTANT_IN_TIME, self.scopes.get(varies)
+        allows_time, result_dimension = varies not in CONSTANT_IN_TIME, self.result_scopes.get(varies)
         if name.path == "t":
-            return _dimension_of_time(location, allows_time, result_dimension is not None)
+            return _find_dimension_of_time(location, allows_time, result_dimension is not None)
         if name.path in self.parameters:
             return self.parameters[name.path]
         if name.path in self.expressions:
@@ -270,7 +289,9 @@ class Reader:
             raise ExpressionError(f"{name.path!r} cannot stand here", location, hint)
         if name.path.lower() in ("time", "t"):
             raise ExpressionError(f"{name.path!r} is no name here", location, "time is written t")
-        raise unknown_name("name", name.path, (*self.parameters, *(self.expressions if varies else ())), location)
+        raise make_unknown_name_error(
+            "name", name.path, (*self.parameters, *(self.expressions if varies else ())), location
+        )
 
     def _check_dependencies_of_expression(
         self, name: str, location: Location, allows_time: bool, result_dimension: ResultDimension | None
@@ -299,14 +320,14 @@ class Reader:
 
         The expressions that it contains, directly or through others, are searched too.
         """
-        for expression_name in self.expressions_in_tree(Name(name)):
+        for expression_name in self.find_named_expressions(Name(name)):
             yield from (
                 dependency.path
-                for dependency in names(self.expressions[expression_name].written)
+                for dependency in iterate_names(self.expressions[expression_name].source_tree)
                 if dependency.path not in self.expressions
             )
 
-    def expressions_in_tree(self, expr: Expr) -> tuple[str, ...]:
+    def find_named_expressions(self, expr: Expr) -> tuple[str, ...]:
         """Return the names of the named expressions that `expr` contains, directly or through others.
 
         Each name occurs once.
@@ -315,11 +336,11 @@ class Reader:
         while trees:
             new = [
                 inner.path
-                for inner in names(trees.pop())
+                for inner in iterate_names(trees.pop())
                 if inner.path in self.expressions and inner.path not in expression_names
             ]
             expression_names |= dict.fromkeys(new)
-            trees += [self.expressions[name].written for name in new]
+            trees += [self.expressions[name].source_tree for name in new]
         return tuple(expression_names)
 
     def _record_candidate_dimension(self, expr: Expr, expected: Dimension | None) -> None:
@@ -330,9 +351,9 @@ class Reader:
         while isinstance(expr, Unary):
             expr = expr.operand
         if isinstance(expr, Name) and expected is not None and self.parameters.get(expr.path, TIME) is None:
-            self.uses.setdefault(expr.path, set()).add(expected)
+            self.candidate_dimensions.setdefault(expr.path, set()).add(expected)
 
-    def require(self, quantity: Quantity, relation: str, bound: float | Quantity, message: str) -> None:
+    def add_condition(self, quantity: Quantity, relation: str, bound: float | Quantity, message: str) -> None:
         """Record the condition `quantity relation bound`, which is checked after reading and at each run-time override.
 
         `relation` is ">", ">=", "<" or "<="; `bound` is a number in SI units or another quantity; `message` states the
@@ -341,7 +362,7 @@ class Reader:
         limit = bound.address if isinstance(bound, Quantity) else bound
         self.conditions.append(Condition(quantity.address, relation, limit, message))
 
-    def require_less(self, quantity: Quantity, addresses_of_sum: str, message: str) -> None:
+    def add_sum_condition(self, quantity: Quantity, addresses_of_sum: str, message: str) -> None:
         """Record the condition that a quantity is less than a sum of other quantities.
 
         `addresses_of_sum` contains their addresses joined by " + ". The condition is checked after reading and at each
@@ -350,7 +371,7 @@ class Reader:
         self.conditions.append(Condition(quantity.address, "<", addresses_of_sum, message))
 
 
-def _dimension_of_time(location: Location, is_allowed: bool, is_contact_force: bool) -> Dimension:
+def _find_dimension_of_time(location: Location, is_allowed: bool, is_contact_force: bool) -> Dimension:
     """Return the dimension of t, the time. Raises ExpressionError if the value must not depend on time.
 
     `is_allowed`: the value may depend on t. `is_contact_force`: the value is the force of a contact, for which the
@@ -375,7 +396,7 @@ def _is_located_in(error: InputError, text: Text) -> bool:
     return 0 <= location.column - text.where.column <= len(text)
 
 
-def _error_key(error: InputError) -> tuple[str, str, str]:
+def _make_error_key(error: InputError) -> tuple[str, str, str]:
     """Return the key by which duplicate errors are recognised: location, type, and message without contact and scene.
 
     An error in an entry that contacts or scenes inherit is thus reported once, where it is written.
@@ -384,7 +405,7 @@ def _error_key(error: InputError) -> tuple[str, str, str]:
     return str(error.where), type(error).__name__, message
 
 
-def check_curve(call: CurveCall, location: Location, may_vary: bool) -> None:
+def check_curve_call(call: CurveCall, location: Location, may_vary: bool) -> None:
     """Raise an InputError if a call of a curve is not allowed, or if its constant argument is outside its range.
 
     `may_vary`: the value may depend on t or motion; without it no curve is allowed. The error is located at `location`.
@@ -393,11 +414,13 @@ def check_curve(call: CurveCall, location: Location, may_vary: bool) -> None:
     if not may_vary:
         hint = "expected parameters; a curve can stand in drives, forces, events and outputs only"
         raise ExpressionError(f"{call.function!r} is a curve, and this number is constant", location, hint)
-    if not any(True for _ in names(argument)) and not curve.within(x := float(evaluate(argument, lambda _: 0.0))):
-        message = f"curve {call.function} is called {curve.outside(x)}"
+    if not any(True for _ in iterate_names(argument)) and not curve.is_within(
+        x := float(evaluate(argument, lambda _: 0.0))
+    ):
+        message = f"curve {call.function} is called {curve.describe_outside(x)}"
         raise BadValueError(message, location, "expected an argument in it")
 
 
-def unreadable_number(text: str) -> Number:
+def make_unreadable_number(text: str) -> Number:
     """Return a number node with the value NaN, which represents a number that could not be read."""
     return Number(math.nan, str(text))

@@ -1,4 +1,4 @@
-"""Reads the sections `bearings`, `guides` and `contacts`, and resolves `extends:`.
+"""Reads the sections `bearings`, `guides` and `contacts`, and resolves entries that extend others by `extends:`.
 
 The keys of a force law are declared in the law's file in generator/kinds/laws.
 """
@@ -9,19 +9,19 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 
 from gudgeon.errors import BadNameError, BadValueError, CycleError, ExpressionError, MissingKeyError, UnknownNameError
-from gudgeon.generator.field import LAW, OF_PENETRATION, Field, with_dimensions
+from gudgeon.generator.field import LAW, OF_PENETRATION, Field, resolve_dimensions
 from gudgeon.generator.format.sections import BEARING, CONTACT, GUIDE
-from gudgeon.generator.format.shapes import missing_key
-from gudgeon.generator.kinds.laws.law import USER_LAWS, called, laws
-from gudgeon.generator.kinds.laws.registered import key_of
-from gudgeon.generator.mechanism import Bearing, Contact, Guide, LawUse, Material, Quantity, value_at_onset
+from gudgeon.generator.format.shapes import make_missing_key_error
+from gudgeon.generator.kinds.laws.law import USER_LAWS, find_all_laws, find_laws_of_role
+from gudgeon.generator.kinds.laws.registered import find_law_key
+from gudgeon.generator.mechanism import Bearing, Contact, Guide, LawUse, Material, Quantity, make_onset_value
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.reader.fields import FieldContext, check_keys, field_names, read_fields
-from gudgeon.generator.reader.materials import ELASTIC, Materials
+from gudgeon.generator.reader.fields import FieldContext, check_keys, list_field_names, read_fields
+from gudgeon.generator.reader.materials import ELASTIC_KEYS, Materials
 from gudgeon.generator.yaml import Map, Text
-from gudgeon.language.names import known_hint, unknown_name
-from gudgeon.language.parser import at
-from gudgeon.language.tree import Number, names
+from gudgeon.language.names import format_name_hint, make_unknown_name_error
+from gudgeon.language.parser import offset_location
+from gudgeon.language.tree import Number, iterate_names
 
 
 def order_by_inheritance(
@@ -32,7 +32,7 @@ def order_by_inheritance(
     `kind` names the kind of entry in messages; `outside_parents` are parents outside the section. Errors are collected
     for entries that extend an unknown name, or themselves through others; these and their heirs are left out.
     """
-    by_name = {str(name): (name, entry) for name, entry in section.pairs()}
+    by_name = {str(name): (name, entry) for name, entry in section.list_entries()}
     ordered = dict.fromkeys(
         name for name in outside_parents if name not in by_name
     )  # a dict keeps the order for messages
@@ -52,7 +52,9 @@ def order_by_inheritance(
             path.append(current)
             parent = entry.get("extends")
             if parent is not None and parent not in by_name and parent not in ordered:
-                reader.errors.append(unknown_name(kind, parent, dict.fromkeys([*ordered, *by_name]), parent.where))
+                reader.errors.append(
+                    make_unknown_name_error(kind, parent, dict.fromkeys([*ordered, *by_name]), parent.where)
+                )
                 refused.update(path)
                 break
             current = str(parent) if parent is not None else None
@@ -79,7 +81,7 @@ def read_bearings_and_guides(
         "bearing": {
             name: Bearing(name, quantities["radius"], quantities["clearance"], quantities["length"], *material_pair)
             for name, quantities, material_pair in _read_entries_with_materials(
-                reader, root.part("bearings"), BEARING, ("bearing_material", "journal_material"), materials
+                reader, root.get_mapping("bearings"), BEARING, ("bearing_material", "journal_material"), materials
             )
         },
         "guide": {
@@ -92,7 +94,7 @@ def read_bearings_and_guides(
                 *material_pair,
             )
             for name, quantities, material_pair in _read_entries_with_materials(
-                reader, root.part("guides"), GUIDE, ("guide_material", "slider_material"), materials
+                reader, root.get_mapping("guides"), GUIDE, ("guide_material", "slider_material"), materials
             )
         },
     }
@@ -106,7 +108,7 @@ def _read_entries_with_materials(
     `material_keys` are the keys of the two materials: of bearing and journal, or of guide and slider; `declaration`
     declares an entry.
     """
-    for name, node in section.pairs():
+    for name, node in section.list_entries():
         address = f"{declaration.name}s.{name}"
         quantities = read_fields(reader, node, declaration.fields, FieldContext(address)).quantities
         material_pair = _read_material_pair(reader, node, address, material_keys, materials)
@@ -124,11 +126,11 @@ def _read_material_pair(
     """
     material_pair = []
     for material_key in material_keys:
-        with reader.collect():
+        with reader.collect_errors():
             material_pair.append(
                 Material(
                     str(node[material_key]),
-                    materials.values_of_material(f"{address}.{material_key}", node[material_key], ELASTIC),
+                    materials.read_properties(f"{address}.{material_key}", node[material_key], ELASTIC_KEYS),
                 )
             )
     return material_pair
@@ -141,11 +143,11 @@ def read_contacts(reader: Reader, root: Map) -> dict[str, Contact]:
     """
     merged: dict[str, Map] = {}
     contacts: dict[str, Contact] = {}
-    for name, node in order_by_inheritance(reader, "contact", root.part("contacts")):
+    for name, node in order_by_inheritance(reader, "contact", root.get_mapping("contacts")):
         merged[str(name)] = contact = _merge_contacts(merged[node["extends"]], node) if "extends" in node else node
-        with reader.collect():
+        with reader.collect_errors():
             contacts[str(name)] = _read_contact(reader, name, contact)
-    return {str(name): contacts[name] for name in root.part("contacts") if name in contacts}
+    return {str(name): contacts[name] for name in root.get_mapping("contacts") if name in contacts}
 
 
 def _merge_contacts(parent: Map, child: Map) -> Map:
@@ -174,7 +176,7 @@ def _read_contact(reader: Reader, name: Text, node: Map) -> Contact:
     law_uses: dict[str, LawUse | None] = dict.fromkeys(_ROLES)
     for role in _ROLES:
         if role in node:
-            with reader.collect():
+            with reader.collect_errors():
                 law_uses[role] = _read_law(reader, f"{address}.{role}", role, node[role])
     _check_contact_keys(name, node)
     if law_uses["normal"] and law_uses["friction"] and law_uses["normal"].options.get("pulls") is True:
@@ -214,7 +216,7 @@ def _check_contact_keys(name: Text, node: Map) -> None:
         _check_rigid_contact(name, law, node)
     if "transition" in node and "mixed" in node:
         hint = "expected one: a length over which the film hands over, or a law by which film and contact share"
-        raise BadValueError(f"contact {name} has both transition and mixed", node.key("mixed").where, hint)
+        raise BadValueError(f"contact {name} has both transition and mixed", node.find_key("mixed").where, hint)
     if "normal" in node and "film" in node and not ("transition" in node or "mixed" in node):
         hint = (
             "expected the key 'transition': the length over which the film hands over to the dry contact, such as 5 um;"
@@ -236,9 +238,9 @@ def _check_rigid_contact(name: Text, law: Text, node: Map) -> None:
     for part in ("film", "mixed", "velocity_floor", "clip_ratio"):
         if part in node:
             hint = "expected nothing but friction beside it: its surfaces do not give"
-            raise BadValueError(f"contact {name} has {law} and {part}", node.key(part).where, hint)
+            raise BadValueError(f"contact {name} has {law} and {part}", node.find_key(part).where, hint)
     friction = node["friction"].get("law") if "friction" in node else None
-    friction_law = called("friction").get(friction) if isinstance(friction, Text) else None
+    friction_law = find_laws_of_role("friction").get(friction) if isinstance(friction, Text) else None
     if (
         isinstance(friction, Text)
         and friction_law is not None
@@ -246,7 +248,7 @@ def _check_rigid_contact(name: Text, law: Text, node: Map) -> None:
     ):
         allowed_laws = sorted(
             friction_law_type.name
-            for friction_law_type in called("friction").values()
+            for friction_law_type in find_laws_of_role("friction").values()
             if not friction_law_type.states and friction_law_type.name not in USER_LAWS
         )
         reason = (
@@ -264,7 +266,7 @@ def _check_penetration_force(reader: Reader, force: Quantity) -> None:
     Raises BadNameError if a parameter of the file is called delta. Nothing is checked if the expression could not be
     read.
     """
-    locations = {name.path: at(force.where, name.offset) for name in names(force.value)}
+    locations = {name.path: offset_location(force.where, name.offset) for name in iterate_names(force.value)}
     if "delta" in reader.parameters and "delta" in locations:
         hint = "give the parameter another name"
         raise BadNameError("'delta' is the penetration here, and a parameter of this file", locations["delta"], hint)
@@ -273,14 +275,16 @@ def _check_penetration_force(reader: Reader, force: Quantity) -> None:
     if "delta" not in locations:
         hint = "expected an expression such as 1e8 N/m * delta"
         raise ExpressionError(f"{force.address} does not follow delta, the penetration", force.where, hint)
-    force_at_onset = reader.keep(value_at_onset(force))
+    force_at_onset = reader.register_quantity(make_onset_value(force))
     for relation, bound in ((">=", -ZERO_FORCE_TOL), ("<=", ZERO_FORCE_TOL)):
-        reader.require(force_at_onset, relation, bound, "a force that is not 0 at delta = 0 would jump at every onset")
+        reader.add_condition(
+            force_at_onset, relation, bound, "a force that is not 0 at delta = 0 would jump at every onset"
+        )
 
 
 def _find_rigid_laws() -> set[str]:
     """Return the names of the normal laws of rigid surfaces."""
-    return {name for name, law in called("normal").items() if law.rigid}
+    return {name for name, law in find_laws_of_role("normal").items() if law.rigid}
 
 
 def _read_law(reader: Reader, address: str, role: str, node: Map) -> LawUse:
@@ -290,36 +294,36 @@ def _read_law(reader: Reader, address: str, role: str, node: Map) -> LawUse:
     a choice that has a meaning only without a number that is given.
     """
     if not isinstance(node.get("law"), Text):
-        raise missing_key("law", node.where, address)
+        raise make_missing_key_error("law", node.where, address)
     text = node["law"]
-    laws_of_role = called(role)
+    laws_of_role = find_laws_of_role(role)
     if text not in laws_of_role:
-        other_role = next((other_role for other_role in _ROLES if text in called(other_role)), None)
+        other_role = next((other_role for other_role in _ROLES if text in find_laws_of_role(other_role)), None)
         if other_role is not None:
-            raise BadValueError(f"{text} is a {other_role} law", text.where, known_hint(text, laws_of_role))
-        hint = known_hint(text, laws_of_role)
+            raise BadValueError(f"{text} is a {other_role} law", text.where, format_name_hint(text, laws_of_role))
+        hint = format_name_hint(text, laws_of_role)
         hint += "\n  a law of your own is made known by --laws FILE.py, or gudgeon.register"
         raise UnknownNameError(f"unknown {role} law {str(text)[:200]!r}", text.where, hint)
     law, fields = laws_of_role[text], laws_of_role[text].fields_as(text)
     if law.name in USER_LAWS:
-        reader.laws[law.name] = key_of(law.name)
-    mistyped = check_keys(reader, node, ["law", *field_names(fields)], address)
+        reader.laws[law.name] = find_law_key(law.name)
+    mistyped = check_keys(reader, node, ["law", *list_field_names(fields)], address)
     context = FieldContext(address, str(text), text.where, mistyped)
-    values = read_fields(reader, node, with_dimensions(fields, node), context)
+    values = read_fields(reader, node, resolve_dimensions(fields, node), context)
     for declaration in fields:
         if declaration.varies == OF_PENETRATION and declaration.name in values.quantities:
-            with reader.collect():
+            with reader.collect_errors():
                 _check_penetration_force(reader, values.quantities[declaration.name])
     for option, number_name in law.instead.items():
         if number_name in values.quantities:
             if option in node:
                 hint = f"expected one: {option} says something where {number_name} is left out"
-                raise BadValueError(f"{address} has both {number_name} and {option}", node.key(option).where, hint)
+                raise BadValueError(f"{address} has both {number_name} and {option}", node.find_key(option).where, hint)
             values.options.pop(option, None)
     return LawUse(law.name, values.quantities, {**values.options, **law.also.get(text, {})})
 
 
-def check_guide(joint: str, guide: Guide, contact: Contact, play_node: Map) -> None:
+def check_contact_in_guide(joint: str, guide: Guide, contact: Contact, play_node: Map) -> None:
     """Raise an InputError unless the contact fits a slider in a guide: no film, no contour, a law of corners on walls.
 
     A law that takes its stiffness from the geometry needs the guide's corner radius. `play_node` is the entry of the
@@ -328,20 +332,20 @@ def check_guide(joint: str, guide: Guide, contact: Contact, play_node: Map) -> N
     location = play_node["contact"].where
     if "contour" in play_node:
         message = f"the contour of {joint} is one of a guide: contours are those of bearings"
-        raise BadValueError(message, play_node.key("contour").where, "expected no contour")
+        raise BadValueError(message, play_node.find_key("contour").where, "expected no contour")
     if contact.film is not None:
         message = f"contact {contact.name} of {joint} has a film, whose laws are those of a journal in its bearing"
         raise BadValueError(message, location, "expected a contact without a film: guides have dry contact alone")
     normal = contact.normal
     if normal is None:
         return
-    if laws()[normal.law].in_hole:
-        allowed_laws = sorted(name for name, law in called("normal").items() if not law.in_hole)
+    if find_all_laws()[normal.law].in_hole:
+        allowed_laws = sorted(name for name, law in find_laws_of_role("normal").items() if not law.in_hole)
         message = f"contact {contact.name} of {joint} has {normal.law}, a law of a pin in a hole"
         raise BadValueError(message, location, f"expected one of a corner on a wall: {', '.join(allowed_laws)}")
     if "geometry" in normal.options and guide.corner_radius is None:
         message = f"guide {guide.name} of {joint} has no corner_radius, from which {normal.law} takes its stiffness"
-        has_stiffness = any(declaration.name == "stiffness" for declaration in laws()[normal.law].fields)
+        has_stiffness = any(declaration.name == "stiffness" for declaration in find_all_laws()[normal.law].fields)
         alternative = (
             "stiffness"
             if has_stiffness
@@ -356,7 +360,7 @@ def _describe_laws_of_sharp_corners() -> Iterator[str]:
 
     Each is a text for a hint: the law's name, and "with stiffness" where it needs one.
     """
-    for name, law in laws().items():
+    for name, law in find_all_laws().items():
         if law.role == "normal" and not law.in_hole and law.name == name:
             if "geometry" in law.instead:
                 yield f"{name} with {law.instead['geometry']}"

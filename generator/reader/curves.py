@@ -14,15 +14,15 @@ from pathlib import Path
 import numpy as np
 
 from gudgeon.errors import BadValueError, LimitError, Location, MissingKeyError, UnitError
-from gudgeon.files.reading import MAX_BYTES, MAX_TABLE_BYTES, read_beside
+from gudgeon.files.reading import MAX_BYTES, MAX_TABLE_BYTES, read_table_file
 from gudgeon.generator.field import WORD
 from gudgeon.generator.format.sections import CURVE
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import FieldContext, read_fields
-from gudgeon.generator.yaml import Items, Map, Text, kind_of
-from gudgeon.language.curves import LEAST, MONOTONE, NOT_A_KNOT, PERIODIC, STOP, Curve, even_pieces, spline
+from gudgeon.generator.yaml import Items, Map, Text, describe_node
+from gudgeon.language.curves import LEAST, MONOTONE, NOT_A_KNOT, PERIODIC, STOP, Curve, compute_spline, make_even_pieces
 from gudgeon.language.functions import FUNCTIONS
-from gudgeon.language.units import DIMENSIONLESS, Unit, parse_unit, si_unit
+from gudgeon.language.units import DIMENSIONLESS, Unit, find_si_unit, parse_unit
 
 _NOT_FINITE = re.compile(r"(nan|inf|infinity)\b", re.IGNORECASE)
 _SEPARATORS = ";", "\t", ","  # column separators; the first one that the text contains counts
@@ -32,8 +32,8 @@ _SEPARATORS = ";", "\t", ","  # column separators; the first one that the text c
 class Row:
     """Represent one point of a curve as two texts with their locations."""
 
-    text: tuple[str, str]
-    where: tuple[Location, Location]
+    cells: tuple[str, str]
+    locations: tuple[Location, Location]
 
 
 def read_table(data: bytes, file: str, is_number: Callable[[str], bool]) -> list[Row]:
@@ -50,16 +50,18 @@ def read_table(data: bytes, file: str, is_number: Callable[[str], bool]) -> list
         if not line.strip() or line.lstrip().startswith("#"):
             continue
         row = _split_row(line, separator, file, line_number)
-        wrong_columns = [k for k in (0, 1) if not is_number(row.text[k])]
-        if wrong_columns and not (is_first_row and len(wrong_columns) == 2 and is_header(row.text)):
+        wrong_columns = [k for k in (0, 1) if not is_number(row.cells[k])]
+        if wrong_columns and not (is_first_row and len(wrong_columns) == 2 and is_header_row(row.cells)):
             hint = "expected a decimal number such as -0.5: with a point, '-' as its sign, and no quotes or brackets"
-            raise BadValueError(f"{row.text[wrong_columns[0]][:40]!r} is no number", row.where[wrong_columns[0]], hint)
+            raise BadValueError(
+                f"{row.cells[wrong_columns[0]][:40]!r} is no number", row.locations[wrong_columns[0]], hint
+            )
         rows += [] if wrong_columns else [row]
         is_first_row = False
     return rows
 
 
-def is_header(cells: Sequence[str]) -> bool:
+def is_header_row(cells: Sequence[str]) -> bool:
     """Return whether both cells of a first row can be column names: one contains a letter, neither is a number.
 
     A cell counts as a number if a digit stands before its first letter: "−1", "(1)", '"-1"', "0 mm"; nan and inf are
@@ -120,9 +122,9 @@ def read_curves(reader: Reader, root: Map) -> dict[str, Curve]:
     A placeholder replaces a curve that cannot be read. A curve with the name of a function is left out: its name was
     refused.
     """
-    for name, node in root.part("curves").pairs():
+    for name, node in root.get_mapping("curves").list_entries():
         reader.curves[str(name)] = _PLACEHOLDER
-        with reader.collect():
+        with reader.collect_errors():
             reader.curves[str(name)] = _read_curve(reader, name, node) or _PLACEHOLDER
         if name in FUNCTIONS:  # the name was refused: a call of it calls the function
             del reader.curves[str(name)]
@@ -163,8 +165,8 @@ def _read_curve(reader: Reader, name: Text, node: Map) -> Curve | None:
         _check_points(address, ends, rows, x, y, name.where)
     else:
         x, y = long_table
-    coefficients = spline(x, y, ends, interpolation)
-    knots, coefficients = even_pieces(x, coefficients) if ends == PERIODIC else (x, coefficients)
+    coefficients = compute_spline(x, y, ends, interpolation)
+    knots, coefficients = make_even_pieces(x, coefficients) if ends == PERIODIC else (x, coefficients)
     if not np.isfinite(np.array(coefficients)).all():
         hint = "expected points whose slopes are numbers: are two of them too close?"
         raise BadValueError(f"{address} has a slope that is no number", name.where, hint)
@@ -191,13 +193,15 @@ def _read_unit(node: Map, key: str, address: str) -> Unit | None:
     text = node[key]
     unit_and_length = parse_unit(str(text))
     if unit_and_length is None or unit_and_length[1] != len(text):
-        raise UnitError(f"{address}.{key} is {kind_of(text)}, which is no unit", text.where, "expected one such as deg")
+        raise UnitError(
+            f"{address}.{key} is {describe_node(text)}, which is no unit", text.where, "expected one such as deg"
+        )
     return unit_and_length[0]
 
 
 def _format_si_unit(unit: Unit | None) -> str | None:
     """Return the SI unit of a curve's values as text, "rad" for a dimensionless unit; None without a declared unit."""
-    return None if unit is None else "rad" if unit.dimension == DIMENSIONLESS else si_unit(unit.dimension)
+    return None if unit is None else "rad" if unit.dimension == DIMENSIONLESS else find_si_unit(unit.dimension)
 
 
 def _convert_points_to_rows(items: Items, owner: str) -> list[Row]:
@@ -210,7 +214,7 @@ def _read_table_bytes(reader: Reader, name: Text) -> bytes:
 
     Their SHA-256 is recorded in reader.tables. Raises InputError.
     """
-    data = read_beside(reader.file, str(name), MAX_TABLE_BYTES, name.where)
+    data = read_table_file(reader.file, str(name), MAX_TABLE_BYTES, name.where)
     reader.tables[str(name)] = hashlib.sha256(data).hexdigest()
     return data
 
@@ -237,7 +241,11 @@ def _parse_long_table(
     first_line, _, rows = data.partition(b"\n")
     if not re.search(rb"[0-9]|\r.", first_line):  # the first line has no digit
         first_line_text = first_line.decode("utf-8-sig", "replace")
-        data = rows if first_line_text.lstrip().startswith("#") or is_header(first_line_text.split(separator)) else data
+        data = (
+            rows
+            if first_line_text.lstrip().startswith("#") or is_header_row(first_line_text.split(separator))
+            else data
+        )
     if re.search(rb"[^-+.,;\t\r\n 0-9eE]", data):
         return None
     try:
@@ -269,10 +277,10 @@ def _convert_column_to_si(rows: Sequence[Row], column: int, unit: Unit | None) -
     Raises LimitError for too many points, BadValueError at a cell that is not a number or out of range.
     """
     if len(rows) > MAX_POINTS:
-        raise LimitError(f"{len(rows)} points", rows[0].where[0], f"expected at most {MAX_POINTS} in a curve")
+        raise LimitError(f"{len(rows)} points", rows[0].locations[0], f"expected at most {MAX_POINTS} in a curve")
     values = []
     for row in rows:
-        text, location = row.text[column], row.where[column]
+        text, location = row.cells[column], row.locations[column]
         fraction = _parse_decimal(text)
         if fraction is None:
             hint = "expected a decimal number, with its unit in x: or y:"
@@ -299,9 +307,9 @@ def _check_points(
         raise BadValueError(f"{address} has {len(x)} point{'s' * (len(x) != 1)}", location, hint)
     for k in range(1, len(x)):
         if not x[k] > x[k - 1]:
-            texts = rows[k].text[0], rows[k - 1].text[0]
+            texts = rows[k].cells[0], rows[k - 1].cells[0]
             hint = "expected rising x, each once"
-            raise BadValueError(f"{address}: x is {texts[0]} behind {texts[1]}", rows[k].where[0], hint)
+            raise BadValueError(f"{address}: x is {texts[0]} behind {texts[1]}", rows[k].locations[0], hint)
     if ends == PERIODIC and y[0] != y[-1]:
-        hint = f"expected {rows[0].text[1]}, as in the first point, or other ends"
-        raise BadValueError(f"{address} is periodic and ends at {rows[-1].text[1]}", rows[-1].where[1], hint)
+        hint = f"expected {rows[0].cells[1]}, as in the first point, or other ends"
+        raise BadValueError(f"{address} is periodic and ends at {rows[-1].cells[1]}", rows[-1].locations[1], hint)

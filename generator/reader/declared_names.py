@@ -11,7 +11,7 @@ from gudgeon.errors import BadNameError, Location
 from gudgeon.generator.field import OF_MOTION, OF_RESULTS
 from gudgeon.generator.format.sections import FILE
 from gudgeon.generator.mechanism import GROUND
-from gudgeon.generator.reader.collector import BROKEN, NamedExpression, Reader
+from gudgeon.generator.reader.collector import UNREADABLE_EXPRESSION, NamedExpression, Reader
 from gudgeon.generator.reader.point_names import CORNERS_OF_SIDES, IMPLIED_POINTS, PointNames
 from gudgeon.generator.reader.result_names import MotionNames, ResultNames
 from gudgeon.generator.yaml import Map, Text
@@ -36,28 +36,31 @@ def read_names(reader: Reader, root: Map) -> tuple[PointNames, ResultNames]:
 
     A BadNameError is collected for each name that is not allowed or used twice. Nothing else of the sections is read.
     """
-    reader.parameters.update(dict.fromkeys(map(str, root.part("parameters"))))
-    expressions = (name for name in root.part("expressions").names() if name != "t")
-    reader.expressions.update((str(name), NamedExpression(BROKEN, BROKEN, None, name.where)) for name in expressions)
+    reader.parameters.update(dict.fromkeys(map(str, root.get_mapping("parameters"))))
+    expressions = (name for name in root.get_mapping("expressions").list_keys() if name != "t")
+    reader.expressions.update(
+        (str(name), NamedExpression(UNREADABLE_EXPRESSION, UNREADABLE_EXPRESSION, None, name.where))
+        for name in expressions
+    )
     _check_labels(reader, root)
     _check_expression_names(reader, root)
     _check_point_names(reader, root)
     point_names, repeated_names = PointNames(root), frozenset(_check_result_names(reader, root))
     number_kinds = dict.fromkeys(reader.parameters, "a parameter") | dict.fromkeys(reader.expressions, "an expression")
     results = ResultNames(point_names, root, number_kinds, repeated_names)
-    reader.scopes |= {OF_MOTION: MotionNames(point_names, root, number_kinds), OF_RESULTS: results}
+    reader.result_scopes |= {OF_MOTION: MotionNames(point_names, root, number_kinds), OF_RESULTS: results}
     return point_names, results
 
 
 def _check_labels(reader: Reader, root: Map) -> None:
     """Collect an error for each label (scene, event, contact and others) that is not allowed."""
     for section, kind in _LABEL_SECTIONS.items():
-        for name in root.part(section).names():
-            with reader.collect():
+        for name in root.get_mapping(section).list_keys():
+            with reader.collect_errors():
                 check_label(name, kind, name.where)
-    for scene in root.part("scenes").values():
-        for name in scene.part("events").names():
-            with reader.collect():
+    for scene in root.get_mapping("scenes").values():
+        for name in scene.get_mapping("events").list_keys():
+            with reader.collect_errors():
                 check_label(name, "event", name.where)
 
 
@@ -68,12 +71,12 @@ def _check_expression_names(reader: Reader, root: Map) -> None:
     """
     users_of_names: dict[str, str] = {}
     for section, kind in _EXPRESSION_SECTIONS.items():
-        names = root.part(section).names()
+        names = root.get_mapping(section).list_keys()
         for name in names if section != "outputs" else ():  # names of outputs are checked with the results
-            with reader.collect():
-                reader.refused.add(str(name))
+            with reader.collect_errors():
+                reader.refused_names.add(str(name))
                 check_name(name, kind, name.where)
-                reader.refused.remove(str(name))
+                reader.refused_names.remove(str(name))
                 if name in users_of_names:
                     message = f"{name!r} names this {kind} and {users_of_names[name]}"
                     raise BadNameError(message, name.where, "expected a name of its own: both stand in expressions")
@@ -88,8 +91,8 @@ def _check_result_names(reader: Reader, root: Map) -> Iterator[str]:
     """
     users_of_names: dict[str, tuple[str, Location]] = {}
     for section, kind in _RESULT_SECTIONS.items():
-        for name in root.part(section).names():
-            with reader.collect():
+        for name in root.get_mapping(section).list_keys():
+            with reader.collect_errors():
                 check_name(name, kind, name.where)
                 if name in users_of_names:
                     yield str(name)
@@ -105,15 +108,15 @@ def _check_point_names(reader: Reader, root: Map) -> None:
 
     Reserved are coordinates, implied points, and on a body with `sides` the corners P, Q and R.
     """
-    for body, node in root["bodies"].pairs():
+    for body, node in root["bodies"].list_entries():
         reasons = dict.fromkeys(CORNERS_OF_SIDES, "it is one of sides") if "sides" in node else {}
         reasons |= {name: f"{body}.{name} is a coordinate" for name in _COORDINATES}
         reasons |= dict.fromkeys(IMPLIED_POINTS, "every body has it")
-        for point in node.part("points").names():
-            with reader.collect():
+        for point in node.get_mapping("points").list_keys():
+            with reader.collect_errors():
                 _check_point_name(point, reasons.get(point, ""), "expected another name")
-    for point in root.part("ground").names():
-        with reader.collect():
+    for point in root.get_mapping("ground").list_keys():
+        with reader.collect_errors():
             _check_point_name(point, "it names a coordinate" if point in _COORDINATES else "")
 
 

@@ -10,10 +10,10 @@ from gudgeon.generator.format.sections import COORDINATES
 from gudgeon.generator.kinds.drives import DRIVES
 from gudgeon.generator.mechanism import GROUND, Drive, PointRef
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.reader.fields import FieldContext, read_fields, read_kind, read_targets, refuse_same_body
-from gudgeon.generator.reader.point_names import PointNames, coordinate_of
-from gudgeon.generator.yaml import Map, Text, kind_of
-from gudgeon.language.tree import functions
+from gudgeon.generator.reader.fields import FieldContext, check_different_bodies, read_fields, read_kind, read_targets
+from gudgeon.generator.reader.point_names import PointNames, find_coordinate_dimension
+from gudgeon.generator.yaml import Map, Text, describe_node
+from gudgeon.language.tree import list_functions
 from gudgeon.language.units import Dimension
 
 
@@ -36,8 +36,8 @@ def read_drives(reader: Reader, root: Map, point_names: PointNames) -> dict[str,
     """
     drives: dict[str, Drive] = {}
     drives_by_target: dict[tuple[str, frozenset[str]], Drive] = {}
-    for name, node in root.part("drives").pairs():
-        with reader.collect():
+    for name, node in root.get_mapping("drives").list_entries():
+        with reader.collect_errors():
             drive_and_key = _read_drive(reader, name, node, point_names)
             if drive_and_key is None:
                 continue
@@ -60,14 +60,14 @@ def _read_drive(
     address = f"drives.{name}"
     kind, mistyped = read_kind(reader, node, DRIVES, address)
     target = None
-    with reader.collect():
+    with reader.collect_errors():
         target = _TARGET_READERS[kind](reader, node, kind, point_names)
     dimension = target.dimension if target else None
     fields = [replace(f, dimension=dimension) if f.any_dimension else f for f in DRIVES[kind].fields]
-    value = read_fields(reader, node, fields, FieldContext(address, mistyped=mistyped)).quantities.get("value")
+    value = read_fields(reader, node, fields, FieldContext(address, mistyped_keys=mistyped)).quantities.get("value")
     if target is None or value is None:
         return None
-    if "sign" in functions(value.value):
+    if "sign" in list_functions(value.value):
         raise BadValueError(
             f"{address}.value jumps where the argument of sign changes its sign",
             value.where,
@@ -103,8 +103,8 @@ def _read_coordinate_target(reader: Reader, node: Map, kind: Text, point_names: 
     node_of_target = node[kind]
     if not isinstance(node_of_target, Text) or "." not in node_of_target:
         hint = "expected a coordinate: BODY.x, BODY.y or BODY.theta"
-        raise BadValueError(f"{kind} is {kind_of(node_of_target)}", _find_location(node_of_target, kind), hint)
-    dimension = coordinate_of(node_of_target, COORDINATES, point_names, node_of_target.where)
+        raise BadValueError(f"{kind} is {describe_node(node_of_target)}", _find_location(node_of_target, kind), hint)
+    dimension = find_coordinate_dimension(node_of_target, COORDINATES, point_names, node_of_target.where)
     body, _, coordinate = node_of_target.partition(".")
     return _Target(body, None, coordinate, (), dimension, (coordinate, frozenset((body, GROUND))))
 
@@ -115,7 +115,7 @@ def _read_distance_target(reader: Reader, node: Map, kind: Text, point_names: Po
     The target's body is the first that is not the ground. Raises an InputError for points of the same body.
     """
     references = read_targets(reader, node, kind, DRIVES[kind].targets, DRIVES[kind].counts, point_names)
-    refuse_same_body("a driven distance", references)
+    check_different_bodies("a driven distance", references)
     body = next(ref.body for ref in references if ref.body != GROUND)
     key = ("distance", frozenset(f"{ref.body}.{ref.point}" for ref in references))
     return _Target(body, None, "", references, None, key)

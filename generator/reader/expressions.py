@@ -12,12 +12,12 @@ from gudgeon.errors import LimitError, Location
 from gudgeon.generator.field import OF_MOTION, OF_TIME
 from gudgeon.generator.mechanism import Quantity
 from gudgeon.generator.reader.collector import NamedExpression, Reader
-from gudgeon.generator.reader.parameters import dependency_order
-from gudgeon.generator.reader.unit_or_name import choose_reading
+from gudgeon.generator.reader.parameters import sort_by_dependencies
+from gudgeon.generator.reader.unit_or_name import choose_interpretation
 from gudgeon.generator.yaml import Map, Text
 from gudgeon.language.dimension_check import check_dimension
 from gudgeon.language.parser import COPIES
-from gudgeon.language.tree import Binary, Call, Expr, Name, Unary, names, replaced
+from gudgeon.language.tree import Binary, Call, Expr, Name, Unary, iterate_names, replace_names
 from gudgeon.language.units import DIMENSIONLESS
 
 MAX_PARTS = 4000  # parts of an expression with all names replaced by their trees
@@ -29,28 +29,30 @@ def read_expressions(reader: Reader, root: Map) -> dict[str, Quantity]:
 
     Each is read after those that it uses. Errors are collected; a placeholder remains for an entry with an error.
     """
-    texts = {str(name): text for name, text in root.part("expressions").pairs() if name in reader.expressions}
+    texts = {
+        str(name): text for name, text in root.get_mapping("expressions").list_entries() if name in reader.expressions
+    }
     trees: dict[str, Expr] = {}
     for name, text in texts.items():
-        with reader.collect():
-            trees[name] = reader.parse(text, f"expressions.{name}")
+        with reader.collect_errors():
+            trees[name] = reader.parse_expression(text, f"expressions.{name}")
     order: Iterable[str] = ()
-    with reader.collect():
-        order = dependency_order(trees, {name: text.where for name, text in texts.items()}, "expressions")
+    with reader.collect_errors():
+        order = sort_by_dependencies(trees, {name: text.where for name, text in texts.items()}, "expressions")
     sizes: dict[str, tuple[int, int]] = {}
     for name in order:
-        with reader.collect():
+        with reader.collect_errors():
             reader.expressions[name] = _read_named_expression(reader, name, texts[name], trees[name], sizes)
     for name, expression in reader.expressions.items():
-        reader.made_of[f"expressions.{name}"] = reader.expressions_in_tree(expression.written)
+        reader.named_expressions_used[f"expressions.{name}"] = reader.find_named_expressions(expression.source_tree)
     return {
-        name: reader.keep(
+        name: reader.register_quantity(
             Quantity(
                 f"expressions.{name}",
-                expression.value,
+                expression.expanded_tree,
                 expression.dimension or DIMENSIONLESS,
                 expression.where,
-                written=expression.written,
+                source_tree=expression.source_tree,
             )
         )
         for name, expression in reader.expressions.items()
@@ -65,11 +67,13 @@ def _read_named_expression(
     Raises an InputError for a name that is not allowed, for another error of dimension, and for too large an
     expression.
     """
-    tree = choose_reading(text, tree, None, reader.dimension_of_number, reader.curves)
+    tree = choose_interpretation(text, tree, None, reader.find_number_dimension, reader.curves)
     sizes[name] = _check_size(name, tree, text.where, sizes)
-    value = replaced(tree, {other_name: expression.value for other_name, expression in reader.expressions.items()})
-    depends_on_motion = any("." in inner.path for inner in names(value))
-    dimensions = reader.dimensions_of_names(tree, text.where, OF_MOTION if depends_on_motion else OF_TIME)
+    value = replace_names(
+        tree, {other_name: expression.expanded_tree for other_name, expression in reader.expressions.items()}
+    )
+    depends_on_motion = any("." in inner.path for inner in iterate_names(value))
+    dimensions = reader.find_name_dimensions(tree, text.where, OF_MOTION if depends_on_motion else OF_TIME)
     return NamedExpression(tree, value, check_dimension(tree, None, dimensions.get, text.where), text.where)
 
 

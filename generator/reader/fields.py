@@ -1,4 +1,4 @@
-"""Reads the values of a mapping by the declarations of its fields, and finds the key that states an entry's kind."""
+"""Reads the keys of a YAML mapping by their declarations, and finds the key that names the kind of an entry."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from gudgeon.generator.field import (
     Bound,
     Field,
 )
-from gudgeon.generator.format.shapes import missing_key, unknown_key
+from gudgeon.generator.format.shapes import make_missing_key_error, make_unknown_key_error
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import GROUND, PointRef, Quantity, Vector
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.point_names import PointNames
-from gudgeon.generator.yaml import Items, Map, Text, kind_of
-from gudgeon.language.names import known_hint, nearest
-from gudgeon.language.shown import counted
+from gudgeon.generator.yaml import Items, Map, Text, describe_node
+from gudgeon.language.names import find_nearest_name, format_name_hint
+from gudgeon.language.text_output import format_count
 from gudgeon.language.tree import Number
 from gudgeon.language.units import DIMENSIONLESS
 
@@ -39,7 +39,7 @@ class Values:
     vectors: dict[str, Vector] = field(default_factory=dict)
     options: dict[str, str | bool] = field(default_factory=dict)
 
-    def words(self) -> dict[str, str]:
+    def format_options(self) -> dict[str, str]:
         """Return the options as texts, as a file writes them: True becomes "true"."""
         return {name: str(value).lower() if isinstance(value, bool) else value for name, value in self.options.items()}
 
@@ -62,33 +62,35 @@ def read_kind(
     Errors of unknown keys are collected. `address` is the entry's address; `hints` maps keys of other sections to a
     hint. Raises an InputError if there is no kind or more than one.
     """
-    kind_key = find_kind(
-        node, kinds, [key for kind_type in kinds.values() for key in field_names(kind_type.fields)], address
+    kind_key = find_kind_key(
+        node, kinds, [key for kind_type in kinds.values() for key in list_field_names(kind_type.fields)], address
     )
-    return kind_key, check_keys(reader, node, [kind_key, *field_names(kinds[kind_key].fields)], address, hints)
+    return kind_key, check_keys(reader, node, [kind_key, *list_field_names(kinds[kind_key].fields)], address, hints)
 
 
-def find_kind(node: Map, kinds: Mapping[str, _Kind], other_keys: Iterable[str], address: str) -> Text:
+def find_kind_key(node: Map, kinds: Mapping[str, _Kind], other_keys: Iterable[str], address: str) -> Text:
     """Return the only key of a mapping that is a kind. Raises an InputError if there is none or more than one.
 
     `kinds` maps kinds to their declarations, `other_keys` are the other allowed keys, `address` is the mapping's
     address. The hint names the kind that another program calls by an unknown key.
     """
-    kind_keys = [key for key in node.names() if key in kinds]
+    kind_keys = [key for key in node.list_keys() if key in kinds]
     if len(kind_keys) == 1:
         return kind_keys[0]
     if kind_keys:
         raise UnknownKeyError(
             f"{address} is both {kind_keys[0]} and {kind_keys[1]}", kind_keys[1].where, "expected one kind"
         )
-    unknown = next((key for key in node.names() if key not in other_keys), None)
+    unknown = next((key for key in node.list_keys() if key not in other_keys), None)
     foreign_names = {foreign_name: kind for kind, kind_type in kinds.items() for foreign_name in kind_type.also}
-    for key in node.names():
+    for key in node.list_keys():
         if key.lower() in foreign_names:
-            raise unknown_key(key, kinds, address, f"{str(key)!r} is called {foreign_names[key.lower()]} here")
+            raise make_unknown_key_error(
+                key, kinds, address, f"{str(key)!r} is called {foreign_names[key.lower()]} here"
+            )
     if unknown is None:
-        raise MissingKeyError(f"{address} has no kind", node.where, known_hint("", kinds))
-    raise unknown_key(unknown, kinds, address)
+        raise MissingKeyError(f"{address} has no kind", node.where, format_name_hint("", kinds))
+    raise make_unknown_key_error(unknown, kinds, address)
 
 
 def check_keys(
@@ -99,9 +101,9 @@ def check_keys(
     The set contains None for a key that resembles no known key. `address` is the entry's address; `hints` maps keys of
     other sections to a hint where to write them.
     """
-    unknown_keys = [key for key in node.names() if key not in known_keys]
-    reader.errors.extend(unknown_key(key, known_keys, address, hints.get(key, "")) for key in unknown_keys)
-    return frozenset(nearest(key, known_keys) for key in unknown_keys)
+    unknown_keys = [key for key in node.list_keys() if key not in known_keys]
+    reader.errors.extend(make_unknown_key_error(key, known_keys, address, hints.get(key, "")) for key in unknown_keys)
+    return frozenset(find_nearest_name(key, known_keys) for key in unknown_keys)
 
 
 def read_targets(
@@ -116,7 +118,7 @@ def read_targets(
     items = list(value) if isinstance(value, Items) else [value]
     if len(items) not in counts or isinstance(value, Items) and len(items) == 1:
         singular, plural = ("point", "points") if target_kind == "points" else ("body", "bodies")
-        phrase = counted(len(items), singular, plural) if isinstance(value, Items) else kind_of(value)
+        phrase = format_count(len(items), singular, plural) if isinstance(value, Items) else describe_node(value)
         location = value.where if isinstance(value, Items) else kind.where
         hint = _format_targets_hint(target_kind, counts)
         joint = joint_types().get(kind)
@@ -129,7 +131,9 @@ def read_targets(
         location = getattr(item, "where", kind.where)
         try:
             references.append(
-                point_names.point(item, location) if target_kind == "points" else point_names.body(item, location)
+                point_names.resolve_point(item, location)
+                if target_kind == "points"
+                else point_names.resolve_body(item, location)
             )
         except InputError as error:
             errors.append(error)
@@ -162,7 +166,7 @@ def _format_joints_hint(kind: Text, points: Sequence[object]) -> str:
     return f"{len(points)} bodies on one pin are {len(points) - 1} joints: {lines}"
 
 
-def refuse_same_body(kind: str, references: Sequence[PointRef]) -> None:
+def check_different_bodies(kind: str, references: Sequence[PointRef]) -> None:
     """Raise JoinError unless the references are two different bodies, or one body that is not the ground."""
     last = references[-1]
     if len(references) == 1 and last.body == GROUND:
@@ -176,10 +180,12 @@ def refuse_same_body(kind: str, references: Sequence[PointRef]) -> None:
 class FieldContext:
     """Contain the context in which the fields of a mapping are read."""
 
-    owner: str  # address of the mapping
-    why: str = ""  # the law, for messages of conditions that have no text
-    place: Location | None = None  # location of defaults; None: the mapping's
-    mistyped: frozenset[str | None] = frozenset()  # keys that unknown ones probably stand for: not reported as missing
+    address: str  # address of the mapping
+    reason: str = ""  # the law, for messages of conditions that have no text
+    default_location: Location | None = None  # location of defaults; None: the mapping's
+    mistyped_keys: frozenset[str | None] = (
+        frozenset()
+    )  # keys that unknown ones probably stand for: not reported as missing
     point_names: PointNames | None = None  # to check names of bodies
 
 
@@ -187,18 +193,22 @@ def read_fields(reader: Reader, node: Map, fields: Sequence[Field], context: Fie
     """Return the numbers, vectors, words, flags and bodies among the fields of a mapping, and record their conditions.
 
     Defaults are filled in. Errors are collected, also for a required key that is missing, unless an unknown key
-    probably stands for it (`context.mistyped`).
+    probably stands for it (`context.mistyped_keys`).
     """
     values = Values()
     for declaration in fields:
-        with reader.collect():
+        with reader.collect_errors():
             if declaration.name in node:
                 _read_field(reader, node, declaration, context, values)
-            elif declaration.required and declaration.name not in context.mistyped:
-                raise missing_key(declaration.name, node.where, context.owner)
+            elif declaration.required and declaration.name not in context.mistyped_keys:
+                raise make_missing_key_error(declaration.name, node.where, context.address)
             elif declaration.default is not None:
                 _fill_in_default(
-                    reader, declaration, f"{context.owner}.{declaration.name}", context.place or node.where, values
+                    reader,
+                    declaration,
+                    f"{context.address}.{declaration.name}",
+                    context.default_location or node.where,
+                    values,
                 )
     _record_bounds(reader, fields, context, values)
     return values
@@ -212,9 +222,9 @@ def _fill_in_default(reader: Reader, declaration: Field, address: str, location:
     if declaration.kind == NUMBER:
         number = Number(float(declaration.default or 0.0), repr(declaration.default))
         dimension = declaration.dimension or DIMENSIONLESS
-        values.quantities[declaration.name] = reader.keep(Quantity(address, number, dimension, location))
+        values.quantities[declaration.name] = reader.register_quantity(Quantity(address, number, dimension, location))
     else:
-        values.options[declaration.name] = declaration.choice
+        values.options[declaration.name] = declaration.default_option
 
 
 def _read_field(reader: Reader, node: Map, declaration: Field, context: FieldContext, values: Values) -> None:
@@ -223,22 +233,24 @@ def _read_field(reader: Reader, node: Map, declaration: Field, context: FieldCon
     Fields of other kinds (names, records) are skipped: other readers read them. Raises BadValueError for a node of the
     wrong type.
     """
-    address, node_of_field = f"{context.owner}.{declaration.name}", node[declaration.name]
+    address, node_of_field = f"{context.address}.{declaration.name}", node[declaration.name]
     if declaration.kind in (NUMBER, BODY) and not isinstance(node_of_field, Text):
-        location = node.key(declaration.name).where
-        raise BadValueError(f"{address} is {kind_of(node_of_field)}", location, "expected a number or a text")
+        location = node.find_key(declaration.name).where
+        raise BadValueError(f"{address} is {describe_node(node_of_field)}", location, "expected a number or a text")
     if declaration.kind == VECTOR:
         values.vectors[declaration.name] = read_vector(
-            reader, node_of_field, node.key(declaration.name), declaration, address
+            reader, node_of_field, node.find_key(declaration.name), declaration, address
         )
     elif declaration.kind == NUMBER:
-        values.quantities[declaration.name] = reader.quantity(
+        values.quantities[declaration.name] = reader.read_quantity(
             node_of_field, address, declaration.dimension, declaration.varies
         )
         if declaration.whole:
-            reader.wholes[address] = declaration.meaning
+            reader.meaning_of_integers[address] = declaration.meaning
     elif declaration.kind in (WORD, FLAG):
-        values.options[declaration.name] = _read_word(node_of_field, node.key(declaration.name), declaration, address)
+        values.options[declaration.name] = _read_word(
+            node_of_field, node.find_key(declaration.name), declaration, address
+        )
     elif declaration.kind == BODY and context.point_names is not None:
         values.options[declaration.name] = context.point_names.check_body(node_of_field, node_of_field.where)
 
@@ -250,13 +262,13 @@ def read_vector(reader: Reader, node: object, key: Text, declaration: Field, add
     `check_values`. Raises BadValueError unless `node` is a list of two scalars.
     """
     if not isinstance(node, Items) or len(node) != 2 or not all(isinstance(item, Text) for item in node):
-        raise BadValueError(f"{address} is {kind_of(node)}", key.where, "expected a list of two: [x, y]")
+        raise BadValueError(f"{address} is {describe_node(node)}", key.where, "expected a list of two: [x, y]")
     x, y = (
-        reader.quantity(text, f"{address}.{axis}", declaration.dimension, declaration.varies)
+        reader.read_quantity(text, f"{address}.{axis}", declaration.dimension, declaration.varies)
         for text, axis in zip(node, "xy", strict=True)
     )
     if declaration.nonzero:
-        reader.vectors_not_zero.append((x, y))
+        reader.nonzero_vectors.append((x, y))
     return x, y
 
 
@@ -267,9 +279,9 @@ def _read_word(node: object, key: Text, declaration: Field, address: str) -> str
     """
     allowed_values = {str(value).lower() if isinstance(value, bool) else value: value for value in declaration.values}
     if not isinstance(node, Text) or node not in allowed_values:
-        location = node.where if isinstance(node, Text) and not node.is_nothing else key.where
-        hint = "expected true or false" if declaration.kind == FLAG else known_hint(str(node), allowed_values)
-        raise BadValueError(f"{address} is {kind_of(node)}", location, hint)
+        location = node.where if isinstance(node, Text) and not node.is_null else key.where
+        hint = "expected true or false" if declaration.kind == FLAG else format_name_hint(str(node), allowed_values)
+        raise BadValueError(f"{address} is {describe_node(node)}", location, hint)
     return allowed_values[node]
 
 
@@ -302,9 +314,11 @@ def _record_bound(reader: Reader, declaration: Field, bound: Bound, context: Fie
     limit = values.quantities.get(bound.limit) if isinstance(bound.limit, str) else bound.limit
     for bounded_quantity in values.vectors.get(declaration.name, ()) if quantity is None else (quantity,):
         if limit is not None:
-            reader.require(bounded_quantity, bound.relation, limit, bound.reason(declaration, context.why))
+            reader.add_condition(
+                bounded_quantity, bound.relation, limit, bound.format_reason(declaration, context.reason)
+            )
 
 
-def field_names(fields: Iterable[Field]) -> list[str]:
+def list_field_names(fields: Iterable[Field]) -> list[str]:
     """Return the keys of some fields."""
     return [declared.name for declared in fields]

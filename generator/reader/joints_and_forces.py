@@ -10,19 +10,19 @@ from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import ForceElement, Joint, Quantity
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.reader.fields import FieldContext, read_fields, read_kind, read_targets, refuse_same_body
+from gudgeon.generator.reader.fields import FieldContext, check_different_bodies, read_fields, read_kind, read_targets
 from gudgeon.generator.reader.point_names import PointNames
 from gudgeon.generator.yaml import Map, Text
 from gudgeon.language.functions import PIECEWISE
-from gudgeon.language.parser import at
-from gudgeon.language.tree import Number, functions, names
+from gudgeon.language.parser import offset_location
+from gudgeon.language.tree import Number, iterate_names, list_functions
 
 
 def read_joints(reader: Reader, root: Map, point_names: PointNames) -> dict[str, Joint]:
     """Return all joints by name; errors are collected, and joints with errors are left out."""
     joints = {}
-    for name, node in root.part("joints").pairs():
-        with reader.collect():
+    for name, node in root.get_mapping("joints").list_entries():
+        with reader.collect_errors():
             joints[str(name)] = _read_joint(reader, name, node, point_names, _make_play_hints(name, node, root))
     return joints
 
@@ -35,7 +35,7 @@ def _make_play_hints(joint: Text, node: Map, root: Map) -> Mapping[str, str]:
     is_slider = any(joint_type.play == "guide" and key in node for key, joint_type in joint_types().items())
     dimensions_key = "guide" if is_slider else "bearing"
     dimensions_name, contact = (
-        next(iter(root.part(f"{section}s")), _PLAY[section]) for section in (dimensions_key, "contact")
+        next(iter(root.get_mapping(f"{section}s")), _PLAY[section]) for section in (dimensions_key, "contact")
     )
     example = f"scenes: {{worn: {{play: {{{joint}: {{{dimensions_key}: {dimensions_name}, contact: {contact}}}}}}}}}"
     return dict.fromkeys(("play", "clearance", "bearing", "guide", "contact"), f"play stands in scenes: {example}")
@@ -53,20 +53,22 @@ def _read_joint(reader: Reader, name: Text, node: Map, point_names: PointNames, 
     kind, mistyped = read_kind(reader, node, joint_types(), address, hints)
     joint_type = joint_types()[kind]
     values = read_fields(
-        reader, node, joint_type.fields, FieldContext(address, mistyped=mistyped, point_names=point_names)
+        reader, node, joint_type.fields, FieldContext(address, mistyped_keys=mistyped, point_names=point_names)
     )
     first, second = read_targets(reader, node, kind, joint_type.joins, (2,), point_names)
-    refuse_same_body(kind, (first, second))
+    check_different_bodies(kind, (first, second))
     for field in joint_type.fields:
         if field.varies == OF_CAM_ANGLE and field.name in values.quantities:
-            with reader.collect():
+            with reader.collect_errors():
                 _check_cam_profile(reader, values.quantities[field.name])
     for field in joint_type.fields:
         if field.kind == BODY and values.options.get(field.name) in (first.body, second.body):
             body = values.options[field.name]
             location = node[field.name].where if field.name in node else kind.where
             raise JoinError(f"{body} is one of the two bodies and their {field.name}", location, "expected a third one")
-    return Joint(str(name), str(kind), first, second, values.quantities, values.vectors, values.words(), name.where)
+    return Joint(
+        str(name), str(kind), first, second, values.quantities, values.vectors, values.format_options(), name.where
+    )
 
 
 def _check_cam_profile(reader: Reader, profile: Quantity) -> None:
@@ -76,7 +78,7 @@ def _check_cam_profile(reader: Reader, profile: Quantity) -> None:
     """
     if isinstance(profile.value, Number) and profile.value.value != profile.value.value:
         return  # NaN: reported already
-    locations = {name.path: at(profile.where, name.offset) for name in names(profile.value)}
+    locations = {name.path: offset_location(profile.where, name.offset) for name in iterate_names(profile.value)}
     if OF_CAM_ANGLE in reader.parameters and OF_CAM_ANGLE in locations:
         hint = "give the parameter another name"
         raise BadNameError("'phi' is the cam's angle here, and a parameter of this file", locations[OF_CAM_ANGLE], hint)
@@ -87,7 +89,7 @@ def _check_cam_profile(reader: Reader, profile: Quantity) -> None:
     if OF_CAM_ANGLE not in locations:
         hint = "expected an expression such as 30 mm + lift(phi)"
         raise ExpressionError(f"{profile.address} does not follow phi, the cam's angle", profile.where, hint)
-    if piecewise_functions := sorted(PIECEWISE.intersection(functions(profile.value))):
+    if piecewise_functions := sorted(PIECEWISE.intersection(list_functions(profile.value))):
         hint = "expected curves (extrapolate: none, or ends: periodic) and smooth functions: the slope is a speed"
         raise BadValueError(
             f"{profile.address} has a slope that may jump, by {piecewise_functions[0]}", profile.where, hint
@@ -97,8 +99,8 @@ def _check_cam_profile(reader: Reader, profile: Quantity) -> None:
 def read_forces(reader: Reader, root: Map, point_names: PointNames) -> dict[str, ForceElement]:
     """Return all force elements by name; errors are collected, and elements with errors are left out."""
     forces = {}
-    for name, node in root.part("forces").pairs():
-        with reader.collect():
+    for name, node in root.get_mapping("forces").list_entries():
+        with reader.collect_errors():
             forces[str(name)] = _read_force(reader, name, node, point_names)
     return forces
 
@@ -112,8 +114,10 @@ def _read_force(reader: Reader, name: Text, node: Map, point_names: PointNames) 
     kind, mistyped = read_kind(reader, node, element_types(), address)
     element_type = element_types()[kind]
     values = read_fields(
-        reader, node, element_type.fields, FieldContext(address, mistyped=mistyped, point_names=point_names)
+        reader, node, element_type.fields, FieldContext(address, mistyped_keys=mistyped, point_names=point_names)
     )
     targets = read_targets(reader, node, kind, element_type.targets, element_type.counts, point_names)
-    refuse_same_body(kind, targets)
-    return ForceElement(str(name), str(kind), targets, values.quantities, values.vectors, values.words(), name.where)
+    check_different_bodies(kind, targets)
+    return ForceElement(
+        str(name), str(kind), targets, values.quantities, values.vectors, values.format_options(), name.where
+    )

@@ -10,14 +10,14 @@ from dataclasses import replace
 
 from gudgeon.errors import MissingKeyError, UnknownNameError
 from gudgeon.generator.format.sections import MATERIAL
-from gudgeon.generator.mechanism import Choice, Material, Quantity, following
+from gudgeon.generator.mechanism import Choice, Material, Quantity, make_dependent_quantity
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import FieldContext, read_fields
 from gudgeon.generator.yaml import Map, Text
-from gudgeon.language.names import unknown_name
+from gudgeon.language.names import make_unknown_name_error
 
-ELASTIC = ("E", "nu")  # properties that contacts need
-EXAMPLE = "materials: {steel: {E: 210 GPa, nu: 0.3, density: 7850 kg/m^3}}"
+ELASTIC_KEYS = ("E", "nu")  # properties that contacts need
+EXAMPLE_SECTION = "materials: {steel: {E: 210 GPa, nu: 0.3, density: 7850 kg/m^3}}"
 
 
 class Materials:
@@ -28,12 +28,12 @@ class Materials:
 
     def __init__(self, reader: Reader, section: Map) -> None:
         self._reader, self._needs = reader, dict[str, tuple[str, ...]]()
-        self.known: dict[str, Material] = {}
+        self.by_name: dict[str, Material] = {}
         self.choices: dict[str, Choice] = {}
-        for name, node in section.pairs():
-            own = read_fields(reader, node, MATERIAL.fields, FieldContext(f"materials.{name}")).quantities
-            self.known[str(name)] = Material(str(name), own)
-        for needs in (ELASTIC, ("density",)):
+        for name, node in section.list_entries():
+            quantities = read_fields(reader, node, MATERIAL.fields, FieldContext(f"materials.{name}")).quantities
+            self.by_name[str(name)] = Material(str(name), quantities)
+        for needs in (ELASTIC_KEYS, ("density",)):
             self._make_replaceable(needs)
 
     def _make_replaceable(self, properties: tuple[str, ...]) -> None:
@@ -43,15 +43,18 @@ class Materials:
         """
         names = self._find_materials_with(properties)
         for name in names if len(names) > 1 else ():
-            numbers = self.known[name].numbers
-            parameters = {key: self._reader.keep(replace(numbers[key], kept=True)) for key in properties}
-            self.known[name] = Material(name, {**numbers, **parameters})
+            numbers = self.by_name[name].numbers
+            parameters = {
+                key: self._reader.register_quantity(replace(numbers[key], is_always_parameter=True))
+                for key in properties
+            }
+            self.by_name[name] = Material(name, {**numbers, **parameters})
 
     def _find_materials_with(self, properties: Iterable[str]) -> list[str]:
         """Return the names of the materials that have all properties in `properties`."""
-        return [name for name, material in self.known.items() if all(key in material.numbers for key in properties)]
+        return [name for name, material in self.by_name.items() if all(key in material.numbers for key in properties)]
 
-    def values_of_material(self, address: str, text: Text, properties: tuple[str, ...]) -> dict[str, Quantity]:
+    def read_properties(self, address: str, text: Text, properties: tuple[str, ...]) -> dict[str, Quantity]:
         """Return the properties of the material named at an address, by their names `properties`.
 
         If another material has them too, the properties become run-time parameters at this address, with the bounds of
@@ -62,22 +65,25 @@ class Materials:
         if len(self._find_materials_with(properties)) < 2:
             return {key: quantities[key] for key in properties}
         parameters = {
-            key: self._reader.keep(following(f"{address}.{key}", quantities[key], text.where)) for key in properties
+            key: self._reader.register_quantity(
+                make_dependent_quantity(f"{address}.{key}", quantities[key], text.where)
+            )
+            for key in properties
         }
         for field in MATERIAL.fields:
             for bound in field.bounds if field.name in parameters else ():
-                self._reader.require(parameters[field.name], bound.relation, float(bound.limit), bound.why)
+                self._reader.add_condition(parameters[field.name], bound.relation, float(bound.limit), bound.why)
         self.choices[address] = Choice(address, str(text), parameters)
         return parameters
 
-    def check_choice(self, address: Text, text: Text) -> str:
+    def resolve_choice(self, address: Text, text: Text) -> str:
         """Return the name of the material that a scene gives an address. Raises UnknownNameError, MissingKeyError.
 
         The address must be that of a bearing, guide or shape with a material, whose needed properties the material must
         have.
         """
         if address not in self._needs:
-            raise unknown_name("address of a material", address, self._needs, address.where)
+            raise make_unknown_name_error("address of a material", address, self._needs, address.where)
         return self._find_material(text, self._needs[address]).name
 
     def _find_material(self, text: Text, properties: tuple[str, ...]) -> Material:
@@ -85,15 +91,15 @@ class Materials:
 
         Raises UnknownNameError, with an example if the file has no materials, and MissingKeyError.
         """
-        if not self.known:
-            raise UnknownNameError(f"unknown material {str(text)[:200]!r}", text.where, f"write it: {EXAMPLE}")
-        if text not in self.known:
-            raise unknown_name("material", text, self.known, text.where)
-        missing_keys = [key for key in properties if key not in self.known[text].numbers]
+        if not self.by_name:
+            raise UnknownNameError(f"unknown material {str(text)[:200]!r}", text.where, f"write it: {EXAMPLE_SECTION}")
+        if text not in self.by_name:
+            raise make_unknown_name_error("material", text, self.by_name, text.where)
+        missing_keys = [key for key in properties if key not in self.by_name[text].numbers]
         if missing_keys:
             suitable_names = ", ".join(self._find_materials_with(properties))
             hint = f"expected the key {missing_keys[0]!r} in materials.{text}" + (
                 f", or one of: {suitable_names}" * bool(suitable_names)
             )
             raise MissingKeyError(f"material {text} has no {' and no '.join(missing_keys)}", text.where, hint)
-        return self.known[text]
+        return self.by_name[text]

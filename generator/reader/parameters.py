@@ -6,14 +6,14 @@ import graphlib
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
-from gudgeon.errors import CycleError, InputError, Location, together
+from gudgeon.errors import CycleError, InputError, Location, combine_errors
 from gudgeon.generator.mechanism import Quantity
-from gudgeon.generator.reader.collector import Reader, unreadable_number
-from gudgeon.generator.reader.unit_or_name import choose_reading
+from gudgeon.generator.reader.collector import Reader, make_unreadable_number
+from gudgeon.generator.reader.unit_or_name import choose_interpretation
 from gudgeon.generator.yaml import Map, Text
 from gudgeon.language.dimension_check import check_dimension
-from gudgeon.language.tree import Expr, evaluate, names
-from gudgeon.language.unit_remedies import unit_remedies
+from gudgeon.language.tree import Expr, evaluate, iterate_names
+from gudgeon.language.unit_remedies import add_unit_hints
 from gudgeon.language.units import DIMENSIONLESS, Dimension
 
 MAX_REPORTED = 8  # names of a cycle in a message
@@ -25,37 +25,39 @@ def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
     Dimensions are then in reader.parameters, None for a parameter without a unit. Errors are collected: the value of
     such a parameter is NaN.
     """
-    texts = {str(name): text for name, text in section.pairs()}
-    trees: dict[str, Expr] = {name: unreadable_number(text) for name, text in texts.items()}
+    texts = {str(name): text for name, text in section.list_entries()}
+    trees: dict[str, Expr] = {name: make_unreadable_number(text) for name, text in texts.items()}
     for name, text in texts.items():
-        if name in reader.refused:
+        if name in reader.refused_names:
             continue
-        with reader.collect():
+        with reader.collect_errors():
 
             def read(spelling_text: str, name: str = name, text: Text = text) -> Expr:
                 """Return the tree of one spelling of a parameter's value, after checks of its names and dimension.
 
-                `unit_remedies` calls this function with other spellings. Raises InputError.
+                `add_unit_hints` calls this function with other spellings. Raises InputError.
                 """
                 spelling = Text.make(spelling_text, text.where, text.plain, text.one_line)
-                tree = reader.parse(spelling, f"parameters.{name}", constant=True)
-                reader.dimensions_of_names(tree, text.where)
+                tree = reader.parse_expression(spelling, f"parameters.{name}", constant=True)
+                reader.find_name_dimensions(tree, text.where)
                 _find_parameter_dimension(name, tree, lambda _: None, text.where)
                 return tree
 
-            with unit_remedies(text, text.where, read, None, reader.parameters):
+            with add_unit_hints(text, text.where, read, None, reader.parameters):
                 trees[name] = read(text)
     order: tuple[str, ...] = tuple(trees)
-    with reader.collect():
-        order = dependency_order(trees, {name: text.where for name, text in texts.items()})
+    with reader.collect_errors():
+        order = sort_by_dependencies(trees, {name: text.where for name, text in texts.items()})
     for parameter in order:
-        with reader.collect():
-            trees[parameter] = choose_reading(texts[parameter], trees[parameter], None, reader.parameters.get, {})
+        with reader.collect_errors():
+            trees[parameter] = choose_interpretation(
+                texts[parameter], trees[parameter], None, reader.parameters.get, {}
+            )
             reader.parameters[parameter] = _find_parameter_dimension(
                 parameter, trees[parameter], reader.parameters.get, texts[parameter].where
             )
     return {
-        name: reader.keep(
+        name: reader.register_quantity(
             Quantity(f"parameters.{name}", trees[name], reader.parameters[name] or DIMENSIONLESS, text.where)
         )
         for name, text in texts.items()
@@ -83,13 +85,13 @@ def infer_dimensions(reader: Reader, parameters: Mapping[str, Quantity]) -> dict
     They are registered again with this dimension. A parameter that is used in several dimensions stays without a unit.
     """
     inferred = dict(parameters)
-    for name, dimensions in reader.uses.items():
+    for name, dimensions in reader.candidate_dimensions.items():
         if len(dimensions) == 1:  # a number that is used in several dimensions stays without a unit
-            inferred[name] = reader.keep(replace(inferred[name], dimension=next(iter(dimensions))))
+            inferred[name] = reader.register_quantity(replace(inferred[name], dimension=next(iter(dimensions))))
     return inferred
 
 
-def dependency_order(
+def sort_by_dependencies(
     trees: Mapping[str, Expr], locations: Mapping[str, Location], section: str = "parameters"
 ) -> tuple[str, ...]:
     """Return names so that each comes after those that it uses.
@@ -98,7 +100,7 @@ def dependency_order(
     Raises CycleError, or InputErrors for several cycles.
     """
     uses = {
-        name: [dependency.path for dependency in names(tree) if dependency.path in trees]
+        name: [dependency.path for dependency in iterate_names(tree) if dependency.path in trees]
         for name, tree in trees.items()
     }
     cycles: list[InputError] = []
@@ -115,7 +117,7 @@ def dependency_order(
                 if name not in cycle
             }
     if cycles:
-        raise together(cycles)
+        raise combine_errors(cycles)
     return order
 
 
@@ -132,13 +134,13 @@ def _make_cycle_error(cycle: list[str], locations: Mapping[str, Location], secti
     return CycleError(message, locations[cycle[first]], "expected one of them to have a value of its own")
 
 
-def parameter_values(parameters: Mapping[str, Quantity]) -> dict[str, float]:
+def evaluate_parameters(parameters: Mapping[str, Quantity]) -> dict[str, float]:
     """Return the value of every parameter in SI units by name. Raises CycleError.
 
     The names are ordered by their dependencies: each comes after those that it uses.
     """
     trees = {name: quantity.value for name, quantity in parameters.items()}
     values: dict[str, float] = {}
-    for name in dependency_order(trees, {name: quantity.where for name, quantity in parameters.items()}):
+    for name in sort_by_dependencies(trees, {name: quantity.where for name, quantity in parameters.items()}):
         values[name] = float(evaluate(trees[name], values.__getitem__))
     return values

@@ -8,8 +8,8 @@ from types import MappingProxyType
 
 from gudgeon.errors import BadValueError, InputError, Location, UnknownNameError
 from gudgeon.generator.mechanism import GROUND, PointRef
-from gudgeon.generator.yaml import Map, Text, kind_of
-from gudgeon.language.names import known_hint, unknown_name
+from gudgeon.generator.yaml import Map, Text, describe_node
+from gudgeon.language.names import format_name_hint, make_unknown_name_error
 from gudgeon.language.units import Dimension
 
 IMPLIED_POINTS = ("origin", "com", "tail", "head")
@@ -23,9 +23,9 @@ class PointNames:
     """Resolve `body` and `body.point` by the names that a file's tree declares."""
 
     def __init__(self, root: Map) -> None:
-        self.bodies, self.ground = root["bodies"], root.part("ground")
+        self.bodies, self.ground = root["bodies"], root.get_mapping("ground")
 
-    def points(self, body: str) -> list[str]:
+    def list_points(self, body: str) -> list[str]:
         """Return the names of a body's points: declared ones first, then the implied ones.
 
         Raises KeyError if there is no such body. The ground has declared points only.
@@ -34,16 +34,16 @@ class PointNames:
             return [str(point) for point in self.ground]
         node = self.bodies[body]
         implied_points = IMPLIED_POINTS if "length" in node else IMPLIED_POINTS[:2]
-        declared = dict.fromkeys((*CORNERS_OF_SIDES * ("sides" in node), *map(str, node.part("points"))))
+        declared = dict.fromkeys((*CORNERS_OF_SIDES * ("sides" in node), *map(str, node.get_mapping("points"))))
         return [*(point for point in declared if point not in implied_points), *reversed(implied_points)]
 
     def check_body(self, name: str, location: Location) -> str:
         """Return the name if it is a body or `ground`. Raises UnknownNameError at `location`."""
         if name not in self.bodies and name != GROUND:
-            raise unknown_name("body", name, (*self.bodies, GROUND), location)
+            raise make_unknown_name_error("body", name, (*self.bodies, GROUND), location)
         return str(name)
 
-    def point(self, text: object, default_location: Location) -> PointRef:
+    def resolve_point(self, text: object, default_location: Location) -> PointRef:
         """Return the reference for a text such as `L1.head`.
 
         Raises BadValueError for a text that is not a body and a point, UnknownNameError at the wrong part.
@@ -53,33 +53,35 @@ class PointNames:
             hint = "expected body.point, such as L1.head or ground.O1"
             with suppress(InputError, KeyError):
                 body = self.check_body(str(text), default_location)
-                hint = f"expected one of: {', '.join(f'{body}.{point_name}' for point_name in self.points(body))}"
-            raise BadValueError(f"{kind_of(text)} is no point", getattr(text, "where", default_location), hint)
+                hint = f"expected one of: {', '.join(f'{body}.{point_name}' for point_name in self.list_points(body))}"
+            raise BadValueError(f"{describe_node(text)} is no point", getattr(text, "where", default_location), hint)
         body, _, point = text.partition(".")
         self.check_body(body, text.where)
-        points = self.points(body)
+        points = self.list_points(body)
         if point not in points:
             location = Location(text.where.file, text.where.line, text.where.column + len(body) + 1)
-            raise unknown_name(f"point of {body}", point, points, location)
+            raise make_unknown_name_error(f"point of {body}", point, points, location)
         return PointRef(body, point, text.where)
 
-    def body(self, text: object, location: Location) -> PointRef:
+    def resolve_body(self, text: object, location: Location) -> PointRef:
         """Return a body as a reference to its centre of mass; for the ground, the name of the point is empty.
 
         Raises BadValueError if `text` is not a scalar, UnknownNameError for an unknown body.
         """
         if not isinstance(text, Text):
-            raise BadValueError(f"{kind_of(text)} is no body", location, known_hint("", (*self.bodies, GROUND)))
+            raise BadValueError(
+                f"{describe_node(text)} is no body", location, format_name_hint("", (*self.bodies, GROUND))
+            )
         name = self.check_body(text, location)
         return PointRef(str(name), "" if name == GROUND else "com", location)
 
-    def names(self) -> Iterator[str]:
+    def iterate_names(self) -> Iterator[str]:
         """Yield the name of every point of the file, such as "L1.head", body by body, the ground last."""
         for body in (*self.bodies, GROUND):
-            yield from (f"{body}.{point}" for point in self.points(body))
+            yield from (f"{body}.{point}" for point in self.list_points(body))
 
 
-def coordinate_of(
+def find_coordinate_dimension(
     key: str,
     dimensions: Mapping[str, Dimension],
     point_names: PointNames,
@@ -93,7 +95,7 @@ def coordinate_of(
     """
     body, _, coordinate = key.partition(".")
     if body not in point_names.bodies:
-        raise unknown_name("body", body, point_names.bodies, location)
+        raise make_unknown_name_error("body", body, point_names.bodies, location)
     if not coordinate:
         hint = f"expected one of: {', '.join(f'{body}.{name}' for name in dimensions)}"
         raise UnknownNameError(f"{body} is a body, no coordinate", location, hint)
@@ -103,5 +105,5 @@ def coordinate_of(
             raise UnknownNameError(
                 f"unknown coordinate of {body} {coordinate!r}", location_of_coordinate, hints[coordinate]
             )
-        raise unknown_name(f"coordinate of {body}", coordinate, dimensions, location_of_coordinate)
+        raise make_unknown_name_error(f"coordinate of {body}", coordinate, dimensions, location_of_coordinate)
     return dimensions[coordinate]

@@ -26,7 +26,7 @@ from gudgeon.generator.reader.joints_and_forces import read_forces, read_joints
 from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.reader.parameters import infer_dimensions, read_parameters
 from gudgeon.generator.reader.scenes import SceneParts, check_peaks, read_events, read_scenes
-from gudgeon.generator.yaml import Map, kind_of, parse_yaml
+from gudgeon.generator.yaml import Map, describe_node, parse_yaml
 from gudgeon.language.names import check_name
 from gudgeon.language.tree import Number
 
@@ -61,17 +61,21 @@ def _read_sections(reader: Reader, root: Map, sha256: str) -> Mechanism:
     """
     point_names, results = read_names(reader, root)
     title, curves = _read_title(reader, root), read_curves(reader, root)
-    parameters, expressions = read_parameters(reader, root.part("parameters")), read_expressions(reader, root)
-    gravity, materials = read_gravity(reader, root), Materials(reader, root.part("materials"))
+    parameters, expressions = read_parameters(reader, root.get_mapping("parameters")), read_expressions(reader, root)
+    gravity, materials = read_gravity(reader, root), Materials(reader, root.get_mapping("materials"))
     bodies, ground = read_bodies(reader, root, materials), read_ground(reader, root)
     joints, drives = read_joints(reader, root, point_names), read_drives(reader, root, point_names)
     forces, start = read_forces(reader, root, point_names), read_start(reader, root, point_names)
     bearings_and_guides, contacts = read_bearings_and_guides(reader, root, materials), read_contacts(reader, root)
-    events = read_events(reader, root.part("events"), "events")
+    events = read_events(reader, root.get_mapping("events"), "events")
     scenes = read_scenes(reader, SceneParts(joints, bearings_and_guides, contacts, parameters, events, root, materials))
-    results.unread |= {*root.part("joints"), *root.part("drives"), *root.part("forces")} - {*joints, *drives, *forces}
+    results.unreadable_owners |= {
+        *root.get_mapping("joints"),
+        *root.get_mapping("drives"),
+        *root.get_mapping("forces"),
+    } - {*joints, *drives, *forces}
     outputs = _read_outputs(reader, root)
-    check_peaks(reader, scenes, results, root.part("outputs"))
+    check_peaks(reader, scenes, results, root.get_mapping("outputs"))
     check_values(reader, parameters, scenes)
     return Mechanism(
         name=str(root["name"]),
@@ -92,7 +96,7 @@ def _read_sections(reader: Reader, root: Map, sha256: str) -> Mechanism:
         freedoms=_read_expected_dof(reader, root),
         curves=curves,
         expressions=expressions,
-        materials=materials.known,
+        materials=materials.by_name,
         choices=materials.choices,
         tables=reader.tables,
         laws=reader.laws,
@@ -105,10 +109,10 @@ def _read_title(reader: Reader, root: Map) -> str:
     Errors are collected for a name that is not allowed, and for a title of several lines, of more than 200 characters,
     or with backslashes or comment signs.
     """
-    with reader.collect():
+    with reader.collect_errors():
         check_name(root["name"], "mechanism", root["name"].where)
     title = root.get("title", root["name"])
-    with reader.collect():
+    with reader.collect_errors():
         invalid = re.search(rf"[^{_SHOWN}]|\\|\*/|/\*|\?\?/", title)
         if invalid or len(title) > _MAX_TITLE:
             fault = f"has {invalid[0]!r}" if invalid else f"has {len(title)} characters"
@@ -125,12 +129,12 @@ def _read_expected_dof(reader: Reader, root: Map) -> Quantity | None:
     """
     if "freedoms" not in root:
         return None
-    with reader.collect():
+    with reader.collect_errors():
         text = root["freedoms"]
-        number = reader.quantity(text, "freedoms", SECTIONS["freedoms"].dimension)
+        number = reader.read_quantity(text, "freedoms", SECTIONS["freedoms"].dimension)
         value = number.value.value if isinstance(number.value, Number) else -1.0
         if not (value >= 0.0 and value % 1.0 == 0.0) and not math.isnan(value):  # NaN: reported already
-            raise BadValueError(f"freedoms is {kind_of(text)}", text.where, "expected a whole number: 0, 1, 2")
+            raise BadValueError(f"freedoms is {describe_node(text)}", text.where, "expected a whole number: 0, 1, 2")
         return number
     return None
 
@@ -138,8 +142,8 @@ def _read_expected_dof(reader: Reader, root: Map) -> Quantity | None:
 def _read_outputs(reader: Reader, root: Map) -> dict[str, Quantity]:
     """Return the section `outputs:` by name: expressions of t, parameters and results; errors are collected."""
     return {
-        str(name): reader.quantity(text, f"outputs.{name}", OUTPUT.dimension, OUTPUT.varies)
-        for name, text in root.part("outputs").pairs()
+        str(name): reader.read_quantity(text, f"outputs.{name}", OUTPUT.dimension, OUTPUT.varies)
+        for name, text in root.get_mapping("outputs").list_entries()
     }
 
 
@@ -155,7 +159,7 @@ def read_scene(
     The seconds of this stage are stored in `seconds` under "reading", if it is given. Raises InputError or InputErrors,
     and UnknownNameError for a scene that the file does not have.
     """
-    with stage("reading", seconds):
+    with measure_stage("reading", seconds):
         return make_scene(read_mechanism(data, file, overrides), scene)
 
 
@@ -174,7 +178,7 @@ def _remove_other_scenes(scene: Scene) -> Scene:
 
 
 @contextmanager
-def stage(name: str, seconds: Seconds | None) -> Iterator[None]:
+def measure_stage(name: str, seconds: Seconds | None) -> Iterator[None]:
     """Return a context manager that stores the elapsed seconds of a compiler stage in `seconds[name]`.
 
     Nothing is stored if `seconds` is None or if the block raises.

@@ -12,7 +12,7 @@ from gudgeon.generator.kinds.joints.joint_type import CORNERS, joint_types
 from gudgeon.generator.mechanism import GROUND
 from gudgeon.generator.reader.point_names import PointNames
 from gudgeon.generator.yaml import Map, Text
-from gudgeon.language.names import unknown_name
+from gudgeon.language.names import make_unknown_name_error
 from gudgeon.language.tree import Name
 from gudgeon.language.units import (
     ACCELERATION,
@@ -58,35 +58,41 @@ _TOTALS: Mapping[str, Mapping[str, Dimension]] = {
     "energy": {"kinetic": TORQUE, "potential": TORQUE, "residual": TORQUE},
     "work": {"drives": TORQUE, "forces": TORQUE, "clearances": TORQUE},
 }
-LATER = ("lambda", "Phi", "Phi_dot")  # multipliers and drift: the equations determine which exist
+UNCHECKED_OWNERS = ("lambda", "Phi", "Phi_dot")  # multipliers and drift: the equations determine which exist
 _ACCELERATIONS = ("ax", "ay", "alpha")
 
 
 class ResultNames:
     """Return the dimension of each result of a mechanism, with and without play.
 
-    `numbers` maps names without a dot to what they are ("a parameter"). `unread` are joints, drives and forces whose
+    `numbers` maps names without a dot to what they are ("a parameter"). `unreadable_owners` are joints, drives and
+    forces whose
     own errors were reported: their results are accepted without a check. `owners` maps the owner of results ("A",
     "L1.head", "energy") to the dimensions of its results by name.
     """
 
     def __init__(self, point_names: PointNames, root: Map, numbers: Mapping[str, str], unread: Iterable[str]) -> None:
         joints, drives, forces = (
-            {str(name): kind for name, node in root.part(section).pairs() for kind in kinds if kind in node}
+            {
+                str(name): kind
+                for name, node in root.get_mapping(section).list_entries()
+                for kind in kinds
+                if kind in node
+            }
             for section, kinds in (("joints", joint_types()), ("drives", DRIVES), ("forces", element_types()))
         )
-        self.unread, self._joints = set(unread), frozenset(joints)
+        self.unreadable_owners, self._joints = set(unread), frozenset(joints)
         self.owners: dict[str, Mapping[str, Dimension]] = dict(_TOTALS)
         self.owners |= dict.fromkeys(map(str, point_names.bodies), _BODY)
         self.owners |= {name: _find_drive_results(kind, root["drives"][name]) for name, kind in drives.items()}
-        self.owners |= dict.fromkeys(point_names.names(), _POINT)
+        self.owners |= dict.fromkeys(point_names.iterate_names(), _POINT)
         self.owners |= {name: dict(element_types()[kind].results) for name, kind in forces.items()}
         for name in point_names.ground:
             self.owners[f"{GROUND}.{name}"] = {"x": LENGTH, "y": LENGTH}
         guides = [name for name, kind in joints.items() if joint_types()[kind].play == "guide"]
         self.owners |= dict.fromkeys(joints, {**_JOINT, **_PLAY}) | dict.fromkeys(guides, _JOINT)
         self.owners |= {f"{guide}.{corner}": _OF_CORNER for guide in guides for corner in CORNERS}
-        self.numbers = numbers
+        self.number_kinds = numbers
 
     def __call__(self, name: Name, where: Location) -> Dimension | None:
         """Return the dimension of a result's name; None if its owner could not be read, so that any dimension fits.
@@ -94,44 +100,44 @@ class ResultNames:
         Raises UnknownNameError at the wrong part of the name, with the nearest known names.
         """
         owner, dot, result = name.path.rpartition(".")
-        if owner in self.unread:
+        if owner in self.unreadable_owners:
             return None
         if not dot:
-            candidates = [path for path in self.paths() if path.partition(".")[0] == name.path]
-            raise unknown_name("name", name.path, candidates or self.numbers, where)
+            candidates = [path for path in self.iterate_names() if path.partition(".")[0] == name.path]
+            raise make_unknown_name_error("name", name.path, candidates or self.number_kinds, where)
         if owner not in self.owners:
-            raise unknown_name("name", name.path, self.paths(), where)
+            raise make_unknown_name_error("name", name.path, self.iterate_names(), where)
         if result not in self.owners[owner]:
             location = Location(where.file, where.line, where.column + len(owner) + 1)
-            raise unknown_name(f"result of {owner}", result, self.owners[owner], location)
+            raise make_unknown_name_error(f"result of {owner}", result, self.owners[owner], location)
         return self.owners[owner][result]
 
-    def check_series(self, name: Text, outputs: Iterable[str]) -> None:
+    def check_series_name(self, name: Text, outputs: Iterable[str]) -> None:
         """Raise UnknownNameError, with the nearest series, for a name without a dot that is not an output.
 
         Names with a dot are not checked here; callers pass no names of `outputs`.
         """
         if "." in name:
             return
-        if name in self.numbers:
-            same_results = [path for path in self.paths() if path.rpartition(".")[2] == name]
+        if name in self.number_kinds:
+            same_results = [path for path in self.iterate_names() if path.rpartition(".")[2] == name]
             hint = (
                 f"expected {', '.join(same_results[:6])}"
                 if same_results
                 else "expected a result: L1.omega, A.F, drive.torque"
             )
-            raise UnknownNameError(f"{str(name)!r} is {self.numbers[name]}, no series", name.where, hint)
-        results_of_owner = [path for path in self.paths() if path.partition(".")[0] == name]
-        raise unknown_name("series", name, results_of_owner or [*outputs, *self.paths()], name.where)
+            raise UnknownNameError(f"{str(name)!r} is {self.number_kinds[name]}, no series", name.where, hint)
+        results_of_owner = [path for path in self.iterate_names() if path.partition(".")[0] == name]
+        raise make_unknown_name_error("series", name, results_of_owner or [*outputs, *self.iterate_names()], name.where)
 
-    def check_play(self, name: Text, scene: str, play: Container[str]) -> None:
+    def check_availability(self, name: Text, scene: str, play: Container[str]) -> None:
         """Raise BadValueError for a result that a joint has only with play, or only without, in other scenes.
 
         `play` contains the joints that have play in the scene named `scene`. Names of other owners are accepted.
         """
         owner, _, result = name.rpartition(".")
         joint, _, corner = owner.partition(".")
-        if joint in self.unread:
+        if joint in self.unreadable_owners:
             return
         if joint in self._joints and corner in CORNERS and joint not in play:
             hint = f"expected one of: {', '.join(f'{joint}.{result}' for result in _JOINT)}; or give it play there"
@@ -144,9 +150,9 @@ class ResultNames:
             hint = f"expected one of: {', '.join(_JOINT)}; or give it play there"
             raise BadValueError(f"{name}: joint {owner} has no play in scene {scene}", name.where, hint)
 
-    def paths(self) -> Iterator[str]:
+    def iterate_names(self) -> Iterator[str]:
         """Return an iterator over the full name of every result, without those of unreadable owners."""
-        readable = ((owner, results) for owner, results in self.owners.items() if owner not in self.unread)
+        readable = ((owner, results) for owner, results in self.owners.items() if owner not in self.unreadable_owners)
         return (f"{owner}.{result}" for owner, results in readable for result in results)
 
 
@@ -154,7 +160,7 @@ class MotionNames(ResultNames):
     """Return the dimension of each name on which a force may depend: coordinates and velocities."""
 
     def __init__(self, point_names: PointNames, root: Map, numbers: Mapping[str, str]) -> None:
-        moving = {"bodies": root["bodies"], "ground": root.part("ground")}
+        moving = {"bodies": root["bodies"], "ground": root.get_mapping("ground")}
         super().__init__(point_names, Map.make(moving, root.where), numbers, ())
         for total in _TOTALS:
             del self.owners[total]
@@ -162,7 +168,9 @@ class MotionNames(ResultNames):
             owner: {part: of for part, of in parts.items() if part not in _ACCELERATIONS}
             for owner, parts in self.owners.items()
         }
-        self._later = frozenset((*_TOTALS, *root.part("drives"), *root.part("joints"), *root.part("forces")))
+        self._later = frozenset(
+            (*_TOTALS, *root.get_mapping("drives"), *root.get_mapping("joints"), *root.get_mapping("forces"))
+        )
 
     def __call__(self, name: Name, where: Location) -> Dimension | None:
         """Return the dimension of a name on which a force may depend; None if any fits.
@@ -201,7 +209,7 @@ class PenetrationNames:
         if "." in name.path or name.path in _PLAY:
             hint = "expected delta, the penetration, and parameters; `dissipation` says what its rate does"
             raise ExpressionError(f"{name.path!r} cannot stand in a force of the penetration", where, hint)
-        raise unknown_name("name", name.path, ("delta", *self._parameters), where)
+        raise make_unknown_name_error("name", name.path, ("delta", *self._parameters), where)
 
 
 class CamAngleNames:
@@ -220,7 +228,7 @@ class CamAngleNames:
         if "." in name.path:
             hint = "expected phi, the cam's angle, parameters and curves"
             raise ExpressionError(f"{name.path!r} cannot stand in the profile of a cam", where, hint)
-        raise unknown_name("name", name.path, (OF_CAM_ANGLE, *self._parameters), where)
+        raise make_unknown_name_error("name", name.path, (OF_CAM_ANGLE, *self._parameters), where)
 
 
 def _find_drive_results(kind: str, node: Map) -> Mapping[str, Dimension]:

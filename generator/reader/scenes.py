@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import Any
 
-from gudgeon.errors import BadValueError, CycleError, InputError, Location, together
+from gudgeon.errors import BadValueError, CycleError, InputError, Location, combine_errors
 from gudgeon.generator.field import WORD
 from gudgeon.generator.format.sections import EVENT, IDEAL, SIMULATE
-from gudgeon.generator.format.shapes import missing_key
+from gudgeon.generator.format.shapes import make_missing_key_error
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.kinds.laws.law import called, laws
+from gudgeon.generator.kinds.laws.law import find_all_laws, find_laws_of_role
 from gudgeon.generator.mechanism import (
     GROUND,
     Bearing,
@@ -25,15 +25,15 @@ from gudgeon.generator.mechanism import (
     SceneSpec,
 )
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.reader.contacts import check_guide, order_by_inheritance
+from gudgeon.generator.reader.contacts import check_contact_in_guide, order_by_inheritance
 from gudgeon.generator.reader.fields import FieldContext, read_fields
 from gudgeon.generator.reader.materials import Materials
-from gudgeon.generator.reader.parameters import dependency_order
-from gudgeon.generator.reader.result_names import LATER, ResultNames
-from gudgeon.generator.yaml import Map, Text, kind_of
-from gudgeon.language.names import unknown_name
-from gudgeon.language.parser import at
-from gudgeon.language.tree import Expr, Name, Number, names
+from gudgeon.generator.reader.parameters import sort_by_dependencies
+from gudgeon.generator.reader.result_names import UNCHECKED_OWNERS, ResultNames
+from gudgeon.generator.yaml import Map, Text, describe_node
+from gudgeon.language.names import make_unknown_name_error
+from gudgeon.language.parser import offset_location
+from gudgeon.language.tree import Expr, Name, Number, iterate_names
 from gudgeon.language.units import LENGTH
 
 MIN_DEPTHS, MAX_DEPTHS = 8, 512  # allowed numbers of depths of a contour
@@ -73,7 +73,7 @@ def read_scenes(reader: Reader, parts: SceneParts) -> dict[str, SceneSpec]:
     Errors are collected, also for `ideal` with play, parameters or materials. Scenes that extend an unknown scene are
     left out.
     """
-    section = parts.root.part("scenes")
+    section = parts.root.get_mapping("scenes")
     empty_map = Map.make((), section.where)
     ideal_scene = _MergedScene(empty_map, empty_map, empty_map, empty_map, dict(parts.events))
     merged_scenes: dict[str, _MergedScene] = {IDEAL: ideal_scene}
@@ -81,12 +81,12 @@ def read_scenes(reader: Reader, parts: SceneParts) -> dict[str, SceneSpec]:
         IDEAL: SceneSpec(IDEAL, {}, {}, {}, Location(reader.file, 1, 1), ideal_scene.events)
     }
     for name, scene in order_by_inheritance(reader, "scene", section, (IDEAL,)):
-        with reader.collect():
+        with reader.collect_errors():
             if name == IDEAL and any(scene.get(key) for key in ("play", "parameters", "materials", "extends")):
                 hint = "expected simulate: and events: only"
                 message = "the scene ideal has no play, and the file's parameters and materials"
                 raise BadValueError(message, name.where, hint)
-        events = read_events(reader, scene.part("events"), f"scenes.{name}.events")
+        events = read_events(reader, scene.get_mapping("events"), f"scenes.{name}.events")
         merged_scene = _merge_scene(
             merged_scenes[scene["extends"]] if scene.get("extends") else ideal_scene, scene, events
         )
@@ -103,7 +103,7 @@ def _merge_scene(parent: _MergedScene, scene: Map, events: Mapping[str, EventSpe
 
     def merge_section(parent_section: Map, key: str) -> Map:
         """Return one section of the parent, overridden by the scene's own entries at `key`."""
-        return Map.make({**parent_section, **scene.part(key)}, scene.where)
+        return Map.make({**parent_section, **scene.get_mapping(key)}, scene.where)
 
     return _MergedScene(
         merge_section(parent.play, "play"),
@@ -125,7 +125,9 @@ def _split_names(node: Any) -> tuple[Text, ...]:
     offsets = accumulate((len(part) + 1 for part in node.split(",")), initial=0)
     parts = zip(node.split(","), offsets, strict=False)
     names_and_offsets = ((part.strip(), begin_offset + len(part) - len(part.lstrip())) for part, begin_offset in parts)
-    return tuple(Text.make(name, at(node.where, offset)) for name, offset in names_and_offsets if not node.is_nothing)
+    return tuple(
+        Text.make(name, offset_location(node.where, offset)) for name, offset in names_and_offsets if not node.is_null
+    )
 
 
 def _read_scene(reader: Reader, name: Text, merged_scene: _MergedScene, parts: SceneParts) -> SceneSpec:
@@ -135,30 +137,30 @@ def _read_scene(reader: Reader, name: Text, merged_scene: _MergedScene, parts: S
     contour together with a friction law that has an inner state.
     """
     play = {}
-    for joint, play_node in merged_scene.play.pairs():
-        with reader.collect():
+    for joint, play_node in merged_scene.play.list_entries():
+        with reader.collect_errors():
             if (joint_play := _read_play(reader, joint, play_node, parts, f"scenes.{name}.play.{joint}")) is not None:
                 play[str(joint)] = joint_play
     parameters = {}
-    for key, text in merged_scene.parameters.pairs():
-        with reader.collect():
+    for key, text in merged_scene.parameters.list_entries():
+        with reader.collect_errors():
             if key not in parts.parameters:
-                raise unknown_name("parameter", key, parts.parameters, key.where)
+                raise make_unknown_name_error("parameter", key, parts.parameters, key.where)
             address = f"scenes.{name}.parameters.{key}"
-            parameters[str(key)] = reader.quantity(text, address, reader.parameters[key])
-    with reader.collect():
+            parameters[str(key)] = reader.read_quantity(text, address, reader.parameters[key])
+    with reader.collect_errors():
         _check_cycles(name, parameters, parts)
     simulate = read_fields(
         reader, merged_scene.simulate, SIMULATE.fields, FieldContext(f"scenes.{name}.simulate")
     ).quantities
     materials = {}
-    for address, text in merged_scene.materials.pairs():
-        with reader.collect():
-            materials[str(address)] = parts.materials.check_choice(address, text)
+    for address, text in merged_scene.materials.list_entries():
+        with reader.collect_errors():
+            materials[str(address)] = parts.materials.resolve_choice(address, text)
     scene = SceneSpec(
         str(name), play, parameters, simulate, name.where, merged_scene.events, merged_scene.peaks, materials
     )
-    with reader.collect():
+    with reader.collect_errors():
         _check_contours(scene, merged_scene.play)
     return scene
 
@@ -169,22 +171,24 @@ def _read_play(reader: Reader, joint: Text, play_node: Map, parts: SceneParts, a
     `play_node` is the node of the play, `address` its address. Raises an InputError for unknown names, a joint that
     cannot have play, and a contact that does not fit the bearing, guide or contour.
     """
-    joints, contact = parts.root.part("joints"), play_node["contact"]
+    joints, contact = parts.root.get_mapping("joints"), play_node["contact"]
     errors: list[InputError] = []
     if joint not in joints:
-        errors.append(unknown_name("joint", joint, joints, joint.where))
+        errors.append(make_unknown_name_error("joint", joint, joints, joint.where))
     for reference_key in ("bearing", "guide", "contact"):
         if reference_key in play_node and play_node[reference_key] not in (
-            section := parts.root.part(f"{reference_key}s")
+            section := parts.root.get_mapping(f"{reference_key}s")
         ):
             errors.append(
-                unknown_name(reference_key, play_node[reference_key], section, play_node[reference_key].where)
+                make_unknown_name_error(
+                    reference_key, play_node[reference_key], section, play_node[reference_key].where
+                )
             )
     contour: tuple[Quantity, ...] = ()
-    with reader.collect():
+    with reader.collect_errors():
         contour = _read_contour(reader, play_node, f"{address}.contour") if "contour" in play_node else ()
     if errors:
-        raise together(errors)
+        raise combine_errors(errors)
     if joint not in parts.joints:
         return None
     dimensions_key = _find_dimensions_key(joint, play_node, parts)
@@ -192,19 +196,21 @@ def _read_play(reader: Reader, joint: Text, play_node: Map, parts: SceneParts, a
         return None
     bearing, law = parts.bearings_and_guides[dimensions_key][play_node[dimensions_key]], parts.contacts[contact]
     if isinstance(bearing, Guide):
-        check_guide(str(joint), bearing, law, play_node)
+        check_contact_in_guide(str(joint), bearing, law, play_node)
         return Play(bearing, law, joint.where)
     if contour and parts.contacts[contact].film is not None:
         message = f"the contour of {joint} is one with a film: the film's laws are those of a circle"
-        raise BadValueError(message, play_node.key("contour").where, "expected a contact without a film, or no contour")
+        raise BadValueError(
+            message, play_node.find_key("contour").where, "expected a contact without a film, or no contour"
+        )
     normal = parts.contacts[contact].normal
-    if contour and normal and laws()[normal.law].rigid:
+    if contour and normal and find_all_laws()[normal.law].rigid:
         message = f"the contour of {joint} is one with {normal.law}: its blows are those of a circle"
         raise BadValueError(
-            message, play_node.key("contour").where, "expected a contact whose surfaces give, or no contour"
+            message, play_node.find_key("contour").where, "expected a contact whose surfaces give, or no contour"
         )
     for depth in contour:
-        reader.require(depth, "<", bearing.radius, "a contour's depth is smaller than the radius")
+        reader.add_condition(depth, "<", bearing.radius, "a contour's depth is smaller than the radius")
     return Play(bearing, law, joint.where, contour)
 
 
@@ -229,11 +235,11 @@ def _find_dimensions_key(joint: Text, play_node: Map, parts: SceneParts) -> str:
             )
             raise BadValueError(
                 message,
-                play_node.key(other_key).where,
+                play_node.find_key(other_key).where,
                 f"expected {joint_type.play}: one of the file's {joint_type.play}s",
             )
     if joint_type.play not in play_node:
-        raise missing_key(joint_type.play, play_node.where, f"the play of {joint}")
+        raise make_missing_key_error(joint_type.play, play_node.where, f"the play of {joint}")
     return joint_type.play
 
 
@@ -242,20 +248,20 @@ def _read_contour(reader: Reader, play_node: Map, address: str) -> tuple[Quantit
 
     Raises BadValueError for another number of depths than 8 to 512.
     """
-    node, location = play_node["contour"], play_node.key("contour").where
+    node, location = play_node["contour"], play_node.find_key("contour").where
     if isinstance(node, Text):
         count = int(node) if node.isdecimal() and node.isascii() and len(node) < 6 else 0
         hint = f"expected a list of depths, or how many there are: {MIN_DEPTHS} to {MAX_DEPTHS}, 128 say"
     else:
         count, hint = len(node), f"expected {MIN_DEPTHS} to {MAX_DEPTHS} depths at equal angles"
     if not MIN_DEPTHS <= count <= MAX_DEPTHS:
-        message = f"{address} is {kind_of(node)}" if isinstance(node, Text) else f"{address} has {count} depths"
+        message = f"{address} is {describe_node(node)}" if isinstance(node, Text) else f"{address} has {count} depths"
         raise BadValueError(message, location, hint)
     if isinstance(node, Text):
-        zero = Quantity(address, Number(0.0, "0"), LENGTH, location, kept=True)
-        return tuple(reader.keep(replace(zero, address=f"{address}.{index}")) for index in range(count))
-    depths = (reader.quantity(text, f"{address}.{index}", LENGTH) for index, text in enumerate(node))
-    return tuple(reader.keep(replace(depth, kept=True)) for depth in depths)
+        zero = Quantity(address, Number(0.0, "0"), LENGTH, location, is_always_parameter=True)
+        return tuple(reader.register_quantity(replace(zero, address=f"{address}.{index}")) for index in range(count))
+    depths = (reader.read_quantity(text, f"{address}.{index}", LENGTH) for index, text in enumerate(node))
+    return tuple(reader.register_quantity(replace(depth, is_always_parameter=True)) for depth in depths)
 
 
 def check_peaks(
@@ -268,12 +274,12 @@ def check_peaks(
     """
     for scene in scenes.values():
         for name in scene.peaks:
-            is_later = name.partition(".")[0] in LATER or name in _find_inner_states(scene)
+            is_later = name.partition(".")[0] in UNCHECKED_OWNERS or name in _find_inner_states(scene)
             if isinstance(name, Text) and name not in outputs and not is_later:
-                with reader.collect():
-                    result_names.check_series(name, outputs)
+                with reader.collect_errors():
+                    result_names.check_series_name(name, outputs)
                     result_names(Name(str(name)), name.where)
-                    result_names.check_play(name, scene.name, scene.play)
+                    result_names.check_availability(name, scene.name, scene.play)
 
 
 def _check_contours(scene: SceneSpec, play_section: Map) -> None:
@@ -292,7 +298,7 @@ def _check_contours(scene: SceneSpec, play_section: Map) -> None:
 def _find_inner_states(scene: SceneSpec) -> set[str]:
     """Return the names of the inner states of a scene's friction laws, such as A.z."""
     friction_laws = {joint: play.contact.friction for joint, play in scene.play.items()}
-    laws_of_friction = called("friction")
+    laws_of_friction = find_laws_of_role("friction")
     return {
         f"{joint}.{state.name}"
         for joint, friction in friction_laws.items()
@@ -314,11 +320,11 @@ def _check_cycles(name: Text, scene_parameters: Mapping[str, Quantity], parts: S
         key: scene_parameters[key].where if key in scene_parameters else Location("~", 0, 0) for key in parameters
     }
     try:
-        dependency_order({key: q.value for key, q in parts.parameters.items()}, locations)
+        sort_by_dependencies({key: q.value for key, q in parts.parameters.items()}, locations)
     except CycleError:
         return  # reported already
     try:
-        dependency_order(trees, {key: quantity.where for key, quantity in parameters.items()})
+        sort_by_dependencies(trees, {key: quantity.where for key, quantity in parameters.items()})
     except CycleError as error:
         location = min(quantity.where for quantity in scene_parameters.values())
         raise CycleError(f"in scene {name}, {error.message}", location, error.hint) from None
@@ -327,8 +333,8 @@ def _check_cycles(name: Text, scene_parameters: Mapping[str, Quantity], parts: S
 def read_events(reader: Reader, section: Map, address: str) -> dict[str, EventSpec]:
     """Read the events of a section by name; `address` is the section's address. Errors are collected."""
     events = {}
-    for name, node in section.pairs():
-        with reader.collect():
+    for name, node in section.list_entries():
+        with reader.collect_errors():
             events[str(name)] = _read_event(reader, name, node, f"{address}.{name}")
     return events
 
@@ -341,14 +347,14 @@ def _read_event(reader: Reader, name: Text, node: Map, address: str) -> EventSpe
     errors_before = len(reader.errors)
     values = read_fields(reader, node, EVENT.fields, FieldContext(address))
     zero = values.quantities["zero"]
-    options = {field.name: field.choice for field in EVENT.fields if field.kind == WORD} | values.options
-    if len(reader.errors) == errors_before and not _varies_in_time(zero.value):
+    options = {field.name: field.default_option for field in EVENT.fields if field.kind == WORD} | values.options
+    if len(reader.errors) == errors_before and not _is_time_dependent(zero.value):
         hint = "expected an expression of t, or of coordinates and velocities: S9.y, L1.omega - 20 rad/s"
         raise BadValueError(f"{address}.zero never changes: it crosses zero at no time", node["zero"].where, hint)
     return EventSpec(str(name), zero, str(options["direction"]), str(options["action"]), name.where)
 
 
-def _varies_in_time(expr: Expr) -> bool:
+def _is_time_dependent(expr: Expr) -> bool:
     """Return whether an expression depends on time or motion; coordinates of the ground's points do not count."""
-    paths = [name.path for name in names(expr)]
+    paths = [name.path for name in iterate_names(expr)]
     return any(path == "t" or "." in path and path.partition(".")[0] != GROUND for path in paths)

@@ -10,14 +10,14 @@ from collections.abc import Mapping
 from gudgeon.errors import BadValueError, Location
 from gudgeon.generator.field import Kind
 from gudgeon.generator.format.sections import SHAPE, SIDES
-from gudgeon.generator.format.shapes import missing_key
+from gudgeon.generator.format.shapes import make_missing_key_error
 from gudgeon.generator.mechanism import Quantity, Vector
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.reader.fields import FieldContext, Values, find_kind, read_fields
+from gudgeon.generator.reader.fields import FieldContext, Values, find_kind_key, read_fields
 from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.reader.point_names import CORNERS_OF_SIDES
 from gudgeon.generator.yaml import Map, Text
-from gudgeon.language.names import unknown_name
+from gudgeon.language.names import make_unknown_name_error
 from gudgeon.language.parser import parse
 from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary
 from gudgeon.language.units import INERTIA, LENGTH, MASS, Dimension
@@ -49,7 +49,7 @@ def derive_quantity(
     in the file.
     """
     value = _replace_letters(parse(formula, location), quantities)
-    return reader.keep(Quantity(address, value, dimension, location, tuple(quantities.values())))
+    return reader.register_quantity(Quantity(address, value, dimension, location, tuple(quantities.values())))
 
 
 def _replace_letters(expr: Expr, quantities: Mapping[str, Quantity]) -> Expr:
@@ -66,7 +66,7 @@ def _replace_letters(expr: Expr, quantities: Mapping[str, Quantity]) -> Expr:
     return expr
 
 
-def read_sides(reader: Reader, node: Map, address: str) -> dict[str, Vector]:
+def read_triangle_points(reader: Reader, node: Map, address: str) -> dict[str, Vector]:
     """Return the points P, Q and R of a body with `sides`; R follows from three distances. {} without `sides`.
 
     P is the origin, Q is on the x axis; R is to the left of PQ unless `side` is right. The triangle inequality is
@@ -74,12 +74,14 @@ def read_sides(reader: Reader, node: Map, address: str) -> dict[str, Vector]:
     """
     if "sides" not in node:
         return {}
-    address, location = f"{address}.sides", node.key("sides").where
-    values = read_fields(reader, node.part("sides"), SIDES.fields, FieldContext(address))
+    address, location = f"{address}.sides", node.find_key("sides").where
+    values = read_fields(reader, node.get_mapping("sides"), SIDES.fields, FieldContext(address))
     a, b, c = sides = [values.quantities[name] for name in ("PQ", "QR", "PR")]
     for k, side in enumerate(sides):
         addresses_of_others = " + ".join(other_side.address for other_side in (sides[k - 1], sides[k - 2]))
-        reader.require_less(side, addresses_of_others, "each side of a triangle is shorter than the other two together")
+        reader.add_sum_condition(
+            side, addresses_of_others, "each side of a triangle is shorter than the other two together"
+        )
     zero = Quantity(f"{address}.P", Number(0.0, "0"), LENGTH, location)
     quantities = {"a": a, "b": b, "c": c}
     sign = "-" if values.options.get("side") == "right" else ""
@@ -92,14 +94,14 @@ def read_sides(reader: Reader, node: Map, address: str) -> dict[str, Vector]:
 class MassProperties:
     """Contain mass, moment of inertia and centre of mass of one body; shapes set those that the file does not give."""
 
-    def __init__(self, reader: Reader, address: str, own: Values, materials: Materials) -> None:
+    def __init__(self, reader: Reader, address: str, body_values: Values, materials: Materials) -> None:
         self._reader, self._address, self._materials = reader, address, materials
-        self.mass, self.inertia = own.quantities.get("mass"), own.quantities.get("inertia")
-        self.length, self.com = own.quantities.get("length"), own.vectors.get("com")
+        self.mass, self.inertia = body_values.quantities.get("mass"), body_values.quantities.get("inertia")
+        self.length, self.com = body_values.quantities.get("length"), body_values.vectors.get("com")
         self.follows_mass = False  # whether the moment of inertia follows from the mass
 
     @property
-    def lacks(self) -> tuple[str, ...]:
+    def missing_keys(self) -> tuple[str, ...]:
         """Return the keys, "mass" or "inertia", that dynamics needs and the body does not have."""
         needs_inertia = self.inertia is None and not self.follows_mass
         return (*(("mass",) if self.mass is None else ()), *(("inertia",) if needs_inertia else ()))
@@ -124,7 +126,7 @@ class MassProperties:
         InputError, also if the body has both a moment of inertia and a shape.
         """
         address = f"{self._address}.shape"
-        kind = find_kind(node, _KINDS, [field.name for field in SHAPE.fields], address)
+        kind = find_kind_key(node, _KINDS, [field.name for field in SHAPE.fields], address)
         values = read_fields(self._reader, node, SHAPE.fields, FieldContext(address))
         if has_inertia:
             raise BadValueError(f"{self._address} has inertia and a shape", key.where, "expected one of the two")
@@ -142,7 +144,7 @@ class MassProperties:
         address, text = f"{self._address}.shape", node["material"]
         if "density" in node:
             raise BadValueError(f"{address} has density and material", text.where, "expected one of the two")
-        return self._materials.values_of_material(f"{address}.material", text, ("density",))["density"]
+        return self._materials.read_properties(f"{address}.material", text, ("density",))["density"]
 
     def _set_mass(self, node: Map, values: Values, area: str, lengths: Mapping[str, Quantity], key: Text) -> None:
         """Set the mass to density times thickness times `area`, unless the shape has neither density nor thickness.
@@ -157,7 +159,7 @@ class MassProperties:
             phrase = "material" if "material" in node else "density"
             raise BadValueError(f"{self._address} has mass and a shape with {phrase} or thickness", key.where, hint)
         if len(known_quantities) == 1:
-            raise missing_key(
+            raise make_missing_key_error(
                 "thickness" if "d" in known_quantities else "density", key.where, f"{self._address}.shape"
             )
         if known_quantities:
@@ -165,7 +167,7 @@ class MassProperties:
             self.mass = derive_quantity(
                 self._reader, f"d * h * ({area})", {**known_quantities, **lengths}, address, MASS, key.where
             )
-            self._reader.require(self.mass, ">", 0.0, "a mass is positive")
+            self._reader.add_condition(self.mass, ">", 0.0, "a mass is positive")
 
     def _set_inertia(self, formula: str, lengths: Mapping[str, Quantity], location: Location) -> None:
         """Set the moment of inertia to a formula of the mass m and the lengths `lengths`, if the mass is known.
@@ -178,7 +180,7 @@ class MassProperties:
             self.inertia = derive_quantity(
                 self._reader, formula, {"m": self.mass, **lengths}, address, INERTIA, location
             )
-            self._reader.require(self.inertia, ">", 0.0, "a moment of inertia is positive")
+            self._reader.add_condition(self.inertia, ">", 0.0, "a moment of inertia is positive")
 
     def _describe_centred_shape(self, kind: Text, values: Values) -> tuple[str, str, dict[str, Quantity]]:
         """Return area, squared radius of gyration and their letters for a shape centred on the centre of mass.
@@ -214,7 +216,7 @@ class MassProperties:
         for letter, name in zip("pqr", node["triangle"], strict=True):
             if name not in points:
                 owner = self._address.removeprefix("bodies.")
-                raise unknown_name(f"point of {owner}", name, points, name.where)
+                raise make_unknown_name_error(f"point of {owner}", name, points, name.where)
             coordinates |= {f"{letter}{axis}": x for axis, x in zip("xy", points[name], strict=True)}
         centroid = [
             derive_quantity(

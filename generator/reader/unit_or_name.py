@@ -16,15 +16,15 @@ from collections.abc import Callable, Mapping
 from gudgeon.errors import ExpressionError, InputError, UnitError
 from gudgeon.generator.yaml import Text
 from gudgeon.language.curves import Curve
-from gudgeon.language.dimension_check import check_dimension, names_over_units
+from gudgeon.language.dimension_check import check_dimension, find_names_over_units
 from gudgeon.language.parser import parse
-from gudgeon.language.tree import Expr, names, units
-from gudgeon.language.units import UNITS, Dimension, symbol_dimension
+from gudgeon.language.tree import Expr, iterate_names, iterate_units
+from gudgeon.language.units import UNITS, Dimension, find_symbol_dimension
 
 DimensionOf = Callable[[str], Dimension | None]  # None: defined without a unit
 
 
-def choose_reading(
+def choose_interpretation(
     text: Text,
     tree_with_names: Expr,
     expected: Dimension | None,
@@ -33,10 +33,11 @@ def choose_reading(
 ) -> Expr:
     """Return the tree of `text`: `tree_with_names`, in which names precede units, or the one in which all are units.
 
-    `expected` is the dimension of the value, None if any. `dimension_of` returns that of a name. Raises ExpressionError
-    if both readings are possible.
+    `expected` is the dimension of the value, None if any. `dimension_of` returns that of a name. The tree with names is
+    returned if no name is also a unit, if the text cannot be parsed with units, or if only names give the expected
+    dimension. Raises ExpressionError if both readings are possible.
     """
-    ambiguous_names = sorted(set(names_over_units(tree_with_names)))
+    ambiguous_names = sorted(set(find_names_over_units(tree_with_names)))
     if not ambiguous_names:
         return tree_with_names
     try:
@@ -45,13 +46,15 @@ def choose_reading(
         return tree_with_names
     if tree_with_units == tree_with_names:  # in brackets: 3 N*(m)
         return tree_with_names
-    is_quantity = next(names(tree_with_units), None) is None and all(unit in UNITS for unit in units(tree_with_units))
+    is_quantity = next(iterate_names(tree_with_units), None) is None and all(
+        unit in UNITS for unit in iterate_units(tree_with_units)
+    )
     name_fits, unit_fits = (
         _has_dimension(tree, expected, dimension_of, text) for tree in (tree_with_names, tree_with_units)
     )
     if name_fits and not unit_fits:
         return tree_with_names
-    dimensions = [(dimension_of(name), symbol_dimension(name)) for name in ambiguous_names]
+    dimensions = [(dimension_of(name), find_symbol_dimension(name)) for name in ambiguous_names]
     if (
         is_quantity
         and unit_fits

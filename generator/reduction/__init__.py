@@ -1,1 +1,1 @@
-"""The same motion in the coordinates of a tree."""
+"""Reduces the equations of motion to tree coordinates, the relative coordinates of a spanning tree of joints."""

@@ -1,4 +1,4 @@
-"""Kinematically determined loops (driven chains): tree coordinates that the drives alone determine through loops.
+"""Detection of driven loops: closed loops of a linkage whose coordinates are determined by drives alone.
 
 A driven crank moves the rest of its four-bar as well, whatever else is attached to it. In the pattern of closures by
 coordinates such parts are the square blocks of the decomposition of A. L. Dulmage and N. S. Mendelsohn (Canad. J.
@@ -23,7 +23,7 @@ from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.loads import Friction
 from gudgeon.generator.equations.system import DependentCoordinate, Motion, PrescribedCoordinate, System
 from gudgeon.generator.reduction.frames import Frame
-from gudgeon.generator.solvers.sparsity import Block, match_rows, triangular_blocks
+from gudgeon.generator.solvers.sparsity import Block, find_triangular_blocks, match_rows
 from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.symbols import Symbols
 
@@ -50,7 +50,7 @@ class Chain:
     directions: tuple[Direction, ...] = ()  # once for all kernels
 
 
-def with_directions(chain: Chain, system: System, frames: Iterable[Frame], prescribed: set[str]) -> Chain:
+def add_directions(chain: Chain, system: System, frames: Iterable[Frame], prescribed: set[str]) -> Chain:
     """Return the chain with the directions in its closures: C stores their cosines and sines after q.
 
     Directions that turn only with dependent and prescribed coordinates count, if the closures read them. The places of
@@ -103,7 +103,9 @@ def find_blocks(pattern: Sequence[set[int]], n: int, banned: set[int]) -> list[B
     columns = sorted(column for column, row in row_of_column.items() if column not in free)
     position = {column: k for k, column in enumerate(columns)}
     blocks = (
-        triangular_blocks([{position[column] for column in pattern[row_index]} for row_index in rows], len(columns))
+        find_triangular_blocks(
+            [{position[column] for column in pattern[row_index]} for row_index in rows], len(columns)
+        )
         or ()
     )
     ambiguous = {column for row_index, entries in enumerate(pattern) if row_index not in matched for column in entries}
@@ -124,7 +126,7 @@ def find_blocks(pattern: Sequence[set[int]], n: int, banned: set[int]) -> list[B
     return result
 
 
-def determined(system: System, excluded: set[str]) -> tuple[list[int], list[int]]:
+def find_dependent_coordinates(system: System, excluded: set[str]) -> tuple[list[int], list[int]]:
     """Return the dependent coordinates and their equations by number.
 
     Equations named in `excluded` determine nothing. Friction that may stick needs a free coordinate. If the drives
@@ -152,7 +154,9 @@ def determined(system: System, excluded: set[str]) -> tuple[list[int], list[int]
 S = TypeVar("S", bound=System)
 
 
-def prescribe(system: S, names: Sequence[str], columns: Sequence[int], rows: Sequence[int]) -> tuple[S, Chain]:
+def prescribe_coordinates(
+    system: S, names: Sequence[str], columns: Sequence[int], rows: Sequence[int]
+) -> tuple[S, Chain]:
     """Return the system with these coordinates as functions of t and without these equations, and the chain.
 
     `names` are those of all coordinates; `columns` and `rows`: numbers of the dependent coordinates and of their
@@ -165,17 +169,24 @@ def prescribe(system: S, names: Sequence[str], columns: Sequence[int], rows: Seq
     rates = {k.q: k.rate for k in dependent}
     free_index = {k: i for i, k in enumerate(free)}
 
-    def mass(k: int, j: int) -> sp.Expr:
+    def find_mass_entry(k: int, j: int) -> sp.Expr:
         """Return an entry of the symmetric M, whose lower triangle is stored."""
         return system.mass.get((max(k, j), min(k, j)), ZERO)
 
-    def applied(k: int) -> sp.Expr:
+    def compute_applied_force(k: int) -> sp.Expr:
         """Return the applied force on a coordinate minus M c̈ of the dependent coordinates."""
-        return sp.Add(system.applied[k], *(-mass(k, c) * x.second for c, x in zip(columns, dependent, strict=True)))
+        return sp.Add(
+            system.applied[k], *(-find_mass_entry(k, c) * x.second for c, x in zip(columns, dependent, strict=True))
+        )
 
-    prescribed = tuple(_reduce_given(coordinate, free_index, columns, dependent) for coordinate in system.given)
+    prescribed = tuple(_reduce_given(coordinate, free_index, columns, dependent) for coordinate in system.prescribed)
     prescribed += tuple(
-        PrescribedCoordinate(names[c], x.rate, {free_index[k]: m for k in free if (m := mass(k, c)) != 0}, applied(c))
+        PrescribedCoordinate(
+            names[c],
+            x.rate,
+            {free_index[k]: m for k in free if (m := find_mass_entry(k, c)) != 0},
+            compute_applied_force(c),
+        )
         for c, x in zip(columns, dependent, strict=True)
     )
     remaining_rows = tuple(
@@ -195,11 +206,11 @@ def prescribe(system: S, names: Sequence[str], columns: Sequence[int], rows: Seq
             for (k, j), m in system.mass.items()
             if k in free_index and j in free_index
         },
-        applied=tuple(applied(k) for k in free),
-        given=prescribed,
+        applied=tuple(compute_applied_force(k) for k in free),
+        prescribed=prescribed,
         rows=remaining_rows,
         frictions=frictions,
-        known=dependent,
+        dependent=dependent,
     )
     return reduced, Chain(tuple(names[c] for c in columns), dependent, tuple(system.rows[r] for r in rows))
 
@@ -225,8 +236,8 @@ def _set_places(
     dependent = []
     for i, c in enumerate(columns, len(system.q)):
         name = system.q[c].name
-        second = symbols.new(f"{name}_second", Place("v")[i], names[c])
-        third = symbols.new(f"{name}_third", Place("v")[i + len(columns)], names[c])
+        second = symbols.add_symbol(f"{name}_second", Place("v")[i], names[c])
+        third = symbols.add_symbol(f"{name}_third", Place("v")[i + len(columns)], names[c])
         dependent.append(DependentCoordinate(system.q[c], system.v[c], second, third))
     return tuple(dependent)
 

@@ -1,4 +1,4 @@
-"""Coordinates and turning frames of a tree: affine angles and slides, their values, rates and derivatives.
+"""Angles and displacements of bodies as affine functions of tree coordinates, with rates and derivatives.
 
 A frame turns with an angle that is affine in the coordinates, θ = const + Σ c_k z_k; the z are the unknown
 coordinates s and those that drives prescribe. Bodies that keep their angle to each other share a frame.
@@ -18,7 +18,7 @@ Affine = Mapping[str, sp.Expr]  # coefficients by coordinate; the constant is un
 CONSTANT = ""
 
 
-def substitute(affine: Affine, name: str, value: Affine) -> Affine:
+def substitute_coordinate(affine: Affine, name: str, value: Affine) -> Affine:
     """Return `affine` with the coordinate `name` replaced by the affine expression `value`, without zero coefficients.
 
     It is returned unchanged if it does not contain the coordinate.
@@ -65,24 +65,24 @@ class Motions:
 
         `t`: the symbol of time.
         """
-        self.symbols, self.slots, self.t = symbols, parameter_table, t
+        self.symbols, self.parameter_table, self.t = symbols, parameter_table, t
         self.coordinates: dict[str, Coordinate] = {}
         self._arms: dict[tuple[str, sp.Expr, sp.Expr], Pair] = {}
 
-    def hoisted(self, name: str, affine: Affine) -> Affine:
+    def hoist_coefficients(self, name: str, affine: Affine) -> Affine:
         """Return an affine expression with its coefficients as derived parameters; `name`: base of their names."""
-        return {k: self.slots.derive(f"{name}_by_{k or 'constant'}", c) for k, c in affine.items()}
+        return {k: self.parameter_table.derive(f"{name}_by_{k or 'constant'}", c) for k, c in affine.items()}
 
-    def value(self, affine: Affine) -> sp.Expr:
+    def compute_value(self, affine: Affine) -> sp.Expr:
         """Return the value of an affine expression."""
         terms = (c if k == CONSTANT else c * self.coordinates[k].q for k, c in affine.items())
         return sp.Add(*terms)
 
-    def rate(self, affine: Affine) -> sp.Expr:
+    def compute_rate(self, affine: Affine) -> sp.Expr:
         """Return the rate of an affine expression."""
         return sp.Add(*(c * self.coordinates[k].v for k, c in affine.items() if k != CONSTANT))
 
-    def rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
+    def find_rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
         """Return the derivatives of a quantity by unknown coordinates and by t, from its columns ∂/∂z by coordinate.
 
         The derivative by t is through the prescribed coordinates; it is absent if it is 0.
@@ -97,53 +97,53 @@ class Motions:
                 time_derivative += column * coordinate.v
         return rules | ({self.t: time_derivative} if time_derivative != 0 else {})
 
-    def rate_rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
+    def find_rate_rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
         """Return the derivatives of a rate Σ column · ż by unknown coordinates, their rates and t.
 
         `columns`: ∂/∂z of the quantity, which depend on the motion themselves.
         """
         variables = [self.coordinates[k].q for k in columns if self.coordinates[k].acceleration is None] + [self.t]
         rate = sp.Add(*(entry * self.coordinates[k].v for k, entry in columns.items()))
-        rules = {q: value for q in variables if (value := self.symbols.diff(rate, q)) != 0}
+        rules = {q: value for q in variables if (value := self.symbols.differentiate(rate, q)) != 0}
         for k, entry in columns.items():
             if self.coordinates[k].acceleration is None:
                 rules[self.coordinates[k].v] = entry
         return rules
 
-    def named(self, base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
+    def define_value(self, base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
         """Return a new symbol for `value`, with derivatives by its columns; `base_name`: base of its name."""
-        symbol = self.symbols.define(base_name, value)
-        self.symbols.rules[symbol] = self.rules(columns)
+        symbol = self.symbols.add_definition(base_name, value)
+        self.symbols.rules[symbol] = self.find_rules(columns)
         return symbol
 
-    def named_rate(self, base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
+    def define_rate(self, base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
         """Return a new symbol for a rate, with derivatives by the columns of the quantity.
 
         `base_name`: base of its name.
         """
-        symbol = self.symbols.define(base_name, value)
-        self.symbols.rules[symbol] = self.rate_rules(columns)
+        symbol = self.symbols.add_definition(base_name, value)
+        self.symbols.rules[symbol] = self.find_rate_rules(columns)
         return symbol
 
-    def frame(self, name: str, affine: Affine) -> Frame:
+    def make_frame(self, name: str, affine: Affine) -> Frame:
         """Return the frame that turns with θ = `affine`; its cosine and sine are one pair of symbols.
 
         A longer angle or rate becomes a symbol of its own.
         """
         turns = {k: c for k, c in affine.items() if k != CONSTANT}
-        theta, omega = self.value(affine), self.rate(affine)
+        theta, omega = self.compute_value(affine), self.compute_rate(affine)
         if not theta.is_Symbol:
-            theta = self.named(f"{name}_angle", theta, turns)
+            theta = self.define_value(f"{name}_angle", theta, turns)
         if not omega.is_Symbol and omega != 0:
-            omega = self.named_rate(f"{name}_rate", omega, turns)
-        cos = self.symbols.define(f"cos_theta_{name}", sp.cos(theta), None, f"cos of {name}.theta")
-        sin = self.symbols.define(f"sin_theta_{name}", sp.sin(theta), None, f"sin of {name}.theta")
+            omega = self.define_rate(f"{name}_rate", omega, turns)
+        cos = self.symbols.add_definition(f"cos_theta_{name}", sp.cos(theta), None, f"cos of {name}.theta")
+        sin = self.symbols.add_definition(f"sin_theta_{name}", sp.sin(theta), None, f"sin of {name}.theta")
         frame = Frame(name, theta, omega, cos, sin, turns)
-        self.symbols.rules[cos] = self.rules({k: -c * sin for k, c in turns.items()})
-        self.symbols.rules[sin] = self.rules({k: c * cos for k, c in turns.items()})
+        self.symbols.rules[cos] = self.find_rules({k: -c * sin for k, c in turns.items()})
+        self.symbols.rules[sin] = self.find_rules({k: c * cos for k, c in turns.items()})
         return frame
 
-    def arm(self, frame: Frame, w: Pair, base_name: str) -> Pair:
+    def rotate_vector(self, frame: Frame, w: Pair, base_name: str) -> Pair:
         """Return A(θ) w as a pair of symbols; the opposite of a known arm is its negative.
 
         Arms of the ground, zero arms and arms along the frame's axes need no new symbols. `base_name`: base of their
@@ -158,20 +158,20 @@ class Motions:
             a_x, a_y = self._arms[frame.name, -x, -y]
             return -a_x, -a_y
         if (frame.name, x, y) not in self._arms:
-            a_x = self.symbols.define(f"{base_name}_x", frame.cos * x - frame.sin * y, None, "A(theta) s, x")
-            a_y = self.symbols.define(f"{base_name}_y", frame.sin * x + frame.cos * y, None, "A(theta) s, y")
-            self.symbols.rules[a_x] = self.rules({k: -c * a_y for k, c in frame.turns.items()})
-            self.symbols.rules[a_y] = self.rules({k: c * a_x for k, c in frame.turns.items()})
+            a_x = self.symbols.add_definition(f"{base_name}_x", frame.cos * x - frame.sin * y, None, "A(theta) s, x")
+            a_y = self.symbols.add_definition(f"{base_name}_y", frame.sin * x + frame.cos * y, None, "A(theta) s, y")
+            self.symbols.rules[a_x] = self.find_rules({k: -c * a_y for k, c in frame.turns.items()})
+            self.symbols.rules[a_y] = self.find_rules({k: c * a_x for k, c in frame.turns.items()})
             self._arms[frame.name, x, y] = a_x, a_y
         return self._arms[frame.name, x, y]
 
-    def constant_vector(self, base_name: str, vector: Pair, field_base_name: str = "") -> Pair:
+    def derive_vector(self, base_name: str, vector: Pair, field_base_name: str = "") -> Pair:
         """Return both components of a constant vector as derived parameters.
 
         `base_name`: base of their names; `field_base_name`: base of their fields' names.
         """
         x, y = (
-            self.slots.derive_signed(
+            self.parameter_table.derive_signed(
                 f"{base_name}_{axis}",
                 sp.expand(part),
                 "vector in its frame",

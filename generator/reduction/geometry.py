@@ -1,4 +1,4 @@
-"""Bodies and points in tree coordinates: r = Σ_T value_T A(θ_T) w_T, a sum of turning arms and slides.
+"""Positions of bodies and points in tree coordinates: sums of rotated arms and displacements.
 
 Each term T is a frame with, or without, a slide along a direction fixed in it; w_T is constant. So every
 derivative of a position is again such a sum: ∂r/∂s_k = Σ_T (∂θ_T/∂s_k value_T ẑ + ∂value_T/∂s_k) A(θ_T) w_T.
@@ -62,7 +62,7 @@ class TreePoint(PointFrame):
         geometry: TreeGeometry = self.geometry  # type: ignore[assignment]
         return geometry.frame_of[self.body.name].turns if self.body else {}
 
-    def flat(self) -> TreePoint:
+    def expand_arms(self) -> TreePoint:
         """Return the same point with its position and velocity as sums of arms.
 
         In differences of two points, common arms then cancel.
@@ -81,7 +81,7 @@ class TreeGeometry(Geometry):
 
         `tree`: the spanning tree; `symbols`, `parameter_table`: tables for new symbols and derived parameters.
         """
-        self.symbols, self.slots, self.mechanism = symbols, parameter_table, model.scene.mechanism
+        self.symbols, self.parameter_table, self.mechanism = symbols, parameter_table, model.scene.mechanism
         self.local, self.tree, self._model = model.geometry.local, tree, model
         self.bodies: dict[str, BodySymbols] = {}
         self.frames: dict[str, Frame] = {GROUND: GROUND_FRAME}
@@ -92,7 +92,7 @@ class TreeGeometry(Geometry):
         self._points: dict[tuple[str, str], TreePoint] = {}
         self._coms: dict[str, TreePoint] = {}
 
-    def place(self, motions: Motions, slides: Mapping[str, Affine]) -> None:
+    def place_bodies(self, motions: Motions, slides: Mapping[str, Affine]) -> None:
         """Make coordinates and frames, then position body by body along the tree.
 
         Called once. `slides`: slides that are functions of other coordinates.
@@ -102,7 +102,7 @@ class TreeGeometry(Geometry):
         free_bodies = set(self.tree.free)
         for link in self.tree.links:
             for name in link.coordinates:
-                self.slides[name] = motions.hoisted(name, slides.get(name, {name: ONE}))
+                self.slides[name] = motions.hoist_coefficients(name, slides.get(name, {name: ONE}))
                 n_coordinates += self._add_coordinate(name, n_coordinates) if name not in slides else 0
             if link.body in free_bodies:
                 n_coordinates += self._add_coordinate(link.body, n_coordinates)
@@ -113,7 +113,7 @@ class TreeGeometry(Geometry):
 
     def _add_coordinate(self, name: str, index: int) -> int:
         """Add an unknown coordinate with an index in q and v; return how many were added: 1."""
-        new, owner = self.symbols.new, name.replace(".", "_")
+        new, owner = self.symbols.add_symbol, name.replace(".", "_")
         names = (f"{owner}_theta", f"{owner}_omega") if name in self.tree.free else (owner, f"{owner}_rate")
         q, v = (new(n, Place(array)[index], name) for n, array in zip(names, "qv", strict=True))
         self.motions.coordinates[name] = Coordinate(name, q, v)
@@ -124,30 +124,30 @@ class TreeGeometry(Geometry):
 
         The constant angle between body and frame is stored.
         """
-        affine = self.motions.hoisted(f"{body}_theta", self.tree.angles[body])
+        affine = self.motions.hoist_coefficients(f"{body}_theta", self.tree.angles[body])
         constant = affine.get(CONSTANT, ZERO)
         turns = {k: c for k, c in affine.items() if k != CONSTANT}
         frame = next((f for f in self.frames.values() if f.turns == turns), None)
         if frame is None:
             single_body = next((b for b in turns if len(turns) == 1 and turns[b] == 1 and b in self.tree.free), None)
             name, frame_affine = (single_body, {single_body: ONE}) if single_body else (body, affine)
-            frame = self.frames[name] = self.motions.frame(name, frame_affine)
+            frame = self.frames[name] = self.motions.make_frame(name, frame_affine)
         else:
             name = frame.name
         frame_constant = ZERO if not turns or name in self.tree.free else self.tree.angles[name].get(CONSTANT, ZERO)
         self._offset[body] = sp.expand(constant - frame_constant)
         self.frame_of[body] = frame
 
-    def in_frame(self, body: str, vector: Pair, base_name: str) -> Pair:
+    def rotate_to_frame(self, body: str, vector: Pair, base_name: str) -> Pair:
         """Return a vector of a body in its frame's axes; `base_name`: base of the names of derived parameters."""
         offset = self._offset[body]
         if offset == 0 or vector == (ZERO, ZERO):
             return vector
-        derive = self.slots.derive
+        derive = self.parameter_table.derive
         cos = derive(f"cos_{body}_offset", sp.cos(offset), f"angle of {body} in its frame")
         sin = derive(f"sin_{body}_offset", sp.sin(offset), f"angle of {body} in its frame")
         rotated = (cos * vector[0] - sin * vector[1], sin * vector[0] + cos * vector[1])
-        return self.motions.constant_vector(base_name, rotated, f"{base_name}_in_frame")
+        return self.motions.derive_vector(base_name, rotated, f"{base_name}_in_frame")
 
     def _set_base_point(self, link: Link) -> None:
         """Set the base point by which the parent positions a body, then make the body's symbols."""
@@ -162,21 +162,21 @@ class TreeGeometry(Geometry):
             base, own_point = self.point(parent), self.local[body, child.point]
             if link.slides:
                 axis = JointFields(link.joint, self._model.geometry).direction("axis")
-                w = self.in_frame(first.body, axis, f"{link.joint.name}_axis")
+                w = self.rotate_to_frame(first.body, axis, f"{link.joint.name}_axis")
                 base = self._make_sliding_base(base, first.body, link.coordinates[0], (sign * w[0], sign * w[1]))
-        self._base[body] = base, self.in_frame(body, own_point, f"{body}_base")
+        self._base[body] = base, self.rotate_to_frame(body, own_point, f"{body}_base")
         self._derive_body_symbols(body)
 
     def _make_free_base(self, terms: Terms) -> TreePoint:
         """Return the base point of a body that moves freely, at its two slides along the axes of the ground."""
-        position = tuple(self.motions.value(self.slides[name]) for _, name in terms)
-        speed = tuple(self.motions.rate(self.slides[name]) for _, name in terms)
+        position = tuple(self.motions.compute_value(self.slides[name]) for _, name in terms)
+        speed = tuple(self.motions.compute_rate(self.slides[name]) for _, name in terms)
         return TreePoint(self, None, (ZERO, ZERO), terms, (position[0], position[1]), (speed[0], speed[1]))
 
     def _make_sliding_base(self, base: TreePoint, body: str, slide: str, w: Pair) -> TreePoint:
         """Return the base point moved by a slide along an axis w, which is fixed in a body's frame."""
         frame, value, rate = self.frame_of[body], self.value(slide), self.rate(slide)
-        u_x, u_y = self.motions.arm(frame, w, f"axis_{slide}")
+        u_x, u_y = self.motions.rotate_vector(frame, w, f"axis_{slide}")
         terms = self._add_terms(base.terms, {(frame.name, slide): w}, slide)
         position = base.x + value * u_x, base.y + value * u_y
         speed = (
@@ -187,11 +187,11 @@ class TreeGeometry(Geometry):
 
     def value(self, slide: str) -> sp.Expr:
         """Return the value of a slide; 1 for a term without one."""
-        return self.motions.value(self.slides[slide]) if slide else ONE
+        return self.motions.compute_value(self.slides[slide]) if slide else ONE
 
     def rate(self, slide: str) -> sp.Expr:
         """Return the rate of a slide; 0 for a term without one."""
-        return self.motions.rate(self.slides[slide]) if slide else ZERO
+        return self.motions.compute_rate(self.slides[slide]) if slide else ZERO
 
     def _add_terms(self, terms: Terms, added: Terms, base_name: str) -> Terms:
         """Return the sum of terms; those with the same frame and slide are added.
@@ -201,7 +201,7 @@ class TreeGeometry(Geometry):
         result = dict(terms)
         for key, w in added.items():
             if key in result:
-                w = self.motions.constant_vector(f"{base_name}_and", (result[key][0] + w[0], result[key][1] + w[1]))
+                w = self.motions.derive_vector(f"{base_name}_and", (result[key][0] + w[0], result[key][1] + w[1]))
             result[key] = w
         return {key: w for key, w in result.items() if w != (ZERO, ZERO)}
 
@@ -209,7 +209,7 @@ class TreeGeometry(Geometry):
         """Return the position (x, y) = Σ value A(θ) w of terms."""
         x, y = ZERO, ZERO
         for (frame, slide), w in terms.items():
-            a_x, a_y = self.motions.arm(self.frames[frame], w, f"arm_{frame}")
+            a_x, a_y = self.motions.rotate_vector(self.frames[frame], w, f"arm_{frame}")
             x, y = x + self.value(slide) * a_x, y + self.value(slide) * a_y
         return x, y
 
@@ -218,25 +218,25 @@ class TreeGeometry(Geometry):
         result: dict[str, Pair] = {}
         for (name, slide), w in terms.items():
             frame, value = self.frames[name], self.value(slide)
-            a_x, a_y = self.motions.arm(frame, w, f"arm_{name}")
-            along = self.along(slide)
+            a_x, a_y = self.motions.rotate_vector(frame, w, f"arm_{name}")
+            along = self.find_slide_rates(slide)
             for k in dict.fromkeys((*frame.turns, *along)):
                 x, y = result.get(k, (ZERO, ZERO))
                 angular, linear = frame.turns.get(k, ZERO) * value, along.get(k, ZERO)
                 result[k] = x - angular * a_y + linear * a_x, y + angular * a_x + linear * a_y
         return result
 
-    def bias(self, terms: Terms) -> Pair:
+    def compute_bias(self, terms: Terms) -> Pair:
         """Return r̈ of terms if no coordinate accelerates: Σ (−θ̇² value + 2 θ̇ rate ẑ) A w, as (x, y)."""
         x, y = ZERO, ZERO
         for (name, slide), w in terms.items():
             frame = self.frames[name]
-            a_x, a_y = self.motions.arm(frame, w, f"arm_{name}")
+            a_x, a_y = self.motions.rotate_vector(frame, w, f"arm_{name}")
             radial, tangential = -(frame.omega**2) * self.value(slide), 2 * frame.omega * self.rate(slide)
             x, y = x + radial * a_x - tangential * a_y, y + radial * a_y + tangential * a_x
         return x, y
 
-    def along(self, slide: str) -> dict[str, sp.Expr]:
+    def find_slide_rates(self, slide: str) -> dict[str, sp.Expr]:
         """Return ∂value/∂z of a slide by coordinate; empty for a term without a slide ("")."""
         return {k: c for k, c in self.slides[slide].items() if k != CONSTANT} if slide else {}
 
@@ -247,11 +247,11 @@ class TreeGeometry(Geometry):
         which longer values become.
         """
         base, own_base = self._base[body]
-        frame, local = self.frame_of[body], self.in_frame(body, vector, base_name)
-        w = self.motions.constant_vector(f"{base_name}_span", (local[0] - own_base[0], local[1] - own_base[1]))
-        a_x, a_y = self.motions.arm(frame, w, f"span_{base_name}")
+        frame, local = self.frame_of[body], self.rotate_to_frame(body, vector, base_name)
+        w = self.motions.derive_vector(f"{base_name}_span", (local[0] - own_base[0], local[1] - own_base[1]))
+        a_x, a_y = self.motions.rotate_vector(frame, w, f"span_{base_name}")
         terms = self._add_terms(base.terms, {(frame.name, ""): w} if w != (ZERO, ZERO) else {}, base_name)
-        columns, define_symbol = self.columns(terms), self.motions.named
+        columns, define_symbol = self.columns(terms), self.motions.define_value
         values = [base.x + a_x, base.y + a_y]
         rates = [base.velocity[0] - frame.omega * a_y, base.velocity[1] + frame.omega * a_x]
         for i in range(2):
@@ -259,8 +259,8 @@ class TreeGeometry(Geometry):
             if not self.is_short(values[i]):
                 values[i] = define_symbol(names[i], values[i], point_columns)
             if not self.is_short(rates[i]):
-                rates[i] = self.motions.named_rate(names[2 + i], rates[i], point_columns)
-        arm = self.turn(self.bodies[body], vector, f"arm_{base_name}") if body in self.bodies else (ZERO, ZERO)
+                rates[i] = self.motions.define_rate(names[2 + i], rates[i], point_columns)
+        arm = self.rotate_vector(self.bodies[body], vector, f"arm_{base_name}") if body in self.bodies else (ZERO, ZERO)
         position, speed = (values[0], values[1]), (rates[0], rates[1])
         return TreePoint(self, self.bodies.get(body), arm, terms, position, speed)
 
@@ -283,7 +283,7 @@ class TreeGeometry(Geometry):
             base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr], rate: bool = False
         ) -> sp.Symbol:
             """Return a value unchanged if it is a symbol, else a new symbol for it, with derivatives by its columns."""
-            define_symbol = motions.named_rate if rate else motions.named
+            define_symbol = motions.define_rate if rate else motions.define_value
             return value if value.is_Symbol else define_symbol(base_name, value, columns)
 
         x, y = (
@@ -308,20 +308,22 @@ class TreeGeometry(Geometry):
         )
         self._coms[body] = replace(com, body=self.bodies[body])
 
-    def com(self, body: str) -> TreePoint:
+    def centre_of_mass(self, body: str) -> TreePoint:
         """Return the centre of mass of a body as a point."""
         return self._coms[body]
 
-    def angle(self, body: BodySymbols) -> tuple[sp.Expr, sp.Expr]:
+    def find_cos_and_sin(self, body: BodySymbols) -> tuple[sp.Expr, sp.Expr]:
         """Return cos θ and sin θ of a body."""
-        x, y = self.turn(body, (ONE, ZERO), f"axis_{body.name}")
+        x, y = self.rotate_vector(body, (ONE, ZERO), f"axis_{body.name}")
         return x, y
 
-    def turn(self, body: BodySymbols, vector: Pair, base_name: str, point: str = "") -> Pair:
+    def rotate_vector(self, body: BodySymbols, vector: Pair, base_name: str, point: str = "") -> Pair:
         """Return A(θ) s of a vector of a body in ground axes; `base_name`: base of the names of symbols."""
-        return self.motions.arm(self.frame_of[body.name], self.in_frame(body.name, vector, base_name), base_name)
+        return self.motions.rotate_vector(
+            self.frame_of[body.name], self.rotate_to_frame(body.name, vector, base_name), base_name
+        )
 
-    def beside(self, ref: PointRef, offset: Pair, base_name: str) -> TreePoint:
+    def point_at_offset(self, ref: PointRef, offset: Pair, base_name: str) -> TreePoint:
         """Return the frame of a point at an offset from a named point, given in its body's frame.
 
         `base_name`: base of the names of symbols.

@@ -1,4 +1,4 @@
-"""Mass matrix and velocity terms in tree coordinates, with all constants as derived parameters.
+"""Mass matrix and velocity-dependent inertia forces in tree coordinates (relative coordinates of the joints).
 
 With r_b = Σ_T value_T A(θ_T) w_bT (generator/reduction/geometry.py) all products of positions are
     P_TU = Σ_b m_b (A_T w_bT) · (A_U w_bU) = α cos(θ_U − θ_T) − β sin(θ_U − θ_T),   α = Σ m w_T · w_U,
@@ -26,7 +26,7 @@ class Inertia:
         `gravity`: its components in ground axes.
         """
         self.geometry, self.motions, self.gravity = geometry, geometry.motions, gravity
-        self.symbols, self.slots = geometry.symbols, geometry.slots
+        self.symbols, self.parameter_table = geometry.symbols, geometry.parameter_table
         self._alpha_and_beta: dict[tuple[Term, Term], tuple[sp.Expr, sp.Expr]] = {}
         self._mass_moments: dict[Term, Pair] = {}  # Σ m w
         self._angle_differences: dict[tuple[str, str], Pair] = {}  # cos and sin of θ_U − θ_T
@@ -40,7 +40,9 @@ class Inertia:
         Each pair of terms is stored in one order.
         """
         for body in self.geometry.bodies.values():
-            moving_terms = [(T, w) for T, w in self.geometry.com(body.name).terms.items() if T != (GROUND, "")]
+            moving_terms = [
+                (T, w) for T, w in self.geometry.centre_of_mass(body.name).terms.items() if T != (GROUND, "")
+            ]
             for i, (T, w) in enumerate(moving_terms):
                 m_x, m_y = self._mass_moments.get(T, (ZERO, ZERO))
                 self._mass_moments[T] = m_x + body.mass * w[0], m_y + body.mass * w[1]
@@ -52,7 +54,11 @@ class Inertia:
                     self._alpha_and_beta[key] = alpha + body.mass * dot, beta + sign * body.mass * cross
 
     def _find_angle_difference(self, first: Frame, second: Frame) -> Pair:
-        """Return cos and sin of θ_2 − θ_1 for two frames; new symbols with rules if both frames turn."""
+        """Return cos and sin of θ_2 − θ_1 for two frames.
+
+        They are (1, 0) for the same frame, and those of the frame that turns if the other one does not. If both turn,
+        they are symbols with rules, which are defined at the first call.
+        """
         if first.name == second.name:
             return ONE, ZERO
         if not first.turns:
@@ -60,7 +66,7 @@ class Inertia:
         if not second.turns:
             return first.cos, -first.sin
         if (first.name, second.name) not in self._angle_differences:
-            define, name = self.symbols.define, f"{second.name}_less_{first.name}"
+            define, name = self.symbols.add_definition, f"{second.name}_less_{first.name}"
             cos = define(f"cos_{name}", first.cos * second.cos + first.sin * second.sin)
             sin = define(f"sin_{name}", first.cos * second.sin - first.sin * second.cos)
             self._set_rules(cos, sin, first, second)
@@ -73,20 +79,24 @@ class Inertia:
         d cos = −sin dψ and d sin = cos dψ. P and Q have the same rules.
         """
         turns = {k: second.turns.get(k, ZERO) - first.turns.get(k, ZERO) for k in {**first.turns, **second.turns}}
-        self.symbols.rules[cos] = self.motions.rules({k: -c * sin for k, c in turns.items()})
-        self.symbols.rules[sin] = self.motions.rules({k: c * cos for k, c in turns.items()})
+        self.symbols.rules[cos] = self.motions.find_rules({k: -c * sin for k, c in turns.items()})
+        self.symbols.rules[sin] = self.motions.find_rules({k: c * cos for k, c in turns.items()})
 
-    def products(self, T: Term, U: Term) -> Pair:
-        """Return P_TU and Q_TU of two terms, computed once; (0, 0) for terms that no body has together."""
+    def find_products(self, T: Term, U: Term) -> Pair:
+        """Return P_TU and Q_TU of two terms, from a cache; (0, 0) for terms that no body has together.
+
+        P is symmetric and Q antisymmetric in T and U. The constants of both terms become derived parameters. If the
+        angle between their frames varies, P and Q become symbols with rules.
+        """
         if (T, U) not in self._alpha_and_beta:
             if (U, T) not in self._alpha_and_beta:
                 return ZERO, ZERO
-            P, Q = self.products(U, T)
+            P, Q = self.find_products(U, T)
             return P, -Q
         if (T, U) not in self._products:
             first, second = self.geometry.frames[T[0]], self.geometry.frames[U[0]]
             name = "_".join(part.replace(".", "_") for part in (*T, *U) if part)
-            derive = self.slots.derive
+            derive = self.parameter_table.derive
             alpha, beta = (sp.expand(constant) for constant in self._alpha_and_beta[T, U])
             alpha, beta = (
                 derive(f"inertia_{name}", alpha, "sum of m w.w"),
@@ -105,11 +115,15 @@ class Inertia:
 
     def _define_if_variable(self, base_name: str, value: sp.Expr) -> sp.Expr:
         """Return a number unchanged, else a new symbol for the value; `base_name`: base of its name."""
-        return value if value.is_Number else self.symbols.define(base_name, value)
+        return value if value.is_Number else self.symbols.add_definition(base_name, value)
 
     def _find_columns(self, T: Term) -> dict[str, Pair]:
         """Return ∂r_T/∂z = (turn ẑ + slide) A w as pairs (turn, slide) by coordinate."""
-        frame, along, value = self.geometry.frames[T[0]], self.geometry.along(T[1]), self.geometry.value(T[1])
+        frame, along, value = (
+            self.geometry.frames[T[0]],
+            self.geometry.find_slide_rates(T[1]),
+            self.geometry.value(T[1]),
+        )
         names = dict.fromkeys((*frame.turns, *along))
         return {k: (frame.turns.get(k, ZERO) * value, along.get(k, ZERO)) for k in names}
 
@@ -124,7 +138,7 @@ class Inertia:
         """Return both triangles of M by names of coordinates, prescribed ones included, without zeros."""
         sums: dict[tuple[str, str], sp.Expr] = {}
         for T, U in self._iterate_term_pairs():
-            P, Q = self.products(T, U)
+            P, Q = self.find_products(T, U)
             for k, (turn_T, slide_T) in self._find_columns(T).items():
                 for j, (turn_U, slide_U) in self._find_columns(U).items():
                     entry = turn_T * turn_U * P + turn_T * slide_U * Q - slide_T * turn_U * Q + slide_T * slide_U * P
@@ -136,18 +150,18 @@ class Inertia:
                     sums[k, j] = sums.get((k, j), ZERO) + body.inertia * slide_U * d
         result = {}
         for (k, j), value in sums.items():
-            if (hoisted := self.hoist(f"mass_{k}_{j}", value)) != 0:
+            if (hoisted := self.hoist_constants(f"mass_{k}_{j}", value)) != 0:
                 result[k, j] = hoisted
         return result
 
-    def hoist(self, name: str, value: sp.Expr) -> sp.Expr:
+    def hoist_constants(self, name: str, value: sp.Expr) -> sp.Expr:
         """Return a sum with the constant factor of each product as a derived parameter; `name`: base of their names.
 
         Products with the same variable part are added.
         """
         groups: dict[sp.Expr, sp.Expr] = {}
         for term in sp.Add.make_args(sp.expand(value)):
-            variable = [symbol for symbol in term.free_symbols if not self.slots.is_constant(symbol)]
+            variable = [symbol for symbol in term.free_symbols if not self.parameter_table.is_constant(symbol)]
             constant_factor, variable_part = term.as_independent(*variable, as_Add=False) if variable else (term, ONE)
             groups[variable_part] = groups.get(variable_part, ZERO) + constant_factor
         return sp.Add(
@@ -156,29 +170,29 @@ class Inertia:
 
     def _derive_constant(self, name: str, value: sp.Expr) -> sp.Expr:
         """Return a constant as a derived parameter; the negative of a symbol is one already."""
-        return value if (-value).is_Symbol else self.slots.derive_signed(name, value, "constant of M")
+        return value if (-value).is_Symbol else self.parameter_table.derive_signed(name, value, "constant of M")
 
-    def velocity_terms(self) -> dict[str, sp.Expr]:
+    def derive_velocity_terms(self) -> dict[str, sp.Expr]:
         """Return h_k = Σ_b m_b ∂r_b/∂z_k · r̈_b at z̈ = 0, by coordinate, prescribed ones included."""
         h: dict[str, sp.Expr] = {}
         for T, U in self._iterate_term_pairs():
-            P, Q = self.products(T, U)
+            P, Q = self.find_products(T, U)
             frame, value, rate = self.geometry.frames[U[0]], self.geometry.value(U[1]), self.geometry.rate(U[1])
             radial, tangential = -(frame.omega**2) * value, 2 * frame.omega * rate
             for k, (turn, slide) in self._find_columns(T).items():
                 term = turn * radial * Q + turn * tangential * P + slide * radial * P - slide * tangential * Q
                 h[k] = h.get(k, ZERO) + term
-        return {k: self.hoist(f"spin_{k}", value) for k, value in h.items()}
+        return {k: self.hoist_constants(f"spin_{k}", value) for k, value in h.items()}
 
-    def weights(self) -> dict[str, sp.Expr]:
+    def derive_weights(self) -> dict[str, sp.Expr]:
         """Return the generalized weights Σ_b m_b g · ∂r_b/∂z_k by coordinate, without zeros."""
         g_x, g_y = self.gravity
         sums: dict[str, sp.Expr] = {}
         for T, (m_x, m_y) in self._mass_moments.items():
             frame, name = self.geometry.frames[T[0]], "_".join(T).replace(".", "_")
-            alpha = self.slots.derive(f"weight_{name}_along", sp.expand(m_x * g_x + m_y * g_y), "weight")
-            beta = self.slots.derive(f"weight_{name}_across", sp.expand(m_x * g_y - m_y * g_x), "weight")
+            alpha = self.parameter_table.derive(f"weight_{name}_along", sp.expand(m_x * g_x + m_y * g_y), "weight")
+            beta = self.parameter_table.derive(f"weight_{name}_across", sp.expand(m_x * g_y - m_y * g_x), "weight")
             P, Q = alpha * frame.cos + beta * frame.sin, beta * frame.cos - alpha * frame.sin
             for k, (turn, slide) in self._find_columns(T).items():
                 sums[k] = sums.get(k, ZERO) + turn * Q + slide * P
-        return {k: self.hoist(f"weight_{k}", value) for k, value in sums.items() if value != 0}
+        return {k: self.hoist_constants(f"weight_{k}", value) for k, value in sums.items() if value != 0}

@@ -1,4 +1,4 @@
-"""The reduced formulation: the same motion in the coordinates of a tree, with loop closures for the other joints.
+"""Reduced equations: tree coordinates along a spanning tree of joints, closure equations for the other joints.
 
 Angles that drives prescribe are functions of t; the other angles and slides along the tree are the unknowns s.
 Joints, laws and force elements are derived a second time, by the same functions, on the geometry of the tree, so
@@ -19,8 +19,13 @@ from gudgeon.generator.equations.model import Model, make_event
 from gudgeon.generator.equations.play import make_clearances
 from gudgeon.generator.equations.system import Motion, PrescribedCoordinate, System
 from gudgeon.generator.mechanism import PointRef
-from gudgeon.generator.reduction.driven_chains import Chain, determined, prescribe, with_directions
-from gudgeon.generator.reduction.frames import CONSTANT, ONE, ZERO, Affine, Coordinate, Motions, substitute
+from gudgeon.generator.reduction.driven_chains import (
+    Chain,
+    add_directions,
+    find_dependent_coordinates,
+    prescribe_coordinates,
+)
+from gudgeon.generator.reduction.frames import CONSTANT, ONE, ZERO, Affine, Coordinate, Motions, substitute_coordinate
 from gudgeon.generator.reduction.geometry import TreeGeometry, TreePoint
 from gudgeon.generator.reduction.inertia import Inertia
 from gudgeon.generator.reduction.tree import Tree, choose_tree, stays_constraint
@@ -56,11 +61,11 @@ class TreeSystem(System):
         """
         name = self.unknowns[k]
         inertia = sp.Add(*(c**2 * self.model.turning_inertia(body) for body, c in self._find_turning_bodies(k).items()))
-        return self.model.slots.derive(
+        return self.model.parameter_table.derive(
             f"{name.replace('.', '_')}_turning", inertia, "J and m s^2 of what turns with it"
         )
 
-    def generalized(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
+    def compute_generalized_forces(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
         """Return the generalized forces of loads, and those on prescribed coordinates by name.
 
         Forces with the same, or the opposite, lever arm are added first.
@@ -83,7 +88,7 @@ class TreeSystem(System):
             for (lever_x, lever_y), (x, y) in forces_by_lever.items():
                 forces[k] = forces.get(k, ZERO) + lever_x * x + lever_y * y
         unknown = [forces.get(name, ZERO) for name in self.unknowns]
-        return unknown, {coordinate.name: forces.get(coordinate.name, ZERO) for coordinate in self.given}
+        return unknown, {coordinate.name: forces.get(coordinate.name, ZERO) for coordinate in self.prescribed}
 
 
 class TreeConstraints(Constraints):
@@ -93,18 +98,22 @@ class TreeConstraints(Constraints):
 
     def _point(self, ref: PointRef) -> PointFrame:
         """Return the frame of a named point as one sum of arms."""
-        return self.geometry.point(ref).flat()
+        return self.geometry.point(ref).expand_arms()
 
     def _find_coordinate_pairs(self, bodies: list[BodySymbols]) -> list[tuple[sp.Symbol, sp.Symbol]]:
         """Return the pairs (coordinate, rate) of the unknowns that move the bodies, without prescribed coordinates."""
         geometry = self.geometry
-        names = {k for body in bodies for k in (*geometry.com(body.name).columns, *geometry.frame_of[body.name].turns)}
+        names = {
+            k
+            for body in bodies
+            for k in (*geometry.centre_of_mass(body.name).columns, *geometry.frame_of[body.name].turns)
+        }
         return [
             (c.q, c.v) for name, c in geometry.motions.coordinates.items() if name in names and c.acceleration is None
         ]
 
 
-def reduce(model: Model) -> TreeSystem:
+def reduce_model(model: Model) -> TreeSystem:
     """Return the system of a model in tree coordinates; redundant equations must have been left out already.
 
     Slides that linear equations give in other slides or drives are eliminated one by one; then loops that drives
@@ -122,7 +131,7 @@ def reduce(model: Model) -> TreeSystem:
                 model, _make_system(model, tree, (slides, sliding), geometry, constraints, rows)
             )
         row, name, value = elimination
-        slides = {slide: substitute(affine, name, value) for slide, affine in slides.items()} | {name: value}
+        slides = {slide: substitute_coordinate(affine, name, value) for slide, affine in slides.items()} | {name: value}
         sliding += (row,)
         tree = replace(tree, rows=tree.rows | {row})
 
@@ -136,16 +145,16 @@ def _eliminate_driven_loops(model: Model, system: TreeSystem) -> TreeSystem:
     if model.degrees_of_freedom <= 0 or not system.rows:
         return system
     excluded = {row.name for row in system.rows if stays_constraint(model, row)}
-    columns, rows = determined(system, excluded)
+    columns, rows = find_dependent_coordinates(system, excluded)
     if not columns:
         return system
     free = tuple(name for k, name in enumerate(system.unknowns) if k not in columns)
-    reduced, chain = prescribe(system, system.unknowns, columns, rows)
+    reduced, chain = prescribe_coordinates(system, system.unknowns, columns, rows)
     geometry: TreeGeometry = reduced.model.geometry  # type: ignore[assignment]
     prescribed_names = {
         name for name, coordinate in geometry.motions.coordinates.items() if coordinate.acceleration is not None
     }
-    chain = with_directions(chain, reduced, geometry.frames.values(), prescribed_names)
+    chain = add_directions(chain, reduced, geometry.frames.values(), prescribed_names)
     return replace(reduced, unknowns=free, chain=chain)
 
 
@@ -154,8 +163,8 @@ def _place_bodies(model: Model, tree: Tree, slides: Mapping[str, Affine]) -> tup
 
     `slides`: slides that are functions of other coordinates.
     """
-    symbols = model.symbols.beside()
-    parameter_table = model.slots.beside(symbols)
+    symbols = model.symbols.copy_parameters_only()
+    parameter_table = model.parameter_table.copy_for_symbols(symbols)
     geometry = TreeGeometry(model, tree, symbols, parameter_table)
     constraints = TreeConstraints(geometry)
     motions = Motions(symbols, parameter_table, constraints.t)
@@ -164,7 +173,7 @@ def _place_bodies(model: Model, tree: Tree, slides: Mapping[str, Affine]) -> tup
         if drive.name in used_names:
             constraints.drive_value(drive)
             motions.coordinates[drive.name] = Coordinate(drive.name, *constraints.drive_angles[drive.name])
-    geometry.place(motions, slides)
+    geometry.place_bodies(motions, slides)
     return geometry, constraints
 
 
@@ -183,7 +192,7 @@ def _derive_closures(model: Model, tree: Tree, constraints: TreeConstraints) -> 
     for drive in mechanism.drives.values():
         if drive.name in owners:
             row_by_name |= {row.name: row for row in constraints.drive_rows(drive)}
-    hub_rows = [row for joint in tree.closing for row in constraints.joint_rows(joint)]
+    hub_rows = [row for joint in tree.closing_pairs for row in constraints.joint_rows(joint)]
     return (*(row_by_name[name] for name in closure_names), *hub_rows)
 
 
@@ -197,7 +206,7 @@ def _find_determined_slide(
     names = {c.q: name for name, c in geometry.motions.coordinates.items()}
     drives = {c.q: name for name, c in geometry.motions.coordinates.items() if c.acceleration is not None}
     drives |= {value: name for name, (value, *_) in constraints.drive_angles.items()}
-    is_constant = geometry.slots.is_constant
+    is_constant = geometry.parameter_table.is_constant
     for row in rows:
         if stays_constraint(model, row):
             continue
@@ -233,9 +242,9 @@ def _make_system(
     prescribed = {name: coordinate for name, coordinate in coordinates.items() if coordinate.acceleration is not None}
     index_of = {name: k for k, name in enumerate(unknowns)}
     inertia = Inertia(geometry, model.gravity)
-    velocity_terms, weights = inertia.velocity_terms(), inertia.weights()
+    velocity_terms, weights = inertia.derive_velocity_terms(), inertia.derive_weights()
 
-    def applied(name: str) -> sp.Expr:
+    def compute_applied_force(name: str) -> sp.Expr:
         """Return the weight minus velocity terms and minus M times prescribed accelerations, of a coordinate."""
         prescribed_forces = sum(
             (inertia.mass.get((name, k), ZERO) * coordinate.acceleration for k, coordinate in prescribed.items()), ZERO
@@ -252,7 +261,7 @@ def _make_system(
             name,
             coordinate.v,
             {index_of[k]: inertia.mass[name, k] for k in unknowns if (name, k) in inertia.mass},
-            applied(name),
+            compute_applied_force(name),
         )
         for name, coordinate in prescribed.items()
     )
@@ -262,7 +271,7 @@ def _make_system(
         tuple(coordinate.v for coordinate in unknowns.values()),
         {body: _derive_motion(geometry, body, index_of) for body in model.geometry.bodies},
         mass,
-        tuple(applied(name) for name in unknowns),
+        tuple(compute_applied_force(name) for name in unknowns),
         drives,
         rows,
         reduced.frictions,
@@ -283,7 +292,7 @@ def _make_tree_model(
     clearances = tuple(
         clearance
         for name, play in model.scene.play.items()
-        for clearance in make_clearances(mechanism.joints[name], play, geometry, geometry.slots)
+        for clearance in make_clearances(mechanism.joints[name], play, geometry, geometry.parameter_table)
     )
     elements = {e.name: apply_element(e, geometry, t) for e in mechanism.forces.values()}
     coordinate_pairs = [(c.q, c.v) for c in geometry.motions.coordinates.values() if c.acceleration is None]
@@ -297,7 +306,7 @@ def _make_tree_model(
     return replace(
         model,
         symbols=symbols,
-        slots=geometry.slots,
+        parameter_table=geometry.parameter_table,
         geometry=geometry,
         constraints=constraints,
         all_rows=rows,
@@ -314,10 +323,10 @@ def _derive_motion(geometry: TreeGeometry, body: str, index_of: Mapping[str, int
 
     `index_of`: index of each unknown; prescribed coordinates contribute to the bias.
     """
-    com, turns = geometry.com(body), geometry.frame_of[body].turns
+    com, turns = geometry.centre_of_mass(body), geometry.frame_of[body].turns
     coordinates = geometry.motions.coordinates
     columns = [{k: column_pair[i] for k, column_pair in com.columns.items()} for i in range(2)] + [dict(turns)]
-    bias = [*geometry.bias(com.terms), ZERO]
+    bias = [*geometry.compute_bias(com.terms), ZERO]
     for i, column in enumerate(columns):
         for k, entry in column.items():
             if (acceleration := coordinates[k].acceleration) is not None:

@@ -1,4 +1,4 @@
-"""Points where three or more bodies meet (hubs): the choice of joints between them is free.
+"""Points where three or more bodies meet, and the choice of the revolute joints between these bodies.
 
 k points that coincide need k − 1 pairs of equations, but any tree of pairs will do. The tree of the bodies may use
 any of them, and a loop is closed between the two bodies whose difference has the fewest moving arms.
@@ -16,7 +16,7 @@ from gudgeon.generator.mechanism import Joint
 Point = tuple[str, str]  # body, point
 
 
-def ends(joint: Joint) -> tuple[Point, Point]:
+def find_end_points(joint: Joint) -> tuple[Point, Point]:
     """Return both points of a joint, each as (body, point)."""
     return (joint.first.body, joint.first.point), (joint.second.body, joint.second.point)
 
@@ -39,7 +39,7 @@ class Hub:
         """Return the names of the equations of a pair that make its points coincide."""
         return [f"{joint.name}.{row}" for row in joint_types()[joint.kind].carries]
 
-    def closing(self, tree: Iterable[Joint], cost: Callable[[Joint], int]) -> list[Joint]:
+    def find_closing_pairs(self, tree: Iterable[Joint], cost: Callable[[Joint], int]) -> list[Joint]:
         """Return the cheapest pairs that connect the points which the tree leaves unconnected (Kruskal's algorithm).
 
         `tree`: joints of the tree; `cost` returns the cost of a pair.
@@ -49,7 +49,7 @@ class Hub:
         names = {joint.name for joint in tree}
         tree_pairs = [joint for joint in self.pairs if joint.name in names]
         for joint in [*tree_pairs, *sorted(self.pairs, key=cost)]:
-            first_group, second_group = (groups[point] for point in ends(joint))
+            first_group, second_group = (groups[point] for point in find_end_points(joint))
             if first_group is second_group:
                 continue
             if joint.name not in names:
@@ -59,23 +59,23 @@ class Hub:
             first_group |= second_group
         return result
 
-    def share(self, spanning: Sequence[Joint], joint: Joint) -> dict[str, int]:
+    def find_multiplier_signs(self, spanning: Sequence[Joint], joint: Joint) -> dict[str, int]:
         """Return the multiplier of a pair as a sum of those of the file's joints: sign by joint.
 
         They are the joints that cross the cut which removing the pair from `spanning` makes. `joint`: the pair;
         `spanning`: the pairs that connect all points.
         """
-        connected = {ends(joint)[0]}
+        connected = {find_end_points(joint)[0]}
         has_grown = True
         while has_grown:
             has_grown = False
-            for first, second in (ends(other) for other in spanning if other is not joint):
+            for first, second in (find_end_points(other) for other in spanning if other is not joint):
                 if (first in connected) != (second in connected):
                     connected |= {first, second}
                     has_grown = True
         signs = {}
         for other in self.joints:
-            first, second = ends(other)
+            first, second = find_end_points(other)
             if (first in connected) != (second in connected):
                 signs[other.name] = 1 if first in connected else -1
         return signs
@@ -89,13 +89,13 @@ def find_hubs(joints: Iterable[Joint]) -> list[Hub]:
     groups: dict[Point, list[Joint]] = {}
     for joint in joints:
         if joint_types()[joint.kind].holds_points:
-            first_group, second_group = (groups.get(point, []) for point in ends(joint))
+            first_group, second_group = (groups.get(point, []) for point in find_end_points(joint))
             merged = [*first_group, *(j for j in second_group if j not in first_group), joint]
-            for point in {p for j in merged for p in ends(j)}:
+            for point in {p for j in merged for p in find_end_points(j)}:
                 groups[point] = merged
     hubs = []
     for group in {tuple(j.name for j in group): group for group in groups.values()}.values():
-        points = frozenset(p for joint in group for p in ends(joint))
+        points = frozenset(p for joint in group for p in find_end_points(joint))
         pivots = [j for j in group if joint_types()[j.kind].is_pivot]
         if pivots and len(points) == len(group) + 1 >= 3:
             hubs.append(Hub(points, tuple(group), tuple(_make_pairs(group, pivots[0]))))
@@ -107,9 +107,11 @@ def _make_pairs(group: Sequence[Joint], template: Joint) -> list[Joint]:
 
     `template`: a pivot of the group, of which the new joints are copies with other points.
     """
-    known_pairs = {frozenset(ends(joint)) for joint in group}
+    known_pairs = {frozenset(find_end_points(joint)) for joint in group}
     ref_of_point = {
-        end: ref for joint in group for end, ref in zip(ends(joint), (joint.first, joint.second), strict=True)
+        end: ref
+        for joint in group
+        for end, ref in zip(find_end_points(joint), (joint.first, joint.second), strict=True)
     }
     others = [
         replace(template, name=f"{a.body}.{a.point}={b.body}.{b.point}", first=a, second=b)

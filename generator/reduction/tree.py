@@ -1,4 +1,4 @@
-"""Tree coordinates of a linkage: angles that are free, and a spanning tree of joints that position the bodies.
+"""Choice of tree coordinates: a spanning tree of joints that positions all bodies, and the free angles.
 
 Equations that are linear in angles with constant coefficients (a weld, a slide, gears, a driven angle) express angles
 by others. The other joints form a graph of bodies; along a spanning tree of it each body is positioned by its
@@ -19,7 +19,7 @@ from gudgeon.generator.equations.constraints import Row, rate_jumps
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import GROUND, Joint
-from gudgeon.generator.reduction.frames import CONSTANT, Affine, substitute
+from gudgeon.generator.reduction.frames import CONSTANT, Affine, substitute_coordinate
 from gudgeon.generator.reduction.shared_points import Hub, find_hubs
 from gudgeon.generator.solvers.sparsity import choose_elimination
 
@@ -52,7 +52,7 @@ class Link:
         return tuple(f"{self.joint.name}.{row}" for row in joint_types()[self.joint.kind].carries)
 
 
-def path(links: Iterable[Link], body: str) -> list[Link]:
+def find_path(links: Iterable[Link], body: str) -> list[Link]:
     """Return the links from the root to a body, the root's first; empty for the ground."""
     by_body = {link.body: link for link in links}
     result: list[Link] = []
@@ -137,7 +137,7 @@ class Estimate:
             for j in coupled
             if j < k
         )
-        open_pairs = [(joint.name, [joint.first.body, joint.second.body]) for joint in self.closing(links)]
+        open_pairs = [(joint.name, [joint.first.body, joint.second.body]) for joint in self.find_closing_pairs(links)]
         for name, bodies in (*self.rows, *open_pairs, *open_pairs):  # two rows each
             if name not in satisfied_rows:
                 indices = {index_of[index] for index in self._find_moving_coordinates(paths, bodies)}
@@ -164,7 +164,7 @@ class Estimate:
             self._light[key] = self.model.is_light(link.body, link.joint)
         return self._light[key]
 
-    def closing(self, links: tuple[Link, ...]) -> list[Joint]:
+    def find_closing_pairs(self, links: tuple[Link, ...]) -> list[Joint]:
         """Return the pairs of bodies that the hubs need in addition to those of the tree."""
         paths: dict[str, list[Link]] = {}
         for link in links:
@@ -175,12 +175,12 @@ class Estimate:
             return len(self._find_moving_coordinates(paths, [joint.first.body, joint.second.body]))
 
         tree_joints = [link.joint for link in links if link.joint]
-        return [joint for hub in self.hubs for joint in hub.closing(tree_joints, count_coordinates)]
+        return [joint for hub in self.hubs for joint in hub.find_closing_pairs(tree_joints, count_coordinates)]
 
     def _find_moving_coordinates(self, paths: Mapping[str, list[Link]], bodies: Sequence[str]) -> set[str]:
         """Return the coordinates in an equation between bodies; those of their common path do not count.
 
-        `paths`: the links from the root to each body.
+        `paths`: the links from the root to each body. `bodies`: one body or two; a body without a path is the ground.
         """
         n_shared = 0
         if len(bodies) == 2:
@@ -205,23 +205,23 @@ class Tree:
     free: tuple[str, ...]  # bodies whose angles are coordinates
     links: tuple[Link, ...]
     rows: frozenset[str]  # equations that angles and links satisfy by themselves, or that hubs replace
-    closing: tuple[Joint, ...]  # pairs of bodies at a hub that the tree does not connect
+    closing_pairs: tuple[Joint, ...]  # pairs of bodies at a hub that the tree does not connect
     hubs: tuple[Hub, ...]
     solved: Mapping[str, str]  # equations used for angles, each with the body whose angle it gives
     costs: tuple[int, ...]  # estimated operations of the trees tried, the first one grown breadth first
 
-    def multiplier(self, row: str) -> dict[str, int]:
+    def find_multiplier_terms(self, row: str) -> dict[str, int]:
         """Return the multiplier of a closure as a sum of those of the file's equations: sign by equation.
 
         A closure that is an equation of the file itself gives {row: 1}.
         """
         name, _, component = row.rpartition(".")
         for hub in self.hubs:
-            for joint in self.closing:
+            for joint in self.closing_pairs:
                 if joint in hub.pairs and joint.name == name:
                     spanning = [link.joint for link in self.links if link.joint in hub.pairs]
-                    spanning += [pair for pair in self.closing if pair in hub.pairs]
-                    signs = hub.share([j for j in spanning if j is not None], joint)
+                    spanning += [pair for pair in self.closing_pairs if pair in hub.pairs]
+                    signs = hub.find_multiplier_signs([j for j in spanning if j is not None], joint)
                     return {f"{owner}.{component}": sign for owner, sign in signs.items()}
         return {row: 1}
 
@@ -253,7 +253,7 @@ def solve_angles(model: Model) -> tuple[dict[str, Affine], dict[str, str]]:
         order = list(angles)
         pivot = max(pivots, key=lambda body_name: (abs(pivots[body_name]) == 1, order.index(body_name)))
         solved = {k: -coefficient / pivots[pivot] for k, coefficient in equation.items() if k != pivot}
-        angles = {body_name: substitute(affine, pivot, solved) for body_name, affine in angles.items()}
+        angles = {body_name: substitute_coordinate(affine, pivot, solved) for body_name, affine in angles.items()}
         used_rows[row.name] = pivot
     return angles, used_rows
 
@@ -264,7 +264,7 @@ def _express_linear_angles(model: Model, row: Row, angles: Mapping[str, Affine])
     Return None if it is not linear in angles with constant coefficients, or if it is a drive whose rate jumps.
     """
     body_of = {body.theta: body.name for body in model.bodies}
-    if not all(q in body_of and model.slots.is_constant(coefficient) for q, coefficient in row.phi_q.items()):
+    if not all(q in body_of and model.parameter_table.is_constant(coefficient) for q, coefficient in row.phi_q.items()):
         return None
     drives = {value: name for name, (value, *_) in model.constraints.drive_angles.items()}
     if stays_constraint(model, row):
@@ -274,11 +274,11 @@ def _express_linear_angles(model: Model, row: Row, angles: Mapping[str, Affine])
     for value in sorted(remainder.free_symbols & set(drives), key=lambda s: s.name):
         coefficients[drives[value]] = remainder.coeff(value)
         remainder = remainder - remainder.coeff(value) * value
-    if not model.slots.is_constant(remainder):
+    if not model.parameter_table.is_constant(remainder):
         return None
     affine: Affine = {**coefficients, CONSTANT: remainder}
     for q, coefficient in row.phi_q.items():
-        affine = substitute({**affine, "?": coefficient}, "?", angles[body_of[q]])
+        affine = substitute_coordinate({**affine, "?": coefficient}, "?", angles[body_of[q]])
     return affine
 
 
@@ -302,7 +302,7 @@ def choose_tree(model: Model) -> Tree:
     if len(free) <= _MAX_COORDINATES_FOR_EXCHANGE and best == _grow_tree(model, edges, edges, None):
         best = _improve_by_exchange(model, edges, best, estimate)
     rows = used_rows.union(*(link.rows for link in best), *(hub.rows for hub in hubs))
-    closing = tuple(estimate.closing(best))
+    closing = tuple(estimate.find_closing_pairs(best))
     return Tree(angles, free, best, rows, closing, tuple(hubs), solved, tuple(estimate.costs.values()))
 
 
@@ -394,7 +394,7 @@ def _find_loop_joints(links: Sequence[Link], joint: Joint) -> list[Joint]:
 
     They are on one path from the root to its bodies but not on both.
     """
-    first_path, second_path = path(links, joint.first.body), path(links, joint.second.body)
+    first_path, second_path = find_path(links, joint.first.body), find_path(links, joint.second.body)
     return [
         link.joint
         for link in (*first_path, *second_path)

@@ -1,1 +1,1 @@
-"""Linear systems as statements: KKT, Newton, square blocks."""
+"""Writes solutions of linear systems as straight-line statements: KKT systems, Newton's matrix, square systems."""

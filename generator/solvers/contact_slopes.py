@@ -1,4 +1,4 @@
-"""Derivatives of the force of a joint with play: the steps of contact_steps.py and the laws, differentiated forward.
+"""Derivatives of the force in a joint with play by position and velocity, by forward differentiation.
 
 They are the derivatives of (F along n, F along t, M_i, M_j) by (e, δ̇, ė_t, ω_i, ω_j); for laws with inner states also
 those of the states' rates and by the states. templates/c/play/tangent.c.jinja turns them into ground axes. With a
@@ -18,14 +18,14 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
 from gudgeon.generator.ir.differentiation import Tangent, Tangents
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder
-from gudgeon.generator.ir.reciprocals import hoisted
-from gudgeon.generator.ir.signatures import BRANCHES, CONTACT, PARAMETERS, ZERO, Argument, result
+from gudgeon.generator.ir.reciprocals import hoist_reciprocals
+from gudgeon.generator.ir.signatures import BRANCHES, CONTACT, PARAMETERS, ZERO, Argument, make_output_argument
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Conditional, Test
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 INPUTS = (contact.e, contact.deltadot, contact.de_t, contact.omega_i, contact.omega_j)
-OF_CONTOUR = (
+CONTOUR_INPUTS = (
     contact.e,
     contact.de_n,
     contact.across,
@@ -36,21 +36,21 @@ OF_CONTOUR = (
 )
 UNCLIPPED = sp.Symbol("unclipped", real=True)
 _IS_PENETRATING = Test(contact.delta, ">", (0.0,))
-DEEP = Statement(contact.depth.name, Conditional(_IS_PENETRATING, contact.delta, ZERO))
+DEPTH_STATEMENT = Statement(contact.depth.name, Conditional(_IS_PENETRATING, contact.delta, ZERO))
 _IS_CLOSED = Test(PlaceSymbol(CONTACT["closed"]))
 _STORED_SPEED = PlaceSymbol(CONTACT["deltadot_minus"])
 _FORCE = PlaceSymbol(CONTACT["force"])  # of surfaces that do not give
 
 
-def inputs(clearance: Clearance) -> tuple[sp.Symbol, ...]:
+def find_input_variables(clearance: Clearance) -> tuple[sp.Symbol, ...]:
     """Return the variables by which the force of a joint is differentiated; with a contour also its depth and slope."""
-    return OF_CONTOUR if clearance.contour else INPUTS
+    return CONTOUR_INPUTS if clearance.contour else INPUTS
 
 
 def _make_arguments(clearance: Clearance) -> tuple[Argument, ...]:
     """Return the arguments of the C function of the derivatives of one part of a joint's force."""
-    input_arguments = (Argument(symbol.name) for symbol in inputs(clearance))
-    output = result("out", "ContourSlopes" if clearance.contour else "PinSlopes")
+    input_arguments = (Argument(symbol.name) for symbol in find_input_variables(clearance))
+    output = make_output_argument("out", "ContourSlopes" if clearance.contour else "PinSlopes")
     return (*input_arguments, CONTACT, PARAMETERS, *BRANCHES, output)
 
 
@@ -75,34 +75,37 @@ class _DerivativeBuilder:
             ],
         )
         self.states = tuple(sp.Symbol(f"state_{k}", real=True) for k in range(model.law_states))
-        self.inputs = (*inputs(clearance), *self.states)
+        self.inputs = (*find_input_variables(clearance), *self.states)
         self.tangents = Tangents(model.symbols, self.build, self.inputs, clearance.name, share_powers=True)
 
-    def section(self, title: str) -> None:
+    def begin_section(self, title: str) -> None:
         """Begin a section of statements with a title."""
-        self.build.section(title)
+        self.build.begin_section(title)
 
     def step(self, step: Step) -> None:
         """Append an equation symbol = value of contact_steps.py, and its tangent."""
-        value = in_place(self.model, step.value)
-        value_on_branch = self.tangents.shared(self.tangents.held(value))
-        self.build.line(Statement(step.symbol.name, value_on_branch))
-        self.tangents.know(step.symbol, self.tangents.gradient(value, step.symbol))
+        value = read_parameters_at_places(self.model, step.value)
+        value_on_branch = self.tangents.share_powers_of(self.tangents.hold_branches(value))
+        self.build.append_line(Statement(step.symbol.name, value_on_branch))
+        self.tangents.store_tangent(step.symbol, self.tangents.compute_gradient(value, step.symbol))
 
-    def law(self, equations: LawEquations, arguments: Sequence[sp.Symbol]) -> dict[str, sp.Symbol]:
+    def append_law(self, equations: LawEquations, arguments: Sequence[sp.Symbol]) -> dict[str, sp.Symbol]:
         """Append a law; return its results by name, whose tangents are known from then on.
 
         `arguments`: the symbols that are the variables of the law, whose tangents must be known.
         """
-        law_tangents = self.tangents.inside(dict(zip(equations.variables, arguments, strict=True)))
+        law_tangents = self.tangents.make_for_variables(dict(zip(equations.variables, arguments, strict=True)))
         results = {}
         for name, equation in equations.steps.items():
-            symbol, value = sp.Symbol(name, real=True), hoisted(self.model.slots, sp.sympify(equation))
-            self.build.line(Statement(name, law_tangents.shared(law_tangents.held(value))))
-            law_tangents.know(symbol, law_tangents.gradient(value, symbol))
+            symbol, value = (
+                sp.Symbol(name, real=True),
+                hoist_reciprocals(self.model.parameter_table, sp.sympify(equation)),
+            )
+            self.build.append_line(Statement(name, law_tangents.share_powers_of(law_tangents.hold_branches(value))))
+            law_tangents.store_tangent(symbol, law_tangents.compute_gradient(value, symbol))
             if name in equations.results:
                 results[name] = symbol
-                self.tangents.know(symbol, self.tangents.through(law_tangents.of(symbol)))
+                self.tangents.store_tangent(symbol, self.tangents.apply_chain_rule(law_tangents.get_tangent(symbol)))
         return results
 
     def finish(self, values: Sequence[sp.Expr]) -> Kernel:
@@ -110,33 +113,33 @@ class _DerivativeBuilder:
 
         The results are (F along n, F along t, M_i, M_j), then the rates of inner states; missing ones are 0.
         """
-        self.section("results")
+        self.begin_section("results")
         for row, value in enumerate([*values, *[ZERO] * (4 + len(self.states) - len(values))]):
-            self.build.out(Place("out")["value"][row], value)
-            slopes: Tangent = self.tangents.gradient(value)
+            self.build.append_store(Place("out")["value"][row], value)
+            slopes: Tangent = self.tangents.compute_gradient(value)
             for column, base in enumerate(self.inputs):
-                self.build.out(Place("out")["slope"][row][column], slopes.get(base, ZERO))
-        return self.build.build(_make_arguments(self.clearance), inline=True, prune=True)
+                self.build.append_store(Place("out")["slope"][row][column], slopes.get(base, ZERO))
+        return self.build.build_kernel(_make_arguments(self.clearance), inline=True, prune=True)
 
 
-def film_derivative_kernel(model: Model, clearance: Clearance, film: LawEquations) -> Kernel:
+def make_film_derivative_kernel(model: Model, clearance: Clearance, film: LawEquations) -> Kernel:
     """Return the C function of the film's force and moments and of their derivatives by the inputs."""
     slopes = _DerivativeBuilder(model, clearance, "film")
-    slopes.section("eccentricity ratio and effective squeeze velocity")
-    for step in contact.before_film(clearance, film):
+    slopes.begin_section("eccentricity ratio and effective squeeze velocity")
+    for step in contact.make_film_input_equations(clearance, film):
         slopes.step(step)
-    slopes.section("film")
-    results = slopes.law(film, (contact.epsilon, contact.w_n, contact.w_t))
-    slopes.section("moments")
-    slopes.step(Step(contact.of_part(contact.F_along_t, "film"), results["F_t"]))
-    moments = contact.after_film(film)
+    slopes.begin_section("film")
+    results = slopes.append_law(film, (contact.epsilon, contact.w_n, contact.w_t))
+    slopes.begin_section("moments")
+    slopes.step(Step(contact.make_part_symbol(contact.F_along_t, "film"), results["F_t"]))
+    moments = contact.make_film_moment_equations(film)
     for step in moments:
         slopes.step(step)
-    tangential = contact.of_part(contact.F_along_t, "film")
+    tangential = contact.make_part_symbol(contact.F_along_t, "film")
     return slopes.finish([results["F_r"], tangential, *(step.symbol for step in moments)])
 
 
-def dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEquations) -> Kernel:
+def make_dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEquations) -> Kernel:
     """Return the C function of the dry contact's force and moments and of their derivatives.
 
     It is defined at δ < 0 too, with zero force, since samples before a separation lie there. While the contact is open,
@@ -144,60 +147,67 @@ def dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEquatio
     """
     slopes = _DerivativeBuilder(model, clearance, "dry")
     build, tangents = slopes.build, slopes.tangents
-    slopes.section("penetration, ratio of velocities, slip")
-    for step in contact.gap_by_angle(clearance) if clearance.contour else [contact.penetration(clearance)]:
+    slopes.begin_section("penetration, ratio of velocities, slip")
+    for step in (
+        contact.make_contour_gap_equations(clearance)
+        if clearance.contour
+        else [contact.make_penetration_equation(clearance)]
+    ):
         slopes.step(step)
-    build.line(Statement(contact.depth.name, sp.Max(contact.delta, 0)))
-    depth_slope = build.local("depth_by_e", Conditional(_IS_PENETRATING, sp.Integer(1), ZERO))
-    tangents.know(
-        contact.depth, {base: derivative * depth_slope for base, derivative in tangents.of(contact.delta).items()}
+    build.append_line(Statement(contact.depth.name, sp.Max(contact.delta, 0)))
+    depth_slope = build.append_local("depth_by_e", Conditional(_IS_PENETRATING, sp.Integer(1), ZERO))
+    tangents.store_tangent(
+        contact.depth,
+        {base: derivative * depth_slope for base, derivative in tangents.get_tangent(contact.delta).items()},
     )
     ratio = UNCLIPPED if clearance.clip_ratio else contact.ratio
-    build.line(Statement(ratio.name, Conditional(_IS_CLOSED, contact.deltadot / _STORED_SPEED, sp.Integer(1))))
-    ratio_slope = build.local("ratio_by_deltadot", Conditional(_IS_CLOSED, 1 / _STORED_SPEED, ZERO))
-    tangents.know(ratio, {base: ratio_slope * rate for base, rate in tangents.of(contact.deltadot).items()})
-    for step in contact.before_dry(clearance):
-        slopes.step(without_stored_speed(step))
-    slopes.section("contact")
+    build.append_line(Statement(ratio.name, Conditional(_IS_CLOSED, contact.deltadot / _STORED_SPEED, sp.Integer(1))))
+    ratio_slope = build.append_local("ratio_by_deltadot", Conditional(_IS_CLOSED, 1 / _STORED_SPEED, ZERO))
+    tangents.store_tangent(
+        ratio, {base: ratio_slope * rate for base, rate in tangents.get_tangent(contact.deltadot).items()}
+    )
+    for step in contact.make_lever_arm_equations(clearance):
+        slopes.step(replace_stored_speed(step))
+    slopes.begin_section("contact")
     further_variables = [
-        _FORCE if clearance.rigid else sp.Symbol(name, real=True) for name in normal.further
+        _FORCE if clearance.rigid else sp.Symbol(name, real=True) for name in normal.further_variables
     ]  # inputs as well
-    F_n = slopes.law(normal, (contact.depth, contact.ratio, *further_variables))["F_n"]
-    tangential = contact.of_part(contact.F_along_t, "dry")
-    for step in contact.pressing(clearance):
+    F_n = slopes.append_law(normal, (contact.depth, contact.ratio, *further_variables))["F_n"]
+    tangential = contact.make_part_symbol(contact.F_along_t, "dry")
+    for step in contact.make_contour_normal_force(clearance):
         slopes.step(step)
     normal_force = contact.F_N if clearance.contour else F_n
     friction_results: dict[str, sp.Symbol] = {}
     if clearance.friction is not None:
-        states = [build.local("bent", PlaceSymbol(CONTACT["state"][k])) for k in range(len(clearance.states))]
+        states = [build.append_local("bent", PlaceSymbol(CONTACT["state"][k])) for k in range(len(clearance.states))]
         for state, base in zip(states, slopes.states, strict=False):
-            tangents.know(state, {base: sp.Integer(1)})
-        friction_results = slopes.law(clearance.friction, (normal_force, contact.v_t, *states))
+            tangents.store_tangent(state, {base: sp.Integer(1)})
+        friction_results = slopes.append_law(clearance.friction, (normal_force, contact.v_t, *states))
     slopes.step(Step(tangential, friction_results.pop("F_t", ZERO)))
-    moments = contact.after_dry(clearance)
+    moments = contact.make_dry_moment_equations(clearance)
     for step in moments:
         slopes.step(step)
     forces = (-F_n, tangential)
     if clearance.contour:
-        forces = contact.along_eccentricity(F_n, tangential)
+        forces = contact.resolve_contour_force(F_n, tangential)
     return slopes.finish([*forces, *(step.symbol for step in moments), *friction_results.values()])
 
 
-def without_stored_speed(step: Step) -> Step:
+def replace_stored_speed(step: Step) -> Step:
     """Return the equation without the choice between stored and present approach speed, which C makes.
 
     The ratio of velocities keeps only its clipping; other equations are returned unchanged.
     """
-    stored = contact.deltadot / contact.stored
-    return Step(step.symbol, step.value.subs(stored, UNCLIPPED)) if step.symbol == contact.ratio else step
+    speed_ratio = contact.deltadot / contact.stored
+    return Step(step.symbol, step.value.subs(speed_ratio, UNCLIPPED)) if step.symbol == contact.ratio else step
 
 
-def in_place(model: Model, value: sp.Expr) -> sp.Expr:
+def read_parameters_at_places(model: Model, value: sp.Expr) -> sp.Expr:
     """Return a step's value with parameters, and the reciprocals of parameters, read from their struct."""
-    return model.symbols.in_place(hoisted(model.slots, value))
+    return model.symbols.read_at_places(hoist_reciprocals(model.parameter_table, value))
 
 
-def fraction_derivative_kernel(model: Model, clearance: Clearance) -> Kernel:
+def make_fraction_derivative_kernel(model: Model, clearance: Clearance) -> Kernel:
     """Return the C function of the fraction of the dry contact in a transition, and of its derivative by e.
 
     A law of mixed lubrication may define the fraction; it is read at depth max(δ, 0) then.
@@ -210,20 +220,20 @@ def fraction_derivative_kernel(model: Model, clearance: Clearance) -> Kernel:
         ],
     )
     tangents = Tangents(model.symbols, build, (contact.delta,), clearance.name)
-    build.section("share")
+    build.begin_section("share")
     if clearance.mixed is not None:
-        build.line(DEEP)
-        tangents.know(
+        build.append_line(DEPTH_STATEMENT)
+        tangents.store_tangent(
             contact.depth,
-            {contact.delta: build.local("depth_by_delta", Conditional(_IS_PENETRATING, sp.Integer(1), ZERO))},
+            {contact.delta: build.append_local("depth_by_delta", Conditional(_IS_PENETRATING, sp.Integer(1), ZERO))},
         )
-    *abbreviations, fraction = contact.blend(clearance, closed=True)
+    *abbreviations, fraction = contact.make_blend_equations(clearance, closed=True)
     for step in abbreviations:
-        value = in_place(model, step.value)
-        build.line(Statement(step.symbol.name, tangents.held(value)))
-        tangents.know(step.symbol, tangents.gradient(value, step.symbol))
-    value = in_place(model, fraction.value)
-    build.out(Place("out")[0], tangents.held(value))
-    build.out(Place("out")[1], tangents.gradient(value).get(contact.delta, ZERO))
-    arguments = (Argument(contact.delta.name), PARAMETERS, *BRANCHES, result("out"))
-    return build.build(arguments, inline=True)
+        value = read_parameters_at_places(model, step.value)
+        build.append_line(Statement(step.symbol.name, tangents.hold_branches(value)))
+        tangents.store_tangent(step.symbol, tangents.compute_gradient(value, step.symbol))
+    value = read_parameters_at_places(model, fraction.value)
+    build.append_store(Place("out")[0], tangents.hold_branches(value))
+    build.append_store(Place("out")[1], tangents.compute_gradient(value).get(contact.delta, ZERO))
+    arguments = (Argument(contact.delta.name), PARAMETERS, *BRANCHES, make_output_argument("out"))
+    return build.build_kernel(arguments, inline=True)

@@ -1,4 +1,4 @@
-"""The order in which coordinates of the bodies are eliminated together with the constraint equations that give them.
+"""Elimination order of the KKT matrix: each coordinate together with the constraint equation that gives it.
 
 The equation "x" of a revolute joint has the entries 1 and −1 in the x of its two bodies. With one of them it makes
 the pivot block [m ±1; ±1 0], which is regular for every m and needs no division. Elimination leaves sums: the moment
@@ -50,7 +50,7 @@ class DependentCoordinates:
         Of an equation in angles alone these are all coordinates, if the entries are constant. `entries`: entries of Φ_q
         by coordinate.
         """
-        if all(k % 3 == 2 and self.model.slots.is_constant(entry) for k, entry in entries.items()):
+        if all(k % 3 == 2 and self.model.parameter_table.is_constant(entry) for k, entry in entries.items()):
             return set(entries)
         return {k for k, entry in entries.items() if k % 3 < 2 and is_unit(entry)}
 
@@ -124,7 +124,7 @@ class DependentCoordinates:
         only_avoided = bool(best) and rank[best[0]][0]  # with one body that is placed others may be placed by it
         return [(k, r) for k, r in best if not only_avoided or k // 3 == best[0][0] // 3]
 
-    def light_ends(self) -> set[tuple[str, str]]:
+    def find_light_ends(self) -> set[tuple[str, str]]:
         """Return pairs (body, joint) of bodies that turn freely and have no inertia about the joint that places them.
 
         Such a body carries no other body.
@@ -155,7 +155,7 @@ def place_bodies(system: System, rows: Sequence[Row]) -> DependentCoordinates:
     avoided: set[tuple[str, str]] = set()
     while True:
         placing = DependentCoordinates(system, rows, frozenset(avoided))
-        light_ends = placing.light_ends()
+        light_ends = placing.find_light_ends()
         if light_ends <= avoided:
             return placing
         avoided |= light_ends

@@ -25,9 +25,9 @@ from gudgeon.generator.solvers.pivots import (
     VANISHING,
     ZERO,
     Factor,
-    named,
-    pivot_guard,
-    row_pairs,
+    append_unless_simple,
+    find_row_pairs,
+    make_pivot_guard,
 )
 from gudgeon.generator.solvers.sparsity import Elimination, choose_elimination
 
@@ -49,29 +49,31 @@ class KKT:
         self.rows = system.rows if rows is None else tuple(rows)
         self.frictions, self.first_friction = system.frictions if rows is None else (), self.n + len(self.rows)
         coordinate_index = {q: k for k, q in enumerate(system.q)}
-        self.entry = {(i, j): value for (i, j), value in system.mass.items() if i != j}
+        self.entries = {(i, j): value for (i, j), value in system.mass.items() if i != j}
         for row_index, jacobian in enumerate(
             (*(row.phi_q for row in self.rows), *(friction.jacobian for friction in self.frictions))
         ):
-            self.entry |= {(self.n + row_index, coordinate_index[q]): value for q, value in jacobian.items()}
+            self.entries |= {(self.n + row_index, coordinate_index[q]): value for q, value in jacobian.items()}
         neighbours: list[set[int]] = [set() for _ in range(self.first_friction + len(self.frictions))]
-        for row_index, column in self.entry:
+        for row_index, column in self.entries:
             neighbours[row_index].add(column)
             neighbours[column].add(row_index)
         pattern = tuple(map(frozenset, neighbours))
-        early_pairs = row_pairs(self.rows, self.n, pattern) if allow_early_pairs else {}
-        self.first = FirstPivots(system, self.rows)
+        early_pairs = find_row_pairs(self.rows, self.n, pattern) if allow_early_pairs else {}
+        self.first_pivots = FirstPivots(system, self.rows)
         self.elimination: Elimination = choose_elimination(
-            pattern, self.n, self.first_friction, early_pairs, self.first.order, self.first.partner
+            pattern, self.n, self.first_friction, early_pairs, self.first_pivots.order, self.first_pivots.partner
         )
         names = [row.name for row in self.rows] + [friction.name for friction in self.frictions]
         self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in names]
         self.blocks = self._group_pivots()
-        self.sticks: dict[int, sp.Symbol] = {}  # node -> 1 in stick, 0 in slip
+        self.stick_symbols: dict[int, sp.Symbol] = {}  # node -> 1 in stick, 0 in slip
         self.pivots = tuple(names[k - self.n] for k in self.elimination.order if k >= self.n)
-        self.turning = self._find_turning_inertias() if self.rows and not system.model.has_changing_constraints else {}
+        self.turning_inertias = (
+            self._find_turning_inertias() if self.rows and not system.model.has_changing_constraints else {}
+        )
         if not system.in_tree:
-            self.pivots += tuple(system.model.symbols.info[system.q[k]].meaning for k in self.turning)
+            self.pivots += tuple(system.model.symbols.info[system.q[k]].meaning for k in self.turning_inertias)
 
     def _group_pivots(self) -> list[list[int]]:
         """Return the pivots as blocks of one or two nodes, in elimination order.
@@ -83,7 +85,7 @@ class KKT:
         blocks: list[list[int]] = []
         for k in order:
             last_block = blocks[-1] if blocks else []
-            if k in self.first.partner.values():
+            if k in self.first_pivots.partner.values():
                 last_block.append(k)
                 continue
             is_same_kind = (
@@ -121,7 +123,7 @@ class KKT:
         pivots, else it returns the pivot's number, from 1. `pair_threshold`: the same threshold for both equations of a
         joint together.
         """
-        build.section(FACTORS)
+        build.begin_section(FACTORS)
         L: Entries = {}
         W: Entries = {}  # entries before the division by their pivot
         inverse: dict[int, dict[int, sp.Expr]] = {}
@@ -138,12 +140,12 @@ class KKT:
             for i in later_nodes:
                 for k in block:
                     common_columns = [j for j in earlier_columns[k] if (i, j) in L]
-                    value = self.entry.get((i, k), self.entry.get((k, i), ZERO))
+                    value = self.entries.get((i, k), self.entries.get((k, i), ZERO))
                     value -= sum((L[i, j] * W[k, j] for j in common_columns), ZERO)
-                    W[i, k] = named(build, f"w_{self.names[i]}__{self.names[k]}", value)
+                    W[i, k] = append_unless_simple(build, f"w_{self.names[i]}__{self.names[k]}", value)
                 for k in block:
                     value = sum((W[i, j] * entry for j, entry in inverse[k].items()), ZERO)
-                    L[i, k] = named(build, f"l_{self.names[i]}__{self.names[k]}", value)
+                    L[i, k] = append_unless_simple(build, f"l_{self.names[i]}__{self.names[k]}", value)
             for i in later_nodes:
                 earlier_columns[i] += block
         return Factor(L, inverse)
@@ -164,7 +166,7 @@ class KKT:
         those of one and of two equations.
         """
         (L, W), (jumps, count) = factors, failing
-        if block[0] in self.first.partner:
+        if block[0] in self.first_pivots.partner:
             return self._invert_coordinate_with_row(build, block, earlier_columns, L, W)
         if len(block) == 2:
             return self._invert_pair(build, block, earlier_columns, factors, failing, thresholds)
@@ -186,12 +188,14 @@ class KKT:
         m is what elimination leaves of the mass; no pivot is tested.
         """
         k, row = block
-        entry = self.entry[row, k]
+        entry = self.entries[row, k]
         inverse_entry = (
-            entry if is_unit(entry) else self.system.model.slots.derive(f"inverse_{self.names[row]}", 1 / entry)
+            entry
+            if is_unit(entry)
+            else self.system.model.parameter_table.derive(f"inverse_{self.names[row]}", 1 / entry)
         )
         mass = self.system.mass[k, k] - sum((L[k, j] * W[k, j] for j in earlier_columns[k]), ZERO)
-        mass = named(build, f"inertia_{self.names[k]}", mass)
+        mass = append_unless_simple(build, f"inertia_{self.names[k]}", mass)
         return {
             k: {row: inverse_entry},
             row: {k: inverse_entry, row: -mass if is_unit(entry) else -mass * inverse_entry**2},
@@ -229,7 +233,7 @@ class KKT:
 
         name = [self.names[k] for k in block]
         scale_values = [compute_rest(k, k, lambda j: j < self.n) for k in block] if is_row_pair else []
-        scale = [build.local(f"scale_{name[i]}", value) for i, value in enumerate(scale_values)]
+        scale = [build.append_local(f"scale_{name[i]}", value) for i, value in enumerate(scale_values)]
         size = [
             self._compute_row_size(build, k, pivot_values) for k, pivot_values in zip(block, scale, strict=is_row_pair)
         ]
@@ -239,25 +243,27 @@ class KKT:
             if is_row_pair
             else pivots
         )
-        pivot_values = [named(build, f"pivot_{name[i]}", value) for i, value in enumerate(values)]
-        cross_entry = named(build, f"pivot_{name[0]}__{name[1]}", compute_rest(second, first, lambda j: True))
-        determinant = build.local(
+        pivot_values = [append_unless_simple(build, f"pivot_{name[i]}", value) for i, value in enumerate(values)]
+        cross_entry = append_unless_simple(
+            build, f"pivot_{name[0]}__{name[1]}", compute_rest(second, first, lambda j: True)
+        )
+        determinant = build.append_local(
             f"determinant_{name[0]}__{name[1]}", pivot_values[0] * pivot_values[1] - cross_entry**2
         )
         if is_row_pair:
             is_early = any(i < self.n for i in self.elimination.structure[second])
             threshold = max(thresholds[0], EARLY) if is_early else thresholds[0]
-            build.line(pivot_guard(failing, 1, pivot_values[0], threshold, size[0]))
-            build.line(pivot_guard(failing, 2, determinant, threshold, size[1], pivot_values[0]))
+            build.append_line(make_pivot_guard(failing, 1, pivot_values[0], threshold, size[0]))
+            build.append_line(make_pivot_guard(failing, 2, determinant, threshold, size[1], pivot_values[0]))
             self._test_joint_pivots(build, block, scale, (pivot_values[0], determinant), (*failing, thresholds[1]))
         elif failing[0]:
             self._test_light_pivot(build, first, pivot_values[0])
             self._test_light_pivot(build, second, determinant, pivot_values[0])
-        inverse = build.local(f"inverse_{name[0]}__{name[1]}", (-1 if is_row_pair else 1) / determinant)
+        inverse = build.append_local(f"inverse_{name[0]}__{name[1]}", (-1 if is_row_pair else 1) / determinant)
         inverse_first, inverse_second = (
-            build.local(f"inverse_pivot_{name[i]}", pivot_values[1 - i] * inverse) for i in range(2)
+            build.append_local(f"inverse_pivot_{name[i]}", pivot_values[1 - i] * inverse) for i in range(2)
         )
-        inverse_cross = build.local(f"inverse_cross_{name[0]}__{name[1]}", -cross_entry * inverse)
+        inverse_cross = build.append_local(f"inverse_cross_{name[0]}__{name[1]}", -cross_entry * inverse)
         return {
             first: {first: inverse_first, second: inverse_cross},
             second: {first: inverse_cross, second: inverse_second},
@@ -266,10 +272,13 @@ class KKT:
     def _compute_row_size(self, build: KernelBuilder, k: int, scale: sp.Symbol) -> sp.Symbol:
         """Return the size with which the pivot of equation k is compared.
 
-        In absolute coordinates it is at least what the masses in the equation make of it. Where links are in line, an
-        equation that closes a loop may vanish as a whole once dependent coordinates are eliminated from it.
+        `scale` is the size before this call. It is returned unchanged in tree coordinates, for the equations of the
+        first pivots, for friction, and for an equation without coordinates of a point. Otherwise Σ Φ_q²/m of the
+        coordinates x and y of the bodies is added: where links are in line, an equation that closes a loop may vanish
+        as a whole once dependent coordinates are eliminated from it. The sum is then stored in a local, which is
+        returned.
         """
-        if self.system.in_tree or k in self.first.rows or k >= self.first_friction:
+        if self.system.in_tree or k in self.first_pivots.rows or k >= self.first_friction:
             return scale
         entries = self.rows[k - self.n].phi_q.items()
         coordinate_index = {q: j for j, q in enumerate(self.system.q)}
@@ -280,11 +289,11 @@ class KKT:
                 if coordinate_index[q] % 3 < 2
             )
         )
-        if self.system.model.slots.is_constant(mobility):
-            mobility = self.system.model.slots.derive(
+        if self.system.model.parameter_table.is_constant(mobility):
+            mobility = self.system.model.parameter_table.derive(
                 f"mobility_{self.names[k]}", mobility, "1/m of the bodies of a row"
             )
-        return build.local(f"size_{self.names[k]}", scale + mobility) if mobility != 0 else scale
+        return build.append_local(f"size_{self.names[k]}", scale + mobility) if mobility != 0 else scale
 
     def _test_joint_pivots(
         self,
@@ -302,10 +311,10 @@ class KKT:
         first_row, second_row = (self.rows[k - self.n] for k in block)
         if not self.system.in_tree or first_row.owner != second_row.owner or first_row.unit != second_row.unit:
             return
-        size = build.local(f"size_{self.names[block[0]]}", scale[0] + scale[1])
+        size = build.append_local(f"size_{self.names[block[0]]}", scale[0] + scale[1])
         *failed, threshold = failing
-        build.line(pivot_guard(failed, 1, pivots[0], threshold, size))
-        build.line(pivot_guard(failed, 2, pivots[1], threshold, size, pivots[0]))
+        build.append_line(make_pivot_guard(failed, 1, pivots[0], threshold, size))
+        build.append_line(make_pivot_guard(failed, 2, pivots[1], threshold, size, pivots[0]))
 
     def _invert_coordinate_pivot(
         self,
@@ -316,32 +325,38 @@ class KKT:
         W: Mapping[tuple[int, int], sp.Expr],
         jumps: bool,
     ) -> sp.Expr:
-        """Return 1/D of coordinate k; if D is a mass alone, it is a derived parameter.
+        """Return 1/D of coordinate k, with D = M_kk minus L W of the columns that are eliminated before it.
 
-        With `jumps` the pivot of an angle is tested first.
+        It is a derived parameter if there are no such columns and M_kk is constant, else a new local. With `jumps`, the
+        pivot of a coordinate in `turning_inertias` is tested first; 1/D is then a local also for a constant M_kk whose
+        default is not positive.
         """
         mass = self.system.mass[k, k]
-        if jumps and k in self.turning:
+        if jumps and k in self.turning_inertias:
             value = mass - sum((L[k, j] * W[k, j] for j in earlier_columns), ZERO)
-            pivot = named(build, f"pivot_{self.names[k]}", value)
+            pivot = append_unless_simple(build, f"pivot_{self.names[k]}", value)
             self._test_light_pivot(build, k, pivot)
-            constant = self.system.model.slots.is_constant(mass)
-            if earlier_columns or not constant or self.system.model.slots.default(mass) <= 0.0:
-                return build.local(f"inverse_pivot_{self.names[k]}", 1 / pivot)
-        if not earlier_columns and self.system.model.slots.is_constant(mass):
-            inverse: sp.Expr = self.system.model.slots.derive(f"inverse_{self._name_mass(mass, k)}", 1 / mass, "1/M")
+            constant = self.system.model.parameter_table.is_constant(mass)
+            if earlier_columns or not constant or self.system.model.parameter_table.compute_default(mass) <= 0.0:
+                return build.append_local(f"inverse_pivot_{self.names[k]}", 1 / pivot)
+        if not earlier_columns and self.system.model.parameter_table.is_constant(mass):
+            inverse: sp.Expr = self.system.model.parameter_table.derive(
+                f"inverse_{self._name_mass(mass, k)}", 1 / mass, "1/M"
+            )
             return inverse
         value = mass - sum((L[k, j] * W[k, j] for j in earlier_columns), sp.Integer(0))
-        return build.local(f"inverse_pivot_{self.names[k]}", 1 / value)
+        return build.append_local(f"inverse_pivot_{self.names[k]}", 1 / value)
 
     def _test_light_pivot(self, build: KernelBuilder, k: int, pivot: sp.Expr, *earlier_pivots: sp.Expr) -> None:
         """Append a jump for an angle of which elimination leaves nearly no inertia; nothing for other coordinates.
 
         `pivot` is its own pivot times those in `earlier_pivots`.
         """
-        if k in self.turning:
-            status = len(self.rows) + len(self.frictions) + 1 + list(self.turning).index(k)
-            build.line(Guard(Test(pivot, ">", (LIGHT_PIVOT, self.turning[k], *earlier_pivots)), status, True))
+        if k in self.turning_inertias:
+            status = len(self.rows) + len(self.frictions) + 1 + list(self.turning_inertias).index(k)
+            build.append_line(
+                Guard(Test(pivot, ">", (LIGHT_PIVOT, self.turning_inertias[k], *earlier_pivots)), status, True)
+            )
 
     def _name_mass(self, mass: sp.Expr, k: int) -> str:
         """Return the name of the mass of node k for derived parameters."""
@@ -357,27 +372,28 @@ class KKT:
         failing: tuple[bool, int],
         threshold: Threshold,
     ) -> sp.Expr:
-        """Return 1/D of an equation, with a test: D = −scale + the part that earlier equations explain; NaN fails too.
+        """Return 1/D of an equation after a test of its pivot −D, which must exceed `threshold` times the row's size.
 
-        `failing`: whether failure jumps, and the pivot's number. A friction element that slips gets 0, so that its
-        multiplier is zero.
+        −D is the sum of L W over the columns that are eliminated before it. A NaN fails the test too. `failing`:
+        whether failure jumps, and the pivot's number. The equation of a friction element is tested only while it
+        sticks; if it slips, 0 is returned, so that its multiplier is zero.
         """
         name = self.names[k]
         eliminated = sum((L[k, j] * W[k, j] for j in earlier_columns if j < self.n), sp.Integer(0))
-        scale = build.local(f"scale_{name}", eliminated)
+        scale = build.append_local(f"scale_{name}", eliminated)
         pivot: sp.Expr = scale
         earlier_rows = [j for j in earlier_columns if j >= self.n]
         if earlier_rows:
             value = scale + sum((L[k, j] * W[k, j] for j in earlier_rows), sp.Integer(0))
-            pivot = build.local(f"pivot_{name}", value)
+            pivot = build.append_local(f"pivot_{name}", value)
         test, (jumps, status) = Test(pivot, ">", (threshold, self._compute_row_size(build, k, scale))), failing
         if k < self.first_friction:
-            build.line(Guard(test, status, jumps))
-            return -build.local(f"inverse_pivot_{name}", 1 / pivot)
-        stick = self.sticks[k]  # a row that slips is switched off: its multiplier is zero
+            build.append_line(Guard(test, status, jumps))
+            return -build.append_local(f"inverse_pivot_{name}", 1 / pivot)
+        stick = self.stick_symbols[k]  # a row that slips is switched off: its multiplier is zero
         is_sticking = Test(stick, "!=", (0.0,))
-        build.line(Guard(test, status, jumps, is_sticking))
-        return -build.local(f"inverse_pivot_{name}", Conditional(is_sticking, 1 / pivot, ZERO))
+        build.append_line(Guard(test, status, jumps, is_sticking))
+        return -build.append_local(f"inverse_pivot_{name}", Conditional(is_sticking, 1 / pivot, ZERO))
 
     def solve(
         self, build: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""
@@ -386,7 +402,7 @@ class KKT:
 
         `b`: the right-hand side by node, absent ones zero; `prefix` begins the names of the locals.
         """
-        build.section("forward substitution")
+        build.begin_section("forward substitution")
         columns: dict[int, list[int]] = {k: [] for k in self.elimination.order}
         for i, k in factor.L:
             columns[i].append(k)
@@ -395,12 +411,12 @@ class KKT:
             value = b.get(k, sp.Integer(0)) - sum(
                 (factor.L[k, j] * z[j] for j in columns[k] if z[j] != 0), sp.Integer(0)
             )
-            z[k] = named(build, f"{prefix}z_{self.names[k]}", value)
-        build.section("backward substitution")
+            z[k] = append_unless_simple(build, f"{prefix}z_{self.names[k]}", value)
+        build.begin_section("backward substitution")
         x: dict[int, sp.Expr] = {}
         for k in reversed(self.elimination.order):
             value = sum((z[j] * entry for j, entry in factor.inverse[k].items()), ZERO)
             value -= sum((factor.L[i, k] * x[i] for i in self.elimination.structure[k] if (i, k) in factor.L), ZERO)
             kind = "acceleration" if k < self.n else "lambda"
-            x[k] = build.local(f"{prefix}{kind}_{self.names[k]}", value)
+            x[k] = build.append_local(f"{prefix}{kind}_{self.names[k]}", value)
         return x

@@ -23,10 +23,10 @@ from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.differentiation import Tangent, Tangents
 from gudgeon.generator.ir.kernels import KernelBuilder
-from gudgeon.generator.ir.signatures import DISCRETE, RHS, Number, acting_on
+from gudgeon.generator.ir.signatures import DISCRETE, RHS, Number, make_contact_arguments
 from gudgeon.generator.ir.statements import Call, Declare
 from gudgeon.generator.ir.values import Conditional, Test
-from gudgeon.generator.solvers.pivots import friction_mode
+from gudgeon.generator.solvers.pivots import append_friction_mode
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 from gudgeon.generator.symbols.symbols import Symbols
 
@@ -35,7 +35,7 @@ Pair = tuple[int, int]  # node (coordinates, equations, frictions, inner states)
 
 
 @dataclass
-class Parts:
+class LinearizedParts:
     """Non-zeros of the linearization by (node, coordinate), of powers by (power, coordinate or node)."""
 
     mass: dict[Pair, sp.Expr] = field(default_factory=dict)
@@ -71,14 +71,14 @@ class Linearization:
             for k, state in enumerate(c.states)
         }
         self.tangents = Tangents(self.symbols, build, (*system.q, *system.v, *self.z, self.t))
-        for dependent in system.known:  # functions of t
+        for dependent in system.dependent:  # functions of t
             for symbol, rate in (
                 (dependent.q, dependent.rate),
                 (dependent.rate, dependent.second),
                 (dependent.second, dependent.third),
             ):
-                self.tangents.know(symbol, {self.t: rate})
-        self.parts = Parts()
+                self.tangents.store_tangent(symbol, {self.t: rate})
+        self.parts = LinearizedParts()
         self.a = [self._make_held_symbol(f"a_{q.name}", Place("a")[k]) for k, q in enumerate(system.q)]
         self.multiplier = [
             self._make_held_symbol(f"held_lambda_{row.name}", RHS["lambda"][r]) for r, row in enumerate(system.rows)
@@ -87,21 +87,21 @@ class Linearization:
         self.rates: list[sp.Expr] = []  # of the inner states
         self.powers: list[sp.Expr] = [ZERO] * N_WORK
 
-    def derive(self) -> Parts:
+    def derive(self) -> LinearizedParts:
         """Append all statements and return the non-zero parts of the linearization.
 
         Called once.
         """
-        loads = [load for element in self.model.elements.values() for load in element.on_points()]
+        loads = [load for element in self.model.elements.values() for load in element.list_point_loads()]
         self.powers[0] = sp.Add(*(-x * row.nu for x, row in zip(self.multiplier, self.system.rows, strict=True)))
         self.powers[1] = sp.Add(*(element.loads.power for element in self.model.elements.values()))
         for index, clearance in enumerate(self.model.clearances):
             loads += self._append_clearance(index, clearance)
-        generalized_loads, prescribed_forces = self.system.generalized(loads)
+        generalized_loads, prescribed_forces = self.system.compute_generalized_forces(loads)
         residual = [
             -applied_force - load for applied_force, load in zip(self.system.applied, generalized_loads, strict=True)
         ]
-        for prescribed in self.system.given:
+        for prescribed in self.system.prescribed:
             drive_force = sp.Add(*(m * self.a[k] for k, m in prescribed.mass.items())) - prescribed.applied
             self.powers[0] += prescribed.rate * (drive_force - prescribed_forces.get(prescribed.name, ZERO))
         self._add_rows()
@@ -114,7 +114,7 @@ class Linearization:
 
     def _make_held_symbol(self, base_name: str, home: Place) -> sp.Symbol:
         """Return a new symbol that is read at a place and held constant in derivatives."""
-        return self.symbols.new(base_name.replace(".", "_"), home)
+        return self.symbols.add_symbol(base_name.replace(".", "_"), home)
 
     def _append_clearance(self, index: int, clearance: Clearance) -> list[PointLoad]:
         """Append the call of a joint's derivatives; return its loads as symbols whose tangents are known.
@@ -122,23 +122,23 @@ class Linearization:
         The rates of its inner states and its power are recorded. `index`: number of the joint with play.
         """
         name, build, out = clearance.label, self.build, RHS["clearance"][index]
-        build.section(f"clearance {clearance.kind} {clearance.name}")
+        build.begin_section(f"clearance {clearance.kind} {clearance.name}")
         eccentricity = [
-            build.local(f"e_{name}_{axis}", component)
+            build.append_local(f"e_{name}_{axis}", component)
             for axis, component in zip("xy", clearance.eccentricity, strict=True)
         ]
         eccentricity_rate = [
-            build.local(f"edot_{name}_{axis}", component)
+            build.append_local(f"edot_{name}_{axis}", component)
             for axis, component in zip("xy", clearance.eccentricity_rate, strict=True)
         ]
         inputs = (*clearance.eccentricity, *clearance.eccentricity_rate, clearance.first.omega, clearance.second.omega)
-        inputs += clearance.also
-        slopes = self.symbols.unique(f"change_{name}")
-        build.line(Declare(Number.REAL, slopes, (4 + self.states, len(inputs) + self.states)))
-        build.line(
+        inputs += clearance.further_arguments
+        slopes = self.symbols.make_unique_name(f"change_{name}")
+        build.append_line(Declare(Number.REAL, slopes, (4 + self.states, len(inputs) + self.states)))
+        build.append_line(
             Call(
                 f"tangent_{name}_",
-                (*eccentricity, *eccentricity_rate, *inputs[4:], *acting_on(index)),
+                (*eccentricity, *eccentricity_rate, *inputs[4:], *make_contact_arguments(index)),
                 (Place(slopes),),
             )
         )
@@ -147,9 +147,13 @@ class Linearization:
             if self.states
             else []
         )
-        input_tangents = [self.tangents.gradient(component) for component in (*inputs, *states)]
+        input_tangents = [self.tangents.compute_gradient(component) for component in (*inputs, *states)]
         further_names = ("n_x", "n_y") if clearance.wall else ("theta_i",)
-        derivative_names = (*_INPUT_NAMES, *further_names[: len(clearance.also)], *(state.name for state in states))
+        derivative_names = (
+            *_INPUT_NAMES,
+            *further_names[: len(clearance.further_arguments)],
+            *(state.name for state in states),
+        )
         values = []
         results: dict[str, Place] = {
             result_name: out[result_name] for result_name in ("Fx", "Fy", "moment_first", "moment_second")
@@ -159,24 +163,24 @@ class Linearization:
             symbol = self._make_held_symbol(f"{name}_{result_name}", home)
             places = {k: Place(slopes)[i][j] for j, k in enumerate(derivative_names) if input_tangents[j]}
             derivatives = [
-                build.local(f"{symbol.name}_by_{k}", derivative_place) for k, derivative_place in places.items()
+                build.append_local(f"{symbol.name}_by_{k}", derivative_place) for k, derivative_place in places.items()
             ]
             derivative_iterator = iter(derivatives)
             tangent_by_derivative = {next(derivative_iterator): tangent for tangent in input_tangents if tangent}
-            self.tangents.know(symbol, self.tangents.sum(tangent_by_derivative.items()))
+            self.tangents.store_tangent(symbol, self.tangents.sum_tangents(tangent_by_derivative.items()))
             values.append(symbol)
         self.rates += values[4:]
         moments = [
             component if end.body is not None else ZERO
             for component, end in zip(values[2:4], (clearance.first, clearance.second), strict=True)
         ]
-        self.powers[2] += clearance.power(values[:2], clearance.eccentricity_rate, moments)
-        return clearance.on_points(values[:2], moments)
+        self.powers[2] += clearance.compute_power(values[:2], clearance.eccentricity_rate, moments)
+        return clearance.list_point_loads(values[:2], moments)
 
     def _add_rows(self) -> None:
         """Add Φ_q, V = R2_v − 2α Φ_q, Q = R2_q − β² Φ_q and R2_t of the constraint equations to the parts."""
         if self.system.rows:
-            self.build.section("constraints")
+            self.build.begin_section("constraints")
         two_alpha, beta_squared = self._derive_gains()
         for index, row in enumerate(self.system.rows):
             node = self.n + index
@@ -184,11 +188,13 @@ class Linearization:
             self._add_derivatives(node, row.gamma, -1, v_only=True)
             residual = sum((entry * self.a[self.q[q]] for q, entry in row.phi_q.items()), -row.gamma)
             phi_dot = row.phi_q_v - row.nu
-            derivative_by_q = self._select_entries(self.tangents.gradient(residual), self.q)
-            for k, value in self._select_entries(self.tangents.gradient(phi_dot), self.q).items():
+            derivative_by_q = self._select_entries(self.tangents.compute_gradient(residual), self.q)
+            for k, value in self._select_entries(self.tangents.compute_gradient(phi_dot), self.q).items():
                 derivative_by_q[k] = derivative_by_q.get(k, ZERO) + two_alpha * value
             self.parts.by_q |= {(node, k): value for k, value in derivative_by_q.items() if value != 0}
-            derivatives_by_t = [self.tangents.gradient(x).get(self.t, ZERO) for x in (residual, phi_dot, row.phi)]
+            derivatives_by_t = [
+                self.tangents.compute_gradient(x).get(self.t, ZERO) for x in (residual, phi_dot, row.phi)
+            ]
             if (
                 value := derivatives_by_t[0] + two_alpha * derivatives_by_t[1] + beta_squared * derivatives_by_t[2]
             ) != 0:
@@ -197,7 +203,7 @@ class Linearization:
     def _derive_gains(self) -> tuple[sp.Expr, sp.Expr]:
         """Return 2α and β² of Baumgarte's terms as derived parameters."""
         alpha, beta = self.model.baumgarte
-        derive = self.model.slots.derive
+        derive = self.model.parameter_table.derive
         return derive("two_alpha", 2 * alpha, "2 alpha"), derive("beta_squared", beta**2, "beta^2")
 
     def _add_jacobian(self, node: int, jacobian: Mapping[sp.Symbol, sp.Expr]) -> None:
@@ -209,7 +215,7 @@ class Linearization:
 
         With `v_only` only those by v are added. `node`: number of the equation.
         """
-        tangent = self.tangents.gradient(value)
+        tangent = self.tangents.compute_gradient(value)
         for part, index_of in ((self.parts.by_v, self.v), (self.parts.by_q, self.q), (self.parts.by_z, self.z)):
             if index_of is self.v or not v_only:
                 part |= {(node, k): sign * entry for k, entry in self._select_entries(tangent, index_of).items()}
@@ -227,15 +233,15 @@ class Linearization:
         `residual`, by coordinate, gets the difference between the present and the kinetic force, in place.
         """
         if self.system.frictions:
-            self.build.section("friction: slip, or stick as a constraint equation")
+            self.build.begin_section("friction: slip, or stick as a constraint equation")
         two_alpha = stick_gain(self.model) if self.system.frictions else ZERO
         for index, friction in enumerate(self.system.frictions):
             node, name, build = self.n + self.m + index, friction.name, self.build
-            stick, sign = friction_mode(build, name, index)
+            stick, sign = append_friction_mode(build, name, index)
             held_force_value = Conditional(
                 Test(stick, "!=", (0.0,)), PlaceSymbol(RHS["friction"][index]["force"]), ZERO
             )
-            force = build.local(f"held_force_{name}", held_force_value)
+            force = build.append_local(f"held_force_{name}", held_force_value)
             self.sticks.append(stick)
             self._add_jacobian(node, friction.jacobian)
             kinetic = friction.slip.kinetic_at(friction.slip.v)
@@ -258,8 +264,10 @@ class Linearization:
         velocity = friction.slip.v + friction.slip.speed
         self.powers[1] += force * velocity
         self.parts.power_row[1, node] = -stick * velocity
-        for prescribed in self.system.given:  # what friction asks of a drive
-            prescribed_velocity = prescribed.rate * self.symbols.written_out(friction.slip.v, prescribed.rate)
+        for prescribed in self.system.prescribed:  # what friction asks of a drive
+            prescribed_velocity = prescribed.rate * self.symbols.differentiate_definitions(
+                friction.slip.v, prescribed.rate
+            )
             if prescribed_velocity != 0:
                 self.powers[0] -= prescribed_velocity * force
                 self.parts.power_row[0, node] = self.parts.power_row.get((0, node), ZERO) + stick * prescribed_velocity
@@ -269,7 +277,7 @@ class Linearization:
 
         `residual`, by coordinate, is completed in place.
         """
-        self.build.section("coordinates")
+        self.build.begin_section("coordinates")
         for (i, j), value in self.system.mass.items():
             for k, column in sorted({(i, j), (j, i)}):
                 self.parts.mass[k, column] = value
@@ -284,9 +292,9 @@ class Linearization:
         """Add the derivatives of the powers to the parts; nothing if all powers are 0."""
         if not any(self.powers):
             return
-        self.build.section("powers")
+        self.build.begin_section("powers")
         for index, power in enumerate(self.powers):
-            tangent = self.tangents.gradient(power)
+            tangent = self.tangents.compute_gradient(power)
             self.parts.power_q |= {(index, k): value for k, value in self._select_entries(tangent, self.q).items()}
             self.parts.power_v |= {(index, k): value for k, value in self._select_entries(tangent, self.v).items()}
             self.parts.power_z |= {(index, k): value for k, value in self._select_entries(tangent, self.z).items()}
@@ -295,7 +303,7 @@ class Linearization:
         for row_index, row in enumerate(self.system.rows):
             if row.nu != 0:
                 self.parts.power_row[0, self.n + row_index] = -row.nu
-        for prescribed in self.system.given:  # a drive also moves what inertia the accelerations meet it with
+        for prescribed in self.system.prescribed:  # a drive also moves what inertia the accelerations meet it with
             for k, mass in prescribed.mass.items():
                 self.parts.power_row[0, k] = self.parts.power_row.get((0, k), ZERO) + prescribed.rate * mass
 

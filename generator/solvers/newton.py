@@ -1,4 +1,4 @@
-"""Newton's matrix of the equations of motion, and the solution of (I/η − J) u = r + s f_t, as kernels.
+"""Functions for implicit methods: Newton's matrix of the equations of motion, and solutions (I/η − J) u = r + s f_t.
 
 J is the Jacobian of y' = f(t, y) with y = (q, v, works, inner states z) and η = h γ of the method. Eliminating
 u_q = η (r_q + u_v) leaves, with the parts of linearization.py and κ = 1 + 2αη + β²η² (1 + 2αη for a stick),
@@ -25,14 +25,24 @@ import sympy as sp
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.generator.equations.model import stick_gain
 from gudgeon.generator.equations.system import System
-from gudgeon.generator.ir.complex_parts import at_complex
+from gudgeon.generator.ir.complex_parts import convert_to_complex
 from gudgeon.generator.ir.differentiation import Tangents
-from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, KernelBuilder, Pool, Section, declare_branches
-from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, RHS, STATE, Access, Argument, Number, result, source
-from gudgeon.generator.ir.statements import Call, Declare, Guard, Return, RunNumbers, Statement
+from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, KernelBuilder, Section, ValuePool, declare_branches
+from gudgeon.generator.ir.signatures import (
+    DISCRETE,
+    PARAMETERS,
+    RHS,
+    STATE,
+    Access,
+    Argument,
+    Number,
+    make_input_argument,
+    make_output_argument,
+)
+from gudgeon.generator.ir.statements import Call, Declare, DeclareParameters, Guard, Return, Statement
 from gudgeon.generator.ir.values import Conditional, Test
 from gudgeon.generator.solvers.dependent_coordinates import FirstPivots, is_unit
-from gudgeon.generator.solvers.linearization import Linearization, Pair, Parts
+from gudgeon.generator.solvers.linearization import Linearization, LinearizedParts, Pair
 from gudgeon.generator.solvers.pivots import SINGULAR, is_simple
 from gudgeon.generator.solvers.sparsity import choose_elimination
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
@@ -56,13 +66,13 @@ class Newton:
         partner = self.first.partner
         self.equation = {**partner, **{r: k for k, r in partner.items()}}  # by its unknown, if not its own
         self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in names + states]
-        self.lin = source(LINEARIZATION, "Linear")
-        self.values = Pool(system.model.symbols, self.lin["value"])
-        self.factors = Pool(system.model.symbols, self.lin["lu"])
-        self.linearize = self._make_linearize_kernel()
-        self.factor = self._make_factor_kernel()
-        self.substitute = self._make_substitute_kernel()
-        self.solve = self._make_solve_kernel()
+        self.linearization_argument = make_input_argument(LINEARIZATION, "Linear")
+        self.values = ValuePool(system.model.symbols, self.linearization_argument["value"])
+        self.factors = ValuePool(system.model.symbols, self.linearization_argument["lu"])
+        self.linearize_kernel = self._make_linearize_kernel()
+        self.factor_kernel = self._make_factor_kernel()
+        self.substitute_kernel = self._make_substitute_kernel()
+        self.solve_kernel = self._make_solve_kernel()
 
     def _begin_function(self, name: str, doc: Sequence[str]) -> KernelBuilder:
         """Return the builder of a function with a name and the lines of its comment."""
@@ -83,22 +93,22 @@ class Newton:
         )
         work = Linearization(self.system, build)
         parts = work.derive()
-        build.section("results")
+        build.begin_section("results")
         self.parts = self._store_parts(build, parts, work.tangents)
-        self.sticks = [self.values.keep(build, stick, f"is_{stick.name}") for stick in work.sticks]
+        self.sticks = [self.values.store_value(build, stick, f"is_{stick.name}") for stick in work.sticks]
         self.tables = self._make_tables(build)
-        build.out(self.lin[PARAMETERS.name], Place(PARAMETERS.name))
+        build.append_store(self.linearization_argument[PARAMETERS.name], Place(PARAMETERS.name))
         arguments = (
             *STATE,
             DISCRETE,
             PARAMETERS,
-            source("a"),
-            source(RHS.name, RHS.type),
+            make_input_argument("a"),
+            make_input_argument(RHS.name, RHS.type),
             self._make_written_linearization(),
         )
-        return declare_branches(build.build(arguments, owner="", prune=True))
+        return declare_branches(build.build_kernel(arguments, owner="", prune=True))
 
-    def _store_parts(self, build: KernelBuilder, parts: Parts, tangents: Tangents) -> Parts:
+    def _store_parts(self, build: KernelBuilder, parts: LinearizedParts, tangents: Tangents) -> LinearizedParts:
         """Return the parts with each value stored once in the pool, up to its sign.
 
         `tangents` stores shared denominators and powers.
@@ -106,7 +116,7 @@ class Newton:
 
         def store_value(value: sp.Expr, name: str) -> sp.Expr:
             """Return the symbol of a value that is stored in the pool; `name`: base of its name."""
-            return self.values.keep(build, tangents.shared(value), name)
+            return self.values.store_value(build, tangents.share_powers_of(value), name)
 
         def store_part(
             prefix: str,
@@ -122,7 +132,7 @@ class Newton:
 
         states = self.names[self.first_state :]
         works = [str(w) for w in range(N_WORK)]
-        return Parts(
+        return LinearizedParts(
             store_part("mass", parts.mass, self.names),
             store_part("phi", parts.phi_q, self.names),
             store_part("by_q", parts.by_q, self.names),
@@ -140,17 +150,17 @@ class Newton:
         """Return the entries of each part in `lin->value`: (row, column, index, sign); columns are those of y."""
         parts, n, z = self.parts, self.n, 2 * self.n + N_WORK
 
-        def table(part: Mapping[Pair, sp.Expr], first: int = 0) -> list[tuple[int, int, int, int]]:
+        def make_table(part: Mapping[Pair, sp.Expr], first: int = 0) -> list[tuple[int, int, int, int]]:
             """Return (row, column, index, sign) of the entries of one part."""
-            return [(i, first + k, *self.values.place(build, value)) for (i, k), value in part.items()]
+            return [(i, first + k, *self.values.find_index_and_sign(build, value)) for (i, k), value in part.items()]
 
         return {
-            "phi_q": table(parts.phi_q),
-            "residual": table(parts.by_q) + table(parts.by_v, n) + table(parts.by_z, z),
-            "residual_t": table({(node, 0): value for node, value in parts.by_t.items()}),
-            "power": table(parts.power_q) + table(parts.power_v, n) + table(parts.power_z, z),
-            "power_row": table(parts.power_row),
-            "power_t": table({(w, 0): value for w, value in parts.power_t.items()}),
+            "phi_q": make_table(parts.phi_q),
+            "residual": make_table(parts.by_q) + make_table(parts.by_v, n) + make_table(parts.by_z, z),
+            "residual_t": make_table({(node, 0): value for node, value in parts.by_t.items()}),
+            "power": make_table(parts.power_q) + make_table(parts.power_v, n) + make_table(parts.power_z, z),
+            "power_row": make_table(parts.power_row),
+            "power_t": make_table({(w, 0): value for w, value in parts.power_t.items()}),
         }
 
     def _make_matrix_entries(self, build: KernelBuilder) -> dict[Pair, sp.Expr]:
@@ -161,7 +171,7 @@ class Newton:
         parts = self.parts
         self._append_scales(build, {self._find_scale(node) for node, _ in {**parts.by_v, **parts.by_q}})
         first = self.first_state
-        build.section("matrix")
+        build.begin_section("matrix")
         entries: dict[Pair, sp.Expr] = dict(parts.mass)
         for node, k in sorted({*parts.by_v, *parts.by_q, *parts.phi_q}):
             index = node, k
@@ -180,7 +190,7 @@ class Newton:
         `index`: its row and column.
         """
         name = f"n_{self.names[index[0]]}__{self.names[index[1]]}"
-        return value if is_simple(value) else build.local(name, value)
+        return value if is_simple(value) else build.append_local(name, value)
 
     def _find_scale(self, node: int) -> sp.Symbol:
         """Return the factor η or η/κ by which the change of an equation is multiplied.
@@ -194,13 +204,13 @@ class Newton:
     def _append_scales(self, build: KernelBuilder, scales: Collection[sp.Symbol]) -> None:
         """Append η/κ of constraints and of sticks to the function, if they are among the `scales` that it reads."""
         alpha, beta = self.model.baumgarte
-        derive = self.model.slots.derive
+        derive = self.model.parameter_table.derive
         two_alpha, beta_squared = derive("two_alpha", 2 * alpha), derive("beta_squared", beta**2)
-        build.section("eta/kappa")
+        build.begin_section("eta/kappa")
         if ETA_ROW in scales:
-            build.line(Statement(ETA_ROW.name, ETA / (1 + ETA * (two_alpha + ETA * beta_squared))))
+            build.append_line(Statement(ETA_ROW.name, ETA / (1 + ETA * (two_alpha + ETA * beta_squared))))
         if ETA_STICK in scales:
-            build.line(Statement(ETA_STICK.name, ETA / (1 + ETA * stick_gain(self.model))))
+            build.append_line(Statement(ETA_STICK.name, ETA / (1 + ETA * stick_gain(self.model))))
 
     def _make_factor_kernel(self) -> Kernel:
         """Return the function of L U of the matrix, L with unit diagonal.
@@ -229,25 +239,25 @@ class Newton:
             first=(*states, *self.first.order),
             partner=self.first.partner,
         )
-        build.section("L U")
+        build.begin_section("L U")
         factors = Factors(self, build, entries)
         for k in self.elimination.order:
             factors.eliminate(k, self.elimination.structure[k])
         self.lower, self.upper, self.inverse = factors.lower, factors.upper, factors.inverse
-        build.line(Return())
+        build.append_line(Return())
         return self._finish_function(build, (Argument("eta"), self._make_written_linearization()), status=True)
 
     def _make_written_linearization(self) -> Argument:
-        """Return the argument `lin` as one that the function writes."""
-        return replace(self.lin, access=Access.WRITTEN)
+        """Return the argument `linearization_argument` as one that the function writes."""
+        return replace(self.linearization_argument, access=Access.WRITTEN)
 
     def _finish_function(self, build: KernelBuilder, arguments: Sequence[Argument], status: bool = False) -> Kernel:
         """Return the built function, without locals that nothing reads.
 
-        It reads the parameters of the run through `lin` if it needs them.
+        It reads the parameters of the run through `linearization_argument` if it needs them.
         """
-        kernel = build.build(arguments, status, prune=True)
-        parameter_section = Section("numbers of the run", (RunNumbers(),))
+        kernel = build.build_kernel(arguments, status, prune=True)
+        parameter_section = Section("numbers of the run", (DeclareParameters(),))
         reads_parameters = any(PARAMETERS.name in s.reads for section in kernel.sections for s in section.statements)
         return replace(kernel, sections=(parameter_section, *kernel.sections)) if reads_parameters else kernel
 
@@ -259,7 +269,7 @@ class Newton:
         build = self._begin_function(
             "newton_substitute", ["x (all nodes) holds b and becomes the solution of N x = b."]
         )
-        build.section("forward")
+        build.begin_section("forward")
         order = self.elimination.order
         x: dict[int, sp.Symbol] = {}
         earlier_columns: dict[int, list[int]] = {k: [] for k in order}
@@ -268,13 +278,13 @@ class Newton:
         for k in order:
             i = self.equation.get(k, k)
             value = PlaceSymbol(Place("x")[i]) - sp.Add(*(self.lower[i, j] * x[j] for j in earlier_columns[i]))
-            x[k] = build.local(f"b_{self.names[k]}", value)
-        build.section("backward")
+            x[k] = build.append_local(f"b_{self.names[k]}", value)
+        build.begin_section("backward")
         for k in reversed(order):
             value = x[k] - sp.Add(*(self.upper[k, j] * x[j] for j in self.elimination.structure[k]))
-            x[k] = build.local(f"x_{self.names[k]}", value * self.inverse[k])
-            build.out(Place("x")[k], x[k])
-        return self._finish_function(build, (self.lin, result("x")))
+            x[k] = build.append_local(f"x_{self.names[k]}", value * self.inverse[k])
+            build.append_store(Place("x")[k], x[k])
+        return self._finish_function(build, (self.linearization_argument, make_output_argument("x")))
 
     def _make_solve_kernel(self) -> Kernel:
         """Return the function that computes u from r, both (2n + works + inner states), for a factor s of f_t."""
@@ -288,13 +298,13 @@ class Newton:
             ],
         )
         self._append_scales(build, {self._find_scale(node) for node in range(self.nodes)})
-        build.section("right-hand side")
-        build.line(Declare(Number.REAL, "x", (self.nodes,)))
-        beta_squared = self.model.slots.derive("beta_squared", self.model.baumgarte[1] ** 2)
+        build.begin_section("right-hand side")
+        build.append_line(Declare(Number.REAL, "x", (self.nodes,)))
+        beta_squared = self.model.parameter_table.derive("beta_squared", self.model.baumgarte[1] ** 2)
         r_q, r_v = ([PlaceSymbol(Place("r")[first + k]) for k in range(n)] for first in (0, n))
         coordinates = sorted({k for node, k in parts.phi_q if node < n + self.m})
         shifted = {
-            k: build.local(f"shifted_{self.names[k]}", r_v[k] - ETA * beta_squared * r_q[k]) for k in coordinates
+            k: build.append_local(f"shifted_{self.names[k]}", r_v[k] - ETA * beta_squared * r_q[k]) for k in coordinates
         }
         b: list[list[sp.Expr]] = [[] for _ in range(self.nodes)]
         for (i, k), value in parts.mass.items():
@@ -308,17 +318,23 @@ class Newton:
         for i in range(self.first_state, self.nodes):
             b[i].append(PlaceSymbol(Place("r")[self._find_state_index(i)]))
         for i, terms in enumerate(b):
-            build.out(Place("x")[i], self._find_scale(i) * sp.Add(*terms))
-        build.line(Call("newton_substitute", (Place(LINEARIZATION),), (Place("x"),)))
-        build.section("solution")
+            build.append_store(Place("x")[i], self._find_scale(i) * sp.Add(*terms))
+        build.append_line(Call("newton_substitute", (Place(LINEARIZATION),), (Place("x"),)))
+        build.begin_section("solution")
         for k in range(n):
-            build.out(Place("u")[k], ETA * (r_q[k] + PlaceSymbol(Place("x")[k])))
-            build.out(Place("u")[n + k], PlaceSymbol(Place("x")[k]))
+            build.append_store(Place("u")[k], ETA * (r_q[k] + PlaceSymbol(Place("x")[k])))
+            build.append_store(Place("u")[n + k], PlaceSymbol(Place("x")[k]))
         for i in range(self.first_state, self.nodes):
-            build.out(Place("u")[self._find_state_index(i)], PlaceSymbol(Place("x")[i]))
+            build.append_store(Place("u")[self._find_state_index(i)], PlaceSymbol(Place("x")[i]))
         for w in range(N_WORK):
-            build.out(Place("u")[2 * n + w], self._compute_work_change(w))
-        arguments = (self.lin, Argument("eta"), Argument("s"), source("r"), result("u"))
+            build.append_store(Place("u")[2 * n + w], self._compute_work_change(w))
+        arguments = (
+            self.linearization_argument,
+            Argument("eta"),
+            Argument("s"),
+            make_input_argument("r"),
+            make_output_argument("u"),
+        )
         return self._finish_function(build, arguments)
 
     def _find_state_index(self, state: int) -> int:
@@ -341,10 +357,13 @@ class Newton:
         return ETA * sp.Add(*terms) + sp.Add(*changes)
 
 
-def at_complex_step(newton: Newton) -> tuple[Kernel, ...]:
+def make_complex_kernels(newton: Newton) -> tuple[Kernel, ...]:
     """Return the functions of Newton's matrix at complex η: factorization, substitution and solution with s = 0."""
-    arrays = ("eta", "r", "u", "x", newton.lin["lu"])
-    return tuple(at_complex(kernel, arrays, ("s",)) for kernel in (newton.factor, newton.substitute, newton.solve))
+    arrays = ("eta", "r", "u", "x", newton.linearization_argument["lu"])
+    return tuple(
+        convert_to_complex(kernel, arrays, ("s",))
+        for kernel in (newton.factor_kernel, newton.substitute_kernel, newton.solve_kernel)
+    )
 
 
 ETA, ETA_ROW, ETA_STICK = (sp.Symbol(name, real=True) for name in ("eta", "eta_row", "eta_stick"))
@@ -396,12 +415,12 @@ class Factors:
             return (
                 entry
                 if is_unit(entry)
-                else newton.factors.adopt(build, build.local(f"inverse_pivot_{name}", 1 / entry))
+                else newton.factors.store_local(build, build.append_local(f"inverse_pivot_{name}", 1 / entry))
             )
         if entry.is_Number and entry == 1:  # an inner state that this joint does not have
             return entry
         if not self._earlier_pivots[k] and entry in newton.model.masses:
-            return newton.model.slots.derive(f"inverse_{entry}", 1 / entry, "1/M")
+            return newton.model.parameter_table.derive(f"inverse_{entry}", 1 / entry, "1/M")
         states = newton.first_state
         independent_pivots = [
             j
@@ -409,15 +428,19 @@ class Factors:
             if j < newton.n or j in newton.equation or j >= states or k < newton.n or k >= states
         ]
         row_pivots = [j for j in self._earlier_pivots[k] if j not in independent_pivots]
-        scale = build.local(f"scale_{name}", entry - self._sum_products(k, k, independent_pivots))
-        pivot = build.local(f"pivot_{name}", scale - self._sum_products(k, k, row_pivots)) if row_pivots else scale
+        scale = build.append_local(f"scale_{name}", entry - self._sum_products(k, k, independent_pivots))
+        pivot = (
+            build.append_local(f"pivot_{name}", scale - self._sum_products(k, k, row_pivots)) if row_pivots else scale
+        )
         size = entry if k < newton.n or k >= states else scale
         stick = newton.sticks[k - newton.n - newton.m] if newton.n + newton.m <= k < states else None
         is_sticking = Test(stick, "!=", (0.0,)) if stick is not None else None
-        build.line(Guard(Test(pivot, ">", (SINGULAR, Size(size)), size=True), k + 1, only=is_sticking))
+        build.append_line(
+            Guard(Test(pivot, ">", (SINGULAR, Size(size)), compares_magnitude=True), k + 1, condition=is_sticking)
+        )
         # a row that slips is switched off: its multiplier is zero
         value = 1 / pivot if is_sticking is None else Conditional(is_sticking, 1 / pivot, ZERO)
-        return newton.factors.adopt(build, build.local(f"inverse_pivot_{name}", value))
+        return newton.factors.store_local(build, build.append_local(f"inverse_pivot_{name}", value))
 
     def _store_factor(self, name: str, value: sp.Expr) -> sp.Expr:
         """Return a factor as a value that other functions may read.
@@ -429,4 +452,6 @@ class Factors:
             ETA_ROW,
             ETA_STICK,
         }  # not what every call is given
-        return self.newton.factors.adopt(self.build, value if is_stored_elsewhere else self.build.local(name, value))
+        return self.newton.factors.store_local(
+            self.build, value if is_stored_elsewhere else self.build.append_local(name, value)
+        )

@@ -1,4 +1,4 @@
-"""Pivots of a KKT system: thresholds, tests of a pivot, and which values get names."""
+"""Pivots of a KKT system: thresholds, tests for small pivots, and which intermediate values become variables."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ EARLY = Threshold("EARLY", 1e-5)
 # the inverse of its square, 5e-16 for a share of 1.
 LIGHT_PIVOT = Threshold("LIGHT_PIVOT", 1e-3)
 # The same two where a run may need more: the discrete state gives the value (engine/motion/continuation.c).
-LEAST = Threshold(NEARLY_SINGULAR.name, NEARLY_SINGULAR, DISCRETE["least"])
-LEAST_SIZE = Threshold(VANISHING.name, VANISHING, DISCRETE["least_size"])
+RUN_SINGULAR = Threshold(NEARLY_SINGULAR.name, NEARLY_SINGULAR, DISCRETE["least"])
+RUN_VANISHING = Threshold(VANISHING.name, VANISHING, DISCRETE["least_size"])
 
 
 @dataclass(frozen=True)
@@ -48,18 +48,20 @@ class Factor:
     inverse: Mapping[int, Mapping[int, sp.Expr]]
 
 
-def friction_mode(build: KernelBuilder, name: str, index: int) -> tuple[sp.Symbol, sp.Symbol]:
+def append_friction_mode(build: KernelBuilder, name: str, index: int) -> tuple[sp.Symbol, sp.Symbol]:
     """Return two locals for a friction element's mode: 1 at stick and 0 else; the sign of the slip (0: none).
 
     `index`: number of the element, whose discrete state the function reads.
     """
-    place = DISCRETE["mode"][index]
-    mode = build.local(f"mode_{name}", place, "0 stick, 1 or -1 the sign of the slip, 2 held")
-    stick = build.local(f"stick_{name}", Conditional(Test(mode, "==", (0.0,)), sp.Integer(1), ZERO))
-    return stick, build.local(f"sign_{name}", Conditional(Test(mode, ">", (1.0,), size=True), ZERO, mode))
+    mode_place = DISCRETE["mode"][index]
+    mode = build.append_local(f"mode_{name}", mode_place, "0 stick, 1 or -1 the sign of the slip, 2 held")
+    stick = build.append_local(f"stick_{name}", Conditional(Test(mode, "==", (0.0,)), sp.Integer(1), ZERO))
+    return stick, build.append_local(
+        f"sign_{name}", Conditional(Test(mode, ">", (1.0,), compares_magnitude=True), ZERO, mode)
+    )
 
 
-def pivot_guard(failing: Sequence[int], position: int, value: sp.Expr, *bound: sp.Expr | float) -> Guard:
+def make_pivot_guard(failing: Sequence[int], position: int, value: sp.Expr, *bound: sp.Expr | float) -> Guard:
     """Return the test that a pivot of a block is above the bound, a product.
 
     `failing`: whether failure jumps, and the number of equations before the block; `position`: 1 or 2, which pivot of
@@ -74,12 +76,12 @@ def is_simple(value: sp.Expr) -> bool:
     return bool(value.is_Number or value.is_Symbol or (-value).is_Symbol)
 
 
-def named(build: KernelBuilder, name: str, value: sp.Expr) -> sp.Expr:
+def append_unless_simple(build: KernelBuilder, name: str, value: sp.Expr) -> sp.Expr:
     """Return the value, as a new local of that name unless it is simple."""
-    return value if is_simple(value) else build.local(name, value)
+    return value if is_simple(value) else build.append_local(name, value)
 
 
-def row_pairs(rows: Sequence[Row], n: int, pattern: Sequence[frozenset[int]]) -> dict[int, int]:
+def find_row_pairs(rows: Sequence[Row], n: int, pattern: Sequence[frozenset[int]]) -> dict[int, int]:
     """Return the pairs of equations of a joint in the same coordinates, of which there are more than two.
 
     Equations are nodes from n on, `pattern` has the neighbours of each node; each equation is returned with its

@@ -235,10 +235,10 @@ def _eliminate_greedily(
     position = {node: k for k, node in enumerate(order)}
     structure = {node: tuple(sorted(columns[node], key=position.__getitem__)) for node in order}
     products = sum(len(c) * (len(c) + 3) // 2 for c in columns.values())
-    return Elimination(tuple(order), structure, products, _division_depth(order, structure, coordinates))
+    return Elimination(tuple(order), structure, products, _compute_division_depth(order, structure, coordinates))
 
 
-def _division_depth(order: Sequence[int], structure: Mapping[int, tuple[int, ...]], coordinates: int) -> int:
+def _compute_division_depth(order: Sequence[int], structure: Mapping[int, tuple[int, ...]], coordinates: int) -> int:
     """Return the length of the longest chain of divisions that wait for each other.
 
     Pivots that elimination does not change are computed beforehand; two that form a block count as one.
@@ -289,7 +289,7 @@ def match_rows(pattern: Sequence[set[int]]) -> dict[int, int]:
     return row_of_unknown
 
 
-def triangular_blocks(pattern: Sequence[set[int]], n: int) -> tuple[Block, ...] | None:
+def find_triangular_blocks(pattern: Sequence[set[int]], n: int) -> tuple[Block, ...] | None:
     """Return the blocks of a square pattern in solving order.
 
     None if the pattern is not square or some unknown has no equation. `pattern`: the unknowns of each equation.

@@ -1,4 +1,4 @@
-"""Solution of Φ_q x = r with as many equations as coordinates, block by block, without M.
+"""Solution of Φ_q x = r without the mass matrix, where there are as many constraint equations as coordinates.
 
 A linkage without degrees of freedom consists of groups of bodies that can be placed one after the other (the Assur
 groups of kinematics, mostly dyads: two equations in two angles). In Φ_q they are the diagonal blocks of its block
@@ -21,7 +21,7 @@ from gudgeon.generator.ir.signatures import Number
 from gudgeon.generator.ir.statements import Call, Declare, Guard
 from gudgeon.generator.ir.values import Test, Threshold
 from gudgeon.generator.solvers.pivots import SINGULAR
-from gudgeon.generator.solvers.sparsity import Block, triangular_blocks
+from gudgeon.generator.solvers.sparsity import Block, find_triangular_blocks
 from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.switches import Size
 
@@ -41,7 +41,7 @@ class Solver:
 
 
 class SquareRows:
-    """Prints the solution of Φ_q x = r for a system's equations in its coordinates, if it `fits`."""
+    """Prints the solution of Φ_q x = r for a system's equations in its coordinates, if it `is_solvable`."""
 
     def __init__(self, system: System, slides: Sequence[bool]) -> None:
         """Find the blocks of the system's equations; `slides`: whether each coordinate is a length, not an angle."""
@@ -53,10 +53,10 @@ class SquareRows:
         self.entries: list[Mapping[int, sp.Expr]] = [
             {coordinate_index[s]: c for s, c in row.phi_q.items()} for row in rows
         ]
-        self.blocks = triangular_blocks([set(entries) for entries in self.entries], len(q))
+        self.blocks = find_triangular_blocks([set(entries) for entries in self.entries], len(q))
 
     @property
-    def fits(self) -> bool:
+    def is_solvable(self) -> bool:
         """Return whether there are as many equations as coordinates and the pattern determines all of them."""
         return self.blocks is not None
 
@@ -70,7 +70,7 @@ class SquareRows:
 
         The printed function returns the number, from 1, of an equation of the block that is singular.
         """
-        build.section("blocks of constraint equations that are solved one after the other")
+        build.begin_section("blocks of constraint equations that are solved one after the other")
         solvers = []
         for block in self.blocks or ():
             size = min(len(block.rows), 3)
@@ -85,14 +85,19 @@ class SquareRows:
         pivot = self.entries[row][column]
         if pivot.is_Number:
             return Solver(block, 1 / pivot)
-        pivot_local = build.local(f"pivot_{self.names[row]}", pivot)
-        build.line(
+        pivot_local = build.append_local(f"pivot_{self.names[row]}", pivot)
+        build.append_line(
             Guard(
-                Test(pivot_local, ">", (SHARE, self._compute_entry_bound(build, row, column, block)), size=True),
+                Test(
+                    pivot_local,
+                    ">",
+                    (SHARE, self._compute_entry_bound(build, row, column, block)),
+                    compares_magnitude=True,
+                ),
                 row + 1,
             )
         )
-        return Solver(block, build.local(f"inverse_{self.names[row]}", 1 / pivot_local))
+        return Solver(block, build.append_local(f"inverse_{self.names[row]}", 1 / pivot_local))
 
     def _factorize_pair(self, build: KernelBuilder, block: Block) -> Solver:
         """Return the solver of a block of two equations by Cramer's rule, with a test of its determinant.
@@ -101,11 +106,11 @@ class SquareRows:
         """
         name = f"{self.names[block.rows[0]]}__{self.names[block.rows[1]]}"
         (a, b), (c, d) = self._extract_block(block)
-        determinant = build.local(f"determinant_{name}", a * d - b * c)
+        determinant = build.append_local(f"determinant_{name}", a * d - b * c)
         (A, B), (C, D) = ([self._compute_entry_bound(build, r, k, block) for k in block.columns] for r in block.rows)
-        bound = build.local(f"bound_{name}", A * D + B * C)
-        build.line(Guard(Test(determinant, ">", (SHARE, bound), size=True), block.rows[1] + 1))
-        return Solver(block, build.local(f"inverse_{name}", 1 / determinant))
+        bound = build.append_local(f"bound_{name}", A * D + B * C)
+        build.append_line(Guard(Test(determinant, ">", (SHARE, bound), compares_magnitude=True), block.rows[1] + 1))
+        return Solver(block, build.append_local(f"inverse_{name}", 1 / determinant))
 
     def _compute_entry_bound(self, build: KernelBuilder, row: int, column: int, block: Block) -> sp.Expr:
         """Return the largest value of an entry for any direction of its arms, within a factor of two.
@@ -118,21 +123,21 @@ class SquareRows:
             magnitude = sp.Add(*(sp.Abs(entries.get(k, ZERO)) for k in block.columns if self._slides[k]))
         else:
             entry = entries.get(column, ZERO)
-            magnitude = sp.Abs(entry) + sp.Abs(self._symbols.diff(entry, self._q[column]))
+            magnitude = sp.Abs(entry) + sp.Abs(self._symbols.differentiate(entry, self._q[column]))
         if magnitude.is_Number:
             return magnitude
-        return build.local(f"size_{self.names[row]}__{self.unknowns[column]}", magnitude.replace(sp.Abs, Size))
+        return build.append_local(f"size_{self.names[row]}__{self.unknowns[column]}", magnitude.replace(sp.Abs, Size))
 
     def _factorize_dense(self, build: KernelBuilder, block: Block) -> Solver:
         """Return the solver of a larger block, which the engine factorizes at run time with pivoting."""
-        n, name = len(block.rows), self._symbols.unique(f"block_{self.names[block.rows[0]]}")
+        n, name = len(block.rows), self._symbols.make_unique_name(f"block_{self.names[block.rows[0]]}")
         values, order = f"{name}_values", f"{name}_order"
-        build.line(Declare(Number.REAL, values, (n * n,)))
-        build.line(Declare(Number.INTEGER, order, (n,)))
+        build.append_line(Declare(Number.REAL, values, (n * n,)))
+        build.append_line(Declare(Number.INTEGER, order, (n,)))
         for k, value in enumerate(value for row in self._extract_block(block) for value in row):
-            build.out(Place(values)[k], value)
+            build.append_store(Place(values)[k], value)
         factorization = Call("factor_block", (sp.Integer(n),), (Place(values), Place(order)))
-        build.line(Guard(factorization, block.rows[0] + 1))
+        build.append_line(Guard(factorization, block.rows[0] + 1))
         return Solver(block, name=name)
 
     def _extract_block(self, block: Block) -> list[list[sp.Expr]]:
@@ -154,11 +159,13 @@ class SquareRows:
             ]
             if len(block_rhs) > 1:
                 block_rhs = [
-                    build.local(f"{prefix}_rest_{self.names[r]}", value) if len(value.free_symbols) > 1 else value
+                    build.append_local(f"{prefix}_rest_{self.names[r]}", value)
+                    if len(value.free_symbols) > 1
+                    else value
                     for r, value in zip(block.rows, block_rhs, strict=True)
                 ]
             for k, value in zip(block.columns, self._solve_block(build, solver, block_rhs, prefix), strict=True):
-                x[k] = build.local(f"{prefix}_{self.unknowns[k]}", value)
+                x[k] = build.append_local(f"{prefix}_{self.unknowns[k]}", value)
         return [x[k] for k in range(len(self.unknowns))]
 
     def _solve_block(
@@ -170,10 +177,10 @@ class SquareRows:
         if len(rhs) == 2:
             (a, b), (c, d) = self._extract_block(solver.block)
             return [(d * rhs[0] - b * rhs[1]) * solver.inverse, (a * rhs[1] - c * rhs[0]) * solver.inverse]
-        name, n = self._symbols.unique(f"{solver.name}_{prefix}"), len(rhs)
-        build.line(Declare(Number.REAL, name, (n,)))
+        name, n = self._symbols.make_unique_name(f"{solver.name}_{prefix}"), len(rhs)
+        build.append_line(Declare(Number.REAL, name, (n,)))
         for k, value in enumerate(rhs):
-            build.out(Place(name)[k], value)
+            build.append_store(Place(name)[k], value)
         arguments = (sp.Integer(n), Place(f"{solver.name}_values"), Place(f"{solver.name}_order"))
-        build.line(Call("solve_block", arguments, (Place(name),)))
+        build.append_line(Call("solve_block", arguments, (Place(name),)))
         return [Place(name)[k] for k in range(n)]

@@ -1,4 +1,4 @@
-"""Reads the dimensions of a study: parameters and zips, random draws, perturbed starts, choices of structure."""
+"""Reads what a study varies: parameters, alone or together, random draws, perturbed starts, variants of structure."""
 
 from __future__ import annotations
 
@@ -7,19 +7,29 @@ from typing import Any
 
 from gudgeon.errors import BadValueError, UnknownKeyError
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.study.parts import check_keys, dimension_name, label, mapping, seed, text, texts, whole, word
+from gudgeon.generator.study.parts import (
+    check_dimension_name,
+    check_integer,
+    check_keys,
+    check_label_of_entry,
+    check_mapping,
+    check_text,
+    check_texts,
+    check_word,
+    read_seed,
+)
 from gudgeon.generator.study.spec import (
-    DRAWN,
     GEOMETRIC,
     LINEAR,
     NORMAL,
+    SAMPLING_METHODS,
     UNIFORM,
     Axis,
     Choice,
     Deviation,
+    Distribution,
     Draw,
-    Numbers,
-    Spread,
+    ParameterValues,
     Starts,
 )
 from gudgeon.generator.yaml import Items, Map, Text
@@ -38,15 +48,15 @@ def read_parameters(reader: Reader, root: Map) -> tuple[dict[Text, Text], list[A
     """
     shared_values, axes = dict[Text, Text](), list[Axis]()
     for key, node in _iterate_section_entries(reader, root, "parameters"):
-        with reader.collect():
+        with reader.collect_errors():
             if isinstance(node, Text):
-                shared_values[key] = text(node, f"parameters.{key}", key, _VALUES)
+                shared_values[key] = check_text(node, f"parameters.{key}", key, _VALUES)
             else:
-                name = dimension_name(key, "parameter")
+                name = check_dimension_name(key, "parameter")
                 axes.append(Axis(name, key.where, {key: _read_numbers(reader, node, f"parameters.{key}", key)}))
     for name, group in _iterate_section_entries(reader, root, "zip"):
-        with reader.collect():
-            axes.append(_read_zip(reader, name, mapping(group, f"zip.{name}", name)))
+        with reader.collect_errors():
+            axes.append(_read_zip(reader, name, check_mapping(group, f"zip.{name}", name)))
     return shared_values, axes
 
 
@@ -55,30 +65,32 @@ def _iterate_section_entries(reader: Reader, root: Map, section: str) -> Iterato
 
     An error is collected if the section is not a mapping, or if the caller's block raises.
     """
-    with reader.collect():
-        if section in root and not (isinstance(root[section], Text) and root[section].is_nothing):
-            yield from mapping(root[section], section, root.key(section)).pairs()
+    with reader.collect_errors():
+        if section in root and not (isinstance(root[section], Text) and root[section].is_null):
+            yield from check_mapping(root[section], section, root.find_key(section)).list_entries()
 
 
-def _read_numbers(reader: Reader, node: Any, address: str, key: Text) -> Numbers:
+def _read_numbers(reader: Reader, node: Any, address: str, key: Text) -> ParameterValues:
     """Return the values of a parameter: a list, or a range from … to … with a count and a spacing.
 
     No values are returned if a key is missing, whose error is collected. Raises BadValueError for another node.
     """
     if not isinstance(node, Map):
-        return Numbers(texts(node, address, key, _VALUES))
+        return ParameterValues(check_texts(node, address, key, _VALUES))
     if not check_keys(reader, node, _RANGE, address, _RANGE[:3]):
-        return Numbers(())
-    end_values = tuple(text(node[name], f"{address}.{name}", node.key(name), "a number") for name in ("from", "to"))
-    count = whole(node["count"], f"{address}.count", node.key("count"), 2)
-    return Numbers(end_values, count, _read_spacing(node, address))
+        return ParameterValues(())
+    end_values = tuple(
+        check_text(node[name], f"{address}.{name}", node.find_key(name), "a number") for name in ("from", "to")
+    )
+    count = check_integer(node["count"], f"{address}.count", node.find_key("count"), 2)
+    return ParameterValues(end_values, count, _read_spacing(node, address))
 
 
 def _read_spacing(node: Map, address: str) -> str:
     """Return the spacing of a range, linear by default. Raises BadValueError for an unknown word."""
     if "spacing" not in node:
         return LINEAR
-    return word(node["spacing"], f"{address}.spacing", node.key("spacing"), (LINEAR, GEOMETRIC))
+    return check_word(node["spacing"], f"{address}.spacing", node.find_key("spacing"), (LINEAR, GEOMETRIC))
 
 
 def _read_zip(reader: Reader, name: Text, group: Map) -> Axis:
@@ -86,8 +98,8 @@ def _read_zip(reader: Reader, name: Text, group: Map) -> Axis:
 
     Raises BadValueError for lists of different lengths and an empty entry, BadNameError for a reserved name.
     """
-    dimension = label(name, "zip") if name == "run" else dimension_name(name, "zip")
-    columns = {key: _read_numbers(reader, node, f"zip.{name}.{key}", key) for key, node in group.pairs()}
+    dimension = check_label_of_entry(name, "zip") if name == "run" else check_dimension_name(name, "zip")
+    columns = {key: _read_numbers(reader, node, f"zip.{name}.{key}", key) for key, node in group.list_entries()}
     lengths = {key: numbers.count or len(numbers.texts) for key, numbers in columns.items()}
     if len(set(lengths.values())) > 1 and 0 not in lengths.values():
         lengths_text = ", ".join(f"{key} has {length}" for key, length in lengths.items())
@@ -97,71 +109,78 @@ def _read_zip(reader: Reader, name: Text, group: Map) -> Axis:
     if not columns:
         raise BadValueError(f"zip.{name} is empty", name.where, "expected numbers with lists: {c: […], omega: […]}")
     for key in columns:
-        dimension_name(key, "parameter")
+        check_dimension_name(key, "parameter")
     return Axis(dimension, name.where, columns, grouped=True)
 
 
 def read_draw(reader: Reader, root: Map) -> Draw | None:
     """Return `draw:`, random points in parameter space; None if the file has none or it is wrong.
 
-    Errors are collected.
+    The keys count and parameters are required; the default method is the first of SAMPLING_METHODS. Parameters without
+    entries, and names that a dimension cannot have, are errors. Errors are collected.
     """
     if "draw" not in root:
         return None
-    with reader.collect():
-        node = mapping(root["draw"], "draw", root.key("draw"))
+    with reader.collect_errors():
+        node = check_mapping(root["draw"], "draw", root.find_key("draw"))
         known_keys = ("count", "seed", "method", "parameters")
         if check_keys(reader, node, known_keys, "draw", ("count", "parameters")):
-            parameters = mapping(node["parameters"], "draw.parameters", node.key("parameters"))
+            parameters = check_mapping(node["parameters"], "draw.parameters", node.find_key("parameters"))
             if not parameters:
                 raise BadValueError("draw.parameters is empty", parameters.where, "expected {c: {mean: …, std: …}}")
-            count = whole(node["count"], "draw.count", node.key("count"))
-            method = word(node["method"], "draw.method", node.key("method"), DRAWN) if "method" in node else DRAWN[0]
-            for key in parameters.names():
-                dimension_name(key, "parameter")
-            distributions = {key: _read_distribution(reader, key, value) for key, value in parameters.pairs()}
-            return Draw(count, seed(node, "draw"), method, distributions, tuple(map(str, distributions)))
+            count = check_integer(node["count"], "draw.count", node.find_key("count"))
+            method = (
+                check_word(node["method"], "draw.method", node.find_key("method"), SAMPLING_METHODS)
+                if "method" in node
+                else SAMPLING_METHODS[0]
+            )
+            for key in parameters.list_keys():
+                check_dimension_name(key, "parameter")
+            distributions = {key: _read_distribution(reader, key, value) for key, value in parameters.list_entries()}
+            return Draw(count, read_seed(node, "draw"), method, distributions, tuple(map(str, distributions)))
     return None
 
 
-def _read_distribution(reader: Reader, key: Text, value: Any) -> Spread:
+def _read_distribution(reader: Reader, key: Text, value: Any) -> Distribution:
     """Return the distribution of a drawn parameter: normal, uniform or geometric.
 
-    A placeholder is returned if a key is missing, whose error is collected. Raises an InputError for contradicting
-    keys.
+    Keys mean or std make it normal, with both required; otherwise from and to are required, and `spacing` decides
+    between uniform and geometric. If a key is missing, its error is collected and a placeholder is returned. Raises an
+    InputError for an empty mapping and for contradicting keys.
     """
     address = f"draw.parameters.{key}"
-    node = mapping(value, address, key)
+    node = check_mapping(value, address, key)
     is_normal = "mean" in node or "std" in node
     required_keys, known_keys = (("mean", "std"), ("mean", "std")) if is_normal else (("from", "to"), _SPREAD[2:])
-    if is_normal and (extra_key := next((name for name in node.names() if name in _SPREAD[2:]), None)):
+    if is_normal and (extra_key := next((name for name in node.list_keys() if name in _SPREAD[2:]), None)):
         message = f"{address} has both a mean and {extra_key}"
         raise UnknownKeyError(message, extra_key.where, "expected mean and std (normal), or from and to (uniform)")
     if not node:
         raise BadValueError(f"{address} is empty", node.where, "expected mean and std, or from and to")
     if not check_keys(reader, node, known_keys, address, required_keys):
-        return Spread(NORMAL, (key, key))
+        return Distribution(NORMAL, (key, key))
     first_value, second_value = (
-        text(node[name], f"{address}.{name}", node.key(name), "a number") for name in required_keys
+        check_text(node[name], f"{address}.{name}", node.find_key(name), "a number") for name in required_keys
     )
     kind = NORMAL if is_normal else GEOMETRIC if _read_spacing(node, address) == GEOMETRIC else UNIFORM
-    return Spread(kind, (first_value, second_value))
+    return Distribution(kind, (first_value, second_value))
 
 
 def read_starts(reader: Reader, root: Map) -> Starts | None:
     """Return `starts:`, perturbed starts of each run; None if the file has none or it is wrong. Errors are collected.
 
-    Deviations without named ensembles form one ensemble, ENSEMBLE.
+    The key count is required; the default distribution is uniform. Deviations without named ensembles form one
+    ensemble, ENSEMBLE; a file with both is wrong.
     """
     if "starts" not in root:
         return None
-    with reader.collect():
-        node = mapping(root["starts"], "starts", root.key("starts"))
+    with reader.collect_errors():
+        node = check_mapping(root["starts"], "starts", root.find_key("starts"))
         if not check_keys(reader, node, _STARTS, "starts", ("count",)):
             return None
         has_ensembles, deviation_keys = (
             "ensembles" in node,
-            [key for key in node.names() if key in ("relative", "absolute")],
+            [key for key in node.list_keys() if key in ("relative", "absolute")],
         )
         if has_ensembles and deviation_keys:
             message = f"starts has both ensembles and {deviation_keys[0]}"
@@ -172,22 +191,24 @@ def read_starts(reader: Reader, root: Map) -> Starts | None:
             else {ENSEMBLE: _read_deviations(reader, node, "starts", _STARTS)}
         )
         distributions, key = (UNIFORM, NORMAL), "distribution"
-        kind = word(node[key], f"starts.{key}", node.key(key), distributions) if key in node else UNIFORM
-        count = whole(node["count"], "starts.count", node.key("count"))
-        return Starts(count, seed(node, "starts"), kind, ensembles, has_ensembles)
+        kind = check_word(node[key], f"starts.{key}", node.find_key(key), distributions) if key in node else UNIFORM
+        count = check_integer(node["count"], "starts.count", node.find_key("count"))
+        return Starts(count, read_seed(node, "starts"), kind, ensembles, has_ensembles)
     return None
 
 
 def _read_ensembles(reader: Reader, node: Map) -> dict[str, Mapping[Text, Deviation]]:
     """Return the named ensembles of perturbed starts, each with its deviations by parameter. Raises an InputError."""
     ensembles = {}
-    for name, value in mapping(node["ensembles"], "starts.ensembles", node.key("ensembles")).pairs():
+    for name, value in check_mapping(node["ensembles"], "starts.ensembles", node.find_key("ensembles")).list_entries():
         address = f"starts.ensembles.{name}"
-        ensembles[label(name, "ensemble")] = _read_deviations(
-            reader, mapping(value, address, name), address, _STARTS[3:5]
+        ensembles[check_label_of_entry(name, "ensemble")] = _read_deviations(
+            reader, check_mapping(value, address, name), address, _STARTS[3:5]
         )
     if not ensembles:
-        raise BadValueError("starts.ensembles is empty", node.key("ensembles").where, "expected {near: {relative: …}}")
+        raise BadValueError(
+            "starts.ensembles is empty", node.find_key("ensembles").where, "expected {near: {relative: …}}"
+        )
     return ensembles
 
 
@@ -201,11 +222,13 @@ def _read_deviations(reader: Reader, node: Map, address: str, known_keys: tuple[
     deviations: dict[Text, Deviation] = {}
     for kind in ("relative", "absolute"):
         if kind in node:
-            for key, size in mapping(node[kind], f"{address}.{kind}", node.key(kind)).pairs():
+            for key, size in check_mapping(node[kind], f"{address}.{kind}", node.find_key(kind)).list_entries():
                 if key in deviations:
                     message = f"{address}: the size of {key} is relative and absolute"
                     raise BadValueError(message, key.where, "expected one of both")
-                deviations[key] = Deviation(kind == "relative", text(size, f"{address}.{kind}.{key}", key, "a size"))
+                deviations[key] = Deviation(
+                    kind == "relative", check_text(size, f"{address}.{kind}.{key}", key, "a size")
+                )
     if not deviations:
         hint = "expected relative: {omega: 1e-6}, or absolute: {c: 1 um}: the size decides, so it is yours to say"
         raise BadValueError(f"{address} does not say what is off, and by how much", node.where, hint)
@@ -215,25 +238,25 @@ def _read_deviations(reader: Reader, node: Map, address: str, known_keys: tuple[
 def read_choices(reader: Reader, root: Map) -> list[Choice]:
     """Return `choices:`, dimensions of structure: an address with its values, or named options of several overrides.
 
-    Errors are collected; wrong choices are left out.
+    A value twice, or a mapping without options, is an error. Errors are collected; wrong choices are left out.
     """
     choices = []
     for key, node in _iterate_section_entries(reader, root, "choices"):
-        with reader.collect():
+        with reader.collect_errors():
             if isinstance(node, (Text, Items)):
-                values = texts(node, f"choices.{key}", key, "a list of what may stand there")
+                values = check_texts(node, f"choices.{key}", key, "a list of what may stand there")
                 choices.append(Choice(str(key), key.where, {str(value): {str(key): value} for value in values}))
                 if len(set(values)) < len(values):
                     raise BadValueError(f"choices.{key} has a value twice", key.where, "expected each once")
                 continue
             options = {}
-            for name, value in mapping(node, f"choices.{key}", key).pairs():
-                overrides = mapping(value, f"choices.{key}.{name}", name)
-                options[label(name, "option")] = {
-                    str(address): text(value, f"choices.{key}.{name}.{address}", address)
-                    for address, value in overrides.pairs()
+            for name, value in check_mapping(node, f"choices.{key}", key).list_entries():
+                overrides = check_mapping(value, f"choices.{key}.{name}", name)
+                options[check_label_of_entry(name, "option")] = {
+                    str(address): check_text(value, f"choices.{key}.{name}.{address}", address)
+                    for address, value in overrides.list_entries()
                 }
             if not options:
                 raise BadValueError(f"choices.{key} is empty", key.where, "expected options with their overrides")
-            choices.append(Choice(dimension_name(key, "choice"), key.where, options))
+            choices.append(Choice(check_dimension_name(key, "choice"), key.where, options))
     return choices

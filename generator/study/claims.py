@@ -6,25 +6,34 @@ from collections.abc import Sequence
 from typing import Any
 
 from gudgeon.errors import BadNameError, BadValueError
-from gudgeon.generator.format.shapes import missing_key, unknown_key
+from gudgeon.generator.format.shapes import make_missing_key_error, make_unknown_key_error
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.study.parts import check_keys, label, line, mapping, place_of, text, texts, whole
+from gudgeon.generator.study.parts import (
+    check_integer,
+    check_keys,
+    check_label_of_entry,
+    check_mapping,
+    check_text,
+    check_texts,
+    find_location,
+    read_line,
+)
 from gudgeon.generator.study.spec import (
-    ALONG,
-    BETWEEN,
-    COUNTED,
+    COUNTED_PARTS,
     COUNTS,
     KINDS,
-    SAME,
+    MEASURE_COMPARISONS,
+    SELECTION_COMPARISONS,
+    TRENDS_ALONG_DIMENSION,
     Claims,
     NumberClaim,
     Selection,
     TrendClaim,
     Trial,
 )
-from gudgeon.generator.yaml import Items, Map, Text, kind_of
-from gudgeon.language.names import unknown_name
-from gudgeon.language.shown import counted
+from gudgeon.generator.yaml import Items, Map, Text, describe_node
+from gudgeon.language.names import make_unknown_name_error
+from gudgeon.language.text_output import format_count
 
 KEYS = ("source", "numbers", "trends")
 NUMBER = ("figure", "says", "measure", "part", "at", "value", "beside", "note", "heading")
@@ -51,19 +60,19 @@ def read_claims(reader: Reader, root: Map) -> Claims:
     """
     if "claims" not in root:
         return Claims()
-    with reader.collect():
-        node = mapping(root["claims"], "claims", root.key("claims"))
+    with reader.collect_errors():
+        node = check_mapping(root["claims"], "claims", root.find_key("claims"))
         check_keys(reader, node, KEYS, "claims")
         source = ""
-        with reader.collect():
-            source = line(node, "source", "claims")
+        with reader.collect_errors():
+            source = read_line(node, "source", "claims")
         numbers, trends = list[NumberClaim](), list[TrendClaim]()
         for name, value in _list_claim_entries(reader, node, "numbers"):
-            with reader.collect():
-                numbers.append(_read_number_claim(reader, name, mapping(value, f"claims.numbers.{name}", name)))
+            with reader.collect_errors():
+                numbers.append(_read_number_claim(reader, name, check_mapping(value, f"claims.numbers.{name}", name)))
         for name, value in _list_claim_entries(reader, node, "trends"):
-            with reader.collect():
-                trends.append(_read_trend_claim(name, mapping(value, f"claims.trends.{name}", name)))
+            with reader.collect_errors():
+                trends.append(_read_trend_claim(name, check_mapping(value, f"claims.trends.{name}", name)))
         _check_unique_names(reader, [*(claim.name for claim in numbers), *(claim.name for claim in trends)])
         _check_references(reader, numbers)
         return Claims(source, tuple(numbers), tuple(trends))
@@ -75,9 +84,9 @@ def _list_claim_entries(reader: Reader, node: Map, section: str) -> Sequence[tup
 
     The error is collected.
     """
-    with reader.collect():
+    with reader.collect_errors():
         if section in node:
-            return mapping(node[section], f"claims.{section}", node.key(section)).pairs()
+            return check_mapping(node[section], f"claims.{section}", node.find_key(section)).list_entries()
     return ()
 
 
@@ -97,17 +106,21 @@ def _read_number_claim(reader: Reader, name: Text, node: Map) -> NumberClaim:
     It may have a value to compare with, or the name of another claim (key `beside`), not both.
     """
     address = f"claims.numbers.{name}"
-    label(name, "claim")
+    check_label_of_entry(name, "claim")
     if not check_keys(reader, node, NUMBER, address, ("measure",)):
-        raise missing_key("measure", node.where, address)
-    measure = text(node["measure"], f"{address}.measure", node.key("measure"), "the name of a measure")
-    value = text(node["value"], f"{address}.value", node.key("value"), "a number") if "value" in node else None
+        raise make_missing_key_error("measure", node.where, address)
+    measure = check_text(node["measure"], f"{address}.measure", node.find_key("measure"), "the name of a measure")
+    value = (
+        check_text(node["value"], f"{address}.value", node.find_key("value"), "a number") if "value" in node else None
+    )
     reference_claim = (
-        text(node["beside"], f"{address}.beside", node.key("beside"), "a name") if "beside" in node else None
+        check_text(node["beside"], f"{address}.beside", node.find_key("beside"), "a name") if "beside" in node else None
     )
     if value is not None and reference_claim is not None:
-        raise BadValueError(f"{address} has both value and beside", node.key("beside").where, "expected one of both")
-    figure, says, note, heading = (line(node, key, address) for key in ("figure", "says", "note", "heading"))
+        raise BadValueError(
+            f"{address} has both value and beside", node.find_key("beside").where, "expected one of both"
+        )
+    figure, says, note, heading = (read_line(node, key, address) for key in ("figure", "says", "note", "heading"))
     return NumberClaim(
         name, figure, measure, _read_selection(node, address, name), value, says, note, reference_claim, heading
     )
@@ -117,12 +130,12 @@ def _check_references(reader: Reader, numbers: Sequence[NumberClaim]) -> None:
     """Collect an error unless the claim that a number refers to (`beside`) exists and has the same measure."""
     measures = {str(claim.name): claim.measure for claim in numbers}
     for claim in numbers:
-        with reader.collect():
+        with reader.collect_errors():
             reference_claim = claim.beside
             if reference_claim is None:
                 continue
             if reference_claim not in measures:
-                raise unknown_name("number", reference_claim, list(measures), reference_claim.where)
+                raise make_unknown_name_error("number", reference_claim, list(measures), reference_claim.where)
             if measures[reference_claim] != claim.measure:
                 message = f"{reference_claim} is about {measures[reference_claim]}, {claim.name} about {claim.measure}"
                 raise BadValueError(message, reference_claim.where, "expected a number of the same measure")
@@ -133,9 +146,13 @@ def _read_selection(node: Map, address: str, location_text: Text) -> Selection:
 
     `location_text` has the location of the selection. Without these keys, all runs are selected.
     """
-    part = text(node["part"], f"{address}.part", node.key("part"), "the name of a part") if "part" in node else None
+    part = (
+        check_text(node["part"], f"{address}.part", node.find_key("part"), "the name of a part")
+        if "part" in node
+        else None
+    )
     coordinate_values = (
-        _read_coordinate_values(mapping(node["at"], f"{address}.at", node.key("at")), f"{address}.at")
+        _read_coordinate_values(check_mapping(node["at"], f"{address}.at", node.find_key("at")), f"{address}.at")
         if "at" in node
         else {}
     )
@@ -144,7 +161,7 @@ def _read_selection(node: Map, address: str, location_text: Text) -> Selection:
 
 def _read_coordinate_values(node: Map, address: str) -> dict[Text, Text]:
     """Return a mapping of coordinates to single values, as texts. Raises BadValueError for another node."""
-    return {key: text(value, f"{address}.{key}", key, "one value") for key, value in node.pairs()}
+    return {key: check_text(value, f"{address}.{key}", key, "one value") for key, value in node.list_entries()}
 
 
 def _read_other_selection(node: Map, key: str, address: str, base: Selection) -> Selection:
@@ -152,26 +169,26 @@ def _read_other_selection(node: Map, key: str, address: str, base: Selection) ->
 
     Raises an InputError.
     """
-    selection_node = mapping(node[key], f"{address}.{key}", node.key(key))
+    selection_node = check_mapping(node[key], f"{address}.{key}", node.find_key(key))
     values = _read_coordinate_values(selection_node, f"{address}.{key}")
     part = next((value for name, value in values.items() if name == "part"), base.part)
     inherited_values = {name: value for name, value in base.at.items() if name not in values}
     return Selection(
-        part, inherited_values | {name: value for name, value in values.items() if name != "part"}, node.key(key)
+        part, inherited_values | {name: value for name, value in values.items() if name != "part"}, node.find_key(key)
     )
 
 
 def _read_trend_claim(name: Text, node: Map) -> TrendClaim:
     """Return a claim about a trend, with its trials or the reason why it is not computed. Raises an InputError."""
     address = f"claims.trends.{name}"
-    label(name, "claim")
-    figure, says, note, heading = (line(node, key, address) for key in ("figure", "says", "note", "heading"))
-    if unknown_keys := [key for key in node.names() if key not in TREND]:
-        raise unknown_key(unknown_keys[0], TREND, address)
-    reason = line(node, "not_computed", address)
-    trial_node = Map.make([(key, value) for key, value in node.pairs() if key not in MESSAGES], node.where)
+    check_label_of_entry(name, "claim")
+    figure, says, note, heading = (read_line(node, key, address) for key in ("figure", "says", "note", "heading"))
+    if unknown_keys := [key for key in node.list_keys() if key not in TREND]:
+        raise make_unknown_key_error(unknown_keys[0], TREND, address)
+    reason = read_line(node, "not_computed", address)
+    trial_node = Map.make([(key, value) for key, value in node.list_entries() if key not in MESSAGES], node.where)
     if reason:
-        if extra_keys := [key for key in trial_node.names() if key != "not_computed"]:
+        if extra_keys := [key for key in trial_node.list_keys() if key != "not_computed"]:
             raise BadValueError(
                 f"{address} is not computed, and has {extra_keys[0]}", extra_keys[0].where, "expected one of both"
             )
@@ -189,17 +206,21 @@ def _read_trials(name: Text, node: Map, address: str) -> list[Trial]:
     trial_nodes = node["all"]
     if not isinstance(trial_nodes, Items) or not trial_nodes:
         raise BadValueError(
-            f"{address}.all is {kind_of(trial_nodes)}", node.key("all").where, "expected a list of trials"
+            f"{address}.all is {describe_node(trial_nodes)}", node.find_key("all").where, "expected a list of trials"
         )
     trials = []
     for k, node_in_list in enumerate(trial_nodes):
-        trial_node = mapping(node_in_list, f"{address}.all[{k}]", node.key("all"))
-        if unknown_keys := [key for key in trial_node.names() if key not in TRIAL]:
-            raise unknown_key(unknown_keys[0], TRIAL, f"{address}.all[{k}]")
-        inherited_entries = [(key, value) for key, value in node.pairs() if key != "all" and key not in trial_node]
+        trial_node = check_mapping(node_in_list, f"{address}.all[{k}]", node.find_key("all"))
+        if unknown_keys := [key for key in trial_node.list_keys() if key not in TRIAL]:
+            raise make_unknown_key_error(unknown_keys[0], TRIAL, f"{address}.all[{k}]")
+        inherited_entries = [
+            (key, value) for key, value in node.list_entries() if key != "all" and key not in trial_node
+        ]
         trials.append(
             _read_trial(
-                name, Map.make([*inherited_entries, *trial_node.pairs()], trial_node.where), f"{address}.all[{k}]"
+                name,
+                Map.make([*inherited_entries, *trial_node.list_entries()], trial_node.where),
+                f"{address}.all[{k}]",
             )
         )
     return trials
@@ -207,45 +228,52 @@ def _read_trials(name: Text, node: Map, address: str) -> list[Trial]:
 
 def _read_trial(name: Text, node: Map, address: str) -> Trial:
     """Read one trial: its kind, measures, selections and limits. Raises an InputError."""
-    selected = [key for key in node.names() if key in KINDS]
+    selected = [key for key in node.list_keys() if key in KINDS]
     if len(selected) != 1:
         message = (
             f"{address} has {'nothing to judge it by' if not selected else f'both {selected[0]} and {selected[1]}'}"
         )
         hint = f"expected one of: {', '.join((*KINDS, 'all', 'not_computed'))}"
-        raise BadValueError(message, place_of(node, name), hint)
+        raise BadValueError(message, find_location(node, name), hint)
     kind, known_keys = selected[0], (selected[0], *COMMON, *MORE.get(selected[0], ()))
-    if unknown_keys := [key for key in node.names() if key not in known_keys]:
-        raise unknown_key(unknown_keys[0], known_keys, address)
+    if unknown_keys := [key for key in node.list_keys() if key not in known_keys]:
+        raise make_unknown_key_error(unknown_keys[0], known_keys, address)
     if (required_key := NEEDED.get(kind)) and required_key not in node:
-        raise missing_key(required_key, node.where, address)
+        raise make_missing_key_error(required_key, node.where, address)
     base = _read_selection(node, address, kind)
     if kind == COUNTS:
-        counts = _read_counts(mapping(node[kind], f"{address}.{kind}", kind), f"{address}.{kind}")
+        counts = _read_counts(check_mapping(node[kind], f"{address}.{kind}", kind), f"{address}.{kind}")
         return Trial(kind, (), base, kind, counts=counts)
     if "measure" not in node:
-        raise missing_key("measure", node.where, address)
-    measures = texts(node["measure"], f"{address}.measure", node.key("measure"), "names of measures")
+        raise make_missing_key_error("measure", node.where, address)
+    measures = check_texts(node["measure"], f"{address}.measure", node.find_key("measure"), "names of measures")
     factor_or_tolerance = next(
-        (text(node[key], f"{address}.{key}", node.key(key), "a number") for key in ("by", "within") if key in node),
+        (
+            check_text(node[key], f"{address}.{key}", node.find_key(key), "a number")
+            for key in ("by", "within")
+            if key in node
+        ),
         None,
     )
-    if kind in BETWEEN:
+    if kind in SELECTION_COMPARISONS:
         return _read_comparison(node, address, kind, measures, base, factor_or_tolerance)
-    comparison_text = text(
-        node[kind], f"{address}.{kind}", kind, "a dimension" if kind in ALONG else "a measure or a number"
+    comparison_text = check_text(
+        node[kind],
+        f"{address}.{kind}",
+        kind,
+        "a dimension" if kind in TRENDS_ALONG_DIMENSION else "a measure or a number",
     )
     other_measures = (
-        texts(node["more_than"], f"{address}.more_than", node.key("more_than"), "measures")
+        check_texts(node["more_than"], f"{address}.more_than", node.find_key("more_than"), "measures")
         if "more_than" in node
         else (comparison_text,)
-        if kind in SAME
+        if kind in MEASURE_COMPARISONS
         else ()
     )
     if kind == "spreads_along" and len(other_measures) != len(measures):
         raise BadValueError(
-            f"{address}.more_than has {counted(len(other_measures), 'name')}",
-            node.key("more_than").where,
+            f"{address}.more_than has {format_count(len(other_measures), 'name')}",
+            node.find_key("more_than").where,
             f"expected as many as measure: {len(measures)}",
         )
     return Trial(kind, measures, base, comparison_text, None, other_measures, factor_or_tolerance)
@@ -270,8 +298,8 @@ def _read_comparison(
             factor,
         )
     if missing_keys := [key for key in ("from", "to") if key not in node]:
-        raise missing_key(missing_keys[0], node.where, address)
-    other_measures = texts(node[kind], f"{address}.{kind}", kind, "other measures, which are lowered less")
+        raise make_missing_key_error(missing_keys[0], node.where, address)
+    other_measures = check_texts(node[kind], f"{address}.{kind}", kind, "other measures, which are lowered less")
     return Trial(
         kind,
         measures,
@@ -287,6 +315,6 @@ def _read_counts(node: Map, address: str) -> dict[Text, int]:
 
     Raises an InputError for an unknown key.
     """
-    if unknown_keys := [key for key in node.names() if key not in COUNTED]:
-        raise unknown_key(unknown_keys[0], COUNTED, address)
-    return {key: whole(value, f"{address}.{key}", key, 0) for key, value in node.pairs()}
+    if unknown_keys := [key for key in node.list_keys() if key not in COUNTED_PARTS]:
+        raise make_unknown_key_error(unknown_keys[0], COUNTED_PARTS, address)
+    return {key: check_integer(value, f"{address}.{key}", key, 0) for key, value in node.list_entries()}

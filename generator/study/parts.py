@@ -7,31 +7,31 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from gudgeon.errors import BadNameError, BadValueError, MissingKeyError
-from gudgeon.generator.format.shapes import missing_key, unknown_key
+from gudgeon.generator.format.shapes import make_missing_key_error, make_unknown_key_error
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.study.spec import RESERVED, WEAR_LAWS, StudyFile, WearRounds, Written
-from gudgeon.generator.yaml import Items, Map, Text, kind_of
-from gudgeon.language.names import LABEL, check_not_null, known_hint, nearest, unknown_name
+from gudgeon.generator.study.spec import RESERVED, WEAR_LAWS, ParsedExpression, StudyFile, WearRounds
+from gudgeon.generator.yaml import Items, Map, Text, describe_node
+from gudgeon.language.names import LABEL, check_not_null, find_nearest_name, format_name_hint, make_unknown_name_error
 from gudgeon.language.parser import parse
 
 MAX_COUNT, MAX_SEED = 1_000_000, 2**63 - 1
-MOST_TEXT = 1000  # characters of a descriptive text
+MAX_TEXT_LENGTH = 1000  # characters of a descriptive text
 _WHOLE = re.compile(r"0|[1-9][0-9]{0,18}")
 
 
-def mapping(node: Any, address: str, key: Any) -> Map:
+def check_mapping(node: Any, address: str, key: Any) -> Map:
     """Return the node if it is a mapping; `key` has the location for an error at an empty node.
 
     Raises BadValueError.
     """
     if not isinstance(node, Map):
-        raise BadValueError(f"{address} is {kind_of(node)}", place_of(node, key), "expected a mapping")
+        raise BadValueError(f"{address} is {describe_node(node)}", find_location(node, key), "expected a mapping")
     return node
 
 
-def place_of(node: Any, key: Any) -> Any:
+def find_location(node: Any, key: Any) -> Any:
     """Return the location of a node; for an empty node, or one without a location, that of the key before it."""
-    is_null = isinstance(node, Text) and node.is_nothing
+    is_null = isinstance(node, Text) and node.is_null
     return key.where if is_null else getattr(node, "where", key.where)
 
 
@@ -42,83 +42,89 @@ def check_keys(
 
     A missing key is not reported if an unknown key resembles it. `address` is the mapping's address.
     """
-    unknown_keys = [key for key in node.names() if key not in known_keys]
-    reader.errors.extend(unknown_key(key, known_keys, address) for key in unknown_keys)
+    unknown_keys = [key for key in node.list_keys() if key not in known_keys]
+    reader.errors.extend(make_unknown_key_error(key, known_keys, address) for key in unknown_keys)
     similar_keys, missing_keys = (
-        {nearest(key, known_keys) for key in unknown_keys},
+        {find_nearest_name(key, known_keys) for key in unknown_keys},
         [name for name in required_keys if name not in node],
     )
-    reader.errors.extend(missing_key(name, node.where, address) for name in missing_keys if name not in similar_keys)
+    reader.errors.extend(
+        make_missing_key_error(name, node.where, address) for name in missing_keys if name not in similar_keys
+    )
     return not missing_keys
 
 
-def text(node: Any, address: str, key: Any, expected_text: str = "a number or a text") -> Text:
+def check_text(node: Any, address: str, key: Any, expected_text: str = "a number or a text") -> Text:
     """Return the node if it is a nonempty text on one line.
 
     Raises BadValueError; `expected_text` says what was expected.
     """
-    if not isinstance(node, Text) or node.is_nothing or not node.one_line:
-        message = "stands on several lines" if isinstance(node, Text) and not node.one_line else f"is {kind_of(node)}"
-        raise BadValueError(f"{address} {message}", place_of(node, key), f"expected {expected_text}")
+    if not isinstance(node, Text) or node.is_null or not node.one_line:
+        message = (
+            "stands on several lines" if isinstance(node, Text) and not node.one_line else f"is {describe_node(node)}"
+        )
+        raise BadValueError(f"{address} {message}", find_location(node, key), f"expected {expected_text}")
     return node
 
 
-def line(node: Map, key: str, address: str) -> str:
+def read_line(node: Map, key: str, address: str) -> str:
     """Return the descriptive text at a key on one line; "" if there is none. Raises BadValueError."""
-    return words(node[key], f"{address}.{key}", node.key(key)) if key in node else ""
+    return join_words(node[key], f"{address}.{key}", node.find_key(key)) if key in node else ""
 
 
-def words(node: Any, address: str, key: Any) -> str:
+def join_words(node: Any, address: str, key: Any) -> str:
     """Return a node as a descriptive text on one line, with single spaces.
 
     Raises BadValueError for other nodes, and for more than 1000 or invisible characters.
     """
-    if not isinstance(node, Text) or node.is_nothing:
-        raise BadValueError(f"{address} is {kind_of(node)}", place_of(node, key), "expected a text")
+    if not isinstance(node, Text) or node.is_null:
+        raise BadValueError(f"{address} is {describe_node(node)}", find_location(node, key), "expected a text")
     joined = " ".join(node.split())
-    if len(joined) > MOST_TEXT or not joined.isprintable():
-        raise BadValueError(f"{address} has {len(joined)} characters", node.where, f"at most {MOST_TEXT}, visible")
+    if len(joined) > MAX_TEXT_LENGTH or not joined.isprintable():
+        raise BadValueError(
+            f"{address} has {len(joined)} characters", node.where, f"at most {MAX_TEXT_LENGTH}, visible"
+        )
     return joined
 
 
-def texts(node: Any, address: str, key: Any, expected_text: str) -> tuple[Text, ...]:
+def check_texts(node: Any, address: str, key: Any, expected_text: str) -> tuple[Text, ...]:
     """Return the texts of a nonempty list, or a text alone, as a tuple. Raises BadValueError for another node."""
     if isinstance(node, Text):
-        return (text(node, address, key, expected_text),)
+        return (check_text(node, address, key, expected_text),)
     if not isinstance(node, Items) or not node:
         raise BadValueError(
-            f"{address} is {'an empty list' if node == [] else kind_of(node)}",
-            place_of(node, key),
+            f"{address} is {'an empty list' if node == [] else describe_node(node)}",
+            find_location(node, key),
             f"expected {expected_text}",
         )
-    return tuple(text(item, f"{address}[{k}]", node, expected_text) for k, item in enumerate(node))
+    return tuple(check_text(item, f"{address}[{k}]", node, expected_text) for k, item in enumerate(node))
 
 
-def word(node: Any, address: str, key: Any, allowed_words: Iterable[str]) -> str:
+def check_word(node: Any, address: str, key: Any, allowed_words: Iterable[str]) -> str:
     """Return the node as text if it is one of the allowed words. Raises BadValueError, with the nearest word."""
-    known_words, word_node = list(allowed_words), text(node, address, key, "a word")
+    known_words, word_node = list(allowed_words), check_text(node, address, key, "a word")
     if word_node not in known_words:
         raise BadValueError(
-            f"{address} is {kind_of(word_node)}", word_node.where, known_hint(word_node, known_words, 20)
+            f"{address} is {describe_node(word_node)}", word_node.where, format_name_hint(word_node, known_words, 20)
         )
     return str(word_node)
 
 
-def whole(node: Any, address: str, key: Any, minimum: int = 1, maximum: int = MAX_COUNT) -> int:
+def check_integer(node: Any, address: str, key: Any, minimum: int = 1, maximum: int = MAX_COUNT) -> int:
     """Return a whole number from `minimum` to `maximum` that is written in decimal digits. Raises BadValueError."""
     expected_text = f"a whole number from {minimum} to {maximum}"
-    digits = text(node, address, key, expected_text)
+    digits = check_text(node, address, key, expected_text)
     if not _WHOLE.fullmatch(digits) or not minimum <= int(digits) <= maximum:
-        raise BadValueError(f"{address} is {kind_of(digits)}", digits.where, f"expected {expected_text}")
+        raise BadValueError(f"{address} is {describe_node(digits)}", digits.where, f"expected {expected_text}")
     return int(digits)
 
 
-def seed(node: Map, address: str) -> int:
+def read_seed(node: Map, address: str) -> int:
     """Return the seed of the random numbers of a section, 0 by default. Raises BadValueError."""
-    return whole(node["seed"], f"{address}.seed", node.key("seed"), 0, MAX_SEED) if "seed" in node else 0
+    return check_integer(node["seed"], f"{address}.seed", node.find_key("seed"), 0, MAX_SEED) if "seed" in node else 0
 
 
-def label(name: Text, kind: str) -> str:
+def check_label_of_entry(name: Text, kind: str) -> str:
     """Return the name of an option, window or measure if it is allowed. Raises BadNameError.
 
     Allowed are ASCII letters, digits and _, at most 64 characters; null is not. `kind` is the noun in the message.
@@ -130,7 +136,7 @@ def label(name: Text, kind: str) -> str:
     return str(name)
 
 
-def dimension_name(name: Text, kind: str) -> str:
+def check_dimension_name(name: Text, kind: str) -> str:
     """Return the name of a dimension of the dataset if it is allowed. Raises BadNameError for a reserved one.
 
     `kind` is the noun in the message; the name of a "parameter" may be any address.
@@ -138,19 +144,19 @@ def dimension_name(name: Text, kind: str) -> str:
     if name in RESERVED:
         hint = "take another name" if kind != "parameter" else f"write parameters.{name}"
         raise BadNameError(f"{str(name)!r} is what the study's dataset calls something of its own", name.where, hint)
-    return label(name, kind) if kind != "parameter" else str(name)
+    return check_label_of_entry(name, kind) if kind != "parameter" else str(name)
 
 
-def written(node: Any, address: str, key: Any) -> Written:
+def parse_expression(node: Any, address: str, key: Any) -> ParsedExpression:
     """Parse an expression and return it with its text; its dimension is not yet known.
 
     Raises InputError at its column.
     """
-    expression_text = text(node, address, key, "an expression: 2*pi/omega")
-    return Written(parse(expression_text, expression_text.where), expression_text)
+    expression_text = check_text(node, address, key, "an expression: 2*pi/omega")
+    return ParsedExpression(parse(expression_text, expression_text.where), expression_text)
 
 
-MOST = 80  # characters
+MAX_TITLE_LENGTH = 80  # characters
 
 
 def read_titles(reader: Reader, root: Map, parts: Mapping[str, StudyFile | None]) -> dict[str, str]:
@@ -159,18 +165,22 @@ def read_titles(reader: Reader, root: Map, parts: Mapping[str, StudyFile | None]
     Unknown names are accepted if a part could not be read (None).
     """
     titles: dict[str, str] = {}
-    with reader.collect():
-        node = mapping(root["titles"], "titles", root.key("titles")) if "titles" in root else root.part("titles")
+    with reader.collect_errors():
+        node = (
+            check_mapping(root["titles"], "titles", root.find_key("titles"))
+            if "titles" in root
+            else root.get_mapping("titles")
+        )
         known_names = list(
             dict.fromkeys(name for key, part in parts.items() if part for name in (key, *_iterate_titled_names(part)))
         )
-        for name, value in node.pairs():
-            with reader.collect():
+        for name, value in node.list_entries():
+            with reader.collect_errors():
                 if name not in known_names and None not in parts.values():
-                    raise unknown_name("name", name, known_names, name.where)
-                title = text(value, f"titles.{name}", name, "a line")
-                if len(title) > MOST or not title.isprintable():
-                    hint = f"expected one line of at most {MOST} characters that can be seen"
+                    raise make_unknown_name_error("name", name, known_names, name.where)
+                title = check_text(value, f"titles.{name}", name, "a line")
+                if len(title) > MAX_TITLE_LENGTH or not title.isprintable():
+                    hint = f"expected one line of at most {MAX_TITLE_LENGTH} characters that can be seen"
                     raise BadValueError(f"titles.{name} has {len(title)} characters", title.where, hint)
                 titles[str(name)] = str(title)
     return titles
@@ -181,12 +191,12 @@ def read_about(reader: Reader, root: Map) -> tuple[str, ...]:
 
     Errors are collected.
     """
-    with reader.collect():
+    with reader.collect_errors():
         if "about" not in root:
             return ()
         node = root["about"]
         paragraphs = list(node) if isinstance(node, Items) and node else [node]
-        return tuple(words(paragraph, "about", root.key("about")) for paragraph in paragraphs)
+        return tuple(join_words(paragraph, "about", root.find_key("about")) for paragraph in paragraphs)
     return ()
 
 
@@ -205,7 +215,7 @@ def _iterate_titled_names(part: StudyFile) -> Iterator[str]:
 
 
 KEYS = ("joints", "rounds", "k", "hardness", "scale", "law")
-MOST_ROUNDS = 1000
+MAX_ROUNDS = 1000
 
 
 def read_wear(reader: Reader, root: Map) -> WearRounds | None:
@@ -215,13 +225,13 @@ def read_wear(reader: Reader, root: Map) -> WearRounds | None:
     """
     if "wear" not in root:
         return None
-    with reader.collect():
-        node = mapping(root["wear"], "wear", root.key("wear"))
+    with reader.collect_errors():
+        node = check_mapping(root["wear"], "wear", root.find_key("wear"))
         if not check_keys(reader, node, KEYS, "wear", KEYS[:3]):
             return None
-        joints = texts(node["joints"], "wear.joints", node.key("joints"), "names of joints")
-        rounds = whole(node["rounds"], "wear.rounds", node.key("rounds"), 1, MOST_ROUNDS)
-        law = word(node["law"], "wear.law", node.key("law"), WEAR_LAWS) if "law" in node else WEAR_LAWS[0]
+        joints = check_texts(node["joints"], "wear.joints", node.find_key("joints"), "names of joints")
+        rounds = check_integer(node["rounds"], "wear.rounds", node.find_key("rounds"), 1, MAX_ROUNDS)
+        law = check_word(node["law"], "wear.law", node.find_key("law"), WEAR_LAWS) if "law" in node else WEAR_LAWS[0]
         k, hardness, scale = (_read_number_text(node, name) for name in ("k", "hardness", "scale"))
         if k is None:
             raise MissingKeyError("wear has no k", node.where, "expected k: 1e-4, and hardness: 1 GPa")
@@ -231,4 +241,4 @@ def read_wear(reader: Reader, root: Map) -> WearRounds | None:
 
 def _read_number_text(node: Map, name: str) -> Text | None:
     """Return the text of a number of `wear`, None if it is not given. Raises BadValueError."""
-    return text(node[name], f"wear.{name}", node.key(name), "a number") if name in node else None
+    return check_text(node[name], f"wear.{name}", node.find_key(name), "a number") if name in node else None

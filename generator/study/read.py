@@ -8,42 +8,42 @@ from typing import Any
 from gudgeon.contract.methods import KINEMATIC, OFFERED
 from gudgeon.errors import BadNameError, BadValueError, Location, MissingKeyError
 from gudgeon.generator.format.sections import FORMAT as MECHANISM
-from gudgeon.generator.format.shapes import missing_key, unknown_key
+from gudgeon.generator.format.shapes import make_missing_key_error, make_unknown_key_error
 from gudgeon.generator.reader.collector import Reader, TooManyErrors
 from gudgeon.generator.study.axes import read_choices, read_draw, read_parameters, read_starts
 from gudgeon.generator.study.claims import read_claims
 from gudgeon.generator.study.parts import (
     check_keys,
-    label,
-    mapping,
+    check_label_of_entry,
+    check_mapping,
+    check_text,
+    check_texts,
+    check_word,
+    parse_expression,
     read_about,
     read_titles,
     read_wear,
-    text,
-    texts,
-    word,
-    written,
 )
-from gudgeon.generator.study.settings import apply_settings, plain_texts, short_name, tree_of
+from gudgeon.generator.study.settings import apply_settings, build_tree, convert_to_texts, remove_section_name
 from gudgeon.generator.study.spec import (
     CONTACTS,
     CROSSINGS,
     DEVIATIONS,
-    FOLLOWED,
     FORMAT,
+    NEIGHBOUR_STATISTICS,
     RESERVED,
     SAMPLES,
     STATISTICS,
     STEPS,
     Claims,
     Measure,
+    ParsedExpression,
     StudyFile,
     StudySet,
     Window,
-    Written,
 )
-from gudgeon.generator.yaml import Map, Text, kind_of, parse_yaml
-from gudgeon.language.names import unknown_name
+from gudgeon.generator.yaml import Map, Text, describe_node, parse_yaml
+from gudgeon.language.names import make_unknown_name_error
 
 _SET = "value of "  # prefix of locations of values from the command line
 
@@ -57,9 +57,9 @@ def check_names(reader: Reader, study: StudyFile, root: Map) -> None:
     parameter_keys += list(study.draw.numbers) if study.draw else []
     first_keys: dict[str, Text] = {}
     for key in parameter_keys:
-        parameter_name = short_name(str(key))
+        parameter_name = remove_section_name(str(key))
         if parameter_name in first_keys:
-            with reader.collect():
+            with reader.collect_errors():
                 message = f"{str(key)[:60]!r} is said twice"
                 raise BadNameError(
                     message, key.where, f"expected once; the first is at {first_keys[parameter_name].where}"
@@ -71,7 +71,7 @@ def check_names(reader: Reader, study: StudyFile, root: Map) -> None:
     for kind, key in _iterate_dataset_names(study, root, groups):
         is_reserved = key in RESERVED and not (key == "run" and key in groups)
         if (key in users_of_names or is_reserved) and key not in refused_choices:
-            with reader.collect():
+            with reader.collect_errors():
                 user, location_text = (
                     (users_of_names[key][0], f"the first is at {_format_location(users_of_names[key][1].where)}")
                     if key in users_of_names
@@ -87,7 +87,7 @@ def _iterate_dataset_names(study: StudyFile, root: Map, zip_keys: list[Text]) ->
     yield from (("numbers that go together", key) for key in zip_keys)
     yield from (("a choice", Text.make(choice.name, choice.where)) for choice in study.choices)
     if isinstance(root.get("measures"), Map):
-        yield from (("a measure", key) for key in root.part("measures").names())
+        yield from (("a measure", key) for key in root.get_mapping("measures").list_keys())
     yield from (("a series that is kept", key) for key in study.keep)
 
 
@@ -97,13 +97,15 @@ def _find_conflicting_choices(reader: Reader, study: StudyFile, keys_of_paramete
     An error is collected for each. `keys_of_parameters` maps the parameters of all runs to the keys that set them.
     """
     for choice in study.choices:
-        parameter_names = (short_name(address) for overrides in choice.options.values() for address in overrides)
+        parameter_names = (
+            remove_section_name(address) for overrides in choice.options.values() for address in overrides
+        )
         shared_name = next((key for key in parameter_names if key in keys_of_parameters), None)
         if shared_name is None:
             continue
         yield choice.name
         location = keys_of_parameters[shared_name].where
-        with reader.collect():
+        with reader.collect_errors():
             setting_phrase = (
                 _format_location(location) if location.file.startswith(_SET) else f"a number, at {location},"
             )
@@ -148,17 +150,17 @@ KEYS = (
     "titles",
     "about",
 )
-WHOLE = ("format", "parts", "claims", "titles", "about")  # keys of a file, which its parts do not have
-PART = tuple(key for key in KEYS if key not in WHOLE)
-ALONE = ""  # name of the only part of a file without parts
+FILE_KEYS = ("format", "parts", "claims", "titles", "about")  # keys of a file, which its parts do not have
+PART_KEYS = tuple(key for key in KEYS if key not in FILE_KEYS)
+ONLY_PART = ""  # name of the only part of a file without parts
 AUTO, MAX_TITLE = "auto", 200
-WINDOWED = (*SAMPLES, DEVIATIONS[0], *CONTACTS, *CROSSINGS, *FOLLOWED)
-OF_SERIES = (*SAMPLES, *STEPS, *DEVIATIONS)  # statistics that can subtract the series of another scene
+WINDOW_STATISTICS = (*SAMPLES, DEVIATIONS[0], *CONTACTS, *CROSSINGS, *NEIGHBOUR_STATISTICS)
+SERIES_STATISTICS = (*SAMPLES, *STEPS, *DEVIATIONS)  # statistics that can subtract the series of another scene
 
 
 def read_study(data: bytes | Mapping[str, Any], file: str = "", settings: Mapping[str, str] | None = None) -> StudyFile:
     """Return the study of a file without parts; arguments and errors as `read_studies`."""
-    return read_studies(data, file, settings).parts[ALONE]
+    return read_studies(data, file, settings).parts[ONLY_PART]
 
 
 def read_studies(
@@ -170,9 +172,9 @@ def read_studies(
     at file:line:column, or InputErrors with all errors.
     """
     reader = Reader(file)
-    root = parse_yaml(data, file, reader.errors, FORMAT) if isinstance(data, bytes) else tree_of(data)
+    root = parse_yaml(data, file, reader.errors, FORMAT) if isinstance(data, bytes) else build_tree(data)
     if not isinstance(root, Map):
-        raise BadValueError(f"the study is {kind_of(root)}", hint="expected a mapping")
+        raise BadValueError(f"the study is {describe_node(root)}", hint="expected a mapping")
     claims, titles, about = Claims(), dict[str, str](), tuple[str, ...]()
     try:
         _check_format(root, isinstance(data, bytes))
@@ -196,28 +198,30 @@ def read_studies(
 def _split_parts(reader: Reader, root: Map) -> Iterator[tuple[str, str, Map]]:
     """Yield name, owner for messages, and keys of each part; keys of a part override those of the file.
 
-    A file without `parts` has one part, named ALONE. Errors are collected for unknown keys and invalid parts.
+    A file without `parts` has one part, named ONLY_PART. Errors are collected for unknown keys and invalid parts.
     """
     if "parts" not in root:
-        yield ALONE, "the study", root
+        yield ONLY_PART, "the study", root
         return
-    common_entries = [(key, node) for key, node in root.pairs() if key not in WHOLE]
-    unknown_keys = [key for key, _ in common_entries if key not in PART]
-    reader.errors.extend(unknown_key(key, KEYS, "the study") for key in unknown_keys)
-    with reader.collect():
-        parts_node = mapping(root["parts"], "parts", root.key("parts"))
+    common_entries = [(key, node) for key, node in root.list_entries() if key not in FILE_KEYS]
+    unknown_keys = [key for key, _ in common_entries if key not in PART_KEYS]
+    reader.errors.extend(make_unknown_key_error(key, KEYS, "the study") for key in unknown_keys)
+    with reader.collect_errors():
+        parts_node = check_mapping(root["parts"], "parts", root.find_key("parts"))
         if not parts_node:
-            raise BadValueError("parts is empty", root.key("parts").where, "expected {clearance: {…}, material: {…}}")
-        for name, node in parts_node.pairs():
-            with reader.collect():
-                part_node = mapping(node, f"parts.{name}", name)
+            raise BadValueError(
+                "parts is empty", root.find_key("parts").where, "expected {clearance: {…}, material: {…}}"
+            )
+        for name, node in parts_node.list_entries():
+            with reader.collect_errors():
+                part_node = check_mapping(node, f"parts.{name}", name)
                 inherited_entries = [
                     (key, value) for key, value in common_entries if key not in part_node and key not in unknown_keys
                 ]
                 yield (
-                    label(name, "part"),
+                    check_label_of_entry(name, "part"),
                     f"parts.{name}",
-                    Map.make([*inherited_entries, *part_node.pairs()], part_node.where),
+                    Map.make([*inherited_entries, *part_node.list_entries()], part_node.where),
                 )
 
 
@@ -229,8 +233,8 @@ def _check_format(root: Map, is_required: bool) -> None:
     elif root["format"] != FORMAT:
         is_mechanism_file = root["format"] == MECHANISM
         remark = "; this file is a mechanism, which `gudgeon run FILE` runs" if is_mechanism_file else ""
-        message = f"format is {kind_of(root['format'])}"
-        raise BadValueError(message, root.key("format").where, f"expected {FORMAT}{remark}")
+        message = f"format is {describe_node(root['format'])}"
+        raise BadValueError(message, root.find_key("format").where, f"expected {FORMAT}{remark}")
 
 
 def _read_part(reader: Reader, root: Map, file: str, settings: Mapping[str, str], part_name: str) -> StudyFile | None:
@@ -239,29 +243,31 @@ def _read_part(reader: Reader, root: Map, file: str, settings: Mapping[str, str]
     `part_name` names the part in messages; `settings` are values of `--set`. Errors are collected; what cannot be read
     gets its default.
     """
-    if not check_keys(reader, root, KEYS if part_name == "the study" else PART, part_name, ("mechanism",)):
+    if not check_keys(reader, root, KEYS if part_name == "the study" else PART_KEYS, part_name, ("mechanism",)):
         return None
     parameters = apply_settings(*read_parameters(reader, root), read_draw(reader, root), settings)
     starts, choices = read_starts(reader, root), read_choices(reader, root)
     title = mechanism = Text.make("", root.where)
     is_single_scene, scenes = True, (*[Text.make("ideal", root.where)],)
-    with reader.collect():
-        mechanism = text(root["mechanism"], "mechanism", root.key("mechanism"), "a file beside this one, or a name")
-    with reader.collect():
-        title = text(root["title"], "title", root.key("title"), "a line") if "title" in root else title
+    with reader.collect_errors():
+        mechanism = check_text(
+            root["mechanism"], "mechanism", root.find_key("mechanism"), "a file beside this one, or a name"
+        )
+    with reader.collect_errors():
+        title = check_text(root["title"], "title", root.find_key("title"), "a line") if "title" in root else title
         if len(title) > MAX_TITLE or not title.isprintable():
             hint = f"expected one line of at most {MAX_TITLE} characters that can be seen"
             raise BadValueError(f"the title has {len(title)} characters", title.where, hint)
-    with reader.collect():
+    with reader.collect_errors():
         if "scenes" in root:
             scenes = _check_unique_names(
-                texts(root["scenes"], "scenes", root.key("scenes"), "names of scenes"), "scene"
+                check_texts(root["scenes"], "scenes", root.find_key("scenes"), "names of scenes"), "scene"
             )
             is_single_scene = isinstance(root["scenes"], Text)
     times = {name: _read_expression(reader, root, name) for name in ("t_end", "output", "step")}
     windows = _read_windows(reader, root)
     measures, keep = _read_measures(reader, root, windows), _read_stored_series(reader, root)
-    with reader.collect():
+    with reader.collect_errors():
         if not (root.get("measures") or root.get("keep")):
             hint = "expected measures: {peak: {peak: slider.ax}}, or keep: [slider.x]"
             raise MissingKeyError(f"{part_name} measures nothing and keeps nothing", root.where, hint)
@@ -295,7 +301,7 @@ def _read_part(reader: Reader, root: Map, file: str, settings: Mapping[str, str]
 
 def _select_result_settings(root: Map) -> dict[str, Any]:
     """Return the tree as plain texts without the keys that do not affect the results: claims, titles and about."""
-    return {key: value for key, value in plain_texts(root).items() if key not in ("claims", "titles", "about")}
+    return {key: value for key, value in convert_to_texts(root).items() if key not in ("claims", "titles", "about")}
 
 
 def _check_unique_names(names: tuple[Text, ...], kind: str) -> tuple[Text, ...]:
@@ -309,33 +315,35 @@ def _check_unique_names(names: tuple[Text, ...], kind: str) -> tuple[Text, ...]:
     return names
 
 
-def _read_expression(reader: Reader, root: Map, name: str) -> Written | None:
+def _read_expression(reader: Reader, root: Map, name: str) -> ParsedExpression | None:
     """Return the expression at the key `name`; None if it is missing or wrong. The error is collected."""
-    with reader.collect():
-        return written(root[name], name, root.key(name)) if name in root else None
+    with reader.collect_errors():
+        return parse_expression(root[name], name, root.find_key(name)) if name in root else None
     return None
 
 
 def _read_method(reader: Reader, root: Map) -> Text:
     """Return the integration method, `auto` by default; an error is collected for an unknown one."""
-    with reader.collect():
+    with reader.collect_errors():
         if "method" in root:
-            name = word(root["method"], "method", root.key("method"), (*OFFERED, KINEMATIC))
+            name = check_word(root["method"], "method", root.find_key("method"), (*OFFERED, KINEMATIC))
             return Text.make(name, root["method"].where)
     return Text.make(AUTO, root.where)
 
 
 def _read_rtol(reader: Reader, root: Map) -> Text | None:
     """Return the tolerance as text; None if it is not given or wrong. The error is collected."""
-    with reader.collect():
-        return text(root["rtol"], "rtol", root.key("rtol"), "a tolerance: 1e-8") if "rtol" in root else None
+    with reader.collect_errors():
+        return check_text(root["rtol"], "rtol", root.find_key("rtol"), "a tolerance: 1e-8") if "rtol" in root else None
     return None
 
 
 def _read_stop(reader: Reader, root: Map) -> bool:
     """Return whether runs stop at events, true by default; an error is collected for another word."""
-    with reader.collect():
-        return "stop" not in root or word(root["stop"], "stop", root.key("stop"), ("true", "false")) == "true"
+    with reader.collect_errors():
+        return (
+            "stop" not in root or check_word(root["stop"], "stop", root.find_key("stop"), ("true", "false")) == "true"
+        )
     return True
 
 
@@ -345,20 +353,26 @@ def _read_windows(reader: Reader, root: Map) -> dict[str, Window]:
     The ends of a window are expressions; None is the begin or the end of the run.
     """
     windows: dict[str, Window] = {}
-    with reader.collect():
-        node = mapping(root["windows"], "windows", root.key("windows")) if "windows" in root else root.part("windows")
-        for name, value in node.pairs():
-            with reader.collect():
+    with reader.collect_errors():
+        node = (
+            check_mapping(root["windows"], "windows", root.find_key("windows"))
+            if "windows" in root
+            else root.get_mapping("windows")
+        )
+        for name, value in node.list_entries():
+            with reader.collect_errors():
                 address = f"windows.{name}"
-                window_node = mapping(value, address, name)
+                window_node = check_mapping(value, address, name)
                 check_keys(reader, window_node, ("from", "to"), address)
                 if not window_node:
                     raise BadValueError(f"{address} is empty", window_node.where, "expected from:, to:, or both")
                 ends = [
-                    written(window_node[key], f"{address}.{key}", window_node.key(key)) if key in window_node else None
+                    parse_expression(window_node[key], f"{address}.{key}", window_node.find_key(key))
+                    if key in window_node
+                    else None
                     for key in ("from", "to")
                 ]
-                windows[label(name, "window")] = Window(*ends)
+                windows[check_label_of_entry(name, "window")] = Window(*ends)
     return windows
 
 
@@ -368,12 +382,12 @@ def _read_measures(reader: Reader, root: Map, windows: Mapping[str, Window]) -> 
     `windows` are the windows that measures may name.
     """
     measures = []
-    with reader.collect():
-        node, key = root.part("measures"), "measures"
-        entries = mapping(node, key, root.key(key)) if key in root else node
-        for name, value in entries.pairs():
-            with reader.collect():
-                measures.append(_read_measure(name, mapping(value, f"measures.{name}", name), windows, root))
+    with reader.collect_errors():
+        node, key = root.get_mapping("measures"), "measures"
+        entries = check_mapping(node, key, root.find_key(key)) if key in root else node
+        for name, value in entries.list_entries():
+            with reader.collect_errors():
+                measures.append(_read_measure(name, check_mapping(value, f"measures.{name}", name), windows, root))
                 _check_one_origin(measures)
     return tuple(measures)
 
@@ -384,7 +398,9 @@ def _check_one_origin(measures: Sequence[Measure]) -> None:
     Statistics of samples in a window do not count. Only the last measure is compared with the first.
     """
     origins = [
-        measure.origin for measure in measures if measure.origin is not None and measure.statistic not in WINDOWED
+        measure.origin
+        for measure in measures
+        if measure.origin is not None and measure.statistic not in WINDOW_STATISTICS
     ]
     if origins and origins[-1] != origins[0]:
         message = f"over all steps runs go beside scene {origins[0]} and scene {origins[-1]}"
@@ -397,27 +413,29 @@ def _read_measure(name: Text, node: Map, windows: Mapping[str, Window], root: Ma
     `root` is the part's tree, whose windows may contain errors.
     """
     address, known_keys = f"measures.{name}", (*STATISTICS, "window", "from")
-    if unknown_keys := [key for key in node.names() if key not in known_keys]:
-        raise unknown_key(unknown_keys[0], known_keys, address)
-    selected = [key for key in node.names() if key in STATISTICS]
+    if unknown_keys := [key for key in node.list_keys() if key not in known_keys]:
+        raise make_unknown_key_error(unknown_keys[0], known_keys, address)
+    selected = [key for key in node.list_keys() if key in STATISTICS]
     if len(selected) != 1:
         message = f"{address} has {'no statistic' if not selected else f'both {selected[0]} and {selected[1]}'}"
         raise BadValueError(message, name.where, f"expected one of: {', '.join(STATISTICS)}")
     (statistic,) = selected
     expected_text = "the name of a series, a joint or an event, or a section"
-    source_name = text(node[statistic], f"{address}.{statistic}", statistic, expected_text)
+    source_name = check_text(node[statistic], f"{address}.{statistic}", statistic, expected_text)
     window = ""
     if "window" in node:
-        window_name = text(node["window"], f"{address}.window", node.key("window"), "the name of a window")
-        if statistic not in WINDOWED:
+        window_name = check_text(node["window"], f"{address}.window", node.find_key("window"), "the name of a window")
+        if statistic not in WINDOW_STATISTICS:
             hint = f"leave it out, or take one of: {', '.join(SAMPLES)}, of samples"
             raise BadValueError(
                 f"{address}: {statistic} is of all steps of a run, and knows no window", window_name.where, hint
             )
         if window_name not in root.get("windows", ()):
-            raise unknown_name("window", window_name, windows, window_name.where)
+            raise make_unknown_name_error("window", window_name, windows, window_name.where)
         window = str(window_name)
-    return Measure(label(name, "measure"), str(statistic), source_name, window, _read_origin(name, node, statistic))
+    return Measure(
+        check_label_of_entry(name, "measure"), str(statistic), source_name, window, _read_origin(name, node, statistic)
+    )
 
 
 def _read_origin(name: Text, node: Map, statistic: Text) -> Text | None:
@@ -428,17 +446,19 @@ def _read_origin(name: Text, node: Map, statistic: Text) -> Text | None:
     address = f"measures.{name}"
     if "from" not in node:
         if statistic in DEVIATIONS:
-            raise missing_key("from", node.where, address)
+            raise make_missing_key_error("from", node.where, address)
         return None
-    if statistic not in OF_SERIES:
-        hint = f"leave it out, or take one of: {', '.join(OF_SERIES)}"
-        raise BadValueError(f"{address}: {statistic} is of no series", node.key("from").where, hint)
-    return text(node["from"], f"{address}.from", node.key("from"), "the name of a scene")
+    if statistic not in SERIES_STATISTICS:
+        hint = f"leave it out, or take one of: {', '.join(SERIES_STATISTICS)}"
+        raise BadValueError(f"{address}: {statistic} is of no series", node.find_key("from").where, hint)
+    return check_text(node["from"], f"{address}.from", node.find_key("from"), "the name of a scene")
 
 
 def _read_stored_series(reader: Reader, root: Map) -> tuple[Text, ...]:
     """Return the names of series that are stored for each run; () if there are none. Errors are collected."""
-    with reader.collect():
+    with reader.collect_errors():
         if "keep" in root and root["keep"] != []:
-            return _check_unique_names(texts(root["keep"], "keep", root.key("keep"), "names of series"), "series")
+            return _check_unique_names(
+                check_texts(root["keep"], "keep", root.find_key("keep"), "names of series"), "series"
+            )
     return ()

@@ -9,16 +9,16 @@ from typing import Any
 
 from gudgeon.contract.methods import KINEMATIC, OFFERED
 from gudgeon.generator.study.claims import MESSAGES, TRIAL
-from gudgeon.generator.study.parts import MAX_COUNT, MAX_SEED, MOST, MOST_ROUNDS, MOST_TEXT
-from gudgeon.generator.study.read import MAX_TITLE, OF_SERIES, WINDOWED
+from gudgeon.generator.study.parts import MAX_COUNT, MAX_ROUNDS, MAX_SEED, MAX_TEXT_LENGTH, MAX_TITLE_LENGTH
+from gudgeon.generator.study.read import MAX_TITLE, SERIES_STATISTICS, WINDOW_STATISTICS
 from gudgeon.generator.study.spec import (
-    COUNTED,
+    COUNTED_PARTS,
     DEVIATIONS,
-    DRAWN,
     FORMAT,
     GEOMETRIC,
     LINEAR,
     NORMAL,
+    SAMPLING_METHODS,
     STATISTICS,
     UNIFORM,
     WEAR_LAWS,
@@ -33,7 +33,7 @@ _LIST: Json = {"anyOf": [_NUMBER, {"type": "array", "items": _NUMBER, "minItems"
 _SPACING: Json = {"enum": [LINEAR, GEOMETRIC]}
 
 
-def schema() -> Json:
+def make_schema() -> Json:
     """Return the JSON Schema of a study file, with or without parts."""
     value_range = _make_object_schema(
         {"from": _NUMBER, "to": _NUMBER, "count": _make_count_schema(2), "spacing": _SPACING}, "from", "to", "count"
@@ -61,7 +61,7 @@ def schema() -> Json:
         "wear": _make_wear_schema(),
     }
     parts = _make_map_schema(_make_object_schema(part_properties), LABEL) | {"minProperties": 1}
-    titles = _make_map_schema(_TEXT | {"maxLength": MOST})
+    titles = _make_map_schema(_TEXT | {"maxLength": MAX_TITLE_LENGTH})
     file_properties = {
         "format": {"const": FORMAT},
         "parts": parts,
@@ -102,7 +102,12 @@ def _make_draw_schema() -> Json:
     range_distribution = _make_object_schema({"from": _NUMBER, "to": _NUMBER, "spacing": _SPACING}, "from", "to")
     seed = {"type": "integer", "minimum": 0, "maximum": MAX_SEED}
     spreads = _make_map_schema({"anyOf": [normal_distribution, range_distribution]}) | {"minProperties": 1}
-    properties = {"count": _make_count_schema(1), "seed": seed, "method": {"enum": list(DRAWN)}, "parameters": spreads}
+    properties = {
+        "count": _make_count_schema(1),
+        "seed": seed,
+        "method": {"enum": list(SAMPLING_METHODS)},
+        "parameters": spreads,
+    }
     return _make_object_schema(properties, "count", "parameters")
 
 
@@ -110,7 +115,7 @@ def _make_wear_schema() -> Json:
     """Return the schema of `wear`: joints, rounds, the wear law and its numbers."""
     numbers = dict.fromkeys(("k", "hardness", "scale"), _NUMBER)
     joints = {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]}
-    rounds = {"type": "integer", "minimum": 1, "maximum": MOST_ROUNDS}
+    rounds = {"type": "integer", "minimum": 1, "maximum": MAX_ROUNDS}
     properties = {"joints": joints, "rounds": rounds, "law": {"enum": list(WEAR_LAWS)}}
     return _make_object_schema(properties | numbers, "joints", "rounds", "k")
 
@@ -130,7 +135,7 @@ def _make_starts_schema() -> Json:
 
 def _make_about_schema() -> Json:
     """Return the schema of `about`: a paragraph or a nonempty list of paragraphs."""
-    paragraph = {"type": "string", "minLength": 1, "maxLength": MOST_TEXT}
+    paragraph = {"type": "string", "minLength": 1, "maxLength": MAX_TEXT_LENGTH}
     return {"anyOf": [paragraph, {"type": "array", "items": paragraph, "minItems": 1}]}
 
 
@@ -140,14 +145,14 @@ def _make_claims_schema() -> Json:
         _make_map_schema(_NUMBER),
         {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]},
     )
-    descriptive = {key: {"type": "string", "maxLength": MOST_TEXT} for key in MESSAGES}
+    descriptive = {key: {"type": "string", "maxLength": MAX_TEXT_LENGTH} for key in MESSAGES}
     number = _make_object_schema(
         descriptive | {"measure": _TEXT, "part": _TEXT, "at": coordinate_values, "value": _NUMBER, "beside": _TEXT},
         "measure",
     )
     counts = {
         "type": "object",
-        "properties": {name: {"type": "integer", "minimum": 0} for name in COUNTED},
+        "properties": {name: {"type": "integer", "minimum": 0} for name in COUNTED_PARTS},
         "additionalProperties": False,
     }
     trial_properties: Json = dict.fromkeys(TRIAL, _NUMBER) | dict.fromkeys(
@@ -159,7 +164,7 @@ def _make_claims_schema() -> Json:
         "not_computed": _TEXT,
     }
     trend = _make_object_schema(descriptive | trial_properties | further_properties)
-    source = {"type": "string", "maxLength": MOST_TEXT}
+    source = {"type": "string", "maxLength": MAX_TEXT_LENGTH}
     return _make_object_schema(
         {"source": source, "numbers": _make_map_schema(number, LABEL), "trends": _make_map_schema(trend, LABEL)}
     )
@@ -170,7 +175,9 @@ def _make_measure_schema() -> Json:
     alternatives = []
     for name in STATISTICS:
         properties = {name: _TEXT} | {
-            key: _TEXT for key, statistics in (("window", WINDOWED), ("from", OF_SERIES)) if name in statistics
+            key: _TEXT
+            for key, statistics in (("window", WINDOW_STATISTICS), ("from", SERIES_STATISTICS))
+            if name in statistics
         }
         alternatives.append(_make_object_schema(properties, name, *(["from"] if name in DEVIATIONS else [])))
     return {"oneOf": alternatives}

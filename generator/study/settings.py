@@ -7,30 +7,30 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from gudgeon.errors import BadValueError, Location
-from gudgeon.generator.study.spec import Axis, Draw, Numbers
+from gudgeon.generator.study.spec import Axis, Draw, ParameterValues
 from gudgeon.generator.yaml import Items, Map, Text
-from gudgeon.language.argument_checks import is_whole, message
+from gudgeon.language.argument_checks import is_integer, shorten_value
 
-MOST_DEPTH, MOST_VALUES = 16, 1_000_000
+MAX_DEPTH, MAX_VALUES = 16, 1_000_000
 
 
-def tree_of(value: Any, address: str = "", depth: int = 0) -> Any:
+def build_tree(value: Any, address: str = "", depth: int = 0) -> Any:
     """Return a file's tree for mappings, lists, arrays, numbers and texts in Python; locations are addresses.
 
     None becomes an empty text, a bool "true" or "false". Raises BadValueError for other types, keys that are not texts,
     more than 16 levels and more than a million values in a list.
     """
     location = Location(f"value of {address}" if address else "the study", 1, 1)
-    if depth > MOST_DEPTH:
-        raise BadValueError(f"{address} is nested too deeply", location, f"expected at most {MOST_DEPTH} levels")
+    if depth > MAX_DEPTH:
+        raise BadValueError(f"{address} is nested too deeply", location, f"expected at most {MAX_DEPTH} levels")
     if isinstance(value, Mapping):
         for key in value:
             if not isinstance(key, str):
-                raise BadValueError(f"{address or 'the study'}: its key {message(key)} is no text", location)
+                raise BadValueError(f"{address or 'the study'}: its key {shorten_value(key)} is no text", location)
         addresses = {key: f"{address}.{key}" if address else key for key in value}
         pairs = ((Text.make(key, Location(f"value of {name}", 1, 1)), value[key]) for key, name in addresses.items())
         return Map.make(
-            ((key, tree_of(inner_value, addresses[key], depth + 1)) for key, inner_value in pairs), location
+            ((key, build_tree(inner_value, addresses[key], depth + 1)) for key, inner_value in pairs), location
         )
     if isinstance(value, str):
         return Text.make(value, location, one_line="\n" not in value)
@@ -39,30 +39,30 @@ def tree_of(value: Any, address: str = "", depth: int = 0) -> Any:
     if isinstance(value, Iterable):
         values = value.tolist() if hasattr(value, "tolist") else list(value)
         if not isinstance(values, list):  # an array without a dimension
-            return tree_of(values, address, depth + 1)
-        if len(values) > MOST_VALUES:
-            raise BadValueError(f"{address} has {len(values)} values", location, f"expected at most {MOST_VALUES}")
-        return Items.make((tree_of(item, f"{address}[{k}]", depth + 1) for k, item in enumerate(values)), location)
+            return build_tree(values, address, depth + 1)
+        if len(values) > MAX_VALUES:
+            raise BadValueError(f"{address} has {len(values)} values", location, f"expected at most {MAX_VALUES}")
+        return Items.make((build_tree(item, f"{address}[{k}]", depth + 1) for k, item in enumerate(values)), location)
     try:
-        return Text.make(repr(int(value)) if is_whole(value) else repr(float(value)), location)
+        return Text.make(repr(int(value)) if is_integer(value) else repr(float(value)), location)
     except (TypeError, ValueError, OverflowError):
         hint = "expected a number, a text, a list or a mapping"
-        raise BadValueError(f"{address or 'the study'} is {message(value)}", location, hint) from None
+        raise BadValueError(f"{address or 'the study'} is {shorten_value(value)}", location, hint) from None
 
 
-def plain_texts(node: Any) -> Any:
+def convert_to_texts(node: Any) -> Any:
     """Return a tree as JSON values that contain texts only: mappings, lists, and texts with single spaces."""
     if isinstance(node, Map):
-        return {str(key): plain_texts(inner_node) for key, inner_node in node.items()}
+        return {str(key): convert_to_texts(inner_node) for key, inner_node in node.items()}
     if isinstance(node, Items):
-        return [plain_texts(inner_node) for inner_node in node]
+        return [convert_to_texts(inner_node) for inner_node in node]
     return " ".join(str(node).split())
 
 
 DRAW = "draw"
 
 
-class Varied(NamedTuple):
+class VariedParameters(NamedTuple):
     """Contain the values of all runs, the dimensions, the draw, and the dimensions that `--set` removed."""
 
     fixed: Mapping[Text, Text]
@@ -71,25 +71,27 @@ class Varied(NamedTuple):
     left_out: tuple[Axis, ...] = ()
 
 
-def short_name(name: str) -> str:
+def remove_section_name(name: str) -> str:
     """Return a parameter's name without the section `parameters.`."""
     return name.removeprefix("parameters.")
 
 
 def apply_settings(
     fixed: Mapping[Text, Text], axes: Sequence[Axis], draw: Draw | None, settings: Mapping[str, str]
-) -> Varied:
+) -> VariedParameters:
     """Apply values of `--set`: they replace the file's values of these parameters, fixed or varied.
 
-    Parameters that vary together with them, in a zip or a draw, are not changed. An axis that loses parameters is
-    returned in `Varied.left_out` with these alone; an axis or draw without any other parameter vanishes.
+    Parameters that vary together with them, in a zip or a draw, are not changed. For each axis that loses parameters,
+    `VariedParameters.left_out` has an axis with these parameters alone; those of the draw form one grouped axis there.
+    An axis or draw without any other parameter is removed.
     """
-    set_names = {short_name(name) for name in settings}
-    set_values = tree_of({f"--set {name}": value for name, value in settings.items()})
-    fixed_values = {key: value for key, value in fixed.items() if short_name(key) not in set_names}
+    set_names = {remove_section_name(name) for name in settings}
+    set_values = build_tree({f"--set {name}": value for name, value in settings.items()})
+    fixed_values = {key: value for key, value in fixed.items() if remove_section_name(key) not in set_names}
     fixed_values |= {Text.make(key.removeprefix("--set "), key.where): value for key, value in set_values.items()}
     axes_with_removed_columns = [
-        (axis, {key: numbers for key, numbers in axis.columns.items() if short_name(key) in set_names}) for axis in axes
+        (axis, {key: numbers for key, numbers in axis.columns.items() if remove_section_name(key) in set_names})
+        for axis in axes
     ]
     remaining_axes = (
         replace(axis, columns={key: numbers for key, numbers in axis.columns.items() if key not in removed})
@@ -97,10 +99,12 @@ def apply_settings(
     )
     removed_axes = [replace(axis, columns=removed) for axis, removed in axes_with_removed_columns if removed]
     if draw is not None and (
-        drawn := {key: spread for key, spread in draw.numbers.items() if short_name(key) in set_names}
+        drawn := {key: spread for key, spread in draw.numbers.items() if remove_section_name(key) in set_names}
     ):
-        columns = {key: Numbers(spread.ends, draw.count) for key, spread in drawn.items()}
+        columns = {key: ParameterValues(spread.ends, draw.count) for key, spread in drawn.items()}
         removed_axes.append(Axis(DRAW, next(iter(drawn)).where, columns, grouped=True))
         others = {key: spread for key, spread in draw.numbers.items() if key not in drawn}
         draw = replace(draw, numbers=others) if others else None
-    return Varied(fixed_values, tuple(axis for axis in remaining_axes if axis.columns), draw, tuple(removed_axes))
+    return VariedParameters(
+        fixed_values, tuple(axis for axis in remaining_axes if axis.columns), draw, tuple(removed_axes)
+    )

@@ -13,13 +13,13 @@ from gudgeon.errors import BadValueError, Location
 from gudgeon.generator.yaml import Text
 from gudgeon.language.tree import Expr
 
-ALONG = ("grows_along", "alike_along", "spreads_along")  # kinds of trials along a dimension
-BETWEEN = ("larger", "most_lowered")  # kinds that compare two selections of runs
-SAME = ("exceeds",)  # kinds that compare two measures of the same runs
-AGAINST = ("above", "below", "near")  # kinds that compare with a number
+TRENDS_ALONG_DIMENSION = ("grows_along", "alike_along", "spreads_along")  # kinds of trials along a dimension
+SELECTION_COMPARISONS = ("larger", "most_lowered")  # kinds that compare two selections of runs
+MEASURE_COMPARISONS = ("exceeds",)  # kinds that compare two measures of the same runs
+NUMBER_COMPARISONS = ("above", "below", "near")  # kinds that compare with a number
 COUNTS = "counts"  # the kind that counts parts of the scene
-KINDS = (*ALONG, *BETWEEN, *SAME, *AGAINST, COUNTS)
-COUNTED = ("bodies", "joints", "drives", "freedoms", "rows", "coordinates", "play")
+KINDS = (*TRENDS_ALONG_DIMENSION, *SELECTION_COMPARISONS, *MEASURE_COMPARISONS, *NUMBER_COMPARISONS, COUNTS)
+COUNTED_PARTS = ("bodies", "joints", "drives", "freedoms", "rows", "coordinates", "play")
 
 
 @dataclass(frozen=True)
@@ -88,7 +88,12 @@ class Claims:
 FORMAT = "gudgeon-study/1"
 LINEAR, GEOMETRIC = "linear", "geometric"
 NORMAL, UNIFORM = "normal", "uniform"
-DRAWN = ("random", "latin_hypercube", "sobol", "halton")  # how points are drawn: numpy's generator, or scipy.stats.qmc
+SAMPLING_METHODS = (
+    "random",
+    "latin_hypercube",
+    "sobol",
+    "halton",
+)  # how points are drawn: numpy's generator, or scipy.stats.qmc
 SAMPLES = ("max", "min", "peak", "range", "mean", "rms", "final")  # statistics of a series' samples in a window
 STEPS = ("max_of_steps", "min_of_steps", "peak_of_steps")  # of a series over all steps of a run
 DEVIATIONS = ("deviation", "deviation_of_steps")  # largest magnitude of a series less that of another scene
@@ -97,7 +102,7 @@ JOINT = ("peak_force", "eccentricity")  # of a joint with play over all steps
 WEAR_LAWS = ("archard", "reye")
 WEAR = ("wear_depth", "wear_arc")  # of a joint with dry contact over all steps, of its bearing, for k/H = 1/Pa
 CROSSINGS = ("crossings", "first_crossing")  # of an event in a window
-FOLLOWED = (
+NEIGHBOUR_STATISTICS = (
     "lyapunov",
     "lyapunov_error",
     "lyapunov_per_return",
@@ -105,7 +110,7 @@ FOLLOWED = (
     "motion",
     "motion_confidence",
 )  # statistics of a neighbouring run, or of the returns to a section, in a window
-STATISTICS = (*SAMPLES, *STEPS, *DEVIATIONS, *CONTACTS, *JOINT, *WEAR, *CROSSINGS, *FOLLOWED)
+STATISTICS = (*SAMPLES, *STEPS, *DEVIATIONS, *CONTACTS, *JOINT, *WEAR, *CROSSINGS, *NEIGHBOUR_STATISTICS)
 RESERVED = (
     "run",
     "time",
@@ -121,7 +126,7 @@ RESERVED = (
 
 
 @dataclass(frozen=True)
-class Written:
+class ParsedExpression:
     """Contain an expression and its text."""
 
     expr: Expr
@@ -129,7 +134,7 @@ class Written:
 
 
 @dataclass(frozen=True)
-class Numbers:
+class ParameterValues:
     """Represent the values of a parameter: a list, or `count` values from the first text to the second."""
 
     texts: tuple[Text, ...]
@@ -143,7 +148,7 @@ class Axis:
 
     name: str
     where: Location
-    columns: Mapping[Text, Numbers]
+    columns: Mapping[Text, ParameterValues]
     grouped: bool = False  # from `zip`: the dimension's name is not that of a parameter
 
     @property
@@ -154,7 +159,7 @@ class Axis:
 
 
 @dataclass(frozen=True)
-class Spread:
+class Distribution:
     """Represent the distribution of a drawn parameter: normal by mean and deviation, else by its two ends."""
 
     kind: str
@@ -168,7 +173,7 @@ class Draw:
     count: int
     seed: int
     method: str
-    numbers: Mapping[Text, Spread]
+    numbers: Mapping[Text, Distribution]
     names: tuple[str, ...]  # all drawn parameters of the file: the points of one do not change if another one is set
 
 
@@ -204,8 +209,8 @@ class Choice:
 class Window:
     """Represent a span of time; None is the begin or the end of the run."""
 
-    begin: Written | None
-    end: Written | None
+    begin: ParsedExpression | None
+    end: ParsedExpression | None
 
 
 @dataclass(frozen=True)
@@ -248,9 +253,9 @@ class StudyFile:
     axes: tuple[Axis, ...]
     draw: Draw | None
     starts: Starts | None
-    t_end: Written | None
-    output: Written | None
-    step: Written | None
+    t_end: ParsedExpression | None
+    output: ParsedExpression | None
+    step: ParsedExpression | None
     windows: Mapping[str, Window]
     measures: tuple[Measure, ...]
     keep: tuple[Text, ...]
@@ -261,13 +266,15 @@ class StudyFile:
     wear: WearRounds | None = None
     left_out: tuple[Axis, ...] = ()  # dimensions of the file that `--set` replaces by one value
 
-    def begun(self, count: int | None, seed: int | None) -> StudyFile:
+    def with_starts(self, count: int | None, seed: int | None) -> StudyFile:
         """Return the study with another count or seed of its perturbed starts, if it has any."""
-        message = {name: str(value) for name, value in (("count", count), ("seed", seed)) if value is not None}
-        if self.starts is None or not message:
+        changed_settings = {name: str(value) for name, value in (("count", count), ("seed", seed)) if value is not None}
+        if self.starts is None or not changed_settings:
             return self
         starts = replace(self.starts, count=count or self.starts.count, seed=self.starts.seed if seed is None else seed)
-        return replace(self, starts=starts, specified={**self.specified, "starts": self.specified["starts"] | message})
+        return replace(
+            self, starts=starts, specified={**self.specified, "starts": self.specified["starts"] | changed_settings}
+        )
 
 
 @dataclass(frozen=True)
@@ -282,13 +289,15 @@ class StudySet:
     titles: Mapping[str, str] = field(default_factory=dict)  # of names, for people
     about: tuple[str, ...] = ()  # paragraphs, for people
 
-    def begun(self, count: int | None, seed: int | None) -> StudySet:
+    def with_starts(self, count: int | None, seed: int | None) -> StudySet:
         """Return the studies with another count or seed of their perturbed starts.
 
         Raises BadValueError if no part has any.
         """
-        message = [name for name, value in (("count", count), ("seed", seed)) if value is not None]
-        if message and not any(part.starts for part in self.parts.values()):
+        changed_settings = [name for name, value in (("count", count), ("seed", seed)) if value is not None]
+        if changed_settings and not any(part.starts for part in self.parts.values()):
             hint = "starts: in the file says which number is how far off"
-            raise BadValueError(f"no run has perturbed starts, whose {' and '.join(message)} is given", None, hint)
-        return replace(self, parts={name: part.begun(count, seed) for name, part in self.parts.items()})
+            raise BadValueError(
+                f"no run has perturbed starts, whose {' and '.join(changed_settings)} is given", None, hint
+            )
+        return replace(self, parts={name: part.with_starts(count, seed) for name, part in self.parts.items()})

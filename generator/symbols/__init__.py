@@ -1,1 +1,1 @@
-"""Names, corners and run-time numbers of the equations."""
+"""Symbols of the equations: names, storage, derivatives, switching functions, run-time parameters."""

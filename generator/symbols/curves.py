@@ -1,11 +1,11 @@
-"""Curves of a file and contours of bearings as functions of SymPy; their values are stored elsewhere."""
+"""Curves of a file and contours of bearings as SymPy functions; tables of their values are stored separately."""
 
 from __future__ import annotations
 
 import sympy as sp
 from sympy.core.symbol import Str
 
-from gudgeon.generator.symbols.derivatives import derivative
+from gudgeon.generator.symbols.derivatives import differentiate
 from gudgeon.language.curves import HOLD, STOP, Curve
 
 _MAX_ORDER = 3  # derivatives of a cubic: the third has jumps at the knots, and no derivative in between
@@ -33,7 +33,7 @@ class CurveOf(sp.Function):
         The derivative of the third one is 0, since it is piecewise constant. Called by SymPy.
         """
         name, order, x = self.args
-        rate = derivative(x, s)
+        rate = differentiate(x, s)
         return sp.Integer(0) if rate == 0 or order == _MAX_ORDER else CurveOf(name, order + 1, x) * rate
 
 
@@ -50,7 +50,7 @@ class CurveOn(sp.Function):
         Called by SymPy.
         """
         name, order, x, branch = self.args
-        rate = derivative(x, s)
+        rate = differentiate(x, s)
         return sp.Integer(0) if rate == 0 or order == _MAX_ORDER else CurveOn(name, order + 1, x, branch) * rate
 
 
@@ -65,14 +65,14 @@ class KnotsOf(sp.Function):
     name = CurveOf.name
 
 
-def curve_of(curve: Curve, x: sp.Expr) -> sp.Expr:
+def make_curve_expression(curve: Curve, x: sp.Expr) -> sp.Expr:
     """Return a curve of the file at x as a SymPy expression.
 
     Beyond its range a curve is held or continued linearly, by min and max, whose switching points end steps. A periodic
     curve, or one that stops a run there, has no continuation.
     """
     name, zero, one = Str(curve.name), sp.Integer(0), sp.Integer(1)
-    if curve.repeats or curve.extrapolate == STOP:
+    if curve.is_periodic or curve.extrapolate == STOP:
         return CurveOf(name, zero, x)
     first_x, last_x = sp.Float(curve.x[0], 17), sp.Float(curve.x[-1], 17)
     value = CurveOf(name, zero, sp.Max(first_x, sp.Min(last_x, x)))
@@ -82,7 +82,7 @@ def curve_of(curve: Curve, x: sp.Expr) -> sp.Expr:
     return value + down * sp.Min(0, x - first_x) + up * sp.Max(0, x - last_x)
 
 
-def c_name(name: str) -> str:
+def make_curve_name(name: str) -> str:
     """Return the name of a curve of the file in emitted code, such as `CURVE_load_`."""
     return f"CURVE_{name}_"
 
@@ -117,13 +117,13 @@ class ContourOf(sp.Function):
         The derivative of the second one is 0. Called by SymPy.
         """
         table, count, order, x = self.args
-        rate = derivative(x, s)
+        rate = differentiate(x, s)
         return (
             sp.Integer(0) if rate == 0 or order == _MAX_CONTOUR_ORDER else ContourOf(table, count, order + 1, x) * rate
         )
 
 
-def contour_of(table: str, count: int, order: int, angle: sp.Expr) -> sp.Expr:
+def make_contour_expression(table: str, count: int, order: int, angle: sp.Expr) -> sp.Expr:
     """Return the k-th derivative (`order`) by the angle of a bearing's contour at an angle.
 
     `table`: the array of Parameters that holds its depths in m; `count`: their number.

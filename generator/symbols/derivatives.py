@@ -1,4 +1,4 @@
-"""Symbols and derivatives of expressions, faster than SymPy's general functions."""
+"""Free symbols and derivatives of expressions, computed faster than by SymPy's general functions."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ _CHAIN_RULE = sp.Function._eval_derivative
 
 
 @lru_cache(100_000)
-def symbols_of(expression: sp.Basic) -> frozenset[sp.Symbol]:
+def find_symbols(expression: sp.Basic) -> frozenset[sp.Symbol]:
     """Return the free symbols of an expression, from a cache."""
     if expression.is_Add or expression.is_Mul:
-        return frozenset[sp.Symbol]().union(*map(symbols_of, expression.args))
+        return frozenset[sp.Symbol]().union(*map(find_symbols, expression.args))
     return frozenset(expression.free_symbols)
 
 
 @lru_cache(50_000)
-def derivative(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
+def differentiate(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
     """Return the derivative of an expression by `symbol`, as `sympy.diff` does but faster; results are cached.
 
     Sums are differentiated term by term, products factor by factor, powers with constant exponents and functions of one
@@ -27,16 +27,16 @@ def derivative(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
     """
     if expression == symbol:
         return _ONE
-    if symbol not in symbols_of(expression):
+    if symbol not in find_symbols(expression):
         return _ZERO
     arguments = expression.args
     if expression.is_Add:
-        return sp.Add(*(derivative(term, symbol) for term in arguments))
+        return sp.Add(*(differentiate(term, symbol) for term in arguments))
     if expression.is_Mul:
-        rates = ((k, derivative(factor, symbol)) for k, factor in enumerate(arguments))
+        rates = ((k, differentiate(factor, symbol)) for k, factor in enumerate(arguments))
         return sp.Add(*(sp.Mul(*arguments[:k], rate, *arguments[k + 1 :]) for k, rate in rates if rate is not _ZERO))
     if expression.is_Pow and expression.exp.is_number:
-        return expression * (derivative(expression.base, symbol) * expression.exp / expression.base)
+        return expression * (differentiate(expression.base, symbol) * expression.exp / expression.base)
     if len(arguments) == 1 and getattr(type(expression), "_eval_derivative", None) is _CHAIN_RULE:
-        return expression.fdiff() * derivative(arguments[0], symbol)
+        return expression.fdiff() * differentiate(arguments[0], symbol)
     return sp.diff(expression, symbol)

@@ -11,10 +11,10 @@ import sympy as sp
 
 from gudgeon.errors import BadValueError, Location
 from gudgeon.generator.mechanism import Quantity
-from gudgeon.generator.symbols.curves import curve_of
-from gudgeon.generator.symbols.squares import DEGREE, decimal, root
+from gudgeon.generator.symbols.curves import make_curve_expression
+from gudgeon.generator.symbols.squares import DEGREE, convert_to_decimal, extract_squares
 from gudgeon.generator.symbols.switches import ModOf, Pick
-from gudgeon.generator.symbols.unevaluated import kept
+from gudgeon.generator.symbols.unevaluated import apply_unexpanded
 from gudgeon.language.functions import IN_SYMPY, Function
 from gudgeon.language.parser import parse
 from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Number, Unary
@@ -22,7 +22,7 @@ from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Number, U
 CLASSES: Mapping[Any, Function] = {getattr(sp, name): function for name, function in IN_SYMPY.items()}
 
 
-def classes_where(predicate: Callable[[Function], bool]) -> tuple[Any, ...]:
+def find_classes(predicate: Callable[[Function], bool]) -> tuple[Any, ...]:
     """Return SymPy's classes of all functions of the table whose entry satisfies the predicate."""
     return tuple(class_ for class_, function in CLASSES.items() if predicate(function))
 
@@ -50,7 +50,7 @@ _HALF = sp.Rational(1, 2)
 _MAX_BITS = 4096  # of numbers that were not written, at most
 
 
-def exponential(exponent: sp.Expr) -> sp.Expr:
+def make_exponential(exponent: sp.Expr) -> sp.Expr:
     """Return e^x, with the floats in a sum of the exponent converted to exact rational numbers.
 
     Otherwise SymPy would take e^5000.0 out of e^(5000.0 − u), and that overflows.
@@ -67,7 +67,7 @@ def _make_exact(expression: sp.Expr) -> sp.Expr:
 
 _BUILDERS: dict[str, Callable[..., sp.Expr]] = {
     **{function.name: kind for kind, function in CLASSES.items()},
-    "exp": exponential,
+    "exp": make_exponential,
     "smooth_step": smooth_step,
     "ramp": ramp,
     "where": where,
@@ -75,7 +75,7 @@ _BUILDERS: dict[str, Callable[..., sp.Expr]] = {
 }
 
 
-def to_sympy(expr: Expr, symbol_of: Callable[[str], sp.Expr]) -> sp.Expr:
+def convert_to_sympy(expr: Expr, symbol_of: Callable[[str], sp.Expr]) -> sp.Expr:
     """Return a parsed expression `expr` as a SymPy expression.
 
     `symbol_of(path)` returns the SymPy expression of a name. A number stays the binary64 value that the user wrote;
@@ -84,12 +84,12 @@ def to_sympy(expr: Expr, symbol_of: Callable[[str], sp.Expr]) -> sp.Expr:
     return _Converter(symbol_of).value(expr)
 
 
-def derivative_at(derivative: str, x: sp.Expr, f: sp.Expr) -> sp.Expr:
+def convert_derivative(derivative: str, x: sp.Expr, f: sp.Expr) -> sp.Expr:
     """Return a derivative of the table of functions as a SymPy expression.
 
     `derivative`: its text in x and f; `x`: the argument; `f`: the value of the function there.
     """
-    return to_sympy(parse(derivative, Location("functions.py", 1, 1)), {"x": x, "f": f}.__getitem__)
+    return convert_to_sympy(parse(derivative, Location("functions.py", 1, 1)), {"x": x, "f": f}.__getitem__)
 
 
 class _Converter:
@@ -109,8 +109,8 @@ class _Converter:
     def _convert(self, expr: Expr) -> sp.Expr:
         """Convert one node of the tree to SymPy, without reading the cache.
 
-        Floats of integer value below 1e15 become integers. Products and powers that SymPy would expand to extreme
-        numbers stay unevaluated.
+        Floats of integer value below 1e15 become integers, and names what the resolver returns for them. Operands are
+        converted through the cache. Products and powers that SymPy would expand to extreme numbers stay unevaluated.
         """
         match expr:
             case Number(value=value):
@@ -120,36 +120,38 @@ class _Converter:
             case Unary(operand=operand):
                 return -self.value(operand)
             case Call(function="sqrt", arguments=(argument_,)):
-                return kept(lambda a: self._power_without_squares(a, _HALF, argument_), self.value(argument_))
+                return apply_unexpanded(
+                    lambda a: self._make_power_without_squares(a, _HALF, argument_), self.value(argument_)
+                )
             case Call(function="hypot", arguments=sides):
-                return kept(
-                    lambda a, b: self._power_without_squares(
-                        _square_unexpanded(a) + _square_unexpanded(b), _HALF, *sides
+                return apply_unexpanded(
+                    lambda a, b: self._make_power_without_squares(
+                        _make_unexpanded_square(a) + _make_unexpanded_square(b), _HALF, *sides
                     ),
                     *map(self.value, sides),
                 )
             case CurveCall(arguments=(argument,), curve=curve):
-                return kept(lambda x: curve_of(curve, x), self.value(argument))
+                return apply_unexpanded(lambda x: make_curve_expression(curve, x), self.value(argument))
             case Call(function=function, arguments=arguments):
-                return kept(_BUILDERS[function], *map(self.value, arguments))
+                return apply_unexpanded(_BUILDERS[function], *map(self.value, arguments))
             case Binary(operator="**", left=left, right=right):
-                return self._power(left, self.value(left), self.value(right))
+                return self._convert_power(left, self.value(left), self.value(right))
             case Binary(operator=operator, left=left, right=right):
                 return _apply_operator(operator, self.value(left), self.value(right))
 
-    def _power(self, left: Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
+    def _convert_power(self, left: Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
         """Return the power a**b of two converted operands; `left` is the unconverted base.
 
         A power of two numbers is computed in binary64. Exponents such as 0.5 are made exact.
         """
         if a.is_number and b.is_number:
-            return _power(a, b)
+            return _compute_numeric_power(a, b)
         exponent = (
             _make_exact(b) if a.has(sp.exp) else _make_exact_if_simple(b)
         )  # (e^(5000 − u))^0.3 as e^(1500 − 0.3 u)
-        return kept(lambda a, b: self._power_without_squares(a, b, left), a, exponent)
+        return apply_unexpanded(lambda a, b: self._make_power_without_squares(a, b, left), a, exponent)
 
-    def _power_without_squares(self, base: sp.Expr, exponent: sp.Expr, *operands: Expr) -> sp.Expr:
+    def _make_power_without_squares(self, base: sp.Expr, exponent: sp.Expr, *operands: Expr) -> sp.Expr:
         """Return a power of an expression; squares under a square root are taken out.
 
         `operands`: the unconverted base, or both arguments of hypot, whose numbers are then read as written.
@@ -157,7 +159,7 @@ class _Converter:
         if not (base.is_Add and exponent.is_Rational and exponent.q == 2):
             return base**exponent
         exact_operands = [self._convert_with_decimals(operand) for operand in operands]
-        return root(
+        return extract_squares(
             base,
             exponent,
             exact_operands[0] if len(operands) == 1 else sp.Add(*(operand**2 for operand in exact_operands)),
@@ -177,7 +179,7 @@ class _Converter:
                     return base**exponent
             case Binary(operator=operator, left=left, right=right):
                 return _apply_operator(operator, self._convert_with_decimals(left), self._convert_with_decimals(right))
-        return decimal(self.value(expr))
+        return convert_to_decimal(self.value(expr))
 
 
 def _count_bits(expression: sp.Expr) -> int:
@@ -202,8 +204,8 @@ def _apply_operator(operator: str, a: sp.Expr, b: sp.Expr) -> sp.Expr:
         case "-":
             return a - b
         case "*":
-            return _merge_exponentials(kept(operator_of.mul, a, b))
-    return _merge_exponentials(kept(operator_of.truediv, a, b))
+            return _merge_exponentials(apply_unexpanded(operator_of.mul, a, b))
+    return _merge_exponentials(apply_unexpanded(operator_of.truediv, a, b))
 
 
 def _merge_exponentials(product: sp.Expr) -> sp.Expr:
@@ -215,12 +217,12 @@ def _merge_exponentials(product: sp.Expr) -> sp.Expr:
     if len(powers) < 2:
         return product
     other_factors = [factor for factor in product.args if not isinstance(factor, sp.exp)]
-    return sp.Mul(exponential(sp.Add(*(factor.exp for factor in powers))), *other_factors)
+    return sp.Mul(make_exponential(sp.Add(*(factor.exp for factor in powers))), *other_factors)
 
 
-def _square_unexpanded(a: sp.Expr) -> sp.Expr:
+def _make_unexpanded_square(a: sp.Expr) -> sp.Expr:
     """Return the square of an expression."""
-    return kept(sp.Pow, a, sp.Integer(2))
+    return apply_unexpanded(sp.Pow, a, sp.Integer(2))
 
 
 def _make_exact_if_simple(exponent: sp.Expr) -> sp.Expr:
@@ -232,20 +234,20 @@ def _make_exact_if_simple(exponent: sp.Expr) -> sp.Expr:
     return exact if exact.is_Rational and exact.q <= 8 else exponent
 
 
-def _power(a: sp.Expr, b: sp.Expr) -> sp.Expr:
+def _compute_numeric_power(a: sp.Expr, b: sp.Expr) -> sp.Expr:
     """Return the power of two numbers as binary64 computes it: the exact 10**10**10 would not fit into memory."""
     with np.errstate(all="ignore"):
         value = float(np.power(np.float64(a), np.float64(b)))
     return sp.Integer(int(value)) if abs(value) < 1e15 and value == int(value) else sp.Float(value, 17)
 
 
-def quantity_to_sympy(quantity: Quantity, symbol_of: Callable[[str], sp.Expr]) -> sp.Expr:
+def convert_quantity_to_sympy(quantity: Quantity, symbol_of: Callable[[str], sp.Expr]) -> sp.Expr:
     """Return the expression of a quantity of the file in t, parameters and motion.
 
     `symbol_of(path)` returns the SymPy expression of a name. Raise BadValueError if the expression contains an
     infinite, undefined or imaginary constant.
     """
-    value = to_sympy(quantity.value, symbol_of)
+    value = convert_to_sympy(quantity.value, symbol_of)
     if value.has(sp.zoo, sp.nan, sp.oo, -sp.oo, sp.I):
         message, hint = f"{quantity.address} is finite for no motion", "expected a number: is there a division by zero?"
         raise BadValueError(message, quantity.where, hint)

@@ -1,4 +1,4 @@
-"""The run-time parameters of a scene: those that the user may override, and those that `prepare` derives.
+"""Run-time parameters of a scene: those that users may change, and those that are computed from them.
 
 Every physical number has an address and becomes a member of the C struct `Parameters`; a literal zero is structural
 and stays a zero. Derived parameters (inverse masses, K, S, …) are computed from the others.
@@ -13,10 +13,10 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from gudgeon.generator.mechanism import Quantity, Scene
-from gudgeon.generator.symbols.from_expressions import to_sympy
+from gudgeon.generator.symbols.from_expressions import convert_to_sympy
 from gudgeon.generator.symbols.storage import PARAMETERS, Freezable, Place
 from gudgeon.generator.symbols.symbols import OWN_FIELD, Symbols
-from gudgeon.language.tree import Expr, evaluate, names
+from gudgeon.language.tree import Expr, evaluate, iterate_names
 from gudgeon.language.units import DIMENSIONLESS, Dimension
 
 
@@ -29,17 +29,17 @@ class ParameterEntry:
     value: sp.Expr
     default: float
     dimension: Dimension
-    words: tuple[str, ...] = ()  # what its number, 0, 1, …, stands for
-    written: Expr | None = None  # as the file has it
+    choice_words: tuple[str, ...] = ()  # what its number, 0, 1, …, stands for
+    expression: Expr | None = None  # as the file has it
 
     @property
-    def follows(self) -> bool:
+    def depends_on_parameters(self) -> bool:
         """Return whether the default depends on other parameters."""
         return bool(self.value.free_symbols)
 
 
 @dataclass(frozen=True)
-class Owned:
+class ParameterRole:
     """The role of a derived parameter in a joint or element: `axis` of the unit vector `what`, or `what` itself."""
 
     owner: str
@@ -58,19 +58,21 @@ class ParameterTable(Freezable):
         self.symbols = symbols
         self.entries: dict[str, ParameterEntry] = {}
         self.derived: dict[sp.Symbol, sp.Expr] = {}
-        self.of_owner: dict[sp.Symbol, Owned] = {}  # roles of derived parameters of one joint or element
-        self.unwritten: set[sp.Expr] = set()  # derived parameters of the integration only, which no document prints
+        self.roles: dict[sp.Symbol, ParameterRole] = {}  # roles of derived parameters of one joint or element
+        self.internal_parameters: set[sp.Expr] = (
+            set()
+        )  # derived parameters of the integration only, which no document prints
         self.signs: dict[str, str] = {}  # address -> ">" or "<": the sign to zero that the equations rely on
         self.tables: dict[str, list[sp.Symbol]] = {}  # parameters in arrays of Parameters, by the array's name
         self._derived_by: dict[sp.Expr, sp.Symbol] = {}
-        self._parameters, self._instead = scene.parameters, scene.instead
+        self._parameters, self._instead = scene.parameters, scene.chosen_properties
         for name in scene.parameters:
             self._get_or_add_parameter(name)
 
-    def beside(self, symbols: Symbols) -> ParameterTable:
-        """Return a copy of the table whose new symbols are made in another symbol table (`Symbols.beside`).
+    def copy_for_symbols(self, symbols: Symbols) -> ParameterTable:
+        """Return a copy of the table that adds new symbols to another symbol table, `symbols`.
 
-        The dictionaries of parameters are shared.
+        Copy and original share the dictionaries of parameters.
         """
         copy_ = copy.copy(self)
         copy_.symbols = symbols
@@ -93,7 +95,9 @@ class ParameterTable(Freezable):
         while pending:
             quantity = self._parameters[pending[-1]]
             missing = (
-                missing.path for missing in names(quantity.value) if f"parameters.{missing.path}" not in self.entries
+                missing.path
+                for missing in iterate_names(quantity.value)
+                if f"parameters.{missing.path}" not in self.entries
             )
             if (first_missing := next(missing, None)) is not None:
                 pending.append(first_missing)
@@ -107,28 +111,29 @@ class ParameterTable(Freezable):
         """Add a parameter with an address and the expression of a quantity; return its symbol.
 
         `base_name`: base of the symbol's name; `home`: its place in Parameters. Its default is the value of the
-        expression with all defaults.
+        expression with all defaults. Parameters in the expression are added first; a quantity without names has its
+        number as value.
         """
-        parts = {part.address: part for part in quantity.of}
+        parts = {part.address: part for part in quantity.operands}
 
-        def symbol(path: str) -> sp.Expr:
+        def find_symbol(path: str) -> sp.Expr:
             """Return the SymPy expression of a name in the quantity's expression: a named part of it or a parameter."""
-            return self.use(parts[path]) if path in parts else self._get_or_add_parameter(path)
+            return self.get_or_add(parts[path]) if path in parts else self._get_or_add_parameter(path)
 
-        def number(path: str) -> float:
+        def find_default(path: str) -> float:
             """Return the default value of a name in the quantity's expression."""
             return self.entries[path if path in parts else f"parameters.{path}"].default
 
-        default_expression = to_sympy(quantity.value, symbol) if _has_names(quantity) else None
-        default = float(evaluate(quantity.value, number))
+        default_expression = convert_to_sympy(quantity.value, find_symbol) if _has_names(quantity) else None
+        default = float(evaluate(quantity.value, find_default))
         value = sp.Float(default, 17) if default_expression is None else default_expression
         is_short = "." not in base_name and not address.startswith("parameters.")  # gravity.y is not y
         field_base_name = address if is_short else ""
-        symbol = self.symbols.new(base_name, home, address, field_base_name=field_base_name)
+        symbol = self.symbols.add_symbol(base_name, home, address, field_base_name=field_base_name)
         self.entries[address] = ParameterEntry(symbol, address, value, default, quantity.dimension, (), quantity.value)
         return symbol
 
-    def use(self, quantity: Quantity, zero: bool = False) -> sp.Expr:
+    def get_or_add(self, quantity: Quantity, zero: bool = False) -> sp.Expr:
         """Return the parameter of a quantity, added at its first use.
 
         A scene may replace the quantity. A literal zero gives 0 unless `zero` is True.
@@ -139,23 +144,23 @@ class ParameterTable(Freezable):
         if quantity.address not in self.entries:
             _, _, short_address = quantity.address.partition(".")
             self._add(quantity.address, short_address or quantity.address, quantity)
-        self.symbols.adopt(self.entries[quantity.address].symbol)
+        self.symbols.add_shared_parameter(self.entries[quantity.address].symbol)
         return self.entries[quantity.address].symbol
 
-    def table(self, base_name: str, quantities: Sequence[Quantity]) -> str:
+    def get_or_add_array(self, base_name: str, quantities: Sequence[Quantity]) -> str:
         """Return the name of an array of Parameters that holds the values of several quantities, in their order.
 
         Quantities that have an array already get the same name.
         """
         name = next((k for k, s in self.tables.items() if s[0] == self._find_symbol(quantities[0])), "")
         if not name:
-            name = self.symbols.unique(base_name)
+            name = self.symbols.make_unique_name(base_name)
             self.tables[name] = [
                 self._add(quantity.address, f"{name}_{k}", quantity, Place(PARAMETERS)[name][k])
                 for k, quantity in enumerate(quantities)
             ]
         for symbol in self.tables[name]:
-            self.symbols.adopt(symbol)
+            self.symbols.add_shared_parameter(symbol)
         return name
 
     def _find_symbol(self, quantity: Quantity) -> sp.Symbol | None:
@@ -163,21 +168,23 @@ class ParameterTable(Freezable):
         entry = self.entries.get(quantity.address)
         return entry.symbol if entry else None
 
-    def constant(self, address: str, base_name: str, default: float, dimension: Dimension = DIMENSIONLESS) -> sp.Symbol:
+    def get_or_add_constant(
+        self, address: str, base_name: str, default: float, dimension: Dimension = DIMENSIONLESS
+    ) -> sp.Symbol:
         """Return the symbol of a parameter that no file specifies, such as a Baumgarte gain; added at first use.
 
         `base_name`: base of its name.
         """
         if address not in self.entries:
-            symbol = self.symbols.new(base_name, OWN_FIELD, address)
+            symbol = self.symbols.add_symbol(base_name, OWN_FIELD, address)
             self.entries[address] = ParameterEntry(symbol, address, sp.Float(default, 17), default, dimension)
-        self.symbols.adopt(self.entries[address].symbol)
+        self.symbols.add_shared_parameter(self.entries[address].symbol)
         return self.entries[address].symbol
 
-    def choice(self, address: str, words: tuple[str, ...], default: str) -> None:
+    def add_choice(self, address: str, words: tuple[str, ...], default: str) -> None:
         """Add a parameter whose value is the index of the chosen word in `words`; `default` is one of them."""
-        self.constant(address, address.partition(".")[2], float(words.index(default)))
-        self.entries[address] = replace(self.entries[address], words=words)
+        self.get_or_add_constant(address, address.partition(".")[2], float(words.index(default)))
+        self.entries[address] = replace(self.entries[address], choice_words=words)
 
     def derive(
         self,
@@ -185,7 +192,7 @@ class ParameterTable(Freezable):
         expression: sp.Expr,
         meaning: str = "",
         field_base_name: str = "",
-        role: Owned | None = None,
+        role: ParameterRole | None = None,
     ) -> sp.Expr:
         """Return a derived parameter, which `prepare` computes once a run, as a symbol.
 
@@ -196,12 +203,14 @@ class ParameterTable(Freezable):
         if expression.is_number or (expression.is_Symbol and self.symbols.info[expression].is_parameter):
             return expression
         if expression not in self._derived_by:
-            symbol = self.symbols.define(base_name, expression, OWN_FIELD, meaning, field_base_name=field_base_name)
+            symbol = self.symbols.add_definition(
+                base_name, expression, OWN_FIELD, meaning, field_base_name=field_base_name
+            )
             self.derived[symbol] = expression
             if role is not None:
-                self.of_owner[symbol] = role
+                self.roles[symbol] = role
             self._derived_by[expression] = symbol
-        self.symbols.adopt(self._derived_by[expression])
+        self.symbols.add_shared_parameter(self._derived_by[expression])
         return self._derived_by[expression]
 
     def derive_signed(
@@ -214,7 +223,7 @@ class ParameterTable(Freezable):
         opposite = self._derived_by.get(-expression)
         return self.derive(base_name, expression, meaning, field_base_name) if opposite is None else -opposite
 
-    def default(self, expression: sp.Expr) -> float:
+    def compute_default(self, expression: sp.Expr) -> float:
         """Return the value of a constant expression with every parameter at its default.
 
         Derived parameters are replaced by their definitions; other symbols must not occur.
@@ -225,15 +234,15 @@ class ParameterTable(Freezable):
             value = value.xreplace(self.derived).xreplace(defaults)
         return float(value)
 
-    def members(self) -> list[sp.Symbol]:
+    def list_symbols(self) -> list[sp.Symbol]:
         """Return the symbols of all parameters: those of the file in order of first use, then derived ones."""
         return [*(entry.symbol for entry in self.entries.values()), *self.derived]
 
-    def field(self, symbol: sp.Symbol) -> str:
+    def find_field_name(self, symbol: sp.Symbol) -> str:
         """Return the name of a parameter's field in Parameters."""
-        return self.place(symbol).member
+        return self.find_place(symbol).member
 
-    def place(self, symbol: sp.Symbol) -> Place:
+    def find_place(self, symbol: sp.Symbol) -> Place:
         """Return the place of a parameter in the struct Parameters; the symbol must be a parameter."""
         home = self.symbols.info[symbol].home
         assert home is not None
@@ -242,4 +251,4 @@ class ParameterTable(Freezable):
 
 def _has_names(quantity: Quantity) -> bool:
     """Return whether the expression of a quantity contains any name, that is, depends on a parameter."""
-    return any(True for _ in names(quantity.value))
+    return any(True for _ in iterate_names(quantity.value))

@@ -1,4 +1,4 @@
-"""Squares under roots, by the decimals that were written: t² − 2·0.2202 t + 0.2202² is (t − 0.2202)².
+"""Squares under roots, recognized by exact decimals: t² − 2·0.2202 t + 0.2202² is (t − 0.2202)².
 
 There is no tolerance: a sum that is not exactly a square of these decimals stays under its root, however near it is.
 """
@@ -11,7 +11,7 @@ _MAX_OPERATIONS, DEGREE = 60, 8  # operations under a root, and a power there, u
 _MAX_INTEGER = 10**15  # a whole number that binary64 has
 
 
-def root(base: sp.Expr, exponent: sp.Expr, decimals: sp.Expr | None = None) -> sp.Expr:
+def extract_squares(base: sp.Expr, exponent: sp.Expr, decimals: sp.Expr | None = None) -> sp.Expr:
     """Return base**exponent with squares under a square root taken out: sqrt(t**2 - 2*t + 1) becomes |t - 1|.
 
     `decimals`: the base with its numbers as written; None: the shortest decimals that identify its binary64 numbers.
@@ -20,7 +20,7 @@ def root(base: sp.Expr, exponent: sp.Expr, decimals: sp.Expr | None = None) -> s
     if not (base.is_Add and exponent.is_Rational and exponent.q == 2) or base.count_ops() > _MAX_OPERATIONS:
         return base**exponent
     atoms: dict[sp.Expr, sp.Dummy] = {}
-    polynomial = _to_polynomial(base if decimals is None else decimals, atoms)
+    polynomial = _convert_to_polynomial(base if decimals is None else decimals, atoms)
     if not polynomial.is_finite and polynomial.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
         return base**exponent
     try:
@@ -38,7 +38,7 @@ def root(base: sp.Expr, exponent: sp.Expr, decimals: sp.Expr | None = None) -> s
     return sp.Mul(factor, *powers) ** exponent
 
 
-def decimal(number: sp.Expr) -> sp.Expr:
+def convert_to_decimal(number: sp.Expr) -> sp.Expr:
     """Return a float as the shortest decimal number that is read as it; other expressions unchanged."""
     return sp.Rational(repr(float(number))) if number.is_Float and number.is_finite else number
 
@@ -52,7 +52,7 @@ def _find_scale(polynomial: sp.Expr) -> sp.Expr:
     return sp.Integer(1) if max(magnitudes) < _MAX_INTEGER else magnitudes[0]
 
 
-def _to_polynomial(expression: sp.Expr, atoms: dict[sp.Expr, sp.Dummy]) -> sp.Expr:
+def _convert_to_polynomial(expression: sp.Expr, atoms: dict[sp.Expr, sp.Dummy]) -> sp.Expr:
     """Return an expression as a polynomial in dummy symbols.
 
     Each part that is not a sum, product or small power gets a dummy. `atoms` maps these parts to their dummies and is
@@ -60,16 +60,16 @@ def _to_polynomial(expression: sp.Expr, atoms: dict[sp.Expr, sp.Dummy]) -> sp.Ex
     with as many terms as memory holds.
     """
     if expression.is_Number:
-        return decimal(expression)
+        return convert_to_decimal(expression)
     if expression.is_Add or expression.is_Mul:
-        return expression.func(*(_to_polynomial(argument, atoms) for argument in expression.args))
+        return expression.func(*(_convert_to_polynomial(argument, atoms) for argument in expression.args))
     base, exponent = expression.as_base_exp() if expression.is_Pow else (expression, sp.Integer(1))
     if exponent.is_Integer and 1 < exponent <= DEGREE:
-        return _to_polynomial(base, atoms) ** exponent
+        return _convert_to_polynomial(base, atoms) ** exponent
     if exponent.is_Rational and 1 < abs(exponent.p) <= DEGREE:
-        return _to_polynomial(base ** (exponent / abs(exponent.p)), atoms) ** abs(exponent.p)
+        return _convert_to_polynomial(base ** (exponent / abs(exponent.p)), atoms) ** abs(exponent.p)
     if isinstance(expression, sp.exp):
         count, remaining_exponent = expression.exp.as_coeff_Mul()
         if count.is_Rational and 1 < abs(count.p) <= DEGREE:
-            return _to_polynomial(sp.exp(remaining_exponent * count / abs(count.p)), atoms) ** abs(count.p)
+            return _convert_to_polynomial(sp.exp(remaining_exponent * count / abs(count.p)), atoms) ** abs(count.p)
     return atoms.setdefault(expression, sp.Dummy(real=True))

@@ -1,4 +1,5 @@
-"""Places where values are stored: fields of structs, elements of arrays, arguments. Each target writes its own syntax.
+"""Storage of values in generated code: fields of structs, elements of arrays, arguments. Each target writes its own
+syntax.
 
 Tables of a model or a program grow while it is derived, and are only read afterwards (`Freezable`).
 """
@@ -80,7 +81,7 @@ class PlaceSymbol(sp.Symbol):
 Key: TypeAlias = str | Place  # what a value is known by: the name of a local or definition, or its place
 
 
-def key_of(symbol: sp.Symbol) -> Key:
+def find_key(symbol: sp.Symbol) -> Key:
     """Return the place of a symbol that is read at one, else the symbol's name."""
     return symbol.place if isinstance(symbol, PlaceSymbol) else str(symbol.name)
 
@@ -97,19 +98,19 @@ _MUTABLE_TYPES: dict[type, Any] = {
 
 
 class Freezable:
-    """An object with dictionaries, lists and sets: `freeze` makes them read only, a `thawed` copy has its own."""
+    """An object with dictionaries, lists and sets: `freeze` makes them read only, a `copy_mutable` copy has its own."""
 
     frozen = False
 
     def freeze(self) -> None:
         """Make every dictionary, list and set of this object read only.
 
-        It cannot be undone; `thawed` returns a copy that may grow.
+        It cannot be undone; `copy_mutable` returns a copy that may grow.
         """
         self.frozen = True
         _replace_tables(self, _READ_ONLY_TYPES)
 
-    def thawed(self) -> Self:
+    def copy_mutable(self) -> Self:
         """Return a copy with its own dictionaries, lists and sets, which may grow."""
         copy_ = copy.copy(self)
         copy_.frozen = False

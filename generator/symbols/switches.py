@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf
-from gudgeon.generator.symbols.derivatives import derivative
+from gudgeon.generator.symbols.derivatives import differentiate
 from gudgeon.generator.symbols.storage import Freezable
 from gudgeon.language.functions import mod
 
@@ -30,8 +30,8 @@ class _Remainder(sp.Function):
         Called by SymPy.
         """
         a, b = self.args[:2]
-        rate = derivative(b, s)
-        return derivative(a, s) - (0 if rate == 0 else rate * (a - self) / b)
+        rate = differentiate(b, s)
+        return differentiate(a, s) - (0 if rate == 0 else rate * (a - self) / b)
 
 
 class ModOf(_Remainder):
@@ -77,9 +77,9 @@ class BranchOf(sp.Function):
 
 
 class Pick(sp.Function):
-    """Pick(side, a, b): b if the branch `side` is below zero, else a.
+    """Pick(side, a, b): b if the branch `signs` is below zero, else a.
 
-    `side` is not negated, so that all branches agree at zero.
+    `signs` is not negated, so that all branches agree at zero.
     """
 
     nargs = 3
@@ -101,7 +101,7 @@ class Pick(sp.Function):
         Called by SymPy.
         """
         branch, a, b = self.args
-        da, db = derivative(a, s), derivative(b, s)
+        da, db = differentiate(a, s), differentiate(b, s)
         return da if da == db else Pick(branch, da, db)
 
 
@@ -136,7 +136,7 @@ class _Extreme(sp.Function):
 
         Called by SymPy.
         """
-        slopes = {x: derivative(x, s) for x in self.args}
+        slopes = {x: differentiate(x, s) for x in self.args}
         ordered = sorted(self.args, key=lambda a: (a.is_Number, str(a)))
         value, slope = ordered[0], slopes[ordered[0]]
         for argument in ordered[1:]:
@@ -201,52 +201,52 @@ class Switch:
 class Switches(Freezable):
     """The switching functions of a scene, each once."""
 
-    found: dict[tuple[str, sp.Expr], Switch] = field(default_factory=dict)
-    spare: list[int] = field(default_factory=list)  # numbers of the scene's own switches in the other table
+    switch_by_key: dict[tuple[str, sp.Expr], Switch] = field(default_factory=dict)
+    unused_indices: list[int] = field(default_factory=list)  # numbers of the scene's own switches in the other table
 
-    def beside(self) -> Switches:
+    def copy_for_functions(self) -> Switches:
         """Return the table for other functions of the same scene.
 
         Switches of joints are shared, those of the scene are new, with the same numbers.
         """
-        joint_switches = {key: switch for key, switch in self.found.items() if switch.owner}
-        return Switches(joint_switches, sorted(switch.index for switch in self.of("")))
+        joint_switches = {key: switch for key, switch in self.switch_by_key.items() if switch.owner}
+        return Switches(joint_switches, sorted(switch.index for switch in self.list_switches("")))
 
     @property
     def count(self) -> int:
         """Return the number of switches in use: one more than the largest index."""
-        return 1 + max([*(switch.index for switch in self.found.values()), *self.spare], default=-1)
+        return 1 + max([*(switch.index for switch in self.switch_by_key.values()), *self.unused_indices], default=-1)
 
-    def known(self, owner: str, g: sp.Expr) -> tuple[Switch, int] | None:
+    def find_switch(self, owner: str, g: sp.Expr) -> tuple[Switch, int] | None:
         """Return the switch of a switching function g and 1, or −1 if it is stored for −g.
 
         Return None if there is none.
         """
         for sign in (1, -1):
-            if (switch := self.found.get((owner, sp.expand(sign * g)))) is not None:
+            if (switch := self.switch_by_key.get((owner, sp.expand(sign * g)))) is not None:
                 return switch, sign
         return None
 
-    def side(self, owner: str, g: sp.Expr) -> tuple[Switch, int]:
+    def get_or_add_switch(self, owner: str, g: sp.Expr) -> tuple[Switch, int]:
         """Return the switch of a switching function g, and 1 or −1 as `known_switch` does.
 
         A new switch is added if there is none; a frozen table raises AssertionError.
         """
-        if (known_switch := self.known(owner, g)) is not None:
+        if (known_switch := self.find_switch(owner, g)) is not None:
             return known_switch
         assert not self.frozen, f"{g}: a corner after the tables were frozen"
-        switch = Switch(self.spare.pop(0) if self.spare and not owner else self.count, owner, g)
-        self.found[owner, sp.expand(g)] = switch
+        switch = Switch(self.unused_indices.pop(0) if self.unused_indices and not owner else self.count, owner, g)
+        self.switch_by_key[owner, sp.expand(g)] = switch
         return switch, 1
 
-    def of(self, owner: str) -> list[Switch]:
+    def list_switches(self, owner: str) -> list[Switch]:
         """Return the switches of one joint with play, or of the scene (owner "").
 
         They are in the order in which they were added.
         """
-        return [switch for switch in self.found.values() if switch.owner == owner]
+        return [switch for switch in self.switch_by_key.values() if switch.owner == owner]
 
-    def hold(
+    def hold_branches(
         self, expression: sp.Expr, owner: str, branches: dict[sp.Symbol, sp.Expr], only_known: bool = False
     ) -> sp.Expr:
         """Return an expression in which max, min, abs, sign, Heaviside, curves and mod use held branches.
@@ -257,16 +257,16 @@ class Switches(Freezable):
         """
         if not expression.has(sp.Max, sp.Min, sp.Abs, sp.sign, sp.Heaviside, CurveOf, ModOf):
             return expression
-        arguments = [self.hold(a, owner, branches, only_known) for a in expression.args]
+        arguments = [self.hold_branches(a, owner, branches, only_known) for a in expression.args]
 
         def make_branch_symbol(g: sp.Expr) -> sp.Expr:
             """Return the symbol of the branch of g with its sign, and register it.
 
             With `only_known`, a g without a switch gives sign(g).
             """
-            if only_known and self.known(owner, g) is None:
+            if only_known and self.find_switch(owner, g) is None:
                 return sp.sign(g)
-            switch, sign = self.side(owner, g)
+            switch, sign = self.get_or_add_switch(owner, g)
             symbol = sp.Symbol(f"side_{switch.index}", real=True)
             branches.setdefault(symbol, BranchOf(sp.Integer(switch.index), switch.g))
             return sign * symbol
@@ -274,11 +274,11 @@ class Switches(Freezable):
         match expression:
             case CurveOf() if arguments[2].free_symbols:
                 knots = KnotsOf(arguments[0], arguments[2])
-                is_known = not only_known or self.known(owner, knots) is not None
+                is_known = not only_known or self.find_switch(owner, knots) is not None
                 return CurveOn(*arguments, make_branch_symbol(knots)) if is_known else CurveOf(*arguments)
             case ModOf():
                 periods = PeriodsOf(*arguments)
-                is_known = not only_known or self.known(owner, periods) is not None
+                is_known = not only_known or self.find_switch(owner, periods) is not None
                 return ModOn(*arguments, make_branch_symbol(periods)) if is_known else ModOf(*arguments)
             case sp.Abs():
                 return make_branch_symbol(arguments[0]) * arguments[0]

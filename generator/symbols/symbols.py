@@ -1,4 +1,4 @@
-"""The symbols of a model: one C name each, the place where it is stored, and its derivatives.
+"""Symbols of a scene's equations: each has a C name, a storage location, and derivatives.
 
 A derived symbol (`cos_theta_L7`, the arm `arm_L7_head_x`, a drive's `crank1_angle`) stands for an expression and knows
 its derivatives. Differentiation uses the chain rule over these symbols, so that Φ_q and γ are expressed in the terms
@@ -16,14 +16,14 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from gudgeon.generator.symbols.derivatives import derivative, symbols_of
+from gudgeon.generator.symbols.derivatives import differentiate, find_symbols
 from gudgeon.generator.symbols.storage import PARAMETERS, Freezable, Key, Place, PlaceSymbol
 from gudgeon.generator.symbols.switches import Switches
 
 OWN_FIELD = Place(PARAMETERS)[""]  # the home of a parameter whose field is called as the symbol
 
 
-def made_name(base_name: str) -> str:
+def make_identifier(base_name: str) -> str:
     """Return the identifier of something that a file calls `base_name`: single underscores, the last one at its end.
 
     Other characters become underscores. No fixed name of the generator, of the engine or of a language has that form,
@@ -32,8 +32,8 @@ def made_name(base_name: str) -> str:
     return re.sub(r"[\W_]+", "_", base_name).strip("_") + "_"
 
 
-def plain_name(symbol: sp.Symbol) -> str:
-    """Return the name of a symbol as documents print it: without the underscore that `made_name` appends."""
+def strip_identifier(symbol: sp.Symbol) -> str:
+    """Return the name of a symbol as documents print it: without the underscore that `make_identifier` appends."""
     return str(symbol.name).rstrip("_")
 
 
@@ -69,22 +69,22 @@ class Symbols(Freezable):
         super().freeze()
         self.switches.freeze()
 
-    def thawed(self) -> Symbols:
+    def copy_mutable(self) -> Symbols:
         """Return a copy of the tables, with a copy of the switches, which may grow."""
-        copy_ = super().thawed()
-        copy_.switches = self.switches.thawed()
+        copy_ = super().copy_mutable()
+        copy_.switches = self.switches.copy_mutable()
         return copy_
 
-    def beside(self) -> Symbols:
+    def copy_parameters_only(self) -> Symbols:
         """Return a symbol table for other functions of the same library, which shares only the parameters."""
         other_table = Symbols()
-        other_table._shared_table, other_table.switches = self, self.switches.beside()
+        other_table._shared_table, other_table.switches = self, self.switches.copy_for_functions()
         for symbol, info in self.info.items():
             if info.is_parameter:
-                other_table.adopt(symbol)
+                other_table.add_shared_parameter(symbol)
         return other_table
 
-    def adopt(self, symbol: sp.Symbol) -> None:
+    def add_shared_parameter(self, symbol: sp.Symbol) -> None:
         """Add a parameter that was made in the other table of the same library, with its definition.
 
         Nothing happens if there is no other table or the symbol is known.
@@ -95,13 +95,13 @@ class Symbols(Freezable):
             if symbol in self._shared_table.definitions:
                 self.definitions[symbol] = self._shared_table.definitions[symbol]
 
-    def unique(self, base_name: str) -> str:
+    def make_unique_name(self, base_name: str) -> str:
         """Return an identifier made from `base_name` that no other symbol has, and mark it as used.
 
         A suffix 2, 3, … is appended if necessary. A frozen table raises AssertionError.
         """
         assert not self.frozen, f"{base_name}: derived after the tables were frozen"
-        name = candidate = made_name(base_name)
+        name = candidate = make_identifier(base_name)
         count = 1
         while candidate in self._names:
             count += 1
@@ -111,7 +111,7 @@ class Symbols(Freezable):
             self._base_of_numbered_name[candidate] = name
         return candidate
 
-    def shorter(self, used_names: Collection[str]) -> dict[Key, Key]:
+    def find_shorter_names(self, used_names: Collection[str]) -> dict[Key, Key]:
         """Return shorter names for names that carry a number: without the number, or with the smallest unused one.
 
         `used_names`: all names in the function. Names that stay are left out of the result.
@@ -146,7 +146,7 @@ class Symbols(Freezable):
         info = self.info.get(sp.Symbol(name, real=True))
         return info.home if info else None
 
-    def new(
+    def add_symbol(
         self, base_name: str, home: Place | None = None, meaning: str = "", unit: str = "", field_base_name: str = ""
     ) -> sp.Symbol:
         """Return a new real symbol, with an unused name made from `base_name`.
@@ -170,14 +170,14 @@ class Symbols(Freezable):
 
         The name is added there too. `shared_table` may be None.
         """
-        name = self.unique(base_name)
+        name = self.make_unique_name(base_name)
         while shared_table is not None and name in shared_table._names:
-            name = self.unique(base_name)
+            name = self.make_unique_name(base_name)
         if shared_table is not None:
             shared_table._names.add(name)
         return name
 
-    def define(
+    def add_definition(
         self,
         base_name: str,
         expression: sp.Expr,
@@ -186,46 +186,48 @@ class Symbols(Freezable):
         unit: str = "",
         field_base_name: str = "",
     ) -> sp.Symbol:
-        """Return a new symbol that stands for `expression`; the other arguments are those of `new`.
+        """Return a new symbol that stands for `expression`; the other arguments are those of `add_symbol`.
 
         A parameter's definition is stored in the shared table too.
         """
-        symbol = self.new(base_name, home, meaning, unit, field_base_name)
+        symbol = self.add_symbol(base_name, home, meaning, unit, field_base_name)
         self.definitions[symbol] = expression
         if self._shared_table is not None and home is not None and home.is_parameter:
             self._shared_table.definitions[symbol] = expression
         return symbol
 
-    def diff(self, expression: sp.Expr, variable: sp.Symbol) -> sp.Expr:
+    def differentiate(self, expression: sp.Expr, variable: sp.Symbol) -> sp.Expr:
         """Return the derivative of an expression by `variable`, with the rules of derived symbols (chain rule)."""
         result = sp.Integer(0)
-        for symbol in sorted(symbols_of(expression), key=lambda s: s.name):
+        for symbol in sorted(find_symbols(expression), key=lambda s: s.name):
             inner_derivative = sp.Integer(1) if symbol == variable else self.rules.get(symbol, {}).get(variable)
             if inner_derivative is not None:
-                result += derivative(expression, symbol) * inner_derivative
+                result += differentiate(expression, symbol) * inner_derivative
         return result
 
-    def written_out(self, expression: sp.Expr, variable: sp.Symbol) -> sp.Expr:
+    def differentiate_definitions(self, expression: sp.Expr, variable: sp.Symbol) -> sp.Expr:
         """Return the derivative of an expression by `variable`, through the definitions of derived symbols.
 
         It is for symbols that no rule names: rates that a drive prescribes.
         """
         result = sp.Integer(0)
-        for symbol in sorted(symbols_of(expression), key=lambda s: s.name):
+        for symbol in sorted(find_symbols(expression), key=lambda s: s.name):
             is_defined = symbol != variable and symbol in self.definitions
             inner_derivative = (
-                self.written_out(self.definitions[symbol], variable) if is_defined else sp.Integer(symbol == variable)
+                self.differentiate_definitions(self.definitions[symbol], variable)
+                if is_defined
+                else sp.Integer(symbol == variable)
             )
             if inner_derivative != 0:
-                result += derivative(expression, symbol) * inner_derivative
+                result += differentiate(expression, symbol) * inner_derivative
         return result
 
-    def in_place(self, value: sp.Expr) -> sp.Expr:
+    def read_at_places(self, value: sp.Expr) -> sp.Expr:
         """Return the value with each symbol that is stored at a place replaced by the `PlaceSymbol` of that place."""
         homes = ((s, self.info[s].home) for s in value.free_symbols if s in self.info)
         return value.xreplace({s: PlaceSymbol(home) for s, home in homes if home})
 
-    def explicit(self, expression: sp.Expr) -> sp.Expr:
+    def expand_definitions(self, expression: sp.Expr) -> sp.Expr:
         """Return `expression` with every derived symbol replaced by its definition, repeatedly, until none is left."""
         while definitions := {s: self.definitions[s] for s in expression.free_symbols if s in self.definitions}:
             expression = expression.xreplace(definitions)

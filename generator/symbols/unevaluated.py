@@ -61,7 +61,7 @@ class Share(Whole):
     """The quotient v′/v, whose derivative stays together too: SymPy would form v², which may overflow."""
 
 
-def kept(make: Callable[..., sp.Expr], *operands: sp.Expr) -> sp.Expr:
+def apply_unexpanded(make: Callable[..., sp.Expr], *operands: sp.Expr) -> sp.Expr:
     """Return `make(*operands)`, with the operands as `Whole` if SymPy would expand them to extreme numbers.
 
     Operands that are numbers are never wrapped.

@@ -1,1 +1,1 @@
-"""Writes a Model in other languages: C, NumPy, JavaScript, documents, a JSON Schema."""
+"""Writes the equations of a scene in other languages: C, NumPy, JavaScript, documents; also a JSON Schema."""

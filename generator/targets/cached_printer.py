@@ -50,7 +50,11 @@ class CachedPrinter:
         return text
 
     def _print_Mul(self, expr: sp.Mul) -> str:
-        """Print a product as numerator/divisors; divisors come last, in brackets if there are several."""
+        """Print a product as numerator/divisors; divisors come last, in brackets if there are several.
+
+        Factors with a negative rational exponent are divisors. A negative coefficient gives a leading minus; without
+        other factors the numerator is 1.
+        """
         coefficient, others = expr.as_coeff_Mul()
         factors = list(others.as_ordered_factors())
         negative = coefficient.is_extended_negative

@@ -26,20 +26,22 @@ from gudgeon.generator.field import (
 )
 from gudgeon.generator.format.sections import FILE
 from gudgeon.language.functions import FUNCTIONS, Function
-from gudgeon.language.units import Dimension, si_unit
+from gudgeon.language.units import Dimension, find_si_unit
 
 Row = tuple[str, ...]
 _HEAD = ("key", "holds", "without it", "condition", "meaning")
 
 
-def tables() -> str:
+def print_format_tables() -> str:
     """Return all tables of docs/format.md as Markdown with headings: functions, then the keys of each mapping."""
     return "\n".join((*_print_functions_table(), *_print_mapping_tables("The file", FILE, "", set())))
 
 
 def _print_functions_table() -> Iterator[str]:
     """Yield the lines of the table of functions that expressions may call."""
-    rows = [(f"`{f.call(*f.arguments)}`", f.meaning, f.units.value, _format_domain(f)) for f in FUNCTIONS.values()]
+    rows = [
+        (f"`{f.format_call(*f.arguments)}`", f.meaning, f.units.value, _format_domain(f)) for f in FUNCTIONS.values()
+    ]
     head = ("function", "value", "dimensions", "defined for")
     yield from _print_table("Functions", "what expressions may call", head, rows)
 
@@ -107,7 +109,13 @@ def _print_table_row(cells: Row) -> str:
 
 def _list_field_cells(field: Field) -> Row:
     """Return the cells of a field: key, values, default, condition, meaning."""
-    return f"`{field.name}`", _describe_values(field), _describe_default(field), condition(field), field.meaning
+    return (
+        f"`{field.name}`",
+        _describe_values(field),
+        _describe_default(field),
+        describe_condition(field),
+        field.meaning,
+    )
 
 
 def _describe_values(field: Field) -> str:
@@ -155,7 +163,7 @@ def _describe_unit(dimension: Dimension | None) -> str:
     """Return the cell of a unit: its SI symbol, "any unit" for None, or that the number has none."""
     if dimension is None:
         return "any unit"
-    return si_unit(dimension) or "no unit or an angle"
+    return find_si_unit(dimension) or "no unit or an angle"
 
 
 def _describe_targets(kind: Kind) -> str:
@@ -178,7 +186,7 @@ def _format_value(value: float | str | bool) -> str:
     return str(value).lower() if isinstance(value, bool) else f"{value:g}" if isinstance(value, float) else value
 
 
-def condition(field: Field) -> str:
+def describe_condition(field: Field) -> str:
     """Return the bounds of a field as text, then "not both 0" and "whole" if they apply; "" without conditions."""
     limits = (f"`{limit}`" if isinstance(limit, str) else f"{limit:g}" for _, limit, _ in field.bounds)
     conditions = [f"{bound.relation} {limit}" for bound, limit in zip(field.bounds, limits, strict=True)]

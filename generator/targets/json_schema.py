@@ -43,7 +43,7 @@ _NUMBER: Json = {
 }
 
 
-def schema() -> Json:
+def make_schema() -> Json:
     """Return the JSON Schema of a mechanism file, with definitions of all names, numbers, kinds and laws."""
     families = (SECTIONS[name].entry for name in ("joints", "drives", "forces"))
     roles = [field for field in CONTACT.fields if field.kind == LAW]
@@ -59,7 +59,7 @@ def schema() -> Json:
             "points": {"type": "string", "pattern": f"^{_NAME}\\.{_NAME}$"},
             "coordinates": _describe_body_keys("string", COORDINATES),
             **{
-                family.name: {"oneOf": [_describe_kind(*one) for one in _list_kinds(family)]}
+                family.name: {"oneOf": [_describe_kind(*kind) for kind in _list_kinds(family)]}
                 for family in families
                 if family
             },
@@ -113,7 +113,11 @@ def _describe_fields(fields: Sequence[Field], with_defaults: bool = True) -> dic
 
 
 def _describe_field(field: Field) -> Json:
-    """Return the schema of a field's values: a constant or a choice of words, a mapping, or a reference by kind."""
+    """Return the JSON Schema of a field's values.
+
+    A word is a constant or a choice of words. A record or a mapping is described with its keys. A field whose keys
+    depend on its kind becomes a reference, and all others have the schema of their kind.
+    """
     if field.kind == RECORD:
         return _describe_record(field)
     if field.kind == MAPPING:
@@ -144,7 +148,7 @@ def _describe_record(field: Field) -> Json:
     Keys of which exactly one is expected become `oneOf`. In a contact that extends another one, no key of its laws is
     required.
     """
-    properties = _describe_fields(field.fields, field.below("extends") is None)
+    properties = _describe_fields(field.fields, field.find_field("extends") is None)
     for inner in field.fields if field is FILE else ():
         if inner.kind in (MAPPING, RECORD) and not inner.required:
             properties[inner.name]["type"] = ["object", "null"]

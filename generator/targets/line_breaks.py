@@ -10,7 +10,7 @@ _AFTER = (", ", " = ", "{")
 _TIGHT = "*"  # in a product that is written without spaces: where there is nothing better
 
 
-def broken(line: str, width: int, min_depth: int | None = None) -> list[str]:
+def break_code(line: str, width: int, min_depth: int | None = None) -> list[str]:
     """Return a line of code as lines of at most `width`; continuation lines are indented by four more spaces.
 
     min_depth: the number of open brackets that each break needs before it (1 for Python); None for C. A line without

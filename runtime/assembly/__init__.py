@@ -1,1 +1,1 @@
-"""The start of a motion: the linkage closed, what moves, which branches there are, why it does not close."""
+"""Assemble a linkage at its start: closed positions, velocities, mobility, assembly branches, causes of failure."""

@@ -72,7 +72,7 @@ def _find_distinct(closure: Closure, start: Array) -> list[Array]:
     for _ in range(MOST_TRIES):
         x = start + spread * rng.uniform(-1.0, 1.0, len(start))
         x[closure.set_index] = closure.set
-        x = closure.newton(closure.place_angles(x))
+        x = closure.solve_newton(closure.place_angles(x))
         new = closure.is_closed(x) and closure.is_near(x) and not any(_is_same(closure, x, y) for y in configurations)
         configurations, idle = ([*configurations, x], 0) if new else (configurations, idle + 1)
         if idle >= IDLE:
@@ -88,14 +88,14 @@ def _compute_differences(closure: Closure, x: Array, y: Array) -> Array:
     return np.abs(np.where(closure.is_angle, (difference + np.pi) % (2.0 * np.pi) - np.pi, difference / closure.size))
 
 
-def guess_distance(closure: Closure, x: Array, y: Array) -> float:
+def compute_guess_distance(closure: Closure, x: Array, y: Array) -> float:
     """Return the largest difference of two configurations in guessed coordinates and points: rad, or relative to the
     size.
 
     It is 0 without guesses.
     """
     points = [
-        closure.off_point(x, point, np.zeros(2)) - closure.off_point(y, point, np.zeros(2))
+        closure.compute_point_error(x, point, np.zeros(2)) - closure.compute_point_error(y, point, np.zeros(2))
         for point, _ in closure.points
     ]
     far = [float(np.linalg.norm(away)) / closure.size for away in points]

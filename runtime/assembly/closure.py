@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.assembly.guess_warnings import APART
-from gudgeon.assembly.large import LARGE, nearest_step, smallest
-from gudgeon.assembly.linkage import Linkage, angles, mechanism_size, place_of
+from gudgeon.assembly.large import LARGE, solve_damped_least_squares, solve_minimum_norm
+from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, compute_point_position, find_angles
 from gudgeon.contract.kernel_source import PointInfo
 from gudgeon.model.compiled import Array
 
@@ -49,8 +49,8 @@ class Closure:
         self.names = [row.name for row in source.start_rows] + [f"set {name}" for name in held]
         self.apart_index = [self.names.index(name) for name in source.start_apart]
         self.owners = [row.owner for row in source.start_rows] + ["start"] * len(held)
-        self.is_angle = angles(source)
-        self.size = self.reach = mechanism_size(linkage, p)
+        self.is_angle = find_angles(source)
+        self.size = self.reach = compute_mechanism_size(linkage, p)
         self.units = [row.unit for row in source.start_rows]
         self.units += ["rad" if self.is_angle[k] else "m" for k in self.set_index]
         self.row_scale = np.array([self.size if unit == "m" else 1.0 for unit in self.units])
@@ -66,7 +66,7 @@ class Closure:
         self.expected = np.zeros(len(self.place))  # guessed coordinates, as far as the constraint equations allow them
         self.weight[self.guessed] = np.where(self.is_angle[self.guessed], GUESSED, GUESSED / self.size)
 
-    def residual(self, q: Array, p: Array | None = None) -> Array:
+    def compute_residual(self, q: Array, p: Array | None = None) -> Array:
         """Return the residuals of all equations (constraint equations, then set coordinates) in m or rad.
 
         p: other parameter values than those of the closure, or None.
@@ -75,25 +75,27 @@ class Closure:
         phi[self.apart_index] += self.apart  # Φ of these joints is −e
         return np.concatenate([phi, q[self.set_index] - self.set])
 
-    def jacobian(self, q: Array, p: Array | None = None) -> Array:
+    def compute_jacobian(self, q: Array, p: Array | None = None) -> Array:
         """Return the Jacobian of `residual` with respect to q; p as there."""
         extra = np.zeros((len(self.set_index), len(q)))
         extra[np.arange(len(self.set_index)), self.set_index] = 1.0
         return np.concatenate([self.linkage.closed_phi_q(self.t, q, self.p if p is None else p), extra])
 
-    def least(self, q: Array, p: Array) -> Array:
+    def find_least_residual(self, q: Array, p: Array) -> Array:
         """Return the configuration with the least sum of squared residuals for parameter values p, found from q."""
         return self._minimize_residual(
-            q, lambda x: self.residual(x, p) / self.row_scale, lambda x: self.jacobian(x, p) / self.row_scale[:, None]
+            q,
+            lambda x: self.compute_residual(x, p) / self.row_scale,
+            lambda x: self.compute_jacobian(x, p) / self.row_scale[:, None],
         )
 
-    def norm(self, q: Array) -> float:
+    def compute_norm(self, q: Array) -> float:
         """Return the norm of the residuals, with lengths relative to the mechanism's size."""
         return float(np.linalg.norm(self._compute_scaled_residual(q)))
 
     def _compute_scaled_residual(self, q: Array) -> Array:
         """Return the residuals without units: lengths are divided by the mechanism's size."""
-        return self.residual(q) / self.row_scale
+        return self.compute_residual(q) / self.row_scale
 
     def _compute_newton_step(
         self, q: Array, scaled_residual: Array, columns: NDArray[np.bool_] | slice = slice(None)
@@ -104,14 +106,16 @@ class Closure:
         it is a least-squares step.
         """
         weight = self.weight[columns]
-        matrix = self.jacobian(q)[:, columns] / self.row_scale[:, None] / weight
+        matrix = self.compute_jacobian(q)[:, columns] / self.row_scale[:, None] / weight
         target, step = -scaled_residual, np.zeros_like(q)
         if np.isfinite(matrix).all() and np.isfinite(target).all():  # a driven distance has no direction at zero
             use_nearest_step = len(self.place) >= LARGE and len(matrix) > matrix.shape[1]
-            step[columns] = (nearest_step if use_nearest_step else smallest)(matrix, target) / weight
+            step[columns] = (solve_damped_least_squares if use_nearest_step else solve_minimum_norm)(
+                matrix, target
+            ) / weight
         return step
 
-    def first_guess(self) -> Array:
+    def build_first_guess(self) -> Array:
         """Return the guessed configuration: guessed and held coordinates, angles that equations in angles alone
         determine.
 
@@ -124,32 +128,37 @@ class Closure:
         self.reach = self._find_farthest_position(q)
         return self._fit_points(q) if self.points else q
 
-    def nearest(self) -> tuple[Array, bool]:
+    def find_nearest(self) -> tuple[Array, bool]:
         """Return the closed configuration nearest to the guess and True; or the best open one and False.
 
         Newton's result may not be the nearest. If it is far from the guess, the configuration beyond the guess is
         tried. If all results are far away or open, other starts are tried.
         """
-        guess = self.first_guess()
-        first_result = self.newton(guess)
+        guess = self.build_first_guess()
+        first_result = self.solve_newton(guess)
         if self._is_assembly(first_result) and self._compute_relative_miss(first_result) < 1.0:
             best = self._search_beyond_guess(first_result, guess)
             if self._compute_relative_miss(best) < 1.0:
                 return best, True
         results = [first_result]
         for spread in (1.0, np.pi) if self.guess else (np.pi,):
-            results += [self.newton(other) for other in self._draw_other_starts(guess, spread)]
+            results += [self.solve_newton(other) for other in self._draw_other_starts(guess, spread)]
             near_results = [q for q in results if self.is_near(q)]
-            closed_results = [self.unwound(q) for q in near_results if self.is_closed(q)]
-            if closed_results and self._compute_relative_miss(best := min(closed_results, key=self.distance)) < 1.0:
+            closed_results = [self.unwind_angles(q) for q in near_results if self.is_closed(q)]
+            if (
+                closed_results
+                and self._compute_relative_miss(best := min(closed_results, key=self.compute_distance)) < 1.0
+            ):
                 return best, True
         if closed_results:  # none is near enough: more starts
             results = [
-                self.newton(other) for seed in range(1, MORE) for other in self._draw_other_starts(guess, 1.0, seed)
+                self.solve_newton(other)
+                for seed in range(1, MORE)
+                for other in self._draw_other_starts(guess, 1.0, seed)
             ]
-            more = (self.unwound(q) for q in results if self._is_assembly(q))
-            return min([best, *more], key=self.distance), True
-        return min(near_results, key=self.norm, default=guess), False
+            more = (self.unwind_angles(q) for q in results if self._is_assembly(q))
+            return min([best, *more], key=self.compute_distance), True
+        return min(near_results, key=self.compute_norm, default=guess), False
 
     def _is_assembly(self, q: Array) -> bool:
         """Return whether a configuration satisfies all equations and no body is lost far away."""
@@ -166,26 +175,26 @@ class Closure:
         mixed[self.guessed] = beyond[self.guessed]
         for mirrored in (mixed, beyond):
             mirrored[self.set_index] = self.set
-            other = self.newton(self.place_angles(mirrored))
+            other = self.solve_newton(self.place_angles(mirrored))
             if not self._is_assembly(other):
                 continue
-            other = self.unwound(other)
-            if self.distance(other) < (1.0 - NEARER) * self.distance(closed):
+            other = self.unwind_angles(other)
+            if self.compute_distance(other) < (1.0 - NEARER) * self.compute_distance(closed):
                 closed = other
         return closed
 
-    def distance(self, q: Array) -> float:
+    def compute_distance(self, q: Array) -> float:
         """Return the distance of a configuration from the guess: weighted coordinates, points relative to the size.
 
         With guessed points only guessed coordinates count.
         """
-        off = [self.off_point(q, point, target) * (GUESSED / self.size) for point, target in self.points]
+        off = [self.compute_point_error(q, point, target) * (GUESSED / self.size) for point, target in self.points]
         free = np.where(np.isin(np.arange(len(q)), self.guessed), 1.0, 0.0 if self.points else 1.0)
         return float(np.linalg.norm(np.concatenate([(q - self.expected) * self.weight * free, *off])))
 
-    def off_point(self, q: Array, point: PointInfo, target: Array) -> Array:
+    def compute_point_error(self, q: Array, point: PointInfo, target: Array) -> Array:
         """Return the vector (2,) in m from the guessed position `target` of a point to its position at q."""
-        return place_of(self.linkage.source, self.p, q, point) - target
+        return compute_point_position(self.linkage.source, self.p, q, point) - target
 
     def _fit_points(self, q: Array) -> Array:
         """Return the configuration, found from q, whose guessed points are as near to their guesses as the equations
@@ -193,34 +202,34 @@ class Closure:
         """
         held = np.diag(self.weight)[self.guessed]
 
-        def residuals_of(x: Array) -> Array:
+        def compute_residuals(x: Array) -> Array:
             """Return the residuals of equations, guessed coordinates and guessed points."""
-            off = [self.off_point(x, point, target) / self.size for point, target in self.points]
-            return np.concatenate([self.residual(x) / self.row_scale, held @ (x - q), *off])
+            off = [self.compute_point_error(x, point, target) / self.size for point, target in self.points]
+            return np.concatenate([self.compute_residual(x) / self.row_scale, held @ (x - q), *off])
 
-        def jacobian_of(x: Array) -> Array:
+        def compute_jacobian(x: Array) -> Array:
             """Return the Jacobian of these residuals."""
-            rows = self.jacobian(x) / self.row_scale[:, None]
+            rows = self.compute_jacobian(x) / self.row_scale[:, None]
             return np.concatenate([rows, held, self._compute_points_jacobian(x) / self.size])
 
-        return self._minimize_residual(q, residuals_of, jacobian_of)
+        return self._minimize_residual(q, compute_residuals, compute_jacobian)
 
     def _minimize_residual(
-        self, q: Array, residual_of: Callable[[Array], Array], jacobian_of: Callable[[Array], Array]
+        self, q: Array, compute_residuals: Callable[[Array], Array], compute_jacobian: Callable[[Array], Array]
     ) -> Array:
-        """Return the configuration that minimizes the sum of squares of `residual_of`, by Levenberg–Marquardt steps
-        from q.
+        """Return the configuration that minimizes the sum of squares of residuals, by Levenberg–Marquardt steps from q.
 
-        jacobian_of: its Jacobian. The iteration ends at numbers that are not finite.
+        `compute_residuals` and `compute_jacobian` are functions of the configuration (n,). The last improved
+        configuration is returned where a value is not finite or no further improvement is found.
         """
-        damping, residual = 1e-3, residual_of(q)
+        damping, residual = 1e-3, compute_residuals(q)
         scale = np.where(self.is_angle, 1.0, self.size)
         for _ in range(2 * MAX_STEPS):
-            J = jacobian_of(q) * scale
+            J = compute_jacobian(q) * scale
             if not (np.isfinite(J).all() and np.isfinite(residual).all()):
                 break
             step = scale * np.linalg.solve(J.T @ J + damping * np.eye(len(q)), -J.T @ residual)
-            trial = residual_of(q + step)
+            trial = compute_residuals(q + step)
             norm, trial_norm = float(np.linalg.norm(residual)), float(np.linalg.norm(trial))
             if trial_norm < norm:
                 q, residual, damping = q + step, trial, max(1e-12, 0.1 * damping)
@@ -237,7 +246,7 @@ class Closure:
         J, source = np.zeros((2 * len(self.points), len(q))), self.linkage.source
         for k, (point, _) in enumerate(self.points):
             i = source.bodies[point.body].index
-            arm = place_of(source, self.p, q, point) - q[i : i + 2]
+            arm = compute_point_position(source, self.p, q, point) - q[i : i + 2]
             J[2 * k, i], J[2 * k, i + 2], J[2 * k + 1, i + 1], J[2 * k + 1, i + 2] = 1.0, -arm[1], 1.0, arm[0]
         return J
 
@@ -245,7 +254,7 @@ class Closure:
         """Return the largest distance (m) from the origin that drives and start require; at least the size of the
         mechanism.
         """
-        requested = np.abs(self.residual(guess))[: len(self.linkage.source.start_rows)]
+        requested = np.abs(self.compute_residual(guess))[: len(self.linkage.source.start_rows)]
         lengths = [row.unit == "m" for row in self.linkage.source.start_rows]
         return float(
             max(self.size, requested[lengths].max(initial=0.0), np.abs(guess[~self.is_angle]).max(initial=0.0))
@@ -253,7 +262,7 @@ class Closure:
 
     def is_closed(self, q: Array) -> bool:
         """Return whether all equations are satisfied to rounding at q."""
-        return self.norm(q) < CLOSED + ROUNDING * self.reach / self.size
+        return self.compute_norm(q) < CLOSED + ROUNDING * self.reach / self.size
 
     def is_near(self, q: Array) -> bool:
         """Return whether no body is so far away at q that every equation seems to be satisfied."""
@@ -268,7 +277,9 @@ class Closure:
         position_errors = np.hypot(differences[0::3], differences[1::3]) / np.maximum(
             self.size, np.hypot(self.expected[0::3], self.expected[1::3])
         )
-        point_errors = [np.linalg.norm(self.off_point(q, *point)) / (APART * self.size) for point in self.points]
+        point_errors = [
+            np.linalg.norm(self.compute_point_error(q, *point)) / (APART * self.size) for point in self.points
+        ]
         return float(max([*position_errors / APART, *np.abs(differences[2::3]) / FAR, *point_errors], default=0.0))
 
     def _draw_other_starts(self, guess: Array, angle_range: float, seed: int = 0) -> Iterator[Array]:
@@ -295,7 +306,7 @@ class Closure:
                 q[self.set_index] = self.set
                 yield self.place_angles(q)
 
-    def unwound(self, q: Array) -> Array:
+    def unwind_angles(self, q: Array) -> Array:
         """Return the configuration with its angles within half a turn of the guess, unless an equation then opens."""
         for k in np.flatnonzero(self.is_angle & (np.abs(q - self.expected) > np.pi)):
             reduced = q.copy()
@@ -303,7 +314,7 @@ class Closure:
             q = reduced if self.is_closed(reduced) else q
         return q
 
-    def newton(self, q: Array) -> Array:
+    def solve_newton(self, q: Array) -> Array:
         """Return the result of Newton's method with line search from q; q itself if it is closed already.
 
         Positions are adapted first. A Jacobian is used again while the norm falls to a tenth in each step. The result
@@ -344,10 +355,10 @@ class Closure:
         """Return a copy of q with the angles that equations in angles alone (drives, sliders) determine, by one Newton
         step.
         """
-        rows = np.abs(self.jacobian(q)[:, ~self.is_angle]).max(axis=1, initial=0.0) == 0.0
-        matrix = self.jacobian(q)[rows][:, self.is_angle] / self.weight[self.is_angle]
+        rows = np.abs(self.compute_jacobian(q)[:, ~self.is_angle]).max(axis=1, initial=0.0) == 0.0
+        matrix = self.compute_jacobian(q)[rows][:, self.is_angle] / self.weight[self.is_angle]
         q = q.copy()
         if rows.any():
-            solution = smallest(matrix, -self.residual(q)[rows])
+            solution = solve_minimum_norm(matrix, -self.compute_residual(q)[rows])
             q[self.is_angle] += solution / self.weight[self.is_angle]
         return q

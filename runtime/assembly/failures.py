@@ -1,4 +1,4 @@
-"""Explain why a linkage does not close or its velocities do not fit, and which links are too short or too long.
+"""Explain why a linkage does not close or has no consistent velocities, and which links are too short or long.
 
 One body at a time is scaled, its points moving away from its centre of mass, until the equations close with the least
 change. Where they cannot close, a configuration has a least residual with Φ_qᵀ Φ = 0. No motion reduces it, but a
@@ -14,11 +14,11 @@ from itertools import combinations, pairwise
 import numpy as np
 
 from gudgeon.assembly.closure import CLOSED, Closure
-from gudgeon.assembly.linkage import point_in_body
-from gudgeon.assembly.rank import tied
+from gudgeon.assembly.linkage import find_point_in_body
+from gudgeon.assembly.rank import compute_dependence_shares
 from gudgeon.errors import AssemblyError
-from gudgeon.model.compiled import Array, mass_ratio_message
-from gudgeon.model.written import reason
+from gudgeon.model.compiled import Array, describe_mass_ratio
+from gudgeon.model.written import explain_undefined_ahead
 
 FAR = 100.0  # times the next longest length: a sign of lengths in mm next to lengths in m
 FEW = 60  # coordinates up to which wrong lengths are searched
@@ -29,7 +29,7 @@ ENDS = {"tail", "head"}
 MOST, LEAST = 4.0, -0.95  # limits of the relative change: a length beyond them is not the cause
 
 
-def stuck(closure: Closure, matrix: Array, residuals: Array) -> AssemblyError:
+def make_velocity_error(closure: Closure, matrix: Array, residuals: Array) -> AssemblyError:
     """Return the error for a start whose velocities do not satisfy the equations.
 
     matrix: equations of drives, joints and rates for the velocities. residuals: what is left of each. The message
@@ -37,14 +37,16 @@ def stuck(closure: Closure, matrix: Array, residuals: Array) -> AssemblyError:
     equation.
     """
     source = closure.linkage.source
-    if mass_message := mass_ratio_message(source, closure.linkage.mass(closure.p)):
+    if mass_message := describe_mass_ratio(source, closure.linkage.mass(closure.p)):
         return AssemblyError(mass_message)
     rows = [row.name for row in source.start_rows] + list(source.start_rates)
     prescribed = {row.name for row in source.start_rows if row.kind == "drive"} | set(source.start_rates)
-    dependent = [name for name, share in zip(rows, tied(matrix), strict=True) if share > 1e-6]
+    dependent = [
+        name for name, fraction in zip(rows, compute_dependence_shares(matrix), strict=True) if fraction > 1e-6
+    ]
     dependent_motions = [name for name in dependent if name in prescribed]
     rates = [name for name in dependent if name in source.start_rates]
-    play = {joint.joint: joint.at_wall for joint in source.clearances}
+    play = {joint.joint: joint.is_corner for joint in source.clearances}
     closed_joints = dict.fromkeys(row.owner for row in source.start_rows if row.name in dependent and row.owner in play)
     if rates and closed_joints:
         first = next(iter(closed_joints))
@@ -74,15 +76,15 @@ def stuck(closure: Closure, matrix: Array, residuals: Array) -> AssemblyError:
     return AssemblyError(f"no velocities fit the start: row {worst} is left with {residuals.max():.3g}")
 
 
-def closure_error(closure: Closure, q: Array) -> AssemblyError:
+def make_closure_error(closure: Closure, q: Array) -> AssemblyError:
     """Return the error for a linkage that does not close: open equations with their residuals, and remedies.
 
     q: the best configuration that was found. The message may name lengths with a wrong unit, or a link whose change
     would close the linkage.
     """
-    scaled = np.abs(closure.residual(q) / closure.row_scale)
+    scaled = np.abs(closure.compute_residual(q) / closure.row_scale)
     if not np.isfinite(scaled).all():
-        why = reason(closure.linkage.source, closure.p, closure.t, q, np.zeros_like(q))
+        why = explain_undefined_ahead(closure.linkage.source, closure.p, closure.t, q, np.zeros_like(q))
         message = f"{why}\n  expected a number at the start" if why else "the constraints are not finite at the guess"
         return AssemblyError(f"the start cannot be assembled: {message}")
     worst = np.argsort(-scaled)[:6]
@@ -102,8 +104,8 @@ def closure_error(closure: Closure, q: Array) -> AssemblyError:
 
 def _format_open_equation(closure: Closure, q: Array, k: int) -> str:
     """Return an open equation k with its residual and the line of its joint: "C.x (8.2 mm, line 14)"."""
-    left, line = float(closure.residual(q)[k]), dict(closure.linkage.source.lines).get(closure.owners[k])
-    amount = lengths_text(left) if closure.units[k] == "m" else f"{np.degrees(left):.3g} deg"
+    left, line = float(closure.compute_residual(q)[k]), dict(closure.linkage.source.lines).get(closure.owners[k])
+    amount = format_length(left) if closure.units[k] == "m" else f"{np.degrees(left):.3g} deg"
     return f"{closure.names[k]} ({amount}{f', line {line}' if line else ''})"
 
 
@@ -114,11 +116,11 @@ def _describe_wrong_lengths(closure: Closure, q: Array) -> str:
     """
     if closure.linkage.n > FEW:
         return ""
-    found = wrong_lengths(closure, closure.least(q, closure.p))[:3]
+    wrong_lengths = find_wrong_lengths(closure, closure.find_least_residual(q, closure.p))[:3]
     message = [
-        f"{one.message} ({lengths_text(one.length)}) {'longer' if one.missing > 0.0 else 'shorter'} by"
-        f" {lengths_text(abs(one.missing))}"
-        for one in found
+        f"{change.message} ({format_length(change.length)}) {'longer' if change.missing > 0.0 else 'shorter'} by"
+        f" {format_length(abs(change.missing))}"
+        for change in wrong_lengths
     ]
     return f"\n  one change would close it: {', or '.join(message)}" if message else ""
 
@@ -134,7 +136,7 @@ def _describe_unit_mistake(closure: Closure) -> str:
     order = sorted((name for name, size in sizes.items() if size > 0.0), key=lambda name: -sizes[name])
     for k, (name, after) in enumerate(pairwise(order), 1):
         if sizes[name] > FAR * sizes[after] and sizes[name] >= 1.0 and 2 * k <= len(order):
-            message = ", ".join(f"{long} is {lengths_text(sizes[long])}" for long in order[:k][:3])
+            message = ", ".join(f"{long} is {format_length(sizes[long])}" for long in order[:k][:3])
             meant = f"was {sizes[order[0]]:.4g} mm meant" if k == 1 else "were they meant in mm"
             return (
                 f"\n  {message}, {sizes[name] / sizes[after]:,.0f} times the next longest: {meant}? bare numbers are m"
@@ -142,7 +144,7 @@ def _describe_unit_mistake(closure: Closure) -> str:
     return ""
 
 
-def lengths_text(length: float) -> str:
+def format_length(length: float) -> str:
     """Return a length (m) with four digits as text, in mm below 1 m, else in m."""
     return f"{1e3 * length:.4g} mm" if abs(length) < 1.0 else f"{length:.4g} m"
 
@@ -162,7 +164,7 @@ class WrongLength:
         return self.body if {*self.points} == ENDS else f"{self.body}, {'–'.join(self.points)}"
 
 
-def wrong_lengths(closure: Closure, q: Array) -> list[WrongLength]:
+def find_wrong_lengths(closure: Closure, q: Array) -> list[WrongLength]:
     """Return the bodies of which a change of length would close the equations, the least change first.
 
     q: the configuration with the least residuals.
@@ -176,7 +178,7 @@ def _find_wrong_lengths(closure: Closure, q: Array) -> Iterator[WrongLength]:
     source = closure.linkage.source
     connected = {end for part in source.parts if part.section != "forces" for end in part.ends}
     for index, body in enumerate(source.bodies):
-        arms = [(p, point_in_body(closure.p, p)) for p in source.points if p.body == index and p.name in connected]
+        arms = [(p, find_point_in_body(closure.p, p)) for p in source.points if p.body == index and p.name in connected]
         distances = {(one, other): float(np.hypot(*(a - b))) for (one, a), (other, b) in combinations(arms, 2)}
         furthest_points = max(distances, key=distances.__getitem__, default=None)
         if furthest_points is not None and distances[furthest_points] > 0.0:
@@ -204,8 +206,8 @@ def _find_closing_change(closure: Closure, q: Array, indices: list[int]) -> floa
         return changed
 
     for _ in range(STEPS):
-        least_squares_q = closure.least(q, scaled(change))
-        residual = closure.residual(least_squares_q, scaled(change)) / closure.row_scale
+        least_squares_q = closure.find_least_residual(q, scaled(change))
+        residual = closure.compute_residual(least_squares_q, scaled(change)) / closure.row_scale
         size = float(np.linalg.norm(residual))
         if not np.isfinite(size):
             return None
@@ -215,7 +217,7 @@ def _find_closing_change(closure: Closure, q: Array, indices: list[int]) -> floa
             closing_change, change = change, 0.5 * (open_change + change)
             continue
         residual_above, residual_below = (
-            closure.residual(least_squares_q, scaled(change + e)) / closure.row_scale for e in (NUDGE, -NUDGE)
+            closure.compute_residual(least_squares_q, scaled(change + e)) / closure.row_scale for e in (NUDGE, -NUDGE)
         )
         slope = float(residual @ (residual_above - residual_below)) / (2.0 * NUDGE)
         if abs(slope) < 1e-9 * size:

@@ -1,4 +1,4 @@
-"""Warn about guesses of the start that the assembly does not follow."""
+"""Warn if the assembled start is far from values that the file gives in `start: guess`."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from contextvars import ContextVar
 
 import numpy as np
 
-from gudgeon.assembly.linkage import Linkage, mechanism_size, place_of
+from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, compute_point_position
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.compiled import Array
 
@@ -20,7 +20,7 @@ NOTED: ContextVar[list[Mapping[str, float]] | None] = ContextVar("guesses that r
 FOLLOWED = np.pi / 6  # rad; smaller differences from a guess are not reported
 
 
-def unfollowed(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
+def find_unfollowed_guesses(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
     """Return the guessed coordinates that differ from their guess at q by more than a limit, with the difference (rad
     or m).
 
@@ -28,7 +28,7 @@ def unfollowed(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
     """
     source, differences = linkage.source, dict[str, float]()
     guess = dict(zip(source.start_guess, linkage.start_values(p)[0].tolist(), strict=True))
-    size = mechanism_size(linkage, p)
+    size = compute_mechanism_size(linkage, p)
     for name, expected in guess.items():
         if name in source.coordinates:
             difference = float(q[source.coordinates.index(name)]) - expected
@@ -39,20 +39,25 @@ def unfollowed(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
     for point in source.points:
         if f"{point.name}.x" in guess:
             expected_position = (guess[f"{point.name}.x"], guess[f"{point.name}.y"])
-            if (difference := float(np.linalg.norm(place_of(source, p, q, point) - expected_position))) > APART * size:
+            if (
+                difference := float(np.linalg.norm(compute_point_position(source, p, q, point) - expected_position))
+            ) > APART * size:
                 differences[point.name] = difference
     return differences
 
 
-def warn_unfollowed(linkage: Linkage, p: Array, q: Array) -> None:
+def warn_unfollowed_guesses(linkage: Linkage, p: Array, q: Array) -> None:
     """Warn about each guess that the start q does not follow; within a batch, append them to NOTED instead."""
-    off, noted = unfollowed(linkage, p, q), NOTED.get()
+    off, noted = find_unfollowed_guesses(linkage, p, q), NOTED.get()
     if noted is not None:
         noted.append(off)
         return
     for name, away in off.items():
-        message = f"{name} begins {guess_difference_text(name, away)} from its guess: {no_nearer_text(linkage.source)}"
-        warnings.warn(f"{message}; {LISTED}", stacklevel=outside())
+        message = (
+            f"{name} begins {format_guess_difference(name, away)} from its guess: "
+            f"{describe_missing_assembly(linkage.source)}"
+        )
+        warnings.warn(f"{message}; {LISTED}", stacklevel=find_user_stack_level())
 
 
 def warn_unfollowed_in_runs(source: KernelSource, noted: Sequence[Mapping[str, float]]) -> None:
@@ -66,16 +71,15 @@ def warn_unfollowed_in_runs(source: KernelSource, noted: Sequence[Mapping[str, f
         return
     message = []
     for name in dict.fromkeys(name for off in noted for name in off):
-        by = [off[name] for off in noted if name in off]
-        message.append(
-            f"{name} in {len(by)} of {len(noted)} runs by up to {guess_difference_text(name, max(map(abs, by)))}"
-        )
+        deviations = [off[name] for off in noted if name in off]
+        largest = format_guess_difference(name, max(map(abs, deviations)))
+        message.append(f"{name} in {len(deviations)} of {len(noted)} runs by up to {largest}")
     if message:
-        text = f"runs begin away from their guess: {', '.join(message)}: {no_nearer_text(source)}; {LISTED}"
-        warnings.warn(text, stacklevel=outside())
+        text = f"runs begin away from their guess: {', '.join(message)}: {describe_missing_assembly(source)}; {LISTED}"
+        warnings.warn(text, stacklevel=find_user_stack_level())
 
 
-def outside() -> int:
+def find_user_stack_level() -> int:
     """Return the stack level of the first caller outside gudgeon, as `warnings.warn` counts it."""
     level, frame = 1, sys._getframe(1)
     while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "gudgeon":
@@ -83,12 +87,12 @@ def outside() -> int:
     return level
 
 
-def guess_difference_text(name: str, difference: float) -> str:
+def format_guess_difference(name: str, difference: float) -> str:
     """Return the magnitude of a difference from a guess as text, in degrees for angles, else in mm."""
     return f"{np.degrees(abs(difference)):.3g}°" if name.endswith(".theta") else f"{1e3 * abs(difference):.3g} mm"
 
 
-def no_nearer_text(source: KernelSource) -> str:
+def describe_missing_assembly(source: KernelSource) -> str:
     """Return a text that no nearer assembly was found; it mentions several guesses, since they may contradict each
     other.
     """

@@ -1,6 +1,4 @@
-"""Check and report the positions of journals at the start: too deep for contact laws, or in contact without an
-onset.
-"""
+"""Check and report where journals are in their bearings at the start: in contact, or too deep for contact laws."""
 
 from __future__ import annotations
 
@@ -13,16 +11,23 @@ from gudgeon.assembly.linkage import Linkage
 from gudgeon.contract.boundary import CLEARANCE_Fx, CLEARANCE_Fy
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.errors import AssemblyError, SingularError
-from gudgeon.language.plot_units import distinct_texts
+from gudgeon.language.plot_units import format_distinct
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import contour_of, corner_approach, corner_gap, depth_at, slider_of, widest
+from gudgeon.model.contours import (
+    compute_corner_approach,
+    compute_corner_gap,
+    compute_max_clearance,
+    find_contour,
+    find_slider_dimensions,
+    interpolate_depth,
+)
 
 FAR = 10.0  # times the largest allowed value: a longer e probably has the wrong unit
 ROUNDED = 1e-9  # of the clearance: allowed error of a start in contact
 DEEPEST = 0.1  # of the radius: largest penetration of a journal (`deepest` of model.h)
 
 
-def check_places(linkage: Linkage, p: Array) -> None:
+def check_journal_positions(linkage: Linkage, p: Array) -> None:
     """Check the positions of journals and sliders with play that the file's start sets.
 
     Raises AssemblyError for a position deeper in the wall than any contact law holds, or for a slider that turns over.
@@ -31,11 +36,11 @@ def check_places(linkage: Linkage, p: Array) -> None:
         if joint.name.endswith(".front_upper"):
             _check_slider_tilt(linkage, p, joint)
     for joint, e, c in _iterate_placed_joints(linkage, p):
-        if joint.at_wall:
+        if joint.is_corner:
             _check_corner(linkage, p, joint, e - c)
             continue
         if joint.name in linkage.source.rigid and e > c * (1.0 + ROUNDED):
-            length, most = distinct_texts(1e3 * e, 1e3 * c)
+            length, most = format_distinct(1e3 * e, 1e3 * c)
             raise AssemblyError(
                 f"start.play.{joint.name}.e is {length} mm long and may be {most} mm, the clearance: the surfaces of"
                 " this joint do not give (newton_restitution)\n"
@@ -43,7 +48,7 @@ def check_places(linkage: Linkage, p: Array) -> None:
             )
         deepest = DEEPEST * float(p[joint.constants["R_i"]])
         if e - c > deepest:
-            length, most = distinct_texts(1e3 * e, 1e3 * (c + deepest))
+            length, most = format_distinct(1e3 * e, 1e3 * (c + deepest))
             bare = "; a bare number is in m" if e > FAR * (c + deepest) else ""
             raise AssemblyError(
                 f"start.play.{joint.name}.e is {length} mm long and may be {most} mm: the clearance is {1e3 * c:.4g}"
@@ -60,11 +65,11 @@ def _check_slider_tilt(linkage: Linkage, p: Array, joint: ClearanceInfo) -> None
     checked.
     """
     source, c = linkage.source, float(p[joint.clearance])
-    guide, a, b, radius = slider_of(source, p, joint)
-    reach = math.hypot(a - radius, b - radius) + radius
-    if reach <= b + c:
+    guide, a, b, radius = find_slider_dimensions(source, p, joint)
+    extent = math.hypot(a - radius, b - radius) + radius
+    if extent <= b + c:
         raise AssemblyError(
-            f"the slider of {guide} turns over in its guide: no point of it is further than {1e3 * reach:.4g} mm from"
+            f"the slider of {guide} turns over in its guide: no point of it is further than {1e3 * extent:.4g} mm from"
             f" its middle, and the walls are {1e3 * (b + c):.4g} mm from the guide's\n"
             f"  a corner meets the wall on its own side alone: give {guide} more half_length, or less gap"
         )
@@ -96,15 +101,15 @@ def _check_corner(linkage: Linkage, p: Array, joint: ClearanceInfo, depth: float
         )
 
 
-def in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
+def describe_journals_in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
     """Yield a note on each joint whose journal or corner starts inside the wall; rigid surfaces are left out."""
     for joint, e, c in _iterate_placed_joints(linkage, p):
         if e > c and joint.name not in linkage.source.rigid:
-            wall = "its wall" if joint.at_wall else "its bearing's wall"
+            wall = "its wall" if joint.is_corner else "its bearing's wall"
             so = "a run begins in contact" if joint.dry else "there is no film there"
             yield (
                 f"{joint.name} begins {1e6 * (e - c):.4g} µm inside {wall}, "
-                f"e/c = {distinct_texts(e / c, 1.0, 3)[0]}: {so}"
+                f"e/c = {format_distinct(e / c, 1.0, 3)[0]}: {so}"
             )
 
 
@@ -118,15 +123,23 @@ def _iterate_placed_joints(linkage: Linkage, p: Array) -> Iterator[tuple[Clearan
         return
     values = linkage.start_values(p)[1][len(source.start_set) :]
     for joint in source.clearances:
-        own = [x for row, x in zip(source.start_apart, values, strict=True) if row.rpartition(".")[0] == joint.joint]
-        if joint.at_wall:
-            if own:
-                yield joint, corner_approach(source, p, joint, -own[0], -own[1]), float(p[joint.clearance])
+        joint_values = [
+            x for row, x in zip(source.start_apart, values, strict=True) if row.rpartition(".")[0] == joint.joint
+        ]
+        if joint.is_corner:
+            if joint_values:
+                yield (
+                    joint,
+                    compute_corner_approach(source, p, joint, -joint_values[0], -joint_values[1]),
+                    float(p[joint.clearance]),
+                )
             continue
-        yield joint, float(np.linalg.norm(own)), widest(source, p, joint)
+        yield joint, float(np.linalg.norm(joint_values)), compute_max_clearance(source, p, joint)
 
 
-def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array) -> tuple[str, ...]:
+def describe_contacts_without_onset(
+    compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array
+) -> tuple[str, ...]:
     """Return a note on each dry contact that a run begins with while the surfaces do not approach (δ̇ ≤ 0).
 
     Its approach speed δ̇⁻ at the onset is then a convention. q, v (n,) at time t (s). memory (n_memory,): contacts
@@ -136,17 +149,17 @@ def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, mem
     notes: list[str] = []
     for index in joints:
         joint = compiled.source.clearances[index]
-        if joint.at_wall:
+        if joint.is_corner:
             notes += _check_parting_corner(compiled, p, t, q, v, memory, index)
             continue
-        rows, e = eccentricity(compiled, p, t, q, joint)
+        rows, e = find_eccentricity(compiled, p, t, q, joint)
         depth = math.hypot(*e) - float(p[joint.clearance]) - _find_contour_depth(compiled, p, q, joint, e)
         if depth > 0.0:
             with np.errstate(all="ignore"):  # a state of anybody's: the run itself tells what is not finite
                 deltadot_by_v = -(e / math.hypot(*e)) @ compiled.closed_phi_q(t, q, p)[rows]  # ∂δ̇/∂v
                 deltadot = float(deltadot_by_v @ v + (e / math.hypot(*e)) @ compiled.closed_nu(t, q, p)[rows])
                 approach = v + (1.0 - deltadot) / float(deltadot_by_v @ deltadot_by_v) * deltadot_by_v  # δ̇ = 1 m/s
-                if deltadot <= 0.0 and _depends_on_approach_speed(compiled, p, t, q, approach, memory, index):
+                if deltadot <= 0.0 and _has_approach_speed_dependence(compiled, p, t, q, approach, memory, index):
                     notes.append(_format_onset_note(joint.name, depth, deltadot))
     return tuple(notes)
 
@@ -154,40 +167,43 @@ def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, mem
 def _check_parting_corner(
     compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array, index: int
 ) -> Iterator[str]:
-    """Yield the note of `parting` for the corner of a slider, if it begins in contact without approaching.
+    """Yield the note of `describe_contacts_without_onset` for the corner of a slider, if it begins in contact without
+    approaching.
 
-    index: of the joint among those with play. Other arguments as in `parting`.
+    index: of the joint among those with play. Other arguments as in `describe_contacts_without_onset`.
     """
     joint = compiled.source.clearances[index]
-    depth, deltadot = corner_gap(compiled, p, t, q, v, index)
+    depth, deltadot = compute_corner_gap(compiled, p, t, q, v, index)
     if not (depth > 0.0 and deltadot <= 0.0):
         return
     steps = np.eye(len(v))
-    deltadot_by_v = np.array([corner_gap(compiled, p, t, q, v + step, index)[1] - deltadot for step in steps])
+    deltadot_by_v = np.array([compute_corner_gap(compiled, p, t, q, v + step, index)[1] - deltadot for step in steps])
     approach = v + (1.0 - deltadot) / float(deltadot_by_v @ deltadot_by_v) * deltadot_by_v  # δ̇ = 1 m/s
-    if _depends_on_approach_speed(compiled, p, t, q, approach, memory, index):
+    if _has_approach_speed_dependence(compiled, p, t, q, approach, memory, index):
         yield _format_onset_note(joint.name, depth, deltadot)
 
 
 def _find_contour_depth(compiled: CompiledModel, p: Array, q: Array, joint: ClearanceInfo, e: Array) -> float:
-    """Return the depth (m) of the bearing's contour beyond its circle in the direction of e (2,); 0 without a contour.
+    """Return the depth (m) of the bearing's contour beyond its circle in the direction of e (2,); 0 without a
+    contour.
     """
-    if (depths := contour_of(compiled.source, p, joint.name)) is None:
+    if (depths := find_contour(compiled.source, p, joint.name)) is None:
         return 0.0
     theta = q[compiled.source.bodies[joint.first].index + 2] if joint.first >= 0 else 0.0
-    return float(depth_at(depths, math.atan2(e[1], e[0]) - theta))
+    return float(interpolate_depth(depths, math.atan2(e[1], e[0]) - theta))
 
 
-def eccentricity(
+def find_eccentricity(
     compiled: CompiledModel, p: Array, t: float, q: Array, joint: ClearanceInfo
 ) -> tuple[list[int], Array]:
-    """Return the indices of a joint's equations in the closed linkage, and its eccentricity e (2,) in ground axes, m.
+    """Return the indices of a joint's equations in the closed linkage, and its eccentricity e (2,) in ground axes,
+    m.
     """
     rows = [k for k, row in enumerate(compiled.source.start_rows) if row.owner == joint.name]
     return rows, -compiled.closed_phi(t, q, p)[rows]  # physics.md, section 2: Φ of the joint is −e
 
 
-def _depends_on_approach_speed(
+def _has_approach_speed_dependence(
     compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array, index: int
 ) -> bool:
     """Return whether the force of a joint at this state differs for a small and an infinite approach speed δ̇⁻.
@@ -198,10 +214,10 @@ def _depends_on_approach_speed(
     contact_states = np.array([memory, memory])
     contact_states[:, index] = 1e-3, np.inf
     try:
-        found = compiled.evaluate([t, t], [q, q], [v, v], contact_states, p, parts=("clearance",)).clearance[:, index]
+        columns = compiled.evaluate([t, t], [q, q], [v, v], contact_states, p, parts=("clearance",)).clearance[:, index]
     except SingularError:  # the run itself tells
         return True
-    force = found[:, [CLEARANCE_Fx, CLEARANCE_Fy]]
+    force = columns[:, [CLEARANCE_Fx, CLEARANCE_Fy]]
     return bool((force[0] != force[1]).any())
 
 

@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 
 from gudgeon.model.compiled import Array
-from gudgeon.waiting.imports import SPARSE, whole
+from gudgeon.waiting.imports import SPARSE, import_completely
 
 LARGE = 150  # coordinates from which on sparse solvers are used
 DAMPING = 1e-10  # of the sum of squares, as in C's first step (engine/scene/start.c)
@@ -19,7 +19,7 @@ COLUMNS, SHARPER = 6, 6  # random columns that are filtered, and the number of f
 VANISHES = 1e-6  # of the largest singular value: smaller ones are ignored where equations depend on each other
 
 
-def smallest(matrix: Array, target: Array) -> Array:
+def solve_minimum_norm(matrix: Array, target: Array) -> Array:
     """Return the shortest x (n,) with matrix x = target, or the shortest least-squares solution.
 
     It is 0 if a number is not finite. From LARGE columns on sparse solvers are used.
@@ -27,12 +27,12 @@ def smallest(matrix: Array, target: Array) -> Array:
     if not (np.isfinite(matrix).all() and np.isfinite(target).all()):
         return np.zeros(matrix.shape[1])
     if matrix.shape[1] >= LARGE:
-        x = smallest_step(matrix, target)
-        return x if x is not None else dependent_step(matrix, target)
+        x = solve_independent_rows(matrix, target)
+        return x if x is not None else solve_dependent_rows(matrix, target)
     return np.asarray(np.linalg.lstsq(matrix, target, rcond=1e-12)[0], dtype=np.float64)
 
 
-def smallest_step(matrix: Array, target: Array) -> Array | None:
+def solve_independent_rows(matrix: Array, target: Array) -> Array | None:
     """Return the shortest x (n,) with matrix x = target by factorizing [I Aᵀ; A 0]; None if the rows depend on each
     other.
     """
@@ -45,20 +45,20 @@ def smallest_step(matrix: Array, target: Array) -> Array | None:
     return np.asarray(x, dtype=np.float64) if fits else None
 
 
-def dependent_step(matrix: Array, target: Array) -> Array:
+def solve_dependent_rows(matrix: Array, target: Array) -> Array:
     """Return about the shortest least-squares solution x (n,) of matrix x = target, if rows depend on each other.
 
     Singular values below VANISHES of the largest are damped; four repetitions reduce the effect of the damping on the
     others.
     """
     columns, x = matrix.shape[1], np.zeros(matrix.shape[1])
-    solve = _factorize(matrix, (VANISHES * _norm_bound(matrix)) ** 2)
+    solve = _factorize(matrix, (VANISHES * _compute_norm_bound(matrix)) ** 2)
     for _ in range(4):  # damping takes a share of a step, less each time
         x = x + solve(np.concatenate([np.zeros(columns), target - matrix @ x]))[:columns]
     return x
 
 
-def nearest_step(matrix: Array, target: Array) -> Array:
+def solve_damped_least_squares(matrix: Array, target: Array) -> Array:
     """Return x (n,) that minimizes |matrix x − target| with a little damping, for Newton's first steps with too many
     equations.
     """
@@ -85,10 +85,10 @@ def is_independent(matrix: Array, relative_limit: float) -> bool:
             growth, x = float(np.linalg.norm(y) / np.linalg.norm(x)), y / np.linalg.norm(y)
     except RuntimeError:
         return False
-    return growth * (relative_limit * _norm_bound(matrix)) ** 2 < 1e-2
+    return growth * (relative_limit * _compute_norm_bound(matrix)) ** 2 < 1e-2
 
 
-def tied_shares(matrix: Array, relative_limit: float) -> Array:
+def estimate_dependence_shares(matrix: Array, relative_limit: float) -> Array:
     """Return for each row, (m,), about its share in vanishing combinations of rows: σ below `relative_limit` of the
     largest.
 
@@ -98,7 +98,7 @@ def tied_shares(matrix: Array, relative_limit: float) -> Array:
     rows, columns = matrix.shape
     if not rows or not np.isfinite(matrix).all():
         return np.zeros(rows)
-    epsilon = (relative_limit * _norm_bound(matrix)) ** 2
+    epsilon = (relative_limit * _compute_norm_bound(matrix)) ** 2
     solve = _factorize(matrix, epsilon)
     x = np.random.default_rng(0).standard_normal((rows, COLUMNS))
     for _ in range(SHARPER):
@@ -106,7 +106,7 @@ def tied_shares(matrix: Array, relative_limit: float) -> Array:
     return np.asarray(np.abs(x).max(axis=1, initial=0.0), dtype=np.float64)
 
 
-def rank_by_rows(matrix: Array, relative_limit: float) -> int:
+def compute_rank_by_rows(matrix: Array, relative_limit: float) -> int:
     """Return the number of independent rows by Gram–Schmidt with pivoting.
 
     relative_limit: remainder, relative to the longest row, at which a row counts as dependent.
@@ -130,7 +130,7 @@ def _factorize(matrix: Array, damping: float) -> Callable[[Array], Array]:
     """Return a function that solves [I Aᵀ; A −damping I] x = b by sparse factorization. Raises RuntimeError if it is
     singular.
     """
-    whole(*SPARSE)
+    import_completely(*SPARSE)
     from scipy import sparse
     from scipy.sparse.linalg import splu
 
@@ -142,7 +142,7 @@ def _factorize(matrix: Array, damping: float) -> Callable[[Array], Array]:
     return solve
 
 
-def _norm_bound(matrix: Array) -> float:
+def _compute_norm_bound(matrix: Array) -> float:
     """Return an upper bound of the largest singular value of a matrix, close to it if rows have few entries."""
     size = np.abs(matrix)
     return float(np.sqrt(size.sum(axis=0).max() * size.sum(axis=1).max()))

@@ -7,10 +7,10 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.assembly.large import smallest
+from gudgeon.assembly.large import solve_minimum_norm
 from gudgeon.contract.kernel_source import KernelSource, PointInfo
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.sizes import mechanism_sizes, metric
+from gudgeon.model.sizes import compute_mechanism_sizes, compute_norm_weights
 
 PASSES = 3  # Newton's passes of a projection: the second one reaches rounding already
 CLOSED = 1e-15  # m or rad: Φ that no further pass reduces
@@ -41,28 +41,28 @@ class Linkage(Protocol):
         """
 
 
-def mechanism_size(linkage: Linkage, p: Array) -> float:
+def compute_mechanism_size(linkage: Linkage, p: Array) -> float:
     """Return the size (m) of the mechanism with parameter values p, by which lengths are scaled; see
-    `mechanism_sizes`.
+    `compute_mechanism_sizes`.
     """
-    return float(mechanism_sizes(linkage.source, p))
+    return float(compute_mechanism_sizes(linkage.source, p))
 
 
-def angles(source: KernelSource) -> NDArray[np.bool_]:
+def find_angles(source: KernelSource) -> NDArray[np.bool_]:
     """Return a mask (n,) of the coordinates that are angles."""
     return np.array([name.endswith(".theta") for name in source.coordinates], dtype=bool)
 
 
-def scaled_rows(linkage: Linkage, p: Array, matrix: Array) -> Array:
+def scale_rows(linkage: Linkage, p: Array, matrix: Array) -> Array:
     """Return rows (m, n) of the constraint Jacobian without units, each of length 1.
 
     matrix: rows of Φ_q. Angles count as arcs at the mechanism's size.
     """
-    matrix = matrix / np.where(angles(linkage.source), mechanism_size(linkage, p), 1.0)
+    matrix = matrix / np.where(find_angles(linkage.source), compute_mechanism_size(linkage, p), 1.0)
     return np.asarray(matrix / (np.linalg.norm(matrix, axis=1, keepdims=True) + 1e-300))
 
 
-def point_in_body(p: Array, point: PointInfo) -> Array:
+def find_point_in_body(p: Array, point: PointInfo) -> Array:
     """Return the coordinates (2,) in m of a point in its body's centre-of-mass frame; of a ground point in ground
     axes.
     """
@@ -70,9 +70,9 @@ def point_in_body(p: Array, point: PointInfo) -> Array:
     return np.array([sign * float(p[k]) if k >= 0 else 0.0 for k, sign in pairs])
 
 
-def place_of(source: KernelSource, p: Array, q: Array, point: PointInfo) -> Array:
+def compute_point_position(source: KernelSource, p: Array, q: Array, point: PointInfo) -> Array:
     """Return the position (2,) in m of a point in ground axes at the configuration q."""
-    arm = point_in_body(p, point)
+    arm = find_point_in_body(p, point)
     if point.body < 0:
         return arm
     i = source.bodies[point.body].index
@@ -80,26 +80,26 @@ def place_of(source: KernelSource, p: Array, q: Array, point: PointInfo) -> Arra
     return np.array([q[i] + c * arm[0] - s * arm[1], q[i + 1] + s * arm[0] + c * arm[1]])
 
 
-def project(compiled: CompiledModel, t: float, q: Array, v: Array, p: Array) -> tuple[Array, Array]:
+def project_state(compiled: CompiledModel, t: float, q: Array, v: Array, p: Array) -> tuple[Array, Array]:
     """Return q and v (n,) projected onto the constraints at time t by the smallest changes in the norm of M.
 
     Dependent equations, as for links in line, are satisfied in the least-squares sense. Values that are not finite are
     returned unchanged.
     """
-    root = np.sqrt(metric(compiled.source, p, compiled.mass(p)))
+    root = np.sqrt(compute_norm_weights(compiled.source, p, compiled.mass(p)))
     for _ in range(PASSES):
         phi = compiled.phi(t, q, p)
         phi_q = compiled.phi_q(t, q, p)
         if not len(phi) or not (np.isfinite(phi).all() and np.isfinite(phi_q).all() and np.isfinite(v).all()):
             return q, v
-        q = q - smallest(phi_q / root, phi) / root
+        q = q - solve_minimum_norm(phi_q / root, phi) / root
         if np.abs(phi).max() < CLOSED:
             break
     phi_q = compiled.phi_q(t, q, p)
-    return q, v - smallest(phi_q / root, phi_q @ v - compiled.nu(t, q, p)) / root
+    return q, v - solve_minimum_norm(phi_q / root, phi_q @ v - compiled.nu(t, q, p)) / root
 
 
-def residuals(compiled: CompiledModel, t: float, q: Array, v: Array, p: Array) -> tuple[float, float]:
+def compute_residuals(compiled: CompiledModel, t: float, q: Array, v: Array, p: Array) -> tuple[float, float]:
     """Return max |Φ| and max |Φ̇| at a state; 0 without constraints."""
     phi_dot = compiled.phi_q(t, q, p) @ v - compiled.nu(t, q, p)
     return float(np.abs(compiled.phi(t, q, p)).max(initial=0.0)), float(np.abs(phi_dot).max(initial=0.0))

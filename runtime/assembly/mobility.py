@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gudgeon.assembly.linkage import Linkage, angles, mechanism_size, scaled_rows
-from gudgeon.assembly.rank import RANK, SAMPLES, configurations
+from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, find_angles, scale_rows
+from gudgeon.assembly.rank import RANK, SAMPLES, find_nearby_configurations
 from gudgeon.errors import BadValueError, Location
 from gudgeon.model.compiled import Array
 
@@ -56,36 +56,41 @@ def find_mobility(
     """
     row_indices = list(range(len(linkage.source.start_rows))) if equation_indices is None else list(equation_indices)
     with np.errstate(all="ignore"):
-        near_q = configurations(linkage, p, q, row_indices, SAMPLES, t)
-        matrices = [scaled_rows(linkage, p, linkage.closed_phi_q(t, x, p)[row_indices]) for x in near_q]
+        near_q = find_nearby_configurations(linkage, p, q, row_indices, SAMPLES, t)
+        matrices = [scale_rows(linkage, p, linkage.closed_phi_q(t, x, p)[row_indices]) for x in near_q]
     null_spaces = [_compute_null_space(matrix) for matrix in matrices if np.isfinite(matrix).all()]
     regular = min(
         reversed(range(len(null_spaces))), key=lambda k: null_spaces[k].shape[1]
     )  # not the start, where links may align
     names, motions = linkage.source.coordinates, null_spaces[regular]
-    along = tuple(names[k] for k in _select_describing_coordinates(motions, _list_preferred_order(names)))
+    coordinate_names = tuple(names[k] for k in _select_describing_coordinates(motions, _list_preferred_order(names)))
     aligned = null_spaces[0].shape[1] - motions.shape[1]
     return Mobility(
-        len(names), len(row_indices), motions.shape[1], along, _find_loose_bodies(linkage, matrices[regular]), aligned
+        len(names),
+        len(row_indices),
+        motions.shape[1],
+        coordinate_names,
+        _find_loose_bodies(linkage, matrices[regular]),
+        aligned,
     )
 
 
-def free_motions(linkage: Linkage, p: Array, q: Array, t: float = 0.0) -> Array:
+def compute_free_motions(linkage: Linkage, p: Array, q: Array, t: float = 0.0) -> Array:
     """Return an orthonormal basis (n, dof) of the velocities that all equations allow at q.
 
     Angles count as arcs at the mechanism's size. It has no columns if the Jacobian is not finite.
     """
-    scale = np.where(angles(linkage.source), 1.0 / mechanism_size(linkage, p), 1.0)
+    scale = np.where(find_angles(linkage.source), 1.0 / compute_mechanism_size(linkage, p), 1.0)
     with np.errstate(all="ignore"):
-        matrix = scaled_rows(linkage, p, linkage.closed_phi_q(t, q, p))
+        matrix = scale_rows(linkage, p, linkage.closed_phi_q(t, q, p))
     return _compute_null_space(matrix) * scale[:, None] if np.isfinite(matrix).all() else np.zeros((len(q), 0))
 
 
-def check_freedoms(expected: float, location: Location, mobility: Mobility) -> None:
+def check_degrees_of_freedom(expected: float, location: Location, mobility: Mobility) -> None:
     """Raise BadValueError at `location` if the file states another number of degrees of freedom than was found."""
     if mobility.freedoms != expected:
-        along = f": {', '.join(mobility.along)}" if mobility.along else ""
-        message = f"freedoms is {expected:g}, but with all joints closed there are {mobility.freedoms}{along}"
+        directions_text = f": {', '.join(mobility.along)}" if mobility.along else ""
+        message = f"freedoms is {expected:g}, but with all joints closed there are {mobility.freedoms}{directions_text}"
         hint = "look for a joint or a drive that is missing or too many, or correct the number"
         raise BadValueError(message, location, f"expected {mobility.freedoms}, if that is meant; {hint}")
 
@@ -102,7 +107,8 @@ def _compute_null_space(matrix: Array) -> Array:
 
 
 def _list_preferred_order(names: tuple[str, ...]) -> list[int]:
-    """Return the indices of coordinates in the order of preference: by body as in the file, the angle before x and y.
+    """Return the indices of coordinates in the order of preference: by body as in the file, the angle before x and
+    y.
     """
     return [k + shift for k in range(0, len(names), 3) for shift in (2, 0, 1)]
 

@@ -1,9 +1,11 @@
 """Compute the rank of Jacobians, dependent constraint equations, and branches at singular positions.
 
-- `rank`, `tied`: the rank of a matrix, and the share of each row in a vanishing combination.
-- `left_out`: equations that generator/redundancy.py found redundant with the file's values. Other lengths or
-  drives may make them independent again; that is checked here.
-- `branch_rates`: velocities with which a linkage may pass a singular position. Dependent equations leave the velocities
+- `compute_rank`, `compute_dependence_shares`: the rank of a matrix, and the share of each row in a vanishing
+combination.
+- `list_redundant_equations`: equations that generator/redundancy.py found redundant with the file's values. Other
+lengths or drives may make them independent again; that is checked here.
+- `compute_branch_velocities`: velocities with which a linkage may pass a singular position. Dependent equations leave
+the velocities
   open by α n, with n in the null space of Φ_q. Accelerations exist only where λᵀ γ(v) = 0 for the left null vector λ
   of Φ_q. This quadratic equation has two real roots for two branches; without any, the motion ends.
 """
@@ -16,8 +18,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gudgeon.assembly.large import LARGE, is_independent, rank_by_rows, tied_shares
-from gudgeon.assembly.linkage import Linkage, angles, mechanism_size, scaled_rows
+from gudgeon.assembly.large import LARGE, compute_rank_by_rows, estimate_dependence_shares, is_independent
+from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, find_angles, scale_rows
 from gudgeon.errors import AssemblyError, SolverError
 from gudgeon.model.compiled import Array, CompiledModel
 
@@ -38,24 +40,24 @@ CONSISTENT = 1e-3  # relative contradiction of the rates at which the linkage ca
 SAME = 1e-6  # smallest relative difference of the rates of two branches
 
 
-def rank(matrix: Array, relative_limit: float = RANK) -> int:
+def compute_rank(matrix: Array, relative_limit: float = RANK) -> int:
     """Return the number of independent rows of a matrix.
 
     relative_limit: singular values below this fraction of the largest count as zero. Large matrices are treated
     without singular values.
     """
     if matrix.shape[1] >= LARGE:
-        return len(matrix) if is_independent(matrix, relative_limit) else rank_by_rows(matrix, relative_limit)
+        return len(matrix) if is_independent(matrix, relative_limit) else compute_rank_by_rows(matrix, relative_limit)
     return _compute_rank_by_svd(matrix, relative_limit)
 
 
-def tied(matrix: Array, relative_limit: float = RANK) -> Array:
+def compute_dependence_shares(matrix: Array, relative_limit: float = RANK) -> Array:
     """Return for each row, (m,), its largest share in a vanishing combination of rows; 0 for independent rows.
 
     relative_limit: singular values below this fraction of the largest vanish.
     """
     if matrix.shape[1] >= LARGE:
-        return tied_shares(matrix, max(relative_limit, DAMPED))
+        return estimate_dependence_shares(matrix, max(relative_limit, DAMPED))
     return _compute_shares_by_svd(matrix, relative_limit)
 
 
@@ -74,14 +76,14 @@ def _compute_shares_by_svd(matrix: Array, relative_limit: float) -> Array:
     return np.asarray(np.abs(vanishing).max(axis=1, initial=0.0), dtype=np.float64)
 
 
-def dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tuple[str, ...]:
+def find_dependent_equations(compiled: CompiledModel, p: Array, t: float, q: Array) -> tuple[str, ...]:
     """Return the names of the equations of Φ and start.rates that depend on each other at q; () at a regular position.
 
     Equations that are redundant everywhere do not count: they were left out when the scene was derived, or depend on
     each other near q, too.
     """
     source = compiled.source
-    redundant = set(left_out(compiled))
+    redundant = set(list_redundant_equations(compiled))
     index = [k for k in range(len(source.start_rows)) if k not in redundant]
     if not index:
         return ()
@@ -95,13 +97,15 @@ def dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tup
     )
     if not dependent:
         return ()
-    near_q = configurations(compiled, p, q, [k for k in index if source.start_rows[k].kind != "drive"], SAMPLES, t)
+    near_q = find_nearby_configurations(
+        compiled, p, q, [k for k in index if source.start_rows[k].kind != "drive"], SAMPLES, t
+    )
     rows = (np.concatenate([compiled.closed_phi_q(t, x, p)[index], rates]) for x in near_q)
-    at_start, *others = (rank(scaled_rows(compiled, p, matrix), DEAD) for matrix in rows)
+    at_start, *others = (compute_rank(scale_rows(compiled, p, matrix), DEAD) for matrix in rows)
     return () if others and max(others) == at_start else dependent
 
 
-def nearly_dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tuple[str, ...]:
+def find_nearly_dependent_equations(compiled: CompiledModel, p: Array, t: float, q: Array) -> tuple[str, ...]:
     """Return the names of the equations of motion (joints with play left out) that nearly depend on each other at q.
 
     () without equations, or if q is not finite.
@@ -117,13 +121,13 @@ def _find_dependent_names(
 ) -> tuple[str, ...]:
     """Return the names of the rows that depend on each other, after scaling, so that units do not matter.
 
-    matrix: rows of Φ_q. relative_limit: as in `tied`.
+    matrix: rows of Φ_q. relative_limit: as in `compute_dependence_shares`.
     """
-    shares = tied(scaled_rows(compiled, p, matrix), relative_limit)
-    return tuple(name for name, share in zip(names, shares, strict=True) if share > 1e-6)
+    shares = compute_dependence_shares(scale_rows(compiled, p, matrix), relative_limit)
+    return tuple(name for name, fraction in zip(names, shares, strict=True) if fraction > 1e-6)
 
 
-def configurations(
+def find_nearby_configurations(
     linkage: Linkage, p: Array, q: Array, equation_indices: Sequence[int], count: int, t: float = 0.0
 ) -> list[Array]:
     """Return q and up to `count` configurations near it: random steps, closed by Newton's method.
@@ -132,8 +136,13 @@ def configurations(
     """
     if not count:  # NumPy's random numbers are imported on request
         return [q]
-    rng, near_q, row_indices, size = np.random.default_rng(0), [q], list(equation_indices), mechanism_size(linkage, p)
-    scale = np.where(angles(linkage.source), 1.0, size)
+    rng, near_q, row_indices, size = (
+        np.random.default_rng(0),
+        [q],
+        list(equation_indices),
+        compute_mechanism_size(linkage, p),
+    )
+    scale = np.where(find_angles(linkage.source), 1.0, size)
     units = np.array([size if linkage.source.start_rows[k].unit == "m" else 1.0 for k in row_indices])
     for _ in range(count):
         x = q + REACH * rng.standard_normal(len(q)) * scale
@@ -148,7 +157,7 @@ def configurations(
     return near_q
 
 
-def left_out(compiled: CompiledModel) -> list[int]:
+def list_redundant_equations(compiled: CompiledModel) -> list[int]:
     """Return the indices of the closed linkage's equations that were found redundant and are not integrated.
 
     Equations of joints with play do not count.
@@ -158,16 +167,16 @@ def left_out(compiled: CompiledModel) -> list[int]:
     return [k for k, row in enumerate(source.start_rows) if row.name not in kept and row.owner not in with_play]
 
 
-def check_start(compiled: CompiledModel, p: Array, t: float, q: Array) -> None:
+def check_redundant_equations(compiled: CompiledModel, p: Array, t: float, q: Array) -> None:
     """Raise AssemblyError if an equation that was redundant with the file's values would remove a degree of freedom at
     q.
     """
-    extra = left_out(compiled)
+    extra = list_redundant_equations(compiled)
     if not extra:
         return
-    rows = scaled_rows(compiled, p, compiled.closed_phi_q(t, q, p))
-    kept = scaled_rows(compiled, p, compiled.phi_q(t, q, p))
-    if rank(kept) == len(kept) and rank(np.concatenate([kept, rows[extra]])) > len(kept):
+    rows = scale_rows(compiled, p, compiled.closed_phi_q(t, q, p))
+    kept = scale_rows(compiled, p, compiled.phi_q(t, q, p))
+    if compute_rank(kept) == len(kept) and compute_rank(np.concatenate([kept, rows[extra]])) > len(kept):
         raise AssemblyError(
             f"{_describe_equations(compiled, extra)} said nothing new with the file's numbers and"
             " would hold the linkage with these\n"
@@ -175,22 +184,22 @@ def check_start(compiled: CompiledModel, p: Array, t: float, q: Array) -> None:
         )
 
 
-def contradiction(problem: Problem, trajectory: Trajectory) -> SolverError | None:
+def find_contradiction(problem: Problem, trajectory: Trajectory) -> SolverError | None:
     """Return the error for the first sample of a trajectory at which a redundant equation is violated; None if there
     is none.
 
     Of an interrupted run, at most MOST samples are checked, the last one among them. Raises KeyboardInterrupt.
     """
     compiled, p = problem.compiled, problem.p
-    extra = left_out(compiled)
+    extra = list_redundant_equations(compiled)
     if not extra:
         return None
-    size = mechanism_size(compiled, p)
+    size = compute_mechanism_size(compiled, p)
     scale = np.array([size if compiled.source.start_rows[k].unit == "m" else 1.0 for k in extra])
     stride = math.ceil(len(trajectory.t) / MOST) if trajectory.interrupted else 1
     for k in range((len(trajectory.t) - 1) % stride, len(trajectory.t), stride):
         if k % 256 == 0:
-            problem.take()
+            problem.poll_cancellation()
         t = float(trajectory.t[k])
         far = np.abs(compiled.closed_phi(t, trajectory.q[k], p)[extra]) > OPEN * scale
         if far.any():
@@ -205,18 +214,18 @@ def contradiction(problem: Problem, trajectory: Trajectory) -> SolverError | Non
 
 def _describe_equations(compiled: CompiledModel, equation_indices: list[int]) -> str:
     """Return the names of equations with those of their joints and of the joints with indeterminate forces."""
-    found = [compiled.source.start_rows[k] for k in equation_indices]
-    owners = dict.fromkeys([*(row.owner for row in found), *compiled.source.indeterminate])
-    return f"row {', '.join(row.name for row in found)} (with {', '.join(owners)})"
+    equations = [compiled.source.start_rows[k] for k in equation_indices]
+    owners = dict.fromkeys([*(row.owner for row in equations), *compiled.source.indeterminate])
+    return f"row {', '.join(row.name for row in equations)} (with {', '.join(owners)})"
 
 
-def branch_rates(compiled: CompiledModel, p: Array, t: float, q: Array) -> list[Array]:
+def compute_branch_velocities(compiled: CompiledModel, p: Array, t: float, q: Array) -> list[Array]:
     """Return the velocities q̇ (n,) of both branches of the motion at the singular position q.
 
     [] if the position is regular, has more than one dependent equation, contradicts the drives, or has no two distinct
     real branches.
     """
-    redundant = set(left_out(compiled))
+    redundant = set(list_redundant_equations(compiled))
     rows = [k for k in range(len(compiled.source.start_rows)) if k not in redundant]
     matrix = compiled.closed_phi_q(t, q, p)[rows]
     nu = compiled.closed_nu(t, q, p)[rows]
@@ -237,9 +246,9 @@ def branch_rates(compiled: CompiledModel, p: Array, t: float, q: Array) -> list[
     return [v + (sign * np.sqrt(inner) - linear) / (2.0 * square) * scale * right[-1] for sign in (-1.0, 1.0)]
 
 
-def branches_text(compiled: CompiledModel, p: Array, t: float, q: Array) -> str:
+def describe_branches(compiled: CompiledModel, p: Array, t: float, q: Array) -> str:
     """Return a text on both branches of the motion at q, by the velocity that differs most; "" if they are unknown."""
-    rates = branch_rates(compiled, p, t, q)
+    rates = compute_branch_velocities(compiled, p, t, q)
     if not rates:
         return ""
     body, _, part = compiled.source.coordinates[int(np.abs(rates[1] - rates[0]).argmax())].rpartition(".")

@@ -1,9 +1,9 @@
-"""Assemble the start on the branch nearest to the guess: positions by Newton's method, then velocities.
+"""Assemble a linkage at the start, near the file's guess: positions by Newton's method, then velocities.
 
 A scene with play starts from its closed linkage (e = 0), unless the file's `start.play` gives e and ė of a journal.
 Guessed angles have the largest weights, then other angles, then positions. Usually one call of C suffices
-(engine/scene/start.c). If C cannot close the linkage near the guess, `search` finds the nearest closed configuration.
-Its modules are imported only then, for a quick start.
+(engine/scene/start.c). If C cannot close the linkage near the guess, `search_start` finds the nearest closed
+configuration. Its modules are imported only then, for a quick start.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gudgeon.assembly.journals import check_places
-from gudgeon.assembly.large import LARGE, smallest
-from gudgeon.assembly.linkage import Linkage, mechanism_size
+from gudgeon.assembly.journals import check_journal_positions
+from gudgeon.assembly.large import LARGE, solve_minimum_norm
+from gudgeon.assembly.linkage import Linkage, compute_mechanism_size
 from gudgeon.errors import AssemblyError
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.sizes import metric
+from gudgeon.model.sizes import compute_norm_weights
 
 if TYPE_CHECKING:
     from gudgeon.assembly.closure import Closure
@@ -35,19 +35,19 @@ class Start:
     residual: float
 
 
-def assemble(compiled: CompiledModel, p: Array, t: float = 0.0) -> Start:
+def assemble_start(compiled: CompiledModel, p: Array, t: float = 0.0) -> Start:
     """Return the assembled start of a scene at time t, by C or, if that fails, by the search in Python.
 
     Raises AssemblyError with equations, joints and residual.
     """
-    check_places(compiled, p)
-    closed = compiled.close(t, p, mechanism_size(compiled, p)) if compiled.n < LARGE else None
+    check_journal_positions(compiled, p)
+    closed = compiled.close_linkage(t, p, compute_mechanism_size(compiled, p)) if compiled.n < LARGE else None
     if closed is not None and np.isfinite(closed[1]).all():
         return Start(*closed)
-    return search(compiled, p, t)
+    return search_start(compiled, p, t)
 
 
-def search(linkage: Linkage, p: Array, t: float = 0.0) -> Start:
+def search_start(linkage: Linkage, p: Array, t: float = 0.0) -> Start:
     """Return the start nearest to the guess by a search in Python: closed configuration, then velocities.
 
     Raises AssemblyError with equations, joints and residual.
@@ -56,12 +56,12 @@ def search(linkage: Linkage, p: Array, t: float = 0.0) -> Start:
 
     closure = Closure(linkage, p, t)
     with np.errstate(all="ignore"):  # Newton handles undefined directions itself
-        q, closed = closure.nearest()
+        q, closed = closure.find_nearest()
     if not closed:
-        from gudgeon.assembly.failures import closure_error
+        from gudgeon.assembly.failures import make_closure_error
 
-        raise closure_error(closure, q)
-    return Start(q, velocities(closure, q), float(np.abs(closure.residual(q)).max(initial=0.0)))
+        raise make_closure_error(closure, q)
+    return Start(q, compute_start_velocities(closure, q), float(np.abs(closure.compute_residual(q)).max(initial=0.0)))
 
 
 def _choose_rate_time(closure: Closure) -> float:
@@ -70,7 +70,7 @@ def _choose_rate_time(closure: Closure) -> float:
     return closure.t + more if closure.linkage.source.rate_jumps else closure.t
 
 
-def velocities(closure: Closure, q: Array) -> Array:
+def compute_start_velocities(closure: Closure, q: Array) -> Array:
     """Return q̇ (n,) with Φ_q q̇ = ν and the start's rates; undetermined velocities are least in the norm of M.
 
     Raises AssemblyError if a rate is not finite or the equations contradict each other.
@@ -91,13 +91,13 @@ def velocities(closure: Closure, q: Array) -> Array:
             f"the start has no velocities: the rate of {', '.join(rows) or 'the constraints'} is not finite at"
             f" t = {closure.t:g} s\n  a root or a power has no slope where it begins: begin with smooth_step or later"
         )
-    root_of_mass = np.sqrt(metric(closure.linkage.source, closure.p, closure.linkage.mass(closure.p)))
+    root_of_mass = np.sqrt(compute_norm_weights(closure.linkage.source, closure.p, closure.linkage.mass(closure.p)))
     v = np.zeros_like(q)
     for _ in range(2):  # once more for the rounding of the first solution
-        v += smallest(matrix / root_of_mass, target - matrix @ v) / root_of_mass
+        v += solve_minimum_norm(matrix / root_of_mass, target - matrix @ v) / root_of_mass
     left = np.abs(matrix @ v - target)
     if left.max(initial=0.0) > 1e-8 * float(np.abs(target).max(initial=0.0)) + MIN_RESOLVED:
-        from gudgeon.assembly.failures import stuck
+        from gudgeon.assembly.failures import make_velocity_error
 
-        raise stuck(closure, matrix / root_of_mass, left)
+        raise make_velocity_error(closure, matrix / root_of_mass, left)
     return v

@@ -1,1 +1,1 @@
-"""What the commands do; `gudgeon.cli` says how they are called. One file a command."""
+"""Implement the commands of `gudgeon`; `gudgeon.cli` defines their arguments. One file a command."""

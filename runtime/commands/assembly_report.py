@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.assembly.branches import Assembly, find_assemblies, guess_distance
+from gudgeon.assembly.branches import Assembly, compute_guess_distance, find_assemblies
 from gudgeon.assembly.closure import Closure
-from gudgeon.assembly.failures import closure_error
-from gudgeon.assembly.guess_warnings import guess_difference_text, no_nearer_text, unfollowed
-from gudgeon.assembly.journals import check_places, in_walls
-from gudgeon.assembly.mobility import Mobility, check_freedoms, find_mobility
-from gudgeon.assembly.start import velocities
-from gudgeon.commands.common import check_addresses, linkage_at_values
+from gudgeon.assembly.failures import make_closure_error
+from gudgeon.assembly.guess_warnings import describe_missing_assembly, find_unfollowed_guesses, format_guess_difference
+from gudgeon.assembly.journals import check_journal_positions, describe_journals_in_walls
+from gudgeon.assembly.mobility import Mobility, check_degrees_of_freedom, find_mobility
+from gudgeon.assembly.start import compute_start_velocities
+from gudgeon.commands.common import check_addresses, evaluate_linkage
 from gudgeon.errors import GudgeonError
 from gudgeon.language.tree import Number
-from gudgeon.model.seams import curve_seam_notes
+from gudgeon.model.seams import iterate_seam_notes
 
 if TYPE_CHECKING:
     from gudgeon.generator.mechanism import Mechanism
@@ -50,11 +50,11 @@ class Findings:
     """Hold the results of assembling all scenes, and the assemblies of the first scene that assembles."""
 
     scenes: Mapping[str, AssembledScene]
-    failed: Mapping[str, GudgeonError]
+    errors: Mapping[str, GudgeonError]
     assemblies: tuple[Assembly, ...] = ()
 
     @property
-    def alike(self) -> list[Assembly]:
+    def equivalent_assemblies(self) -> list[Assembly]:
         """Return the assemblies, other than the start, that follow the guesses of the file as well as the start
         does.
         """
@@ -63,35 +63,36 @@ class Findings:
             return []
         closure = Closure(first.linkage, first.linkage.p, 0.0)
         start = self.assemblies[0].q
-        return [a for a in self.assemblies[1:] if guess_distance(closure, a.q, start) < MAX_GUESS_DIFFERENCE]
+        return [a for a in self.assemblies[1:] if compute_guess_distance(closure, a.q, start) < MAX_GUESS_DIFFERENCE]
 
 
 def assemble_scenes(mechanism: Mechanism, branches: bool, given: Mapping[str, float | str] | None = None) -> Findings:
-    """Assemble every scene of a mechanism, and find its other assemblies if `branches` is set or the linkage is small.
+    """Assemble every scene of a mechanism, and find its other assemblies if `yield_assembly_lines` is set or the
+    linkage is small.
 
     given: values in place of the file's, by address. An address of one scene holds for that scene. An error of a scene
     is stored in `failed`. Raises UnknownNameError for an address that no scene has, and an error for wrong `freedoms`.
     """
-    from gudgeon.generator.pipeline import closed_linkage
+    from gudgeon.generator.pipeline import build_closed_linkage
 
     scenes: dict[str, AssembledScene] = {}
     failed: dict[str, GudgeonError] = {}
     assemblies: tuple[Assembly, ...] = ()
-    linkages = {name: closed_linkage(mechanism, name) for name in mechanism.scenes}
+    linkages = {name: build_closed_linkage(mechanism, name) for name in mechanism.scenes}
     numbers = given or {}
     check_addresses(numbers, mechanism.file, [linkage.source for linkage, _ in linkages.values()])
     for name, (linkage, rows) in linkages.items():
-        linkage = linkage_at_values(mechanism, linkage, numbers)
+        linkage = evaluate_linkage(mechanism, linkage, numbers)
         try:
             scenes[name] = _assemble_scene(linkage, rows)
         except GudgeonError as error:
             failed[name] = error
             continue
-        found = scenes[name]
+        scene_assemblies = scenes[name]
         if (expected := mechanism.freedoms) is not None and isinstance(expected.value, Number):
-            check_freedoms(expected.value.value, expected.where, found.closed)
+            check_degrees_of_freedom(expected.value.value, expected.where, scene_assemblies.closed)
         if not assemblies and (branches or linkage.n <= QUICK):
-            assemblies = tuple(find_assemblies(linkage, linkage.p, found.q, found.closed.along))
+            assemblies = tuple(find_assemblies(linkage, linkage.p, scene_assemblies.q, scene_assemblies.closed.along))
     return Findings(scenes, failed, assemblies)
 
 
@@ -102,70 +103,78 @@ def _assemble_scene(linkage: NumPyLinkage, rows: Sequence[int]) -> AssembledScen
     or velocities have no solution, or journals lie too deep.
     """
     p = linkage.p
-    check_places(linkage, p)
+    check_journal_positions(linkage, p)
     closure = Closure(linkage, p, 0.0)
     with np.errstate(all="ignore"):
-        q, closed = closure.nearest()
+        q, closed = closure.find_nearest()
         if not closed:
-            raise closure_error(closure, q)
-        velocities(closure, q)
+            raise make_closure_error(closure, q)
+        compute_start_velocities(closure, q)
         every = find_mobility(linkage, p, q)
-        own = every if len(rows) == every.rows else find_mobility(linkage, p, q, rows)
-    return AssembledScene(linkage, q, every, own, unfollowed(linkage, p, q))
+        mobility = every if len(rows) == every.rows else find_mobility(linkage, p, q, rows)
+    return AssembledScene(linkage, q, every, mobility, find_unfollowed_guesses(linkage, p, q))
 
 
-def summary(found: Findings) -> str:
+def format_freedoms(findings: Findings) -> str:
     """Return the degrees of freedom as text, grouped by scene: "degrees of freedom 0 (ideal), 4 (dry, lubricated)".
 
     If all scenes agree, names are left out; if none assembles, the text says so.
     """
     by_count: dict[int, list[str]] = {}
-    for name, scene in found.scenes.items():
+    for name, scene in findings.scenes.items():
         by_count.setdefault(scene.scene.freedoms, []).append(name)
-    if len(by_count) == 1 and not found.failed:
+    if len(by_count) == 1 and not findings.errors:
         return f"degrees of freedom {next(iter(by_count))}"
     counts = [f"{count} ({', '.join(names)})" for count, names in by_count.items()]
     return f"degrees of freedom {', '.join(counts)}" if counts else "none of them assembles"
 
 
-def without_masses(mechanism: Mechanism, found: Findings) -> list[str]:
+def list_scenes_without_masses(mechanism: Mechanism, findings: Findings) -> list[str]:
     """Return the names of the scenes that have degrees of freedom, if a body of the file lacks mass or inertia; else
     [].
     """
-    moved = [name for name in mechanism.scenes if name in found.scenes and found.scenes[name].scene.freedoms]
-    return moved if any(body.lacks for body in mechanism.bodies.values()) else []
+    moved = [name for name in mechanism.scenes if name in findings.scenes and findings.scenes[name].scene.freedoms]
+    return moved if any(body.missing_keys for body in mechanism.bodies.values()) else []
 
 
-def verdict(mechanism: Mechanism, found: Findings) -> str:
+def format_verdict(mechanism: Mechanism, findings: Findings) -> str:
     """Return "valid", followed by the scenes that cannot be run although the file is valid.
 
     They do not assemble, or need missing masses.
     """
-    unable = {*found.failed, *without_masses(mechanism, found)}
+    unable = {*findings.errors, *list_scenes_without_masses(mechanism, findings)}
     names = ", ".join(name for name in mechanism.scenes if name in unable)
     return f"valid, but scene{'s' if len(unable) > 1 else ''} {names} cannot be run" if unable else "valid"
 
 
-def _yield_mass_remark(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
+def _yield_mass_remark(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[str, str]]:
     """Yield a remark with the missing masses and inertias if a scene with degrees of freedom needs them."""
-    lacking = [f"{b.name} has no {' and no '.join(b.lacks)} ({b.where})" for b in mechanism.bodies.values() if b.lacks]
-    if moved := without_masses(mechanism, found):
+    lacking = [
+        f"{b.name} has no {' and no '.join(b.missing_keys)} ({b.where})"
+        for b in mechanism.bodies.values()
+        if b.missing_keys
+    ]
+    if moved := list_scenes_without_masses(mechanism, findings):
         yield "masses", f"scene {', '.join(moved)} moves by forces and cannot be run: {', '.join(lacking)}"
 
 
-def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
+def yield_remarks(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[str, str]]:
     """Yield (subject, remark) pairs on the assembled scenes, for the user of `gudgeon check`.
 
     Subjects are sizes, curves, start, loose bodies, degrees of freedom, masses, redundancy, singularity, guesses and
     assemblies. Nothing is yielded if no scene assembles.
     """
-    first = next(iter(found.scenes.values()), None)
+    first = next(iter(findings.scenes.values()), None)
     if first is None:
         return
     if (large := _format_size_remark(mechanism, first)) is not None:
         yield "size", large
-    yield from (("curve", message) for message in curve_seam_notes(first.linkage.source, first.linkage.p))
-    deep = (message for scene in found.scenes.values() for message in in_walls(scene.linkage, scene.linkage.p))
+    yield from (("curve", message) for message in iterate_seam_notes(first.linkage.source, first.linkage.p))
+    deep = (
+        message
+        for scene in findings.scenes.values()
+        for message in describe_journals_in_walls(scene.linkage, scene.linkage.p)
+    )
     yield from (("start", message) for message in dict.fromkeys(deep))
     closed = first.closed
     if closed.loose:
@@ -175,7 +184,7 @@ def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
         meant = f"if that is meant, freedoms: {closed.freedoms}"
         yield "freedoms", f"{count} with all joints closed: {', '.join(closed.along)}; {meant}"
         yield from _yield_shaft_remarks(mechanism, closed)
-    yield from _yield_mass_remark(mechanism, found)
+    yield from _yield_mass_remark(mechanism, findings)
     if closed.redundant:
         rows = f"{closed.redundant} row{'' if closed.redundant == 1 else 's'}"
         counted = f"by counting there are {closed.gruebler} degrees of freedom, by rank {closed.freedoms}"
@@ -189,14 +198,15 @@ def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
                 " there (a dead centre), and accelerations and reactions are not determined; begin beside it"
             ),
         )
-    message = {name: off for scene in found.scenes.values() for name, off in scene.off.items()}
+    message = {name: off for scene in findings.scenes.values() for name, off in scene.off.items()}
     for name, off in message.items():
         yield (
             "guess",
-            f"{name} is {guess_difference_text(name, off)} from your guess: {no_nearer_text(first.linkage.source)}",
+            f"{name} is {format_guess_difference(name, off)} from your guess: "
+            f"{describe_missing_assembly(first.linkage.source)}",
         )
     if not closed.freedoms or mechanism.freedoms is not None:
-        yield from _yield_ambiguity_remark(found)
+        yield from _yield_ambiguity_remark(findings)
 
 
 def _yield_shaft_remarks(mechanism: Mechanism, closed: Mobility) -> Iterator[tuple[str, str]]:
@@ -231,13 +241,13 @@ def _format_size_remark(mechanism: Mechanism, scene: AssembledScene) -> str | No
     )
 
 
-def _yield_ambiguity_remark(found: Findings) -> Iterator[tuple[str, str]]:
+def _yield_ambiguity_remark(findings: Findings) -> Iterator[tuple[str, str]]:
     """Yield a remark if several assemblies follow the guesses of the file equally well, with a guess that separates
     them.
     """
-    if not (alike := found.alike):
+    if not (alike := findings.equivalent_assemblies):
         return
-    start = found.assemblies[0]
+    start = findings.assemblies[0]
     telling = next(name for name in start.guess if any(_has_different_guess(name, start, other) for other in alike))
     here, there = (
         _format_guess_value(telling, start.guess[telling]),
@@ -253,9 +263,9 @@ def _yield_ambiguity_remark(found: Findings) -> Iterator[tuple[str, str]]:
     )
 
 
-def _has_different_guess(name: str, one: Assembly, other: Assembly) -> bool:
+def _has_different_guess(name: str, assembly: Assembly, other: Assembly) -> bool:
     """Return whether two assemblies have different printed values of the guess `name`."""
-    return _format_guess_value(name, one.guess[name]) != _format_guess_value(name, other.guess[name])
+    return _format_guess_value(name, assembly.guess[name]) != _format_guess_value(name, other.guess[name])
 
 
 def _format_guess_value(name: str, x: float) -> str:
@@ -263,31 +273,31 @@ def _format_guess_value(name: str, x: float) -> str:
     return f"{math.degrees(x):.4g} deg" if name.endswith(".theta") else f"{1e3 * x:.4g} mm"
 
 
-def branches(found: Findings) -> Iterator[str]:
+def yield_assembly_lines(findings: Findings) -> Iterator[str]:
     """Yield a heading and a line for each assembly, with the guess that selects it; nothing if none was sought."""
-    if not found.assemblies:
+    if not findings.assemblies:
         return
-    count = len(found.assemblies)
+    count = len(findings.assemblies)
     yield f"{count} assembl{'y' if count == 1 else 'ies'} found at the start; what picks each, as start: {{guess: …}}"
-    for number, one in enumerate(found.assemblies, 1):
-        here = "  as the file has it" if one.is_start else ""
-        yield f"  {number}  {guess_text(one)}{here}"
-    if any(one.guess for one in found.assemblies):
+    for number, assembly in enumerate(findings.assemblies, 1):
+        here = "  as the file has it" if assembly.is_start else ""
+        yield f"  {number}  {format_guess(assembly)}{here}"
+    if any(assembly.guess for assembly in findings.assemblies):
         yield "     each in place of the guess that the file has: beside it, both would be followed"
 
 
-def guess_text(one: Assembly) -> str:
+def format_guess(assembly: Assembly) -> str:
     """Return the guess that selects an assembly, as text for a mechanism file: "{rod.theta: 30 deg}" or "none
     needed".
     """
-    guess = ", ".join(f"{name}: {_format_guess_value(name, x)}" for name, x in one.guess.items())
+    guess = ", ".join(f"{name}: {_format_guess_value(name, x)}" for name, x in assembly.guess.items())
     return f"{{{guess}}}" if guess else "none needed"
 
 
-def data(found: Findings) -> dict[str, Any]:
+def build_scene_documents(findings: Findings) -> dict[str, Any]:
     """Return the results of all scenes for `--json`, by scene; angles in rad, lengths in m."""
-    return {name: _build_scene_document(scene) for name, scene in found.scenes.items()} | {
-        name: {"assembles": False, "message": str(error)} for name, error in found.failed.items()
+    return {name: _build_scene_document(scene) for name, scene in findings.scenes.items()} | {
+        name: {"assembles": False, "message": str(error)} for name, error in findings.errors.items()
     }
 
 
@@ -305,6 +315,6 @@ def _build_scene_document(scene: AssembledScene) -> dict[str, Any]:
     }
 
 
-def branches_data(found: Findings) -> list[dict[str, Any]]:
+def build_assembly_documents(findings: Findings) -> list[dict[str, Any]]:
     """Return all assemblies with their guesses for `--json`."""
-    return [{"guess": one.guess, "start": one.is_start} for one in found.assemblies]
+    return [{"guess": assembly.guess, "start": assembly.is_start} for assembly in findings.assemblies]

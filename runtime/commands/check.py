@@ -1,4 +1,4 @@
-"""Run `gudgeon check`: read a mechanism file and report whether it is valid; with -v, what each scene becomes.
+"""Run `gudgeon check`: report whether a mechanism file is valid; with -v, also how its equations are reduced.
 
 With -v each scene is derived anew. The output has a table of counts and then, for each scene, the reduction log: each
 step with its reason, the solved equations, operations before and after, methods, notes, and the time of each stage of
@@ -13,17 +13,17 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.commands import assembly_report as story
-from gudgeon.commands.common import settings
-from gudgeon.commands.progress import status_line
+from gudgeon.commands.common import parse_settings
+from gudgeon.commands.progress import show_status_line
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.contract.reduction_log import ReductionLog
-from gudgeon.contract.reduction_words import outcome, reduction_lines
+from gudgeon.contract.reduction_words import describe_outcome, describe_steps
 from gudgeon.errors import AssemblyError, InputError, InputErrors, MissingKeyError
-from gudgeon.integrators.adaptive import first_method
-from gudgeon.language.shown import print_json
-from gudgeon.loading.find import derived, find_mechanism, read_bytes
-from gudgeon.model.contours import contour_parameters
+from gudgeon.integrators.adaptive import select_first_method
+from gudgeon.language.text_output import print_json
+from gudgeon.loading.kernel_sources import derive_kernel_source, find_mechanism, read_bytes
+from gudgeon.model.contours import find_contour_parameters
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -37,7 +37,9 @@ MARGIN, GAP = 4, 3  # columns left of a table, and between its columns
 REFERENCE_SOLVERS = ("scipy:*", "sundials:*")  # reference solvers that fit wherever something is integrated
 
 
-def check_file(name: str, verbose: bool, as_json: bool, branches: bool = False, numbers: Sequence[str] = ()) -> int:
+def check_mechanism(
+    name: str, verbose: bool, as_json: bool, branches: bool = False, numbers: Sequence[str] = ()
+) -> int:
     """Run `gudgeon check`: check a mechanism file, print the result, and return the exit code.
 
     name: shipped name or path. numbers: texts ADDRESS=VALUE, in place of the file's values. Raises InputError for an
@@ -45,7 +47,7 @@ def check_file(name: str, verbose: bool, as_json: bool, branches: bool = False, 
     """
     from gudgeon.generator.reader.read import read_mechanism
 
-    given, file = settings(numbers), find_mechanism(name)
+    given, file = parse_settings(numbers), find_mechanism(name)
     try:
         data = read_bytes(file)
         mechanism = read_mechanism(data, str(file))
@@ -55,29 +57,38 @@ def check_file(name: str, verbose: bool, as_json: bool, branches: bool = False, 
         print_json({"valid": False, "errors": _build_error_documents(error)})
         return error.exit_code
     seconds: dict[str, dict[str, float]] = {scene: {} for scene in mechanism.scenes}
-    with status_line(quiet=as_json):
-        found = story.assemble_scenes(mechanism, branches, given)
-        scenes = {scene: derived(data, file, scene, seconds=seconds[scene]) for scene in mechanism.scenes if verbose}
+    with show_status_line(quiet=as_json):
+        assemblies_by_scene = story.assemble_scenes(mechanism, branches, given)
+        scenes = {
+            scene: derive_kernel_source(data, file, scene, seconds=seconds[scene])
+            for scene in mechanism.scenes
+            if verbose
+        }
     if as_json:
-        print_json(_build_document(mechanism, scenes, seconds, found))
-        return _find_exit_code(mechanism, found)
-    print(_wrap_lines(story.verdict(mechanism, found), f"{_format_counts(mechanism)}; {story.summary(found)}"))
-    for whose, remark in story.remarks(mechanism, found):
+        print_json(_build_document(mechanism, scenes, seconds, assemblies_by_scene))
+        return _find_exit_code(mechanism, assemblies_by_scene)
+    print(
+        _wrap_lines(
+            story.format_verdict(mechanism, assemblies_by_scene),
+            f"{_format_counts(mechanism)}; {story.format_freedoms(assemblies_by_scene)}",
+        )
+    )
+    for whose, remark in story.yield_remarks(mechanism, assemblies_by_scene):
         print(_wrap_lines(f"  {whose}", remark))
-    for line in story.branches(found) if branches else ():
+    for line in story.yield_assembly_lines(assemblies_by_scene) if branches else ():
         print(line)
     if scenes:
         _print_scenes(mechanism, scenes, seconds)
-    for scene, problem in found.failed.items():
-        message = "" if len(found.failed) == len(mechanism.scenes) else f"scene {scene}: "
+    for scene, problem in assemblies_by_scene.errors.items():
+        message = "" if len(assemblies_by_scene.errors) == len(mechanism.scenes) else f"scene {scene}: "
         raise AssemblyError(f"{message}{problem}")
-    return _find_exit_code(mechanism, found)
+    return _find_exit_code(mechanism, assemblies_by_scene)
 
 
-def _find_exit_code(mechanism: Mechanism, found: story.Findings) -> int:
+def _find_exit_code(mechanism: Mechanism, findings: story.Findings) -> int:
     """Return the exit code: that of the first scene that does not assemble, else that of a missing mass, else 0."""
-    lacking = MissingKeyError.exit_code if story.without_masses(mechanism, found) else 0
-    return next((error.exit_code for error in found.failed.values()), lacking)
+    lacking = MissingKeyError.exit_code if story.list_scenes_without_masses(mechanism, findings) else 0
+    return next((error.exit_code for error in findings.errors.values()), lacking)
 
 
 def _build_error_documents(error: InputError) -> list[dict[str, Any]]:
@@ -103,7 +114,7 @@ def _format_counts(mechanism: Mechanism) -> str:
         (len(mechanism.joints), "joint", "joints"),
         (len(mechanism.drives), "drive", "drives"),
     ]
-    words = [f"{count} {one if count == 1 else more}" for count, one, more in numbers]
+    words = [f"{count} {singular if count == 1 else more}" for count, singular, more in numbers]
     return f"{', '.join(words)}; scenes {', '.join(mechanism.scenes)}"
 
 
@@ -118,12 +129,12 @@ def _count_facts(source: KernelSource) -> dict[str, int]:
         "non-zeros of Φ_q": source.story.jacobian,
         "joints with play": len({joint.joint for joint in source.clearances}),
         "numbers that can be set": len(source.slots),
-        **({"of them depths of contours": len(contour_parameters(source))} if source.contours else {}),
+        **({"of them depths of contours": len(find_contour_parameters(source))} if source.contours else {}),
     }
     return facts | {_format_kernel_label(name): count for name, count in source.operations.items()}
 
 
-def driven(source: KernelSource) -> tuple[str, ...]:
+def find_solved_drives(source: KernelSource) -> tuple[str, ...]:
     """Return the names of constraint equations of drives that the tree solves: their coordinates are functions of time.
 
     In the full formulation there are none.
@@ -134,12 +145,12 @@ def driven(source: KernelSource) -> tuple[str, ...]:
     return tuple(row for row in rows if row not in source.closures)
 
 
-def _fits_reference_solvers(source: KernelSource) -> bool:
+def _can_run_in_reference_solvers(source: KernelSource) -> bool:
     """Return whether the integrators of SciPy and SUNDIALS can run the scene.
 
     Sticking friction, impulses and inner states of laws are supported by the C methods only (integrators/peers).
     """
-    return KINEMATIC not in source.methods and not (source.frictions or source.rate_jumps or source.explicit)
+    return KINEMATIC not in source.methods and not (source.frictions or source.rate_jumps or source.is_explicit)
 
 
 def _describe_reduction(source: KernelSource) -> dict[str, Any]:
@@ -151,16 +162,19 @@ def _describe_reduction(source: KernelSource) -> dict[str, Any]:
         "formulation": source.formulation,
         "tree": list(source.tree),
         "closures": list(source.closures),
-        "driven": list(driven(source)),
+        "driven": list(find_solved_drives(source)),
         "operations of the accelerations": operations,
-        "methods": [*source.methods, *(REFERENCE_SOLVERS if _fits_reference_solvers(source) else ())],
-        "auto begins with": first_method(source),
+        "methods": [*source.methods, *(REFERENCE_SOLVERS if _can_run_in_reference_solvers(source) else ())],
+        "auto begins with": select_first_method(source),
     }
 
 
 def _yield_further_lines(source: KernelSource, seconds: Mapping[str, float]) -> Iterator[tuple[str, str]]:
     """Yield the (label, text) lines below the reduction log: methods, events, notes, seconds of each stage."""
-    yield "methods", f"{', '.join(_describe_reduction(source)['methods'])}; auto begins with {first_method(source)}"
+    yield (
+        "methods",
+        f"{', '.join(_describe_reduction(source)['methods'])}; auto begins with {select_first_method(source)}",
+    )
     if source.events:
         yield "events", ", ".join(_format_events(source))
     for note in source.notes:
@@ -184,7 +198,7 @@ def _build_document(
     mechanism: Mechanism,
     scenes: Mapping[str, KernelSource],
     seconds: Mapping[str, Mapping[str, float]],
-    found: story.Findings,
+    findings: story.Findings,
 ) -> dict[str, Any]:
     """Return the whole result for `--json`."""
     return {
@@ -194,9 +208,9 @@ def _build_document(
         "bodies": list(mechanism.bodies),
         "joints": list(mechanism.joints),
         "drives": list(mechanism.drives),
-        "verdict": story.verdict(mechanism, found),
-        "assembled": story.data(found),
-        "assemblies": story.branches_data(found),
+        "verdict": story.format_verdict(mechanism, findings),
+        "assembled": story.build_scene_documents(findings),
+        "assemblies": story.build_assembly_documents(findings),
         "scenes": {
             name: _build_scene_document(scenes[name]) | {"seconds": seconds[name]} if name in scenes else {}
             for name in mechanism.scenes
@@ -206,7 +220,11 @@ def _build_document(
 
 def _build_scene_document(source: KernelSource) -> dict[str, Any]:
     """Return the counts, reduction, events, notes and reduction log of one scene for `--json`."""
-    document = {"events": _format_events(source), "notes": list(source.notes), "story": story_data(source.story)}
+    document = {
+        "events": _format_events(source),
+        "notes": list(source.notes),
+        "story": build_log_document(source.story),
+    }
     return {**_count_facts(source), **_describe_reduction(source), **document}
 
 
@@ -217,18 +235,18 @@ def _print_scenes(
 
     Scenes that fit share a table. Kernels without operations in every scene are left out.
     """
-    from gudgeon.language.shown import one_line, plain_console
+    from gudgeon.language.text_output import format_one_line, make_plain_console
 
     facts = {scene: _count_facts(source) for scene, source in scenes.items()}
     names = [
         name
-        for name in dict.fromkeys(name for found in facts.values() for name in found)
-        if not name.startswith("operations") or any(found.get(name) for found in facts.values())
+        for name in dict.fromkeys(name for counts in facts.values() for name in counts)
+        if not name.startswith("operations") or any(counts.get(name) for counts in facts.values())
     ]  # without kernels that are zero in every scene
-    console, title = plain_console(WIDTH), one_line(mechanism.title or mechanism.name)
+    console, title = make_plain_console(WIDTH), format_one_line(mechanism.title or mechanism.name)
     for some in _group_columns(scenes, max(map(len, names))):
         console.print(_make_count_table(title, names, {scene: facts[scene] for scene in some}))
-    for part in tell(scenes, lambda source: _yield_further_lines(source, seconds[source.scene])):
+    for part in yield_reduction_logs(scenes, lambda source: _yield_further_lines(source, seconds[source.scene])):
         console.print(part)
 
 
@@ -263,11 +281,11 @@ def _make_count_table(title: str, names: Sequence[str], facts: Mapping[str, Mapp
     for scene in facts:
         table.add_column(scene, justify="right", no_wrap=True)
     for name in names:
-        table.add_row(name, *(f"{found[name]:,}" if name in found else "–" for found in facts.values()))
+        table.add_row(name, *(f"{counts[name]:,}" if name in counts else "–" for counts in facts.values()))
     return table
 
 
-def tell(
+def yield_reduction_logs(
     scenes: Mapping[str, KernelSource], rest: Callable[[KernelSource], Iterable[tuple[str, str]]]
 ) -> Iterator[Text | Table]:
     """Yield heading and reduction log of each scene, its outcome, and the (label, text) lines of `rest`, for rich.
@@ -276,15 +294,15 @@ def tell(
     """
     from rich.text import Text
 
-    known: list[tuple[str, list[tuple[int, int, str]], list[tuple[str, str]]]] = []
+    printed_logs: list[tuple[str, list[tuple[int, int, str]], list[tuple[str, str]]]] = []
     for scene, source in scenes.items():
-        ledger, lines = list(reduction_lines(source)), [*outcome(source), *rest(source)]
-        same = next((other for other in known if other[1] == ledger), None)
+        ledger, lines = list(describe_steps(source)), [*describe_outcome(source), *rest(source)]
+        same = next((other for other in printed_logs if other[1] == ledger), None)
         if same:
             lines = [line for line in lines if line not in same[2]]
             yield Text(f"scene {scene}: as {same[0]}{', but' if lines else ''}", style="bold")
         else:
-            known.append((scene, ledger, lines))
+            printed_logs.append((scene, ledger, lines))
             yield Text(f"scene {scene}", style="bold")
         yield _make_log_table([] if same else ledger, lines)
 
@@ -306,11 +324,11 @@ def _make_log_table(ledger: Sequence[tuple[int, int, str]], lines: Iterable[tupl
     return table
 
 
-def story_data(story: ReductionLog) -> dict[str, Any]:
+def build_log_document(story: ReductionLog) -> dict[str, Any]:
     """Return the reduction log for `--json`, each step with the numbers of coordinates and constraint equations
     left.
     """
-    left = [{"coordinates left": n, "rows left": m} for _, n, m in story.ledger()]
+    left = [{"coordinates left": n, "rows left": m} for _, n, m in story.iterate_steps()]
     data = asdict(story)
     data["steps"] = [step | counts for step, counts in zip(data["steps"], left, strict=True)]
     return data

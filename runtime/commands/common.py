@@ -11,11 +11,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.errors import BadValueError, InputError, Location, OutputError, UnknownNameError, shortened
+from gudgeon.errors import BadValueError, InputError, Location, OutputError, UnknownNameError, shorten_path
 from gudgeon.files.writing import check_target
-from gudgeon.language.names import unknown
-from gudgeon.loading.find import find_mechanism, generator_hash, read_bytes
-from gudgeon.model.parameters import TOGETHER, addresses, as_parameter, check, given_slots, value
+from gudgeon.language.names import make_unknown_error
+from gudgeon.loading.kernel_sources import compute_generator_hash, find_mechanism, read_bytes
+from gudgeon.model.parameters import (
+    PARAMETER_GROUPS,
+    check_parameter_values,
+    explain_address,
+    list_addresses,
+    parse_typed_number,
+    read_given_parameters,
+)
 
 if TYPE_CHECKING:
     from gudgeon.generator.mechanism import Mechanism
@@ -24,9 +31,9 @@ if TYPE_CHECKING:
 SCENES = "scenes.json"
 
 
-def scene_names(mechanism: str) -> tuple[str, ...]:
+def read_scene_names(mechanism: str) -> tuple[str, ...]:
     """Return the names of all scenes of a mechanism file, in its order; they are cached by the file's bytes."""
-    from gudgeon.loading.cache import default_cache, digest
+    from gudgeon.loading.cache import compute_digest, get_default_cache
 
     file = find_mechanism(mechanism)
     data = read_bytes(file)
@@ -38,7 +45,7 @@ def scene_names(mechanism: str) -> tuple[str, ...]:
         names = list(read_mechanism(data, str(file)).scenes)
         (folder / SCENES).write_text(json.dumps(names), encoding="utf-8")
 
-    entry = default_cache().fetch("scenes", digest(["scenes/1", data, generator_hash()]), make)
+    entry = get_default_cache().fetch("scenes", compute_digest(["scenes/1", data, compute_generator_hash()]), make)
     return tuple(json.loads((entry / SCENES).read_text(encoding="utf-8")))
 
 
@@ -47,19 +54,19 @@ def select_scenes(mechanism: str, expected: tuple[str, ...]) -> tuple[str, ...]:
 
     Raises UnknownNameError, with the nearest name, for a scene that the file does not have.
     """
-    names = scene_names(mechanism)
+    names = read_scene_names(mechanism)
     for scene in expected:
         if scene not in names:
-            raise unknown(f"no scene {scene!r} in {mechanism}", scene, names)
+            raise make_unknown_error(f"no scene {scene!r} in {mechanism}", scene, names)
     return tuple(dict.fromkeys(expected)) or names
 
 
-def settings(texts: Iterable[str]) -> dict[str, float | str]:
+def parse_settings(texts: Iterable[str]) -> dict[str, float | str]:
     """Parse the texts `ADDRESS=VALUE` of `--set` and return the values by address.
 
     Raises BadValueError for other forms, and for a parameter that is set twice.
     """
-    found: dict[str, float | str] = {}
+    settings: dict[str, float | str] = {}
     written: dict[str, str] = {}  # a parameter may be called with its section or without
     for text in texts:
         address, equals, given = (part.strip() for part in text.partition("="))
@@ -69,8 +76,8 @@ def settings(texts: Iterable[str]) -> dict[str, float | str]:
         if key in written:
             message = f"--set {text}: this number is set already, by --set {written[key]}"
             raise BadValueError(message, hint="set it once")
-        written[key], found[address] = text, value(given)
-    return found
+        written[key], settings[address] = text, parse_typed_number(given)
+    return settings
 
 
 def check_addresses(names: Iterable[str], file: str, sources: Sequence[KernelSource]) -> None:
@@ -78,52 +85,54 @@ def check_addresses(names: Iterable[str], file: str, sources: Sequence[KernelSou
 
     The error says what stands there if it is no parameter, else it names the nearest address.
     """
-    known = tuple(dict.fromkeys(address for source in sources for address in addresses(source)))
+    known_addresses = tuple(dict.fromkeys(address for source in sources for address in list_addresses(source)))
     for name in names:
-        if name in known:
+        if name in known_addresses:
             continue
         for source in sources:
-            message, hint = as_parameter(source, name)
+            message, hint = explain_address(source, name)
             if message:
                 every = (*source.written, *source.expressions)
                 meant = (name, f"expressions.{name}")
-                place = next((Location(file, w.line, w.column) for w in every if w.address in meant), None)
-                raise UnknownNameError(f"--set: {message}", place, hint)
-        raise unknown(f"--set: no scene has a number {name!r}", name, known)
+                location = next((Location(file, w.line, w.column) for w in every if w.address in meant), None)
+                raise UnknownNameError(f"--set: {message}", location, hint)
+        raise make_unknown_error(f"--set: no scene has a number {name!r}", name, known_addresses)
 
 
-def known_settings(source: KernelSource, given: Mapping[str, float | str]) -> dict[str, float | str]:
+def select_known_settings(source: KernelSource, given: Mapping[str, float | str]) -> dict[str, float | str]:
     """Return those values of `--set` whose addresses the scene has; an ideal scene has no viscosity, for example."""
-    known = set(addresses(source))
-    return {address: number for address, number in given.items() if address in known}
+    known_addresses = set(list_addresses(source))
+    return {address: number for address, number in given.items() if address in known_addresses}
 
 
-def linkage_at_values(mechanism: Mechanism, linkage: NumPyLinkage, given: Mapping[str, float | str]) -> NumPyLinkage:
+def evaluate_linkage(mechanism: Mechanism, linkage: NumPyLinkage, given: Mapping[str, float | str]) -> NumPyLinkage:
     """Return the closed linkage of a scene at other parameter values; the same object if nothing that matters is given.
 
     Addresses of other scenes are ignored. Raises BadValueError for values out of range.
     """
-    from gudgeon.generator.pipeline import closed_linkage
+    from gudgeon.generator.pipeline import build_closed_linkage
 
     source, count = linkage.source, len(linkage.source.slots) + len(linkage.source.derived)
-    known, p = known_settings(source, given), linkage.p[:count].copy()
-    values, is_given = given_slots(source, known)
+    known_settings, p = select_known_settings(source, given), linkage.p[:count].copy()
+    values, is_given = read_given_parameters(source, known_settings)
     p[: len(values)][is_given] = values[is_given]
-    check(source, p, is_given)  # before derived values are computed
-    gains = {*TOGETHER, *(name for names in TOGETHER.values() for name in names)}
-    own = {name: x for name, x in known.items() if name not in gains}  # gains do not change the start
-    if not own:
+    check_parameter_values(source, p, is_given)  # before derived values are computed
+    gains = {*PARAMETER_GROUPS, *(name for names in PARAMETER_GROUPS.values() for name in names)}
+    linkage_settings = {
+        name: x for name, x in known_settings.items() if name not in gains
+    }  # gains do not change the start
+    if not linkage_settings:
         return linkage
     try:
-        found, _ = closed_linkage(mechanism, source.scene, own)
+        closed_linkage, _ = build_closed_linkage(mechanism, source.scene, linkage_settings)
     except ArithmeticError as error:
         message = f"--set: what follows from these numbers is none ({error})"
         raise BadValueError(message, hint="look for one that is 0, or far too large") from error
-    check(source, found.p[:count], is_given)
-    return found
+    check_parameter_values(source, closed_linkage.p[:count], is_given)
+    return closed_linkage
 
 
-def check_folder(option: str, out: Path) -> None:
+def check_output_folder(option: str, out: Path) -> None:
     """Raise InputError before a run if the folder `out` cannot be created or written.
 
     option: the command-line option for the message.
@@ -136,27 +145,29 @@ def check_folder(option: str, out: Path) -> None:
             with suppress(FileNotFoundError, NotADirectoryError):
                 (there / name).lstat()  # a name too long
     except OSError as error:  # a name too long, a folder that may not be entered
-        message = f"{option} {shortened(out)}: {error.strerror or error}"
+        message = f"{option} {shorten_path(out)}: {error.strerror or error}"
         raise InputError(message, hint="name another folder") from error
     if not there.is_dir():
-        raise InputError(f"{option} {shortened(out)}: {shortened(there)} is a file", hint="name a folder")
+        raise InputError(f"{option} {shorten_path(out)}: {shorten_path(there)} is a file", hint="name a folder")
     try:
         with tempfile.TemporaryFile(dir=there):  # permissions are not sufficient: the file system may be read-only
             pass
     except OSError as error:
-        message = f"{option} {shortened(out)}: nothing can be written to {shortened(there)} ({error.strerror or error})"
+        message = (
+            f"{option} {shorten_path(out)}: nothing can be written to {shorten_path(there)} ({error.strerror or error})"
+        )
         raise InputError(message, hint="name another folder") from error
 
 
-def check_file(option: str, path: Path) -> None:
+def check_output_file(option: str, path: Path) -> None:
     """Raise InputError before a run if the file `path` cannot be written or replaced; `option`: name for the
     message.
     """
-    check_folder(option, path.parent)
-    check_name(option, path)
+    check_output_folder(option, path.parent)
+    check_output_name(option, path)
 
 
-def check_name(option: str, path: Path) -> None:
+def check_output_name(option: str, path: Path) -> None:
     """Raise InputError if no file `path` can be written, as for a folder or a link; its parent has been checked
     before.
     """
@@ -170,10 +181,10 @@ def require_suffix(path: Path, suffixes: tuple[str, ...]) -> None:
     """Raise InputError if the suffix of `path` is not one of `suffixes`."""
     if path.suffix.lower() not in suffixes:
         ends = f"{', '.join(suffixes[:-1])} or {suffixes[-1]}"
-        raise InputError(f"{shortened(path)}: expected a name that ends in {ends}")
+        raise InputError(f"{shorten_path(path)}: expected a name that ends in {ends}")
 
 
-def have(what: str, *packages: str) -> bool:
+def has_packages(what: str, *packages: str) -> bool:
     """Return whether the packages that write `what` are installed; print a note to stderr if one is missing."""
     missing = [package for package in packages if find_spec(package) is None]
     if missing:

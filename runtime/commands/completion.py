@@ -11,49 +11,49 @@ import typer
 from gudgeon.contract.methods import OFFERED
 
 
-def files(incomplete: str) -> list[str]:
+def complete_files(incomplete: str) -> list[str]:
     """Return completions of a file name: shipped mechanisms, YAML files and folders that begin with the text,
     sorted.
     """
-    from gudgeon.loading.shipped import shipped
+    from gudgeon.loading.shipped import list_shipped
 
     folder, _, begun = incomplete.rpartition("/")
-    found = [] if folder else [name for name in shipped() if name.startswith(begun)]
+    file_names = [] if folder else [name for name in list_shipped() if name.startswith(begun)]
     with suppress(OSError), os.scandir(f"{folder}/" if folder or incomplete.startswith("/") else ".") as entries:
         for entry in entries:
             if entry.name.startswith(begun) and not entry.name.startswith("."):
                 whole = incomplete.removesuffix(begun) + entry.name
                 if entry.is_dir():
-                    found.append(f"{whole}/")
+                    file_names.append(f"{whole}/")
                 elif entry.name.endswith((".yaml", ".yml")):
-                    found.append(whole)
-    return sorted(found)
+                    file_names.append(whole)
+    return sorted(file_names)
 
 
-def scenes(context: typer.Context, incomplete: str) -> list[str]:
+def complete_scenes(context: typer.Context, incomplete: str) -> list[str]:
     """Return completions of a scene name, from the mechanism on the command line; "ideal" alone if it cannot be
     read.
     """
     from gudgeon.generator.yaml import parse_yaml
-    from gudgeon.loading.shipped import shipped, shipped_file
+    from gudgeon.loading.shipped import find_shipped_file, list_shipped
 
-    found = {"ideal"}
+    scene_names = {"ideal"}
     with suppress(Exception):
         name = str(context.params.get("file") or context.args[0])  # args: after an option without value
-        path = shipped_file(name) if name in shipped() else Path(name)
-        found |= {str(scene) for scene in parse_yaml(path.read_bytes(), name).part("scenes").names()}
-    return sorted(scene for scene in found if scene.startswith(incomplete))
+        path = find_shipped_file(name) if name in list_shipped() else Path(name)
+        scene_names |= {str(scene) for scene in parse_yaml(path.read_bytes(), name).get_mapping("scenes").list_keys()}
+    return sorted(scene for scene in scene_names if scene.startswith(incomplete))
 
 
-def methods(incomplete: str) -> list[str]:
+def complete_methods(incomplete: str) -> list[str]:
     """Return the integration methods that begin with the text."""
     return [method for method in OFFERED if method.startswith(incomplete)]
 
 
-def laws(incomplete: str) -> list[str]:
+def complete_laws(incomplete: str) -> list[str]:
     """Return completions of a law name: contact, friction and film laws with this beginning, alternative names
     included.
     """
-    from gudgeon.generator.kinds.laws.law import RESULTS, called
+    from gudgeon.generator.kinds.laws.law import RESULTS, find_laws_of_role
 
-    return sorted(name for role in RESULTS for name in called(role) if name.startswith(incomplete))
+    return sorted(name for role in RESULTS for name in find_laws_of_role(role) if name.startswith(incomplete))

@@ -16,21 +16,21 @@ import numpy as np
 
 from gudgeon.commands.common import (
     check_addresses,
-    check_file,
-    linkage_at_values,
+    check_output_file,
+    evaluate_linkage,
+    parse_settings,
     require_suffix,
     select_scenes,
-    settings,
 )
-from gudgeon.commands.outcome import wrote
-from gudgeon.commands.progress import progress_bar, status_line
-from gudgeon.errors import AssemblyError, BadValueError, GudgeonError, SolverError, shortened
+from gudgeon.commands.outcome import report_written
+from gudgeon.commands.progress import show_progress_bars, show_status_line
+from gudgeon.errors import AssemblyError, BadValueError, GudgeonError, SolverError, shorten_path
 from gudgeon.files.writing import write_bytes
-from gudgeon.language.plot_units import quantity
-from gudgeon.language.quantities import number_of_text
-from gudgeon.loading.find import find_mechanism, read_bytes
-from gudgeon.model.parameters import spaced
-from gudgeon.waiting.asking import report_work
+from gudgeon.language.plot_units import format_quantity
+from gudgeon.language.quantities import parse_quantity
+from gudgeon.loading.kernel_sources import find_mechanism, read_bytes
+from gudgeon.model.parameters import insert_space_before_unit
+from gudgeon.waiting.cancellation import report_work
 
 if TYPE_CHECKING:
     from gudgeon.assembly.closure import Closure
@@ -44,7 +44,7 @@ SUFFIXES = (".svg", ".png", ".pdf", ".dxf")
 
 
 @dataclass(frozen=True)
-class Drawn:
+class Picture:
     """Hold the sketches of a picture, in one row, with a title for each and a caption above them."""
 
     sketches: Sequence[Sketch]
@@ -54,12 +54,12 @@ class Drawn:
     def as_bytes(self, suffix: str) -> bytes:
         """Return the picture as the bytes of a file; suffix: one of SUFFIXES, ".dxf" gives a drawing for CAD."""
         if suffix == ".dxf":
-            from gudgeon.drawing.dxf import as_dxf
+            from gudgeon.drawing.dxf import encode_dxf
 
-            return as_dxf(self.sketches, self.titles)
-        from gudgeon.drawing.picture import as_bytes, figure_of
+            return encode_dxf(self.sketches, self.titles)
+        from gudgeon.drawing.picture import build_figure, encode_figure
 
-        return as_bytes(figure_of(self.sketches, self.titles, self.caption), suffix)
+        return encode_figure(build_figure(self.sketches, self.titles, self.caption), suffix)
 
 
 @dataclass(frozen=True)
@@ -82,29 +82,29 @@ def draw_file(request: Request) -> int:
     """
     if request.at is not None and request.branches:
         raise BadValueError("--branches with --at: assemblies are those of the start", hint="leave one of them out")
-    values = settings(request.settings)
+    values = parse_settings(request.settings)
     select_scenes(request.file, (request.scene,))
     file = find_mechanism(request.file)
     target = request.target or Path("out") / f"{file.stem}_{request.scene}.svg"
     require_suffix(target, SUFFIXES)
-    check_file("--out", target)
+    check_output_file("--out", target)
     from gudgeon.results.figures import plots  # noqa: F401  (says where matplotlib is missing)
 
     if target.suffix.lower() == ".dxf":
         from gudgeon.drawing import dxf  # noqa: F401  (says where ezdxf is missing)
 
-    at = 0.0 if request.at is None else number_of_text(spaced(request.at), "--at", (0, 0, 1))
-    if at < 0.0:
-        raise BadValueError(f"--at is {at:g} s: the motion starts at 0 s", hint="take a time of the motion")
+    draw_time = 0.0 if request.at is None else parse_quantity(insert_space_before_unit(request.at), "--at", (0, 0, 1))
+    if draw_time < 0.0:
+        raise BadValueError(f"--at is {draw_time:g} s: the motion starts at 0 s", hint="take a time of the motion")
     with _report_undrawable(target):
-        if at > 0.0:
-            drawn, failure = _draw_at_time(request, at, values), None
+        if draw_time > 0.0:
+            drawn, failure = _draw_at_time(request, draw_time, values), None
         else:
-            with status_line(), report_work(f"deriving {file.stem}, scene {request.scene}"):
+            with show_status_line(), report_work(f"deriving {file.stem}, scene {request.scene}"):
                 drawn, failure = _draw_start(request, file, values)
         data = drawn.as_bytes(target.suffix.lower())
     write_bytes(target, data)
-    wrote("picture", target)
+    report_written("picture", target)
     if failure is not None:
         raise failure
     return 0
@@ -122,24 +122,24 @@ def _report_undrawable(target: Path) -> Iterator[None]:
     except (ValueError, ArithmeticError) as error:
         if isinstance(error, GudgeonError):
             raise
-        message = f"no picture {shortened(target)}: its numbers cannot be drawn ({error})"
+        message = f"no picture {shorten_path(target)}: its numbers cannot be drawn ({error})"
         raise GudgeonError(f"{message}\n  look for a length or a start that is far too large") from error
 
 
-def _draw_at_time(request: Request, at: float, values: Mapping[str, float | str]) -> Drawn:
+def _draw_at_time(request: Request, draw_time: float, values: Mapping[str, float | str]) -> Picture:
     """Run the scene to the time `at` (s) and return the picture there.
 
     Raises SolverError if the run fails before, BadValueError for an impossible time, KeyboardInterrupt after Ctrl-C.
     """
-    from gudgeon.results.figures.mechanism_plots import sketch_at
+    from gudgeon.results.figures.mechanism_plots import draw_sketch_at_time
     from gudgeon.simulation.from_file import load
 
-    with status_line():
+    with show_status_line():
         simulation = load(request.file, request.scene)
     check_addresses(values, request.file, [simulation.source])
-    with progress_bar() as bar:
+    with show_progress_bars() as bar:
         try:
-            run = simulation.simulate(at, parameters=values, progress=bar(request.scene), peaks=())
+            run = simulation.simulate(draw_time, parameters=values, progress=bar(request.scene), peaks=())
         except SolverError as error:  # its advice is for who keeps a run
             why, _, _ = str(error).partition("\n")
             hint = "draw an earlier time, or let gudgeon run show the motion until then"
@@ -151,46 +151,48 @@ def _draw_at_time(request: Request, at: float, values: Mapping[str, float | str]
     if run.diagnostics.interrupted:
         raise KeyboardInterrupt
     source, t = run.source, float(run.t[-1])
-    return Drawn([sketch_at(run, t)], [""], _format_caption(source.title or source.mechanism, request.scene, t))
+    return Picture(
+        [draw_sketch_at_time(run, t)], [""], _format_caption(source.title or source.mechanism, request.scene, t)
+    )
 
 
 def _format_caption(title: str, scene: str, t: float) -> str:
     """Return the text above a picture: title, scene, time t in s."""
-    return f"{title}: {scene}, t = {quantity(t, 's', 6)}"
+    return f"{title}: {scene}, t = {format_quantity(t, 's', 6)}"
 
 
-def _draw_start(request: Request, file: Path, values: Mapping[str, float | str]) -> tuple[Drawn, GudgeonError | None]:
+def _draw_start(request: Request, file: Path, values: Mapping[str, float | str]) -> tuple[Picture, GudgeonError | None]:
     """Return the picture at the start, and the error of a linkage that does not close or has no velocities, else None.
 
     An open linkage is drawn at the position nearest to closing. With --branches, all assemblies are drawn.
     """
     from gudgeon.assembly.closure import Closure
-    from gudgeon.generator.pipeline import closed_linkage
+    from gudgeon.generator.pipeline import build_closed_linkage
     from gudgeon.generator.reader.read import read_mechanism
 
     mechanism = read_mechanism(read_bytes(file), str(file))
-    linkage, _ = closed_linkage(mechanism, request.scene)
+    linkage, _ = build_closed_linkage(mechanism, request.scene)
     check_addresses(values, request.file, [linkage.source])
-    linkage = linkage_at_values(mechanism, linkage, values)
+    linkage = evaluate_linkage(mechanism, linkage, values)
     closure = Closure(linkage, linkage.p, 0.0)
     with np.errstate(all="ignore"):
-        q, closed = closure.nearest()
+        q, closed = closure.find_nearest()
     caption = _format_caption(mechanism.title or mechanism.name, request.scene, 0.0)
     if not closed:
         return _draw_unclosed(mechanism, closure, q, caption)
     v, failure = _find_velocities(closure, q)
     if request.branches:
         sketches, titles = _draw_assemblies(mechanism, closure, q)
-        return Drawn(sketches, titles, caption), failure
-    return Drawn(_make_sketches(mechanism, closure, [_make_posture(linkage, q, v)]), [""], caption), failure
+        return Picture(sketches, titles, caption), failure
+    return Picture(_make_sketches(mechanism, closure, [_make_posture(linkage, q, v)]), [""], caption), failure
 
 
 def _find_velocities(closure: Closure, q: Array) -> tuple[Array | None, AssemblyError | None]:
     """Return the velocities at the position q and None, or None and the AssemblyError if there are none."""
-    from gudgeon.assembly.start import velocities
+    from gudgeon.assembly.start import compute_start_velocities
 
     try:
-        return velocities(closure, q), None
+        return compute_start_velocities(closure, q), None
     except AssemblyError as error:
         return None, error
 
@@ -198,9 +200,9 @@ def _find_velocities(closure: Closure, q: Array) -> tuple[Array | None, Assembly
 def _make_posture(linkage: NumPyLinkage, q: Array, v: Array | None) -> Posture:
     """Return position q, velocities v and loads of a linkage as a Posture for drawing; v may be None."""
     from gudgeon.drawing.posture import Posture
-    from gudgeon.results.figures.postures import loads_at
+    from gudgeon.results.figures.postures import evaluate_loads
 
-    loads = loads_at(linkage.source, linkage.p, q, np.zeros_like(q) if v is None else v)
+    loads = evaluate_loads(linkage.source, linkage.p, q, np.zeros_like(q) if v is None else v)
     return Posture(linkage.source, linkage.p, q, 0.0, v, loads)
 
 
@@ -210,53 +212,53 @@ def _make_sketches(mechanism: Mechanism, closure: Closure, postures: Sequence[Po
     Unexpected degrees of freedom and loose bodies are marked.
     """
     from gudgeon.assembly.mobility import find_mobility
-    from gudgeon.drawing.failures import freedoms
+    from gudgeon.drawing.failures import draw_free_motions
     from gudgeon.drawing.plan import make_plan
-    from gudgeon.drawing.sketch import make_sketch, room_of_all
+    from gudgeon.drawing.sketch import compute_common_box, make_sketch
 
     with np.errstate(all="ignore"):
-        found = find_mobility(closure.linkage, closure.p, postures[0].q)
+        mobility = find_mobility(closure.linkage, closure.p, postures[0].q)
     plans, sketches = [make_plan([posture], postures[0]) for posture in postures], []
     unit = min(plan.unit for plan in plans)
     plans = [replace(plan, unit=unit) for plan in plans]
-    box = room_of_all(postures, plans)
-    marked = found.loose or (found.freedoms and mechanism.freedoms is None)
+    box = compute_common_box(postures, plans)
+    marked = mobility.loose or (mobility.freedoms and mechanism.freedoms is None)
     for posture, plan in zip(postures, plans, strict=True):
-        shapes, labels = freedoms(closure, posture, unit, found.loose) if marked else ([], [])
-        loose = frozenset(found.loose)
-        sketches.append(make_sketch(posture, plan, more=shapes, labels=labels, loose=loose, box=box))
+        shapes, labels = draw_free_motions(closure, posture, unit, mobility.loose) if marked else ([], [])
+        loose = frozenset(mobility.loose)
+        sketches.append(make_sketch(posture, plan, shapes_on_top=shapes, labels=labels, unconnected=loose, box=box))
     return sketches
 
 
-def _draw_unclosed(mechanism: Mechanism, closure: Closure, q: Array, caption: str) -> tuple[Drawn, GudgeonError]:
+def _draw_unclosed(mechanism: Mechanism, closure: Closure, q: Array, caption: str) -> tuple[Picture, GudgeonError]:
     """Return the picture of a linkage that does not close, with its gaps marked, and its error.
 
     The error is raised if q or the gaps are not finite.
     """
-    from gudgeon.assembly.failures import closure_error
-    from gudgeon.drawing.failures import gaps
+    from gudgeon.assembly.failures import make_closure_error
+    from gudgeon.drawing.failures import draw_gaps
     from gudgeon.drawing.sketch import make_sketch
 
-    failure = closure_error(closure, q)
-    if not (np.isfinite(q).all() and np.isfinite(closure.residual(q)).all()):
+    failure = make_closure_error(closure, q)
+    if not (np.isfinite(q).all() and np.isfinite(closure.compute_residual(q)).all()):
         raise failure
     posture = _make_posture(closure.linkage, q, None)  # type: ignore[arg-type]
-    shapes, labels = gaps(closure, posture)
-    sketch = make_sketch(posture, more=shapes, labels=labels)
-    return Drawn([sketch], [""], f"{caption}: it does not close"), failure
+    shapes, labels = draw_gaps(closure, posture)
+    sketch = make_sketch(posture, shapes_on_top=shapes, labels=labels)
+    return Picture([sketch], [""], f"{caption}: it does not close"), failure
 
 
 def _draw_assemblies(mechanism: Mechanism, closure: Closure, q: Array) -> tuple[list[Sketch], list[str]]:
     """Return a sketch of each assembly, and as its title the guess that selects it; the start is the first."""
     from gudgeon.assembly.branches import find_assemblies
     from gudgeon.assembly.mobility import find_mobility
-    from gudgeon.commands.assembly_report import guess_text
+    from gudgeon.commands.assembly_report import format_guess
 
     linkage: Any = closure.linkage
     with np.errstate(all="ignore"):
-        along = find_mobility(linkage, linkage.p, q).along
-    found = find_assemblies(linkage, linkage.p, q, along)
-    postures = [_make_posture(linkage, one.q, _find_velocities(closure, one.q)[0]) for one in found]
+        coordinate_names = find_mobility(linkage, linkage.p, q).along
+    assemblies = find_assemblies(linkage, linkage.p, q, coordinate_names)
+    postures = [_make_posture(linkage, assembly.q, _find_velocities(closure, assembly.q)[0]) for assembly in assemblies]
     here = {True: " (as the file has it)", False: ""}
-    titles = [f"{k}  {guess_text(one)}{here[one.is_start]}" for k, one in enumerate(found, 1)]
+    titles = [f"{k}  {format_guess(assembly)}{here[assembly.is_start]}" for k, assembly in enumerate(assemblies, 1)]
     return _make_sketches(mechanism, closure, postures), titles

@@ -8,14 +8,14 @@ from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 
-from gudgeon.commands.common import check_folder, select_scenes
-from gudgeon.commands.outcome import note, wrote
-from gudgeon.commands.progress import status_line
-from gudgeon.errors import InputError, shortened
+from gudgeon.commands.common import check_output_folder, select_scenes
+from gudgeon.commands.outcome import report_note, report_written
+from gudgeon.commands.progress import show_status_line
+from gudgeon.errors import InputError, shorten_path
 from gudgeon.files.writing import PART, AtomicFiles, check_target, read_regular
 from gudgeon.loading import compiler
-from gudgeon.loading.engine import engine_files, engine_readme
-from gudgeon.loading.find import find_mechanism, kernel_source, read_bytes
+from gudgeon.loading.engine import read_engine_files, read_engine_readme
+from gudgeon.loading.kernel_sources import find_kernel_source, find_mechanism, read_bytes
 
 ENGINE = "engine"  # folder of the files that all scenes share
 REST = "kernel.json"  # the description of a scene, without its texts
@@ -31,7 +31,7 @@ def emit_c(mechanism: str, folder: Path, scene_names: tuple[str, ...]) -> int:
     """
     if folder.suffix.lower() == ".fmu":
         return _emit_fmu(mechanism, folder, scene_names)
-    check_folder("--out", folder)
+    check_output_folder("--out", folder)
     scenes, rooms = select_scenes(mechanism, scene_names), _group_engine_files()
     _check_distinct_folders(scenes)
     for scene in scenes:
@@ -44,16 +44,16 @@ def emit_c(mechanism: str, folder: Path, scene_names: tuple[str, ...]) -> int:
     data = read_bytes(file)
     needs_engine = False
     for scene in scenes:
-        with status_line():
-            source, _ = kernel_source(data, file, scene)
+        with show_status_line():
+            source, _ = find_kernel_source(data, file, scene)
         texts = {**source.files, REST: replace(source, files={}).to_json() + "\n"}
         _write_folder(folder / scene, {name: text.encode() for name, text in texts.items()})
-        wrote(scene, folder / scene, f": {', '.join(texts)}")
+        report_written(scene, folder / scene, f": {', '.join(texts)}")
         needs_engine |= not source.cdef
     if needs_engine:
         for room, texts in rooms.items():
             _write_folder(folder / room, {name: text.encode() for name, text in texts.items()})
-        wrote(ENGINE, folder / ENGINE, ": what all scenes share")
+        report_written(ENGINE, folder / ENGINE, ": what all scenes share")
     return 0
 
 
@@ -67,19 +67,19 @@ def _emit_fmu(mechanism: str, target: Path, scene_names: tuple[str, ...]) -> int
         raise InputError(f"an FMU is of one scene, not of {len(scenes)}", hint="name one with --scene")
     check_target(target)
     from gudgeon.exchange.fmu import write_fmu
-    from gudgeon.exchange.fmu_description import exchange_obstacle
+    from gudgeon.exchange.fmu_description import explain_exchange_obstacle
     from gudgeon.simulation.from_file import load
 
-    with status_line():
+    with show_status_line():
         simulation = load(mechanism, scene=scenes[0])
         write_fmu(simulation, target)
-    why = exchange_obstacle(simulation.source)
+    why = explain_exchange_obstacle(simulation.source)
     kinds = f"Co-Simulation alone ({why})" if why else "Co-Simulation and Model Exchange"
-    wrote("fmu", target, f": FMI 3.0, {kinds}, scene {scenes[0]}")
+    report_written("fmu", target, f": FMI 3.0, {kinds}, scene {scenes[0]}")
     if others := [scene for scene in select_scenes(mechanism, ()) if scene not in scenes and not scene_names]:
-        note(f"other scenes, by --scene: {', '.join(others)}")
-    if not compiler.is_there():
-        note("no C compiler was found: it holds the sources alone, which importers compile")
+        report_note(f"other scenes, by --scene: {', '.join(others)}")
+    if not compiler.has_compiler():
+        report_note("no C compiler was found: it holds the sources alone, which importers compile")
     return 0
 
 
@@ -88,9 +88,9 @@ def _check_distinct_folders(scenes: tuple[str, ...]) -> None:
 
     Names are compared without case, because some file systems ignore it.
     """
-    known = {ENGINE: ""}
+    owners = {ENGINE: ""}
     for scene in scenes:
-        other = known.setdefault(scene.casefold(), scene)
+        other = owners.setdefault(scene.casefold(), scene)
         if other != scene:
             message = f"it would share a folder with scene {other!r}" if other else "that folder is what all share"
             hint = "give the scene another name, or emit others with --scene"
@@ -100,7 +100,7 @@ def _check_distinct_folders(scenes: tuple[str, ...]) -> None:
 def _group_engine_files() -> dict[str, dict[str, str]]:
     """Return the engine's texts and README files by folder ("engine/run") and file name, outer folders first."""
     rooms: dict[str, dict[str, str]] = {}
-    for path, text in sorted((*engine_files().items(), engine_readme())):
+    for path, text in sorted((*read_engine_files().items(), read_engine_readme())):
         room, _, name = path.rpartition("/")
         rooms.setdefault(room, {})[name] = text
     return dict(sorted(rooms.items()))
@@ -137,13 +137,13 @@ def _read_list(folder: Path) -> dict[str, set[str]]:
     """Return the checksums of files that an earlier `emit` wrote into the folder, by file name; {} without a valid
     list.
     """
-    found: dict[str, set[str]] = {}
+    files_by_owner: dict[str, set[str]] = {}
     for line in (read_regular(folder / LIST) or b"").decode(errors="replace").splitlines():
         parts = _LINE.fullmatch(line)
         if not parts:
             return {}
-        found.setdefault(parts[2], set()).add(parts[1])
-    return found
+        files_by_owner.setdefault(parts[2], set()).add(parts[1])
+    return files_by_owner
 
 
 def refuse_foreign_files(folder: Path, inner: Collection[str] = ()) -> None:
@@ -151,7 +151,7 @@ def refuse_foreign_files(folder: Path, inner: Collection[str] = ()) -> None:
 
     A link is refused too. inner: names of subfolders that are checked separately.
     """
-    shown = shortened(folder)
+    shown = shorten_path(folder)
     try:
         if folder.is_symlink():
             raise InputError(f"{shown} is a link: nothing is written through it", hint="name another folder")
@@ -167,9 +167,11 @@ def refuse_foreign_files(folder: Path, inner: Collection[str] = ()) -> None:
         foreign = sorted({path.name for path in folder.iterdir()} - set(kept))
     except OSError as error:
         raise InputError(f"{shown} cannot be read: {error.strerror or error}", hint="name another folder") from error
-    own = [name for name in foreign if name in listed]
-    if foreign and own == foreign:
-        message = f"{shown}: {', '.join(own[:5])} and the checksums in {LIST} differ: files or list were changed"
+    listed_names = [name for name in foreign if name in listed]
+    if foreign and listed_names == foreign:
+        message = (
+            f"{shown}: {', '.join(listed_names[:5])} and the checksums in {LIST} differ: files or list were changed"
+        )
         raise InputError(message, hint="put back what was changed, move those files away or name another folder")
     if foreign:
         foreign, hint = [name for name in foreign if name not in listed], "move them away or name another folder"

@@ -8,14 +8,14 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gudgeon.commands.common import check_file, require_suffix, select_scenes
-from gudgeon.commands.outcome import show, wrote
-from gudgeon.commands.progress import status_line
+from gudgeon.commands.common import check_output_file, require_suffix, select_scenes
+from gudgeon.commands.outcome import report_text, report_written
+from gudgeon.commands.progress import show_status_line
 from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.files.writing import write_text
-from gudgeon.language.shown import path_text
-from gudgeon.loading.find import find_mechanism, read_bytes
-from gudgeon.waiting.asking import report_work
+from gudgeon.language.text_output import format_path
+from gudgeon.loading.kernel_sources import find_mechanism, read_bytes
+from gudgeon.waiting.cancellation import report_work
 
 if TYPE_CHECKING:
     from gudgeon.generator.equations.model import Model
@@ -35,18 +35,18 @@ def write_equations(mechanism: str, target: Path, scenes: tuple[str, ...]) -> in
         return _write_pages(mechanism, target, scenes)
     if target != TERMINAL:
         require_suffix(target, SUFFIXES)
-        check_file("--out", target)
+        check_output_file("--out", target)
     if len(scenes) > 1:
-        message = f"{path_text(target)} holds the equations of one scene, not of {', '.join(scenes)}"
+        message = f"{format_path(target)} holds the equations of one scene, not of {', '.join(scenes)}"
         raise BadValueError(message, hint="name a folder: -o pages/")
     (scene,) = select_scenes(mechanism, scenes or (DEFAULT,))
-    with status_line(), report_work(f"deriving {find_mechanism(mechanism).stem}, scene {scene}"):
+    with show_status_line(), report_work(f"deriving {find_mechanism(mechanism).stem}, scene {scene}"):
         text = _format_equations(mechanism, scene, target)
     if target == TERMINAL:
-        show("equations", text.removesuffix("\n"))
+        report_text("equations", text.removesuffix("\n"))
         return 0
     write_text(target, text)
-    wrote("equations", target)
+    report_written("equations", target)
     if target.suffix.lower() == ".ipynb":
         _check_notebook_run(mechanism, scene, target)
     return 0
@@ -60,13 +60,13 @@ def _check_notebook_run(mechanism: str, scene: str, notebook: Path) -> None:
     from gudgeon.simulation.from_file import load
 
     try:
-        with status_line(), warnings.catch_warnings():
+        with show_status_line(), warnings.catch_warnings():
             warnings.simplefilter("ignore")  # the notebook shows them
             simulation = load(mechanism, scene)
             with report_work(f"running {simulation.source.mechanism}, scene {scene}, as the notebook will"):
                 run = simulation.simulate()
     except GudgeonError as error:
-        message = GudgeonError(f"{path_text(notebook)} is written, but what it runs in its last cells fails: {error}")
+        message = GudgeonError(f"{format_path(notebook)} is written, but what it runs in its last cells fails: {error}")
         message.exit_code = error.exit_code
         raise message from error
     if run.diagnostics.interrupted:
@@ -76,28 +76,28 @@ def _check_notebook_run(mechanism: str, scene: str, notebook: Path) -> None:
 def _write_pages(mechanism: str, folder: Path, scenes: tuple[str, ...]) -> int:
     """Write an HTML page of each scene into a folder, created if absent; pages have links to each other. Return 0."""
     from gudgeon.simulation.from_file import load
-    from gudgeon.web.page import write
+    from gudgeon.web.page import build_page
 
     name = find_mechanism(mechanism).stem
     files = {scene: f"{name}_{scene}.html" for scene in select_scenes(mechanism, scenes)}
     for file in files.values():
-        check_file("--out", folder / file)
-    with status_line():
+        check_output_file("--out", folder / file)
+    with show_status_line():
         for scene, file in files.items():
             with report_work(f"deriving {name}, scene {scene}"):
-                text = write(load(mechanism, scene), files)
+                text = build_page(load(mechanism, scene), files)
             folder.mkdir(parents=True, exist_ok=True)
             write_text(folder / file, text)
-            wrote(scene, folder / file)
+            report_written(scene, folder / file)
     return 0
 
 
 def _derive_model(mechanism: str, scene: str) -> Model:
     """Derive the equations of a scene of a mechanism file in SymPy and return the model."""
-    from gudgeon.generator.pipeline import derive
+    from gudgeon.generator.pipeline import derive_scene
 
     file = find_mechanism(mechanism)
-    return derive(read_bytes(file), str(file), scene)
+    return derive_scene(read_bytes(file), str(file), scene)
 
 
 def _format_equations(mechanism: str, scene: str, target: Path) -> str:
@@ -107,16 +107,16 @@ def _format_equations(mechanism: str, scene: str, target: Path) -> str:
     suffix = target.suffix.lower()
     if suffix == ".html":
         from gudgeon.simulation.from_file import load
-        from gudgeon.web.page import write
+        from gudgeon.web.page import build_page
 
-        return write(load(mechanism, scene))
+        return build_page(load(mechanism, scene))
     from gudgeon.generator.targets.latex import equations_tex, equations_text
 
     model = _derive_model(mechanism, scene)
     if suffix == ".ipynb":
-        from gudgeon.teaching.notebook import notebook
+        from gudgeon.teaching.notebook import write_notebook
 
-        return notebook(model, _find_mechanism_from_notebook(mechanism, target))
+        return write_notebook(model, _find_mechanism_from_notebook(mechanism, target))
     return equations_tex(model) if suffix == ".tex" else equations_text(model)
 
 
@@ -125,5 +125,5 @@ def _find_mechanism_from_notebook(mechanism: str, target: Path) -> str:
     file = find_mechanism(mechanism)
     if file.is_absolute():  # a shipped one has its name
         return mechanism
-    found = os.path.relpath(file, target.parent)
-    return found if "/" in found or found.endswith((".yaml", ".yml")) else f"./{found}"
+    relative_path = os.path.relpath(file, target.parent)
+    return relative_path if "/" in relative_path or relative_path.endswith((".yaml", ".yml")) else f"./{relative_path}"

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gudgeon.commands.outcome import note, wrote
-from gudgeon.commands.progress import status_line
+from gudgeon.commands.outcome import report_note, report_written
+from gudgeon.commands.progress import show_status_line
 from gudgeon.errors import InputError
-from gudgeon.exchange.read import mechanism_of
+from gudgeon.exchange.read import convert_to_mechanism
 from gudgeon.files.writing import write_text
 
 MAX_TRIED = 40  # bodies up to which it is tried at once whether the linkage assembles: that takes seconds
@@ -18,7 +18,7 @@ def import_linkage(file: Path, target: Path | None) -> int:
 
     Raises InputError if the target exists, the file cannot be read, or the linkage does not assemble.
     """
-    text = mechanism_of(file)
+    text = convert_to_mechanism(file)
     is_tried = _check_assembly(text, file)
     name = next(line.partition(": ")[2] for line in text.splitlines() if line.startswith("name: "))
     target = target or Path(f"{name}.yaml")
@@ -26,11 +26,11 @@ def import_linkage(file: Path, target: Path | None) -> int:
         raise InputError(f"{target} is there already", hint="name another file with --out")
     write_text(target, text)
     for line in (line for line in text.splitlines()[1:] if line.startswith("# ")):
-        note(line[2:])
-    wrote("mechanism", target)
+        report_note(line[2:])
+    report_written("mechanism", target)
     if not is_tried:
-        note(f"More than {MAX_TRIED} bodies: whether they assemble was not tried.")
-    note(f"next: gudgeon check {target} -v, gudgeon draw {target}, gudgeon run {target}")
+        report_note(f"More than {MAX_TRIED} bodies: whether they assemble was not tried.")
+    report_note(f"next: gudgeon check {target} -v, gudgeon draw {target}, gudgeon run {target}")
     return 0
 
 
@@ -45,8 +45,8 @@ def _check_assembly(text: str, file: Path) -> bool:
     mechanism = read_mechanism(text.encode(), str(file))
     if len(mechanism.bodies) > MAX_TRIED:
         return False
-    with status_line(quiet=False):
-        failed = assemble_scenes(mechanism, branches=False).failed
+    with show_status_line(quiet=False):
+        failed = assemble_scenes(mechanism, branches=False).errors
     for problem in failed.values():
         message, _, hint = str(problem).partition("\n")
         raise InputError(f"{file}: its linkage does not assemble: {message}", hint=hint.strip()) from problem

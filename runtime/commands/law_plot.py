@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.commands.outcome import wrote
+from gudgeon.commands.outcome import report_written
 from gudgeon.errors import BadValueError, MissingKeyError
 from gudgeon.files.writing import write_bytes
-from gudgeon.language.names import unknown_name
-from gudgeon.language.plot_units import label, quantity, scale
+from gudgeon.language.names import make_unknown_name_error
+from gudgeon.language.plot_units import choose_prefix, format_label, format_quantity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -63,13 +63,13 @@ def plot_law(law: Law, name: str, target: Path, settings: Mapping[str, float | s
 
     Raises BadValueError, MissingKeyError, UnknownNameError for wrong settings.
     """
-    from gudgeon.drawing.picture import as_bytes
+    from gudgeon.drawing.picture import encode_figure
 
-    write_bytes(target, as_bytes(figure_of(law, name, settings), target.suffix.lower()))
-    wrote("plot", target)
+    write_bytes(target, encode_figure(make_law_figure(law, name, settings), target.suffix.lower()))
+    report_written("plot", target)
 
 
-def figure_of(law: Law, name: str, settings: Mapping[str, float | str]) -> Figure:
+def make_law_figure(law: Law, name: str, settings: Mapping[str, float | str]) -> Figure:
     """Return a figure of the law under one of its names, with its parameter values in the title.
 
     Raises BadValueError for a rigid law, which has no curve, and otherwise as `plot_law`.
@@ -85,9 +85,9 @@ def figure_of(law: Law, name: str, settings: Mapping[str, float | str]) -> Figur
     from matplotlib import rc_context
     from matplotlib.figure import Figure
 
-    from gudgeon.generator.kinds.laws.built import alone
+    from gudgeon.generator.kinds.laws.built import make_law_function
 
-    function = alone(law, selected.numbers, selected.options, STEEL)
+    function = make_law_function(law, selected.numbers, selected.options, STEEL)
     with rc_context(plots.STYLE), np.errstate(all="ignore"):
         figure = Figure(figsize=(6.4, 4.2), dpi=120, layout="constrained")
         ax = figure.subplots()
@@ -100,36 +100,39 @@ def figure_of(law: Law, name: str, settings: Mapping[str, float | str]) -> Figur
 
 def _choose_values(law: Law, name: str, settings: Mapping[str, float | str]) -> _SelectedLaw:
     """Return the law with the settings of the user, and defaults or usual values for the rest. Raises as `plot_law`."""
-    from gudgeon.generator.field import with_dimensions
+    from gudgeon.generator.field import resolve_dimensions
 
-    fields = {own.name: own for own in with_dimensions(law.fields_as(name), settings)}
+    fields = {field.name: field for field in resolve_dimensions(law.fields_as(name), settings)}
     for key in settings:
         if key not in fields:
-            raise unknown_name(f"key of {name}", key, tuple(fields), None)
+            raise make_unknown_name_error(f"key of {name}", key, tuple(fields), None)
     made: Mapping[str, str | bool] = law.also.get(name, {})
-    options = {own.name: made.get(own.name, own.choice) for own in law.options}
+    options = {field.name: made.get(field.name, field.default_option) for field in law.options}
     numbers: dict[str, Any] = {}
     message = []
-    for own in fields.values():
-        if own in law.options:
-            if own.name in settings:
-                options[own.name] = _read_option(own, settings[own.name])
-                message.append(f"{own.name}: {settings[own.name]}")
-        elif own.varies:
-            text = str(settings.get(own.name, FORCE))
-            numbers[own.name] = _read_expression(own, text)
-            message.append(f"{own.name} = {text}")
-        elif (value := _find_value(own, settings)) is not None:
-            numbers[own.name] = value
-            if value != own.default or own.name in settings:
-                message.append(f"{own.name} = {quantity(value, _get_unit(own))}")
+    for field in fields.values():
+        if field in law.options:
+            if field.name in settings:
+                options[field.name] = _read_option(field, settings[field.name])
+                message.append(f"{field.name}: {settings[field.name]}")
+        elif field.varies:
+            text = str(settings.get(field.name, FORCE))
+            numbers[field.name] = _read_expression(field, text)
+            message.append(f"{field.name} = {text}")
+        elif (value := _find_value(field, settings)) is not None:
+            numbers[field.name] = value
+            if value != field.default or field.name in settings:
+                message.append(f"{field.name} = {format_quantity(value, _get_unit(field))}")
     law.check(numbers)
     return _SelectedLaw(law, name, numbers, options, ", ".join(message))
 
 
-def chosen_numbers(law: Law) -> dict[str, float | str]:
+def list_default_parameters(law: Law) -> dict[str, float | str]:
     """Return the parameter values of a law without settings: defaults or usual values in SI; expressions as text."""
-    return {**_choose_values(law, law.name, {}).numbers, **dict.fromkeys((own.name for own in law.expressions), FORCE)}
+    return {
+        **_choose_values(law, law.name, {}).numbers,
+        **dict.fromkeys((expression.name for expression in law.expressions), FORCE),
+    }
 
 
 def _read_expression(field: Field, text: str) -> Any:
@@ -140,25 +143,25 @@ def _read_expression(field: Field, text: str) -> Any:
     import sympy as sp
 
     from gudgeon.errors import Location
-    from gudgeon.generator.symbols.from_expressions import to_sympy
+    from gudgeon.generator.symbols.from_expressions import convert_to_sympy
     from gudgeon.language.parser import check_dimension, parse
-    from gudgeon.language.tree import names
+    from gudgeon.language.tree import iterate_names
     from gudgeon.language.units import LENGTH
 
     where = Location(f"value of {field.name}", 1, 1)
     tree = parse(text.strip(), where)
-    for name in names(tree):
+    for name in iterate_names(tree):
         if name.path != field.varies:
-            raise unknown_name("name", name.path, (field.varies,), where)
+            raise make_unknown_name_error("name", name.path, (field.varies,), where)
     check_dimension(tree, field.dimension, lambda _: LENGTH, where)
-    return to_sympy(tree, lambda path: sp.Symbol(path, real=True))
+    return convert_to_sympy(tree, lambda path: sp.Symbol(path, real=True))
 
 
 def _get_unit(field: Field) -> str:
     """Return the SI unit of a key as text, "" if it has none."""
-    from gudgeon.language.units import si_unit
+    from gudgeon.language.units import find_si_unit
 
-    unit = "" if field.dimension is None else si_unit(field.dimension)
+    unit = "" if field.dimension is None else find_si_unit(field.dimension)
     return "" if unit == "-" else unit
 
 
@@ -167,14 +170,14 @@ def _find_value(field: Field, settings: Mapping[str, float | str]) -> float | No
 
     Raises MissingKeyError for a required key without any of them.
     """
-    from gudgeon.language.quantities import number_of_text
+    from gudgeon.language.quantities import parse_quantity
 
     exponents = None
     if field.dimension is not None:
         exponents = float(field.dimension.length), float(field.dimension.mass), float(field.dimension.time)
     if field.name in settings:
         given = settings[field.name]
-        return number_of_text(given, field.name, exponents or (0, 0, 0)) if isinstance(given, str) else float(given)
+        return parse_quantity(given, field.name, exponents or (0, 0, 0)) if isinstance(given, str) else float(given)
     if field.name not in SHOWN and (field.default is not None or not field.required):
         return None if field.default is None else float(field.default)
     usual = USUAL.get(field.name, BY_DIMENSION.get(exponents) if exponents else None)
@@ -189,7 +192,7 @@ def _read_option(field: Field, given: float | str) -> str | bool:
         str(value).lower() if isinstance(value, bool) else value: value for value in field.values
     }
     if str(given) not in words:
-        raise unknown_name(f"choice of {field.name}", str(given), tuple(words), None)
+        raise make_unknown_name_error(f"choice of {field.name}", str(given), tuple(words), None)
     return words[str(given)]
 
 
@@ -200,23 +203,23 @@ def _draw_curves(
 
     across, up: symbol and unit of the axes. Raises BadValueError if a curve has no finite value.
     """
-    found = [(np.where(np.isfinite(y), y, np.nan), message) for y, message in lines]
-    for y, message in found:
+    curves = [(np.where(np.isfinite(y), y, np.nan), message) for y, message in lines]
+    for y, message in curves:
         if np.isnan(y).all():
             raise BadValueError(f"nothing to draw: with these numbers {message} is no finite number anywhere")
-    wide, x_unit = scale(float(np.abs(x).max()), x_axis[1])
-    high, y_unit = scale(float(np.nanmax([np.nanmax(np.abs(y)) for y, _ in found])), y_axis[1])
-    for y, message in found:
+    wide, x_unit = choose_prefix(float(np.abs(x).max()), x_axis[1])
+    high, y_unit = choose_prefix(float(np.nanmax([np.nanmax(np.abs(y)) for y, _ in curves])), y_axis[1])
+    for y, message in curves:
         ax.plot(wide * x, high * y, label=message)
-    ax.set(xlabel=label(x_axis[0], x_unit), ylabel=label(y_axis[0], y_unit))
+    ax.set(xlabel=format_label(x_axis[0], x_unit), ylabel=format_label(y_axis[0], y_unit))
 
 
 def _draw_normal(ax: Axes, law: Function, selected: _SelectedLaw) -> None:
     """Draw the normal force over penetration during approach, rest and separation; one curve if they agree."""
-    from gudgeon.generator.kinds.laws.built import reads_besides
+    from gudgeon.generator.kinds.laws.built import count_further_variables
 
     delta = np.linspace(0.0, MAX_PENETRATION * STEEL["c"], POINTS)
-    further = [SPEED] * reads_besides(selected.law)
+    further = [SPEED] * count_further_variables(selected.law)
     curves = {ratio: law(delta, ratio, *(ratio * x for x in further))["F_n"] for ratio in RATIOS}
     same = np.array_equal(curves[1.0], curves[-1.0])
     lines = (
@@ -234,7 +237,9 @@ def _draw_friction(ax: Axes, law: Function, selected: _SelectedLaw) -> None:
 
     The largest velocity is three times the law's largest parameter with the unit m/s.
     """
-    speeds = [selected.numbers[own.name] for own in selected.law.parameters if _get_unit(own) == "m/s"]
+    speeds = [
+        selected.numbers[parameter.name] for parameter in selected.law.parameters if _get_unit(parameter) == "m/s"
+    ]
     fastest = 3.0 * max(speeds, default=SPEED / 3.0)
     if not selected.law.states:
         v_t = np.linspace(-fastest, fastest, 2 * POINTS)
@@ -242,13 +247,15 @@ def _draw_friction(ax: Axes, law: Function, selected: _SelectedLaw) -> None:
         ax.set_title("the force on the journal by the slip of its surface on the bearing's")
         return
     for amplitude in (2e-5, 2e-4):
-        v_t, force = _oscillate_slip(law, selected.law, fastest, amplitude)
-        text = f"to and fro, {quantity(2 * amplitude, 'm', 2)} apart"
+        v_t, force = _simulate_slip_oscillation(law, selected.law, fastest, amplitude)
+        text = f"to and fro, {format_quantity(2 * amplitude, 'm', 2)} apart"
         _draw_curves(ax, v_t, iter([(force, text)]), ("v_t", "m/s"), ("F_t/F_n", ""))
     ax.set_title("slip as a cosine, third time, F_n = 1 N: what is bent follows")
 
 
-def _oscillate_slip(law: Function, law_description: Law, fastest: float, amplitude: float) -> tuple[Any, Any]:
+def _simulate_slip_oscillation(
+    law: Function, law_description: Law, fastest: float, amplitude: float
+) -> tuple[Any, Any]:
     """Return v_t (m/s) and F_t (N) of a friction law for a slip that oscillates like a cosine, in its third period.
 
     fastest: largest slip velocity in m/s. amplitude: in m. The inner states start at 0. Raises BadValueError if they
@@ -260,20 +267,20 @@ def _oscillate_slip(law: Function, law_description: Law, fastest: float, amplitu
 
     def rates(t: float, z: Any) -> list[float]:
         """Return the rates of the inner states z at the time t."""
-        found = law(1.0, fastest * np.cos(omega * t), *z)
-        return [float(found[f"{state.name}_rate"]) for state in law_description.states]
+        solution = law(1.0, fastest * np.cos(omega * t), *z)
+        return [float(solution[f"{state.name}_rate"]) for state in law_description.states]
 
     times = np.linspace(4.0 * np.pi, 6.0 * np.pi, 2 * POINTS) / omega
     none = [0.0] * len(law_description.states)
     try:
-        found = solve_ivp(rates, (0.0, times[-1]), none, "Radau", t_eval=times, rtol=1e-6, atol=1e-12)
+        solution = solve_ivp(rates, (0.0, times[-1]), none, "Radau", t_eval=times, rtol=1e-6, atol=1e-12)
     except ValueError:  # rates, or their slopes, overflow
-        found = None
-    if found is None or found.y.shape[1] < len(times):
+        solution = None
+    if solution is None or solution.y.shape[1] < len(times):
         names = ", ".join(state.name for state in law_description.states)
         raise BadValueError(f"nothing to draw: with these numbers {names} cannot be followed; its rate overflows")
     v_t = fastest * np.cos(omega * times)
-    return v_t, law(1.0, v_t, *found.y)["F_t"]
+    return v_t, law(1.0, v_t, *solution.y)["F_t"]
 
 
 def _draw_film(ax: Axes, law: Function, selected: _SelectedLaw) -> None:

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gudgeon.commands.common import check_file, require_suffix, settings
+from gudgeon.commands.common import check_output_file, parse_settings, require_suffix
 from gudgeon.errors import BadValueError
-from gudgeon.language.names import unknown_name
-from gudgeon.language.shown import one_line, plain_console, print_json, visible
-from gudgeon.language.units import si_unit
+from gudgeon.language.names import make_unknown_name_error
+from gudgeon.language.text_output import escape_invisible, format_one_line, make_plain_console, print_json
+from gudgeon.language.units import find_si_unit
 
 if TYPE_CHECKING:
     from gudgeon.generator.field import Field
@@ -21,7 +21,7 @@ WIDTH = 100  # columns of the output
 
 
 @dataclass(frozen=True)
-class Asked:
+class LawsRequest:
     """Arguments of the command line, as typed."""
 
     name: str | None
@@ -30,7 +30,7 @@ class Asked:
     settings: tuple[str, ...]
 
 
-def show_laws(request: Asked) -> int:
+def show_laws(request: LawsRequest) -> int:
     """Run `gudgeon laws`: print a table of all laws, or one law in full, or write its plot; return the exit code.
 
     Raises UnknownNameError, BadValueError for options that do not fit together, LawError for a user-defined law.
@@ -49,26 +49,26 @@ def show_laws(request: Asked) -> int:
         from gudgeon.commands.law_plot import SUFFIXES, plot_law
 
         require_suffix(request.plot, SUFFIXES)
-        check_file("--plot", request.plot)
-        plot_law(law, name, request.plot, settings(request.settings))
+        check_output_file("--plot", request.plot)
+        plot_law(law, name, request.plot, parse_settings(request.settings))
         return 0
     if request.as_json:
         print_json(_build_law_document(law, name))
         return 0
-    from gudgeon.generator.targets.latex.law import law_text
+    from gudgeon.generator.targets.latex.law import print_law
 
-    print(visible(law_text(law, name)), end="")
+    print(escape_invisible(print_law(law, name)), end="")
     return 0
 
 
 def _find_law(name: str) -> Law:
     """Return the law with this name or alternative name. Raise UnknownNameError with the nearest."""
-    from gudgeon.generator.kinds.laws.law import RESULTS, called
+    from gudgeon.generator.kinds.laws.law import RESULTS, find_laws_of_role
 
-    known = {called_so: law for role in RESULTS for called_so, law in called(role).items()}
-    if name not in known:
-        raise unknown_name("law", name, known, None)
-    return known[name]
+    laws_by_name = {called_so: law for role in RESULTS for called_so, law in find_laws_of_role(role).items()}
+    if name not in laws_by_name:
+        raise make_unknown_name_error("law", name, laws_by_name, None)
+    return laws_by_name[name]
 
 
 def _yield_laws_by_role() -> Iterator[tuple[str, list[Law]]]:
@@ -76,10 +76,10 @@ def _yield_laws_by_role() -> Iterator[tuple[str, list[Law]]]:
 
     SymPy is not needed: the file of a law does not import it at its top.
     """
-    from gudgeon.generator.kinds.laws.law import RESULTS, laws
+    from gudgeon.generator.kinds.laws.law import RESULTS, find_all_laws
 
     for role in RESULTS:
-        yield role, [law for law in laws().values() if law.role == role]
+        yield role, [law for law in find_all_laws().values() if law.role == role]
 
 
 def _print_table() -> None:
@@ -94,9 +94,9 @@ def _print_table() -> None:
     for role, some in _yield_laws_by_role():
         for k, law in enumerate(some):
             also = f"also as {', '.join(law.also)}" if law.also else ""
-            message = "\n".join(filter(None, (one_line(law.title), also)))
+            message = "\n".join(filter(None, (format_one_line(law.title), also)))
             table.add_row(role if k == 0 else "", law.name, Text(message), end_section=k == len(some) - 1)
-    plain_console(WIDTH).print(table)
+    make_plain_console(WIDTH).print(table)
     print("gudgeon laws NAME has the equations of one, its keys, validity and reference.")
 
 
@@ -112,11 +112,11 @@ def _build_law_document(law: Law, name: str) -> dict[str, Any]:
     """Return equations, keys, states, validity and reference of one law for `--json`, under the name by which it is
     called.
     """
-    from gudgeon.generator.targets.latex.law import forms, in_a_line
+    from gudgeon.generator.targets.latex.law import derive_forms, print_equation
 
     first, *others = (
-        {"chosen": dict(form.selected), "equations": [in_a_line(one) for one in form.equations]}
-        for form in forms(law, name)
+        {"chosen": dict(form.selected), "equations": [print_equation(equation) for equation in form.equations]}
+        for form in derive_forms(law, name)
     )
     return {
         "law": law.name,
@@ -127,7 +127,7 @@ def _build_law_document(law: Law, name: str) -> dict[str, Any]:
         "chosen": dict(law.also.get(name, {})),
         "equations": first["equations"],
         "choices": [form for form in others if form["equations"]],
-        "keys": [_build_key_document(own) for own in law.fields_as(name)],
+        "keys": [_build_key_document(field) for field in law.fields_as(name)],
         "states": {state.name: state.meaning for state in law.states},
         "validity": law.validity,
         "reference": law.reference or law.source,
@@ -147,6 +147,6 @@ def _build_key_document(field: Field) -> dict[str, Any]:
     }
     if field.values:
         return {**message, "values": [*field.values], "sources": dict(field.sources or {})}
-    unit = None if field.dimension is None else si_unit(field.dimension)
+    unit = None if field.dimension is None else find_si_unit(field.dimension)
     bounds = [[bound.relation, bound.limit] for bound in field.bounds]
     return {**message, "symbol": field.symbol, "unit": unit, "bounds": bounds, "otherwise": field.otherwise}

@@ -1,4 +1,4 @@
-"""Run `gudgeon map`: classify the runs of every scene on a map or in a box, show the result and write it."""
+"""Run `gudgeon map`: find which runs are stable over a grid or a box of parameters, show and write the result."""
 
 from __future__ import annotations
 
@@ -7,24 +7,24 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gudgeon.commands.progress import Report
-from gudgeon.commands.studies import Request, each, exit_code, load_scenes
-from gudgeon.contract.kernel_source import Slot
+from gudgeon.commands.studies import Request, find_exit_code, load_scenes, measure_scenes
+from gudgeon.contract.kernel_source import RuntimeParameter
 from gudgeon.contract.methods import OFFERED
 from gudgeon.errors import BadValueError
-from gudgeon.integrators.adaptive import tolerance
-from gudgeon.language.names import unknown
-from gudgeon.model.parameters import addresses, number, value
+from gudgeon.integrators.adaptive import parse_tolerance
+from gudgeon.language.names import make_unknown_error
+from gudgeon.model.parameters import list_addresses, parse_typed_number, read_parameter_value
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.axes import GROUPS, SETTINGS, axis, typed
+from gudgeon.studies.axes import GROUPS, SETTINGS, make_axis, parse_axis
 from gudgeon.studies.box import Range
-from gudgeon.studies.map import USUAL, VerdictBox, VerdictMap, default_steps, verdict_box, verdict_map
-from gudgeon.studies.runs import FIXED, Setting, natural_step
-from gudgeon.studies.show.box import show_box
-from gudgeon.studies.show.map import PASCAL, show_map
+from gudgeon.studies.map import USUAL, VerdictBox, VerdictMap, list_default_steps, verdict_box, verdict_map
+from gudgeon.studies.runs import FIXED, Setting, find_default_step
+from gudgeon.studies.show.box import report_box
+from gudgeon.studies.show.map import PASCAL, report_map
 
 
 @dataclass(frozen=True)
-class Asked:
+class MapOptions:
     """Options that only `gudgeon map` has."""
 
     method: str = "auto"
@@ -39,13 +39,13 @@ class Asked:
         return self.method in FIXED
 
 
-def map_file(request: Request, map_options: Asked) -> int:
+def map_file(request: Request, map_options: MapOptions) -> int:
     """Run `gudgeon map`: classify the runs of all scenes, print the result, write table and picture; return the exit
     code.
 
     Scenes without degrees of freedom are left out with a message. Raises BadValueError, UnknownNameError for options.
     """
-    step, t_end = request.seconds("--mark-step", request.mark), request.seconds("--t-end", request.t_end)
+    step, t_end = request.parse_time("--mark-step", request.mark), request.parse_time("--t-end", request.t_end)
     _check_options(map_options, step)
     setting, loaded = _parse_fixed_setting(map_options), load_scenes(request)
     _check_names(map_options, loaded)
@@ -56,17 +56,17 @@ def map_file(request: Request, map_options: Asked) -> int:
                 print(f"{simulation.source.scene}: no degree of freedom, nothing is integrated, no step to choose")
     if not moving:
         return 0
-    table = request.table(moving[0].source.mechanism, "map")
+    table = request.find_table_path(moving[0].source.mechanism, "map")
     if map_options.box is not None:
         return _map_box(request, map_options, moving, t_end, setting, table)
-    steps = sorted({*default_steps(moving, request.quick), *([] if step is None else [step])})
+    steps = sorted({*list_default_steps(moving, request.quick), *([] if step is None else [step])})
 
     def one(simulation: Simulation, report: Report | None) -> VerdictMap:
         """Return the map of one scene."""
-        parameters = request.of(simulation)
-        axes = [typed(simulation, text, parameters) for text in map_options.axes]
-        if map_options.fixed and not any(a.of_method for a in axes) and len(axes) < 2:
-            axes = [axis(simulation, "step", steps), *axes]
+        parameters = request.select_parameters(simulation)
+        axes = [parse_axis(simulation, text, parameters) for text in map_options.axes]
+        if map_options.fixed and not any(a.is_method_setting for a in axes) and len(axes) < 2:
+            axes = [make_axis(simulation, "step", steps), *axes]
         return verdict_map(
             simulation,
             axes,
@@ -78,15 +78,15 @@ def map_file(request: Request, map_options: Asked) -> int:
             progress=report,
         )
 
-    found, interrupted = each(moving, one, request.json)
-    if found:
-        show_map(moving[0].source, request.file, found, table, step, request.json)
-    return exit_code(moving, found, interrupted)
+    measured_scenes, interrupted = measure_scenes(moving, one, request.json)
+    if measured_scenes:
+        report_map(moving[0].source, request.file, measured_scenes, table, step, request.json)
+    return find_exit_code(moving, measured_scenes, interrupted)
 
 
 def _map_box(
     request: Request,
-    map_options: Asked,
+    map_options: MapOptions,
     moving: Sequence[Simulation],
     t_end: float | None,
     setting: float | None,
@@ -99,10 +99,10 @@ def _map_box(
 
     def one(simulation: Simulation, report: Report | None) -> VerdictBox:
         """Return the box of one scene."""
-        parameters = request.of(simulation)
-        axes = {a.name: a for a in (typed(simulation, text, parameters) for text in map_options.ranges)}
+        parameters = request.select_parameters(simulation)
+        axes = {a.name: a for a in (parse_axis(simulation, text, parameters) for text in map_options.ranges)}
         ranges = [Range(a.name, a.values[0], a.values[-1], PASCAL.get(a.unit, a.unit)) for a in axes.values()]
-        usual = natural_step(simulation, parameters) if map_options.fixed else USUAL
+        usual = find_default_step(simulation, parameters) if map_options.fixed else USUAL
         return verdict_box(
             simulation,
             ranges,
@@ -115,17 +115,17 @@ def _map_box(
             progress=report,
         )
 
-    found, interrupted = each(moving, one, request.json)
-    if found:
-        show_box(moving[0].source, request.file, found, table, request.json)
-    return exit_code(moving, found, interrupted)
+    measured_scenes, interrupted = measure_scenes(moving, one, request.json)
+    if measured_scenes:
+        report_box(moving[0].source, request.file, measured_scenes, table, request.json)
+    return find_exit_code(moving, measured_scenes, interrupted)
 
 
-def _check_options(map_options: Asked, step: float | None) -> None:
+def _check_options(map_options: MapOptions, step: float | None) -> None:
     """Raise BadValueError for options that do not fit together; step: the value of `--mark-step` in s."""
     if map_options.method not in OFFERED:
         raise BadValueError(f"--method {map_options.method!r}: expected {', '.join(OFFERED)}")
-    own = [name for name in map(_get_axis_name, map_options.axes) if name in SETTINGS]
+    setting_names = [name for name in map(_get_axis_name, map_options.axes) if name in SETTINGS]
     _check_varied_once("--axis", map_options.axes)
     _check_varied_once("--range", map_options.ranges)
     if map_options.box is None and map_options.ranges:
@@ -141,12 +141,12 @@ def _check_options(map_options: Asked, step: float | None) -> None:
                 raise BadValueError(f"--range {text}: expected NAME=LOW..HIGH")
             if _get_axis_name(text) in SETTINGS:
                 raise BadValueError(f"--range {text}: a box has one {_get_axis_name(text)}", hint="--at gives it")
-    elif map_options.at is not None and (own or len(map_options.axes) < 2):
+    elif map_options.at is not None and (setting_names or len(map_options.axes) < 2):
         what = "step" if map_options.fixed else "rtol"
         raise BadValueError(
             f"--at {map_options.at}: here {what} is an axis of the map", hint="give two other axes, or --box"
         )
-    rows = map_options.box is None and map_options.fixed and ("step" in own or len(map_options.axes) < 2)
+    rows = map_options.box is None and map_options.fixed and ("step" in setting_names or len(map_options.axes) < 2)
     if step is not None and not rows:
         raise BadValueError("--mark-step: no row is a step", hint="with --method rk4 the rows of the map are steps")
 
@@ -164,15 +164,17 @@ def _check_varied_once(option: str, texts: Sequence[str]) -> None:
         varied[name] = text
 
 
-def _check_names(map_options: Asked, loaded: Sequence[Simulation]) -> None:
+def _check_names(map_options: MapOptions, loaded: Sequence[Simulation]) -> None:
     """Raise UnknownNameError, with the nearest names, for the name of an axis or range that no scene has."""
-    every = [name for simulation in loaded for name in addresses(simulation.source)]
-    known = tuple(dict.fromkeys([*SETTINGS, "clearance", *GROUPS, *every]))
+    every = [name for simulation in loaded for name in list_addresses(simulation.source)]
+    known_names = tuple(dict.fromkeys([*SETTINGS, "clearance", *GROUPS, *every]))
     for option, texts in (("--axis", map_options.axes), ("--range", map_options.ranges)):
         for text in texts:
-            if "=" in text and _get_axis_name(text) not in known:
-                raise unknown(
-                    f"{option} {text}: no scene has a number {_get_axis_name(text)!r}", _get_axis_name(text), known
+            if "=" in text and _get_axis_name(text) not in known_names:
+                raise make_unknown_error(
+                    f"{option} {text}: no scene has a number {_get_axis_name(text)!r}",
+                    _get_axis_name(text),
+                    known_names,
                 )
 
 
@@ -181,12 +183,14 @@ def _get_axis_name(text: str) -> str:
     return text.partition("=")[0].strip()
 
 
-def _parse_fixed_setting(map_options: Asked) -> float | None:
+def _parse_fixed_setting(map_options: MapOptions) -> float | None:
     """Return the step (s) or tolerance of `--at`, or None without it. Raise BadValueError if it is out of range."""
     if map_options.at is None:
         return None
     unit, power = ("s", 1) if map_options.fixed else ("", 0)
-    found = number(value(map_options.at), Slot("--at", unit, 0.0, False, (0, 0, power)))
-    if map_options.fixed and not found > 0:
+    value = read_parameter_value(
+        parse_typed_number(map_options.at), RuntimeParameter("--at", unit, 0.0, False, (0, 0, power))
+    )
+    if map_options.fixed and not value > 0:
         raise BadValueError(f"--at {map_options.at}: expected a positive step")
-    return found if map_options.fixed else tolerance(found, map_options.method, False)
+    return value if map_options.fixed else parse_tolerance(value, map_options.method, False)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from gudgeon.commands.outcome import note, wrote
+from gudgeon.commands.outcome import report_note, report_written
 from gudgeon.errors import BadNameError, BadValueError, InputError
 from gudgeon.files.writing import write_text
 from gudgeon.language.names import check_name
-from gudgeon.loading.shipped import PACKAGE, shipped_file
+from gudgeon.loading.shipped import PACKAGE, find_shipped_file
 
 TEMPLATE, OF_STUDY = (PACKAGE / "templates" / name for name in ("new.yaml", "study.yaml"))
 NAME = re.compile(r"^name: .*$", re.MULTILINE)
@@ -22,14 +22,14 @@ def new_mechanism(name: str, like: str | None) -> int:
     """
     name = name.removesuffix(".yaml")
     _check_name(name, "mechanism")
-    source = TEMPLATE if like is None else shipped_file(like)
+    source = TEMPLATE if like is None else find_shipped_file(like)
     target = _find_new_path(name)
     text = NAME.sub(f"name: {name}", source.read_text(encoding="utf-8"), count=1)
     if like is not None:
         text = f"# Begun from {like}, which comes with gudgeon. What follows is told of that one.\n{text}"
     write_text(target, text)
-    wrote("mechanism", target)
-    note(f"next: gudgeon check {target} -v, gudgeon draw {target}, gudgeon run {target}")
+    report_written("mechanism", target)
+    report_note(f"next: gudgeon check {target} -v, gudgeon draw {target}, gudgeon run {target}")
     return 0
 
 
@@ -41,8 +41,8 @@ def new_study(name: str, like: str | None) -> int:
     _check_name(name, "study")
     target = _find_new_path(name)
     write_text(target, OF_STUDY.read_text(encoding="utf-8"))
-    wrote("study", target)
-    note(f"next: gudgeon study {target} --runs, gudgeon study {target}, gudgeon study report {name}.study")
+    report_written("study", target)
+    report_note(f"next: gudgeon study {target} --runs, gudgeon study {target}, gudgeon study report {name}.study")
     return 0
 
 

@@ -1,4 +1,4 @@
-"""Declare options and arguments of several commands for typer."""
+"""Declare command-line options and arguments that several commands share, for the library typer."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from typing import Annotated
 import typer
 
 from gudgeon.commands import completion
-from gudgeon.language.shown import visible
+from gudgeon.language.text_output import escape_invisible
 
 
-def whole(least: int) -> Callable[[str], int]:
+def make_integer_parser(least: int) -> Callable[[str], int]:
     """Return a parser of option texts for whole numbers of at least `least`.
 
     Underscores and digits of other scripts are refused with typer.BadParameter.
@@ -23,30 +23,30 @@ def whole(least: int) -> Callable[[str], int]:
         """Return the number. Raises typer.BadParameter."""
         message = str(text).strip()
         if not (message.isascii() and message.removeprefix("-").isdigit()) or len(message) > 18 or int(message) < least:
-            raise typer.BadParameter(f"{visible(text)!r}: expected a whole number, {least} or more")
+            raise typer.BadParameter(f"{escape_invisible(text)!r}: expected a whole number, {least} or more")
         return int(message)
 
     return read
 
 
-def path(text: str) -> Path:
+def parse_path(text: str) -> Path:
     """Convert the text of an option to a path. Raise typer.BadParameter for an empty text."""
     if not str(text).strip():
-        raise typer.BadParameter(f"{visible(str(text))!r}: expected a name")
+        raise typer.BadParameter(f"{escape_invisible(str(text))!r}: expected a name")
     return Path(text)
 
 
 def parse_file(text: str) -> Path:
     """Convert the text of an option to the path of a file. Raise typer.BadParameter if it ends with a slash."""
     if str(text).endswith("/"):
-        raise typer.BadParameter(f"{visible(str(text))!r}: this is a folder, expected a file")
-    return path(text)
+        raise typer.BadParameter(f"{escape_invisible(str(text))!r}: this is a folder, expected a file")
+    return parse_path(text)
 
 
 def parse_file_or_folder(text: str) -> Path:
     """Convert the text of an option to a path; a name with a suffix must be a file unless a folder has that name."""
-    found = path(text)
-    return parse_file(text) if found.suffix and not os.path.isdir(found) else found
+    parsed_path = parse_path(text)
+    return parse_file(text) if parsed_path.suffix and not os.path.isdir(parsed_path) else parsed_path
 
 
 def _print_version(is_requested: bool) -> None:
@@ -62,14 +62,18 @@ Version = Annotated[bool, typer.Option("--version", callback=_print_version, is_
 File = Annotated[
     str,
     typer.Argument(
-        metavar="FILE", help="A YAML file, or the name of a shipped mechanism.", autocompletion=completion.files
+        metavar="FILE",
+        help="A YAML file, or the name of a shipped mechanism.",
+        autocompletion=completion.complete_files,
     ),
 ]
 Scenes = Annotated[
     list[str] | None,
-    typer.Option("--scene", "-s", help="A scene; may be repeated. [default: all]", autocompletion=completion.scenes),
+    typer.Option(
+        "--scene", "-s", help="A scene; may be repeated. [default: all]", autocompletion=completion.complete_scenes
+    ),
 ]
-OneScene = Annotated[str, typer.Option("--scene", "-s", help="Which scene.", autocompletion=completion.scenes)]
+OneScene = Annotated[str, typer.Option("--scene", "-s", help="Which scene.", autocompletion=completion.complete_scenes)]
 Pages = Annotated[
     Path,
     typer.Option(
@@ -86,14 +90,14 @@ ScenesOfPages = Annotated[
         "--scene",
         "-s",
         help="A scene; in a folder several. [default: ideal; there all]",
-        autocompletion=completion.scenes,
+        autocompletion=completion.complete_scenes,
     ),
 ]
 Branches = Annotated[bool, typer.Option("--branches", help="Assemblies, and the guess that picks each.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units for a script, nothing else.")]
 FilesJson = Annotated[bool, typer.Option("--json", help="Print JSON: which files were written, and notes.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but warnings and errors.")]
-Out = Annotated[Path, typer.Option("--out", parser=path, metavar="PATH", help="Folder for what is written.")]
+Out = Annotated[Path, typer.Option("--out", parser=parse_path, metavar="PATH", help="Folder for what is written.")]
 At = Annotated[str | None, typer.Option("--at", metavar="TIME", help="Simulate to there: 0.2s. [default: the start]")]
 Picture = Annotated[
     Path | None,
@@ -117,7 +121,9 @@ Plot = Annotated[
 ]
 LawName = Annotated[
     str | None,
-    typer.Argument(metavar="[NAME]", help="Of a law, or what else it is called.", autocompletion=completion.laws),
+    typer.Argument(
+        metavar="[NAME]", help="Of a law, or what else it is called.", autocompletion=completion.complete_laws
+    ),
 ]
 # of what teaches
 Name = Annotated[str, typer.Argument(metavar="NAME", help="Of the mechanism or the study; the file is NAME.yaml.")]
@@ -129,7 +135,9 @@ OfStudy = Annotated[bool, typer.Option("--study", help="A study in place of a me
 Sheet = Annotated[
     Path, typer.Option("--out", "-o", parser=parse_file, metavar="PATH", help="x.html, .tex, .txt or .md.")
 ]
-Seed = Annotated[int, typer.Option("--seed", parser=whole(0), metavar="COUNT", help="Which numbers are drawn.")]
+Seed = Annotated[
+    int, typer.Option("--seed", parser=make_integer_parser(0), metavar="COUNT", help="Which numbers are drawn.")
+]
 Moment = Annotated[
     str | None, typer.Option("--at", metavar="TIME", help="When positions and forces are asked for. [default: drawn]")
 ]
@@ -167,7 +175,7 @@ Box = Annotated[
     int | None,
     typer.Option(
         "--box",
-        parser=whole(0),
+        parser=make_integer_parser(0),
         metavar="COUNT",
         help="All corners of the box of --range and so many Sobol points.",
     ),
@@ -175,7 +183,9 @@ Box = Annotated[
 Range = Annotated[list[str] | None, typer.Option("--range", metavar="NAME=LOW..HIGH", help="An edge of the box.")]
 Folder = Annotated[
     Path | None,
-    typer.Option("--out", parser=path, metavar="PATH", help="Folder of blocks, or the page. [default: NAME.study]"),
+    typer.Option(
+        "--out", parser=parse_path, metavar="PATH", help="Folder of blocks, or the page. [default: NAME.study]"
+    ),
 ]
 StudyFile = Annotated[
     str,
@@ -187,12 +197,15 @@ StudyFile = Annotated[
 ]
 Finished = Annotated[str | None, typer.Argument(metavar="[FOLDER]", help="The finished study of that page.")]
 Threads = Annotated[
-    int | None, typer.Option(parser=whole(1), metavar="COUNT", help="Threads of runs. [default: the cores there are]")
+    int | None,
+    typer.Option(
+        parser=make_integer_parser(1), metavar="COUNT", help="Threads of runs. [default: the cores there are]"
+    ),
 ]
 Workers = Annotated[
     int | None,
     typer.Option(
-        parser=whole(1),
+        parser=make_integer_parser(1),
         metavar="COUNT",
         help="Processes of their own libraries, in place of threads; then --threads are those of each. [default: none]",
     ),
@@ -209,10 +222,14 @@ Verify = Annotated[
     bool, typer.Option("--verify", help="Check contacts at 20,000 times, by positions alone. Runs each again.")
 ]
 Starts = Annotated[
-    int | None, typer.Option("--starts", parser=whole(1), metavar="COUNT", help="So many perturbed starts of each run.")
+    int | None,
+    typer.Option(
+        "--starts", parser=make_integer_parser(1), metavar="COUNT", help="So many perturbed starts of each run."
+    ),
 ]
 StartSeed = Annotated[
-    int | None, typer.Option("--seed", parser=whole(0), metavar="COUNT", help="By which these starts are drawn.")
+    int | None,
+    typer.Option("--seed", parser=make_integer_parser(0), metavar="COUNT", help="By which these starts are drawn."),
 ]
 Runs = Annotated[
     bool, typer.Option("--runs", help="Only tell how many runs, blocks, bytes and seconds, by a few on trial.")
@@ -221,7 +238,8 @@ Until = Annotated[
     str | None, typer.Option("--t-end", help="Until when, in s or with a unit. [default: the scene's, or 1 s]")
 ]
 Intervals = Annotated[
-    int | None, typer.Option(parser=whole(1), metavar="COUNT", help="Output intervals. [default: the scene's]")
+    int | None,
+    typer.Option(parser=make_integer_parser(1), metavar="COUNT", help="Output intervals. [default: the scene's]"),
 ]
 Watch = Annotated[
     list[str] | None,

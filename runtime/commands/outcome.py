@@ -15,17 +15,17 @@ from typing import Any, TypeVar
 import typer
 
 from gudgeon.errors import GudgeonError, MemoryShortage
-from gudgeon.language.shown import path_text, print_json, visible
+from gudgeon.language.text_output import escape_invisible, format_path, print_json
 from gudgeon.waiting.ctrl_c import INTERRUPTED, print_interrupted
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 
-def complain(error: GudgeonError) -> None:
+def print_error(error: GudgeonError) -> None:
     """Print `error: …` to stderr; in red on a terminal with colours, unless NO_COLOR is set (no-color.org)."""
     is_plain = os.environ.get("NO_COLOR") or os.environ.get("TERM", "").lower() in ("dumb", "unknown")
     red, plain = ("\033[31m", "\033[0m") if sys.stderr.isatty() and not is_plain else ("", "")
-    print(f"{red}error:{plain} {visible(error)}", file=sys.stderr)
+    print(f"{red}error:{plain} {escape_invisible(error)}", file=sys.stderr)
 
 
 def report_errors(command: Command) -> Command:
@@ -40,14 +40,14 @@ def report_errors(command: Command) -> Command:
     def wrapper(*args: Any, **kwargs: Any) -> None:
         """Run the command and exit with its code."""
         listed = report_as_json(kwargs.pop("files_as_json", False))
-        silence = silent(but_json=bool(kwargs.get("json"))) if kwargs.pop("quiet", False) else nullcontext()
+        silence = suppress_output(but_json=bool(kwargs.get("json"))) if kwargs.pop("quiet", False) else nullcontext()
         try:
             _register_laws(kwargs.pop("laws", None) or ())
             with listed, silence:
                 code = command(*args, **kwargs)
         except (GudgeonError, MemoryError) as error:
-            complain(known := error if isinstance(error, GudgeonError) else MemoryShortage(error))
-            code = known.exit_code
+            print_error(known_error := error if isinstance(error, GudgeonError) else MemoryShortage(error))
+            code = known_error.exit_code
         except KeyboardInterrupt:
             print_interrupted()
             code = INTERRUPTED
@@ -58,7 +58,7 @@ def report_errors(command: Command) -> Command:
 
 
 @contextmanager
-def silent(but_json: bool) -> Iterator[None]:
+def suppress_output(but_json: bool) -> Iterator[None]:
     """Suppress results on stdout and progress on stderr within the with block; but_json: stdout is not suppressed."""
     from gudgeon.commands import progress
 
@@ -89,7 +89,7 @@ def print_warnings_once() -> None:
         """Print a warning that was not printed before."""
         if str(message) not in seen:
             seen.add(str(message))
-            print(f"warning: {visible(message)}", file=sys.stderr)
+            print(f"warning: {escape_invisible(message)}", file=sys.stderr)
 
     warnings.showwarning = print_once
 
@@ -106,18 +106,18 @@ class Document:
 _document: Document | None = None  # of the running command, if JSON is requested
 
 
-def wrote(kind: str, path: Path, more: str = "") -> None:
+def report_written(kind: str, path: Path, more: str = "") -> None:
     """Print that a file or folder was written, or add it to the JSON document; kind: its key; more: text after its
     name.
     """
     if _document is None:
-        print(f"wrote {path_text(path)}{more}")
+        print(f"wrote {format_path(path)}{more}")
     else:
         _document.files[kind] = str(path)
         _document.notes += [more.removeprefix(": ")] if more else []
 
 
-def note(text: str) -> None:
+def report_note(text: str) -> None:
     """Print a further fact in one line, or add it to the notes of the JSON document."""
     if _document is None:
         print(text)
@@ -125,7 +125,7 @@ def note(text: str) -> None:
         _document.notes.append(text)
 
 
-def show(kind: str, text: str) -> None:
+def report_text(kind: str, text: str) -> None:
     """Print a text that would be written to a file if the target were not "-", or add it to the JSON document as
     `kind`.
     """

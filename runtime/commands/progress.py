@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from gudgeon.language.shown import visible
-from gudgeon.waiting.asking import report_through
+from gudgeon.language.text_output import escape_invisible
+from gudgeon.waiting.cancellation import set_reporter
 
 Report = Callable[[float, str], None]  # fraction done, short text
 SPEED_WINDOW_S = 600.0  # s over which speed is measured: blocks of a long study take minutes
@@ -21,7 +21,7 @@ def is_terminal() -> bool:
 
 
 @contextmanager
-def progress_bar(quiet: bool = False) -> Iterator[Callable[[str], Report | None]]:
+def show_progress_bars(quiet: bool = False) -> Iterator[Callable[[str], Report | None]]:
     """Yield a function `bar(name)` that returns a callback for `simulate(progress=…)`, within a with block.
 
     The callback is None without a terminal or if `quiet`. A bar appears with its first report.
@@ -53,14 +53,14 @@ def progress_bar(quiet: bool = False) -> Iterator[Callable[[str], Report | None]
 
 
 @contextmanager
-def status_line(quiet: bool = False) -> Iterator[None]:
+def show_status_line(quiet: bool = False) -> Iterator[None]:
     """Show one line on stderr about each derivation and compilation within the with block; nothing if `quiet` or no
     terminal.
     """
     if quiet or not is_terminal():
         yield
         return
-    with report_through(_show_status):
+    with set_reporter(_show_status):
         yield
 
 
@@ -70,10 +70,10 @@ def _show_status(text: str) -> Iterator[None]:
     from rich.live import Live
     from rich.text import Text
 
-    from gudgeon.language.shown import plain_console
+    from gudgeon.language.text_output import make_plain_console
 
-    line = Text(f"{visible(text)} …", no_wrap=True, overflow="ellipsis")
-    with Live(line, console=plain_console(stderr=True), auto_refresh=False, transient=True):
+    line = Text(f"{escape_invisible(text)} …", no_wrap=True, overflow="ellipsis")
+    with Live(line, console=make_plain_console(stderr=True), auto_refresh=False, transient=True):
         yield
 
 
@@ -81,7 +81,7 @@ def _start_bars() -> Any:
     """Start rich's display of progress bars on stderr, and return it."""
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
-    from gudgeon.language.shown import plain_console
+    from gudgeon.language.text_output import make_plain_console
 
     progress = Progress(
         TextColumn("{task.description}", markup=False),
@@ -89,7 +89,7 @@ def _start_bars() -> Any:
         TaskProgressColumn(),
         TimeRemainingColumn(),
         TextColumn("{task.fields[text]}", markup=False),
-        console=plain_console(stderr=True),
+        console=make_plain_console(stderr=True),
         transient=True,
         speed_estimate_period=SPEED_WINDOW_S,
     )

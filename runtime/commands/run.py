@@ -1,9 +1,10 @@
 """Run `gudgeon run`: simulate scenes, compare each with the ideal one, save and show the results.
 
-- `check_needs` checks memory and disk for all scenes before the first of them begins.
-- `verify` and `write_reports` do what `--verify` and `--report` request. For a report each scene is run again, and its
-  result is saved again with what that run showed.
-- `origin_of` and `check_origin` prevent that a result of another mechanism file is replaced. Two files may contain the
+- `check_memory_and_disk` checks memory and disk for all scenes before the first of them begins.
+- `verify_contacts` and `write_reports` do what `--verify` and `--report` request. For a report each scene is run
+again, and its result is saved again with what that run showed.
+- `format_origin` and `check_origin` prevent that a result of another mechanism file is replaced. Two files may
+contain the
   same name. A result stores digests of its file's path and of its bytes: if one of them is equal, the mechanism is the
   same. A result without digests may be replaced.
 """
@@ -25,23 +26,23 @@ import numpy as np
 
 from gudgeon.commands.common import (
     check_addresses,
-    check_folder,
-    check_name,
-    have,
-    known_settings,
+    check_output_folder,
+    check_output_name,
+    has_packages,
+    parse_settings,
+    select_known_settings,
     select_scenes,
-    settings,
 )
-from gudgeon.commands.progress import progress_bar, status_line
-from gudgeon.errors import AssemblyError, GudgeonError, InputError, MemoryShortage, SolverError, shortened
+from gudgeon.commands.progress import show_progress_bars, show_status_line
+from gudgeon.errors import AssemblyError, GudgeonError, InputError, MemoryShortage, SolverError, shorten_path
 from gudgeon.files.free_space import check_disk, check_memory
 from gudgeon.files.writing import write_bytes
-from gudgeon.language.names import unknown
-from gudgeon.language.shown import path_text, print_json, visible
-from gudgeon.loading.find import find_mechanism
-from gudgeon.model.default_step import T_END, scene_end, scene_number
-from gudgeon.model.evaluation import evaluated_bytes, sample_bytes
-from gudgeon.model.parameters import prepare, value
+from gudgeon.language.names import make_unknown_error
+from gudgeon.language.text_output import escape_invisible, format_path, print_json
+from gudgeon.loading.kernel_sources import find_mechanism
+from gudgeon.model.default_step import T_END, evaluate_scene_end, evaluate_scene_number
+from gudgeon.model.evaluation import compute_evaluation_bytes, compute_sample_bytes
+from gudgeon.model.parameters import parse_typed_number, prepare_values
 from gudgeon.results.results import Result
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 from gudgeon.simulation.from_file import load
@@ -104,20 +105,20 @@ def run_scenes(request: Request) -> int:
     Targets and parameters are checked before anything runs. Errors of single scenes are printed; after Ctrl-C, finished
     results are saved and shown, with exit code 130.
     """
-    values = settings(request.settings)
-    check_folder("--out", request.out)
+    values = parse_settings(request.settings)
+    check_output_folder("--out", request.out)
     names = dict.fromkeys([IDEAL, *select_scenes(request.file, request.scenes)])
-    with status_line(quiet=request.json):
+    with show_status_line(quiet=request.json):
         renew, how = request.regenerate, request.formulation
         simulations = {name: load(request.file, name, regenerate=renew, formulation=how) for name in names}
     _check_request(request, values, simulations)
     for name, simulation in simulations.items():
         path = _build_result_path(request.out, simulation.source.mechanism, name)
-        check_name("--out", path)
-        check_origin(path, origin_of(request.file, simulation.source.sha256))
+        check_output_name("--out", path)
+        check_origin(path, format_origin(request.file, simulation.source.sha256))
         if request.report:
-            check_name("--out", path.with_suffix(".html"))
-    check_name("--out", request.out / f"{simulations[IDEAL].source.mechanism}.png")
+            check_output_name("--out", path.with_suffix(".html"))
+    check_output_name("--out", request.out / f"{simulations[IDEAL].source.mechanism}.png")
     session = Session()
     try:
         _simulate(request, values, simulations, session)
@@ -125,13 +126,13 @@ def run_scenes(request: Request) -> int:
         session.interrupted = True
     try:
         if session.runs:
-            _output_results(request, simulations, session)
+            _write_results(request, simulations, session)
     except KeyboardInterrupt:
         session.interrupted = True
     for scene, error in session.failures.items():
-        print(f"error: scene {scene}: {visible(error)}", file=sys.stderr)
+        print(f"error: scene {scene}: {escape_invisible(error)}", file=sys.stderr)
     for error in session.unwritten:
-        print(f"error: {visible(error)}", file=sys.stderr)
+        print(f"error: {escape_invisible(error)}", file=sys.stderr)
     if session.interrupted:
         print(_format_interruption(names, session), file=sys.stderr)
         return 130
@@ -142,7 +143,7 @@ def _format_interruption(names: Iterable[str], session: Session) -> str:
     """Return the message after Ctrl-C: which results are shown and saved, where runs ended, and which scenes are
     missing.
     """
-    from gudgeon.simulation.horizon import UNFINISHED
+    from gudgeon.simulation.predictability_horizon import UNFINISHED
 
     if not session.runs:
         return "interrupted before anything was computed: nothing is shown or saved"
@@ -164,15 +165,15 @@ def _check_request(request: Request, settings: Settings, simulations: Mapping[st
     """Raise errors for unknown addresses, series and invalid parameter values before anything is run or written."""
     check_addresses(settings, request.file, [simulation.source for simulation in simulations.values()])
     for simulation in simulations.values():
-        prepare(simulation.compiled, known_settings(simulation.source, settings))
+        prepare_values(simulation.compiled, select_known_settings(simulation.source, settings))
     if request.watch or request.peaks:
-        from gudgeon.results.series import catalogue
+        from gudgeon.results.series import get_catalogue
 
-        series = tuple(dict.fromkeys(name for s in simulations.values() for name in catalogue(s.source)))
+        series = tuple(dict.fromkeys(name for s in simulations.values() for name in get_catalogue(s.source)))
         for option, names in (("--watch", request.watch), ("--peaks", request.peaks)):
             for name in names:
                 if name not in series:
-                    raise unknown(f"{option}: no scene has a series {name!r}", name, series)
+                    raise make_unknown_error(f"{option}: no scene has a series {name!r}", name, series)
 
 
 def _select_peaks(request: Request, source: KernelSource) -> tuple[str, ...] | None:
@@ -182,10 +183,10 @@ def _select_peaks(request: Request, source: KernelSource) -> tuple[str, ...] | N
     """
     if not request.peaks:
         return None
-    from gudgeon.results.series import catalogue
+    from gudgeon.results.series import get_catalogue
 
-    known = catalogue(source)
-    return tuple(dict.fromkeys([*source.peaks, *(name for name in request.peaks if name in known)]))
+    catalogue = get_catalogue(source)
+    return tuple(dict.fromkeys([*source.peaks, *(name for name in request.peaks if name in catalogue)]))
 
 
 def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Simulation], session: Session) -> None:
@@ -194,17 +195,22 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
     The ideal scene is the last: it runs as long as the longest scene with play, and is cheap. A failed run is stored up
     to its failure.
     """
-    t_end, step = (None if text is None else value(text) for text in (request.t_end, request.step))
-    own = {name: prepare(s.compiled, known_settings(s.source, settings))[0] for name, s in simulations.items()}
-    longest = max((scene_end(s.source, own[n]) for n, s in simulations.items() if n != IDEAL), default=T_END)
-    check_needs(request, {name: (simulation, own[name]) for name, simulation in simulations.items()})
-    with progress_bar(quiet=request.json) as bar:
+    t_end, step = (None if text is None else parse_typed_number(text) for text in (request.t_end, request.step))
+    own = {
+        name: prepare_values(s.compiled, select_known_settings(s.source, settings))[0]
+        for name, s in simulations.items()
+    }
+    longest = max((evaluate_scene_end(s.source, own[n]) for n, s in simulations.items() if n != IDEAL), default=T_END)
+    check_memory_and_disk(request, {name: (simulation, own[name]) for name, simulation in simulations.items()})
+    with show_progress_bars(quiet=request.json) as bar:
         for name in sorted(simulations, key=lambda name: name == IDEAL):
             simulation, until = simulations[name], t_end
             method = "auto" if name == IDEAL and len(simulations) > 1 else request.method
             if until is None:
-                until = scene_number(simulation.source, "t_end", own[name], longest if name == IDEAL else T_END)
-            session.haste[name] = simulation.compiled.lib.haste
+                until = evaluate_scene_number(
+                    simulation.source, "t_end", own[name], longest if name == IDEAL else T_END
+                )
+            session.haste[name] = simulation.compiled.lib.optimization_note
             try:
                 run = simulation.simulate(
                     until,
@@ -213,7 +219,7 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
                     step=step,
                     rtol=request.rtol,
                     horizon=request.horizon or request.report,
-                    parameters=known_settings(simulation.source, settings),
+                    parameters=select_known_settings(simulation.source, settings),
                     progress=bar(name),
                     against=simulations[IDEAL] if simulation.source.clearances else None,
                     peaks=_select_peaks(request, simulation.source),
@@ -233,16 +239,16 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
                 return
 
 
-def _output_results(request: Request, simulations: Mapping[str, Simulation], session: Session) -> None:
+def _write_results(request: Request, simulations: Mapping[str, Simulation], session: Session) -> None:
     """Save, verify, compare, report, draw and show the results.
 
     They are saved first, so that a later failure loses none.
     """
-    from gudgeon.results.reports.comparison import compare
-    from gudgeon.results.series import default_watch
+    from gudgeon.results.reports.comparison import compute_scene_report
+    from gudgeon.results.series import choose_watched_series
 
     if request.verify:
-        verify(session.runs, session.failures, request.json)
+        verify_contacts(session.runs, session.failures, request.json)
     runs = {scene: session.runs[scene] for scene in sorted(session.runs, key=lambda scene: scene != IDEAL)}
     _save(request, runs, session)
     _find_references(simulations[IDEAL], session)
@@ -255,8 +261,8 @@ def _output_results(request: Request, simulations: Mapping[str, Simulation], ses
         message = session.files, session.unwritten, request.json
         write_reports(runs, simulations, session.references, request.out, save, *message)
     first = session.runs.get(IDEAL) or next(iter([*session.references.values(), *session.runs.values()]))
-    watch = request.watch or default_watch(first)
-    reports = [compare(run, session.references.get(scene), watch) for scene, run in runs.items()]
+    watch = request.watch or choose_watched_series(first)
+    reports = [compute_scene_report(run, session.references.get(scene), watch) for scene, run in runs.items()]
     try:
         _draw(request.out, runs, session, watch)
     finally:
@@ -297,12 +303,12 @@ def _save(request: Request, runs: Mapping[str, Result], session: Session) -> Non
 
     Errors, such as a full disk, are stored in `session.unwritten`.
     """
-    if not have("NetCDF files", "h5py"):
+    if not has_packages("NetCDF files", "h5py"):
         return
     for scene, run in runs.items():
         path = _build_result_path(request.out, run.source.mechanism, scene)
         try:
-            run.save(path, {ORIGIN: origin_of(request.file, run.source.sha256)})
+            run.save(path, {ORIGIN: format_origin(request.file, run.source.sha256)})
             session.files[scene] = str(path)
         except GudgeonError as error:
             session.unwritten.append(error)
@@ -315,13 +321,13 @@ def _draw(out: Path, runs: Mapping[str, Result], session: Session, watch: Sequen
 
     Nothing is drawn without matplotlib. watch: names of the series shown.
     """
-    if not have("picture", "matplotlib"):
+    if not has_packages("picture", "matplotlib"):
         return
-    from gudgeon.results.figures.plots import figure, save_figure
+    from gudgeon.results.figures.plots import draw_run_figure, save_figure
 
     path = out / f"{next(iter(runs.values())).source.mechanism}.png"
     try:
-        save_figure(figure(runs, session.references, watch), path)
+        save_figure(draw_run_figure(runs, session.references, watch), path)
         session.files["picture"] = str(path)
     except GudgeonError as error:
         session.unwritten.append(error)
@@ -336,45 +342,59 @@ def _build_result_path(out: Path, mechanism: str, scene: str) -> Path:
 
 def _show(request: Request, source: KernelSource, reports: list[SceneReport], session: Session) -> None:
     """Print tables, notes and written files, or the JSON document, and mark the session as shown."""
-    from gudgeon.language.shown import plain_console
-    from gudgeon.results.reports.comparison import as_json, tables
-    from gudgeon.results.reports.run_report import beyond
+    from gudgeon.language.text_output import make_plain_console
+    from gudgeon.results.reports.comparison import build_tables, convert_to_json_values
+    from gudgeon.results.reports.run_report import find_exceeded_limits
 
     if request.json:
-        scenes = {name: message | {"beyond": beyond(session.runs[name])} for name, message in as_json(reports).items()}
+        scenes = {
+            name: message | {"beyond": find_exceeded_limits(session.runs[name])}
+            for name, message in convert_to_json_values(reports).items()
+        }
         document = {"mechanism": source.mechanism, "scenes": scenes, "files": session.files}
         print_json(document)
     else:
-        console = plain_console(None if sys.stdout.isatty() else 200)
-        for table in tables(source.title or source.mechanism, reports, console.width, request.verbose):
+        console = make_plain_console(None if sys.stdout.isatty() else 200)
+        for table in build_tables(source.title or source.mechanism, reports, console.width, request.verbose):
             console.print(table)
         runs = [(r.scene, session.runs[r.scene]) for r in reports]
-        message = [f"{name}: {note}" for name, run in runs for note in (*run.diagnostics.notes, *beyond(run))]
+        message = [
+            f"{name}: {note}" for name, run in runs for note in (*run.diagnostics.notes, *find_exceeded_limits(run))
+        ]
         message += [f"{name}: {note}" for name, note in session.haste.items() if note and name in session.runs]
         for note in dict.fromkeys(message):
-            console.print(f"note: {visible(note)}")
-        print("".join(f"wrote {path_text(path)}\n" for path in session.files.values()), end="")
+            console.print(f"note: {escape_invisible(note)}")
+        print("".join(f"wrote {format_path(path)}\n" for path in session.files.values()), end="")
     session.shown = True
 
 
-def check_needs(request: Request, scenes: Mapping[str, tuple[Simulation, Array]]) -> None:
+def check_memory_and_disk(request: Request, scenes: Mapping[str, tuple[Simulation, Array]]) -> None:
     """Raise MemoryError if samples and derived series do not fit into memory, OutputError if the files do not fit on
     disk.
 
     scenes: each simulation with its parameter values. Files contain every series and replace older ones one after the
     other. The disk is not checked if no file is written.
     """
-    from gudgeon.results.series import catalogue
+    from gudgeon.results.series import get_catalogue
 
     given, counts = request.output, dict[str, float]()
-    for name, (one, p) in scenes.items():
-        counts[name] = 1.0 + (scene_number(one.source, "output", p, DEFAULT_OUTPUT) if given is None else given)
+    for name, (simulation, p) in scenes.items():
+        counts[name] = 1.0 + (
+            evaluate_scene_number(simulation.source, "output", p, DEFAULT_OUTPUT) if given is None else given
+        )
     samples_text = f"{len(scenes)} scenes of {max(counts.values()):.0f} samples"
-    each = {name: sample_bytes(one.compiled) + evaluated_bytes(one.compiled) for name, (one, _) in scenes.items()}
+    each = {
+        name: compute_sample_bytes(simulation.compiled) + compute_evaluation_bytes(simulation.compiled)
+        for name, (simulation, _) in scenes.items()
+    }
     check_memory(sum(counts[name] * each[name] for name in scenes), samples_text)
     if find_spec("h5py"):
-        files = [8.0 * counts[name] * (1 + len(catalogue(one.source))) for name, (one, _) in scenes.items()]
-        older = sum(_get_file_size(request.out, one.source.mechanism, name) for name, (one, _) in scenes.items())
+        files = [
+            8.0 * counts[name] * (1 + len(get_catalogue(simulation.source))) for name, (simulation, _) in scenes.items()
+        ]
+        older = sum(
+            _get_file_size(request.out, simulation.source.mechanism, name) for name, (simulation, _) in scenes.items()
+        )
         check_disk(request.out, max(*files, sum(files) - older), f"the results, {samples_text},")
 
 
@@ -389,7 +409,7 @@ def _build_report_path(out: Path, mechanism: str, scene: str) -> Path:
     return out / f"{mechanism}_{scene}.html"
 
 
-def verify(runs: dict[str, Result], failures: dict[str, GudgeonError], quiet: bool) -> None:
+def verify_contacts(runs: dict[str, Result], failures: dict[str, GudgeonError], quiet: bool) -> None:
     """Check the contacts of every run with play (Result.check), and replace the run by one with notes on the result.
 
     Faults and errors are stored in `failures`. quiet: without a status line.
@@ -398,15 +418,15 @@ def verify(runs: dict[str, Result], failures: dict[str, GudgeonError], quiet: bo
         if not run.source.clearances:
             continue
         try:
-            with status_line(quiet=quiet):
-                found = run.check()
+            with show_status_line(quiet=quiet):
+                findings = run.check()
             notes = (
                 *run.diagnostics.notes,
-                *found.notes,
-                f"{len(found.faults) or 'no'} faults of contacts at {found.samples} samples",
+                *findings.notes,
+                f"{len(findings.faults) or 'no'} faults of contacts at {findings.samples} samples",
             )
             runs[scene] = replace(run, diagnostics=replace(run.diagnostics, notes=notes))
-            found.raise_faults()
+            findings.raise_faults()
         except GudgeonError as error:
             failures.setdefault(scene, error)
 
@@ -430,7 +450,7 @@ def write_reports(
     for scene, run in runs.items():
         try:
             if not run.diagnostics.interrupted:
-                with status_line(quiet=quiet):
+                with show_status_line(quiet=quiet):
                     runs[scene] = run = examine(simulations[scene], run, references.get(scene))
                 save({scene: run})
             path = _build_report_path(out, run.source.mechanism, scene)
@@ -442,27 +462,27 @@ def write_reports(
             unwritten.append(MemoryShortage(error))
 
 
-def origin_of(mechanism: str, digest: str) -> str:
+def format_origin(mechanism: str, digest: str) -> str:
     """Return a text for the result file with the digests of the path and the bytes of the mechanism file.
 
     digest: SHA-256 of the bytes.
     """
-    place = sha256(os.fsencode(find_mechanism(mechanism).resolve())).hexdigest()
-    return f"gudgeon-origin {place[:16]} {digest[:16]}"
+    path_hash = sha256(os.fsencode(find_mechanism(mechanism).resolve())).hexdigest()
+    return f"gudgeon-origin {path_hash[:16]} {digest[:16]}"
 
 
 def check_origin(path: Path, origin: str) -> None:
     """Raise InputError if the file `path` is a result of another mechanism file; it may be absent or unreadable.
 
-    origin: text of `origin_of`; path or contents of the mechanism must agree.
+    origin: text of `format_origin`; path or contents of the mechanism must agree.
     """
     ours = _NOTED.match(origin.encode())
     try:
         with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
             noted = _NOTED.search(data)
-            found = set(noted.groups()) if noted else set()
+            origins = set(noted.groups()) if noted else set()
     except (OSError, ValueError):  # no file; errors of writing are reported later
         return
-    if ours and found and not found & set(ours.groups()):
-        message = f"--out: {shortened(path)} is the result of another mechanism file that has the same name"
+    if ours and origins and not origins & set(ours.groups()):
+        message = f"--out: {shorten_path(path)} is the result of another mechanism file that has the same name"
         raise InputError(message, hint="name another folder with --out, or remove it; or change `name:` in one of them")

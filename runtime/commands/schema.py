@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gudgeon.language.shown import print_json
+from gudgeon.language.text_output import print_json
 
 
 def print_schema(study: bool = False) -> int:
@@ -10,9 +10,9 @@ def print_schema(study: bool = False) -> int:
     code.
     """
     if study:
-        from gudgeon.generator.study.schema import schema
+        from gudgeon.generator.study.schema import make_schema
     else:
-        from gudgeon.generator.targets.json_schema import schema
+        from gudgeon.generator.targets.json_schema import make_schema
 
-    print_json(schema())
+    print_json(make_schema())
     return 0

@@ -1,4 +1,4 @@
-"""Share what `gudgeon bench` and `gudgeon map` need: scenes, parameter values, target of the table, Ctrl-C."""
+"""Read the arguments that `gudgeon bench` and `gudgeon map` share: scenes, parameter values, output file."""
 
 from __future__ import annotations
 
@@ -8,11 +8,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol, TypeVar
 
-from gudgeon.commands.common import check_addresses, check_file, check_name, require_suffix, select_scenes, settings
-from gudgeon.commands.progress import Report, progress_bar, status_line
-from gudgeon.contract.kernel_source import Slot
+from gudgeon.commands.common import (
+    check_addresses,
+    check_output_file,
+    check_output_name,
+    parse_settings,
+    require_suffix,
+    select_scenes,
+)
+from gudgeon.commands.progress import Report, show_progress_bars, show_status_line
+from gudgeon.contract.kernel_source import RuntimeParameter
 from gudgeon.errors import BadValueError
-from gudgeon.model.parameters import addresses, number, prepare, value
+from gudgeon.model.parameters import list_addresses, parse_typed_number, prepare_values, read_parameter_value
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.waiting.ctrl_c import INTERRUPTED
@@ -54,28 +61,28 @@ class Request:
     @property
     def parameters(self) -> dict[str, float | str]:
         """Return the values of `--set ADDRESS=VALUE` by address."""
-        return settings(self.sets)
+        return parse_settings(self.sets)
 
-    def of(self, simulation: Simulation) -> dict[str, float | str]:
+    def select_parameters(self, simulation: Simulation) -> dict[str, float | str]:
         """Return those values of `--set` whose addresses the scene has; an ideal scene has no viscosity, for
         example.
         """
-        known = set(addresses(simulation.source))
-        return {name: message for name, message in self.parameters.items() if name in known}
+        known_addresses = set(list_addresses(simulation.source))
+        return {name: message for name, message in self.parameters.items() if name in known_addresses}
 
-    def seconds(self, option: str, text: str | None) -> float | None:
+    def parse_time(self, option: str, text: str | None) -> float | None:
         """Parse the text of an option as a positive time and return it in s; None if it is None.
 
         Raise BadValueError.
         """
         if text is None:
             return None
-        found = number(value(text), Slot(option, "s", 0.0, False, (0, 0, 1)))
-        if not found > 0:
-            raise BadValueError(f"{option} is {found:g} s: expected a positive time")
-        return found
+        value = read_parameter_value(parse_typed_number(text), RuntimeParameter(option, "s", 0.0, False, (0, 0, 1)))
+        if not value > 0:
+            raise BadValueError(f"{option} is {value:g} s: expected a positive time")
+        return value
 
-    def table(self, mechanism: str, what: str) -> Path:
+    def find_table_path(self, mechanism: str, what: str) -> Path:
         """Return the path of the CSV file: that of --csv, else MECHANISM_WHAT.csv in --out; pictures have the same
         name.
 
@@ -85,41 +92,41 @@ class Request:
         if self.csv is not None:
             require_suffix(self.csv, (".csv",))
         option = "--out" if self.csv is None else "--csv"
-        check_file(option, table)
-        check_name(option, table.with_suffix(".png"))
+        check_output_file(option, table)
+        check_output_name(option, table.with_suffix(".png"))
         return table
 
 
-def each(
-    loaded: Sequence[Simulation], one: Callable[[Simulation, Report | None], Found], quiet: bool
+def measure_scenes(
+    loaded: Sequence[Simulation], measure_scene: Callable[[Simulation, Report | None], Found], quiet: bool
 ) -> tuple[list[Found], bool]:
-    """Call `one` for every scene with a progress callback; return the results, and whether Ctrl-C ended the loop.
+    """Call `measure_scene` for every scene with a progress callback; return the results, and whether Ctrl-C came.
 
     After Ctrl-C the last result may be incomplete. quiet: without a progress bar.
     """
-    found: list[Found] = []
-    with progress_bar(quiet) as bar:
+    results: list[Found] = []
+    with show_progress_bars(quiet) as bar:
         try:
             for simulation in loaded:
-                found.append(one(simulation, bar(simulation.source.scene)))
-                if found[-1].interrupted:
-                    return found, True
+                results.append(measure_scene(simulation, bar(simulation.source.scene)))
+                if results[-1].interrupted:
+                    return results, True
         except KeyboardInterrupt:
-            return found, True
-    return found, False
+            return results, True
+    return results, False
 
 
-def exit_code(loaded: Sequence[Simulation], found: Sequence[Measured], interrupted: bool) -> int:
+def find_exit_code(loaded: Sequence[Simulation], measured_scenes: Sequence[Measured], interrupted: bool) -> int:
     """Return the exit code: 0, or 130 after Ctrl-C, which is reported on stderr with the finished runs of each
     scene.
     """
     if not interrupted:
         return 0
-    if not found:
+    if not measured_scenes:
         print("interrupted before anything was measured: nothing is shown or written", file=sys.stderr)
         return INTERRUPTED
-    parts = ["{}: {} of {} runs".format(scene.scene, *scene.done) for scene in found]
-    names = {scene.scene for scene in found}
+    parts = ["{}: {} of {} runs".format(scene.scene, *scene.done) for scene in measured_scenes]
+    names = {scene.scene for scene in measured_scenes}
     parts += [f"{s.source.scene}: not begun" for s in loaded if s.source.scene not in names]
     print(f"interrupted: what is shown and written is partial ({'; '.join(parts)})", file=sys.stderr)
     return INTERRUPTED
@@ -130,9 +137,9 @@ def load_scenes(request: Request) -> list[Simulation]:
 
     Raises UnknownNameError for an address that no scene has, BadValueError for values.
     """
-    with status_line(quiet=request.json):
+    with show_status_line(quiet=request.json):
         loaded = [load(request.file, scene, quick=False) for scene in select_scenes(request.file, request.scenes)]
     check_addresses(request.parameters, request.file, [simulation.source for simulation in loaded])
     for simulation in loaded:
-        prepare(simulation.compiled, request.of(simulation))
+        prepare_values(simulation.compiled, request.select_parameters(simulation))
     return loaded

@@ -1,4 +1,4 @@
-"""Run `gudgeon study`: run, resume and report a file of many runs."""
+"""Run `gudgeon study`: run, resume and report a study, a YAML file that describes many runs of one mechanism."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from gudgeon.commands.common import check_file, check_folder, require_suffix, settings
-from gudgeon.commands.outcome import report_as_json, wrote
-from gudgeon.commands.progress import progress_bar, status_line
-from gudgeon.errors import BadValueError, shortened
+from gudgeon.commands.common import check_output_file, check_output_folder, parse_settings, require_suffix
+from gudgeon.commands.outcome import report_as_json, report_written
+from gudgeon.commands.progress import show_progress_bars, show_status_line
+from gudgeon.errors import BadValueError, shorten_path
 from gudgeon.files.writing import write_bytes
-from gudgeon.language.shown import path_text
-from gudgeon.studies.ensemble.estimate import estimate
+from gudgeon.language.text_output import format_path
+from gudgeon.studies.ensemble.estimate import estimate_study
 from gudgeon.studies.ensemble.folder import StudyFolder
 from gudgeon.studies.ensemble.plan import Plans
-from gudgeon.studies.ensemble.study import load_study, plans_of, run_plans
-from gudgeon.studies.ensemble.workers import workers
-from gudgeon.studies.show.study import show_estimates, show_studies
+from gudgeon.studies.ensemble.study import load_study, resolve_plans, run_plans
+from gudgeon.studies.ensemble.workers import open_workers
+from gudgeon.studies.show.study import report_estimates, report_studies
 
 INTERRUPTED, FAILED = 130, 1
 REPORT = "report"  # typed in place of a file
@@ -54,12 +54,12 @@ def report_study(folder: str, out: Path | None, json: bool) -> int:
     """
     page = out or Path(folder).absolute().with_suffix(".html")
     require_suffix(page, (".html", ".htm"))
-    check_file("--out", page)
-    with status_line(quiet=json):
-        found = load_study(folder).report().to_html()
+    check_output_file("--out", page)
+    with show_status_line(quiet=json):
+        html = load_study(folder).report().to_html()
     with report_as_json(json):
-        write_bytes(page, found.encode())
-        wrote("report", page)
+        write_bytes(page, html.encode())
+        report_written("report", page)
     return 0
 
 
@@ -68,36 +68,38 @@ def study_file(request: Request) -> int:
     if request.finished is not None:
         if request.file != REPORT:
             hint = f"gudgeon study {REPORT} FOLDER writes a page of it"
-            raise BadValueError(f"study takes one file, and found {shortened(request.finished)} too", hint=hint)
+            raise BadValueError(f"study takes one file, and found {shorten_path(request.finished)} too", hint=hint)
         return report_study(request.finished, request.out, request.json)
     if request.file == REPORT and not Path(REPORT).exists():
         raise BadValueError(f"study {REPORT}: of which study?", hint=f"gudgeon study {REPORT} NAME.study")
-    given = settings(tuple(request.sets or ()))
+    given = parse_settings(tuple(request.sets or ()))
     if request.folder.suffix.lower() == ".html":
-        hint = f"name a folder; gudgeon study {REPORT} FOLDER --out {shortened(request.folder)} writes the page"
-        raise BadValueError(f"--out: {shortened(request.folder)} is a page's name, and a study is a folder", hint=hint)
+        hint = f"name a folder; gudgeon study {REPORT} FOLDER --out {shorten_path(request.folder)} writes the page"
+        raise BadValueError(
+            f"--out: {shorten_path(request.folder)} is a page's name, and a study is a folder", hint=hint
+        )
     if not request.runs:
-        check_folder("--out", request.folder)
-    with status_line(quiet=request.json):
-        plans = plans_of(request.file, given, request.starts, request.seed)
+        check_output_folder("--out", request.folder)
+    with show_status_line(quiet=request.json):
+        plans = resolve_plans(request.file, given, request.starts, request.seed)
     if request.runs:
-        estimates = {name: estimate(plan, request.threads) for name, plan in plans.each.items()}
-        show_estimates(plans, estimates, request.json)
+        estimates = {name: estimate_study(plan, request.threads) for name, plan in plans.each.items()}
+        report_estimates(plans, estimates, request.json)
         return 0
     try:
-        with workers(request.workers, request.cluster) as pool, progress_bar(request.json) as bar:
+        with open_workers(request.workers, request.cluster) as pool, show_progress_bars(request.json) as bar:
             report = bar(request.folder.stem)
-            found = run_plans(plans, request.folder, request.threads, pool, report, request.restart)
+            finished_study = run_plans(plans, request.folder, request.threads, pool, report, request.restart)
     except KeyboardInterrupt:
         _report_interruption(plans, request.folder)
         return INTERRUPTED
-    show_studies(plans, found, request.json)
-    return FAILED if found.failed == found.runs else 0
+    report_studies(plans, finished_study, request.json)
+    return FAILED if finished_study.failed == finished_study.runs else 0
 
 
 def _report_interruption(plans: Plans, folder: Path) -> None:
     """Print to stderr, after Ctrl-C, how many blocks of runs are stored in the folder."""
     every = sum(len(plan.blocks) for plan in plans.each.values())
-    there = min(every, sum(StudyFolder(folder / name, plan).there() for name, plan in plans.each.items()))
-    text = f"{there} of {every} blocks of runs are in {path_text(folder)}"
+    there = min(every, sum(StudyFolder(folder / name, plan).count_block_files() for name, plan in plans.each.items()))
+    text = f"{there} of {every} blocks of runs are in {format_path(folder)}"
     print(f"interrupted: {text}; the same command goes on from there", file=sys.stderr)

@@ -1,1 +1,1 @@
-"""What the generator hands over and the runtime reads: the standard library alone."""
+"""Define the data that the generator passes to the runtime; these modules import the standard library alone."""

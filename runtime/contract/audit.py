@@ -1,4 +1,4 @@
-"""List the checks of a run's audit and what each compares, in the order of engine/boundary.h."""
+"""List the checks that audit the accuracy of a run, in the order of engine/boundary.h, and what each compares."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Describe joints with play, and bearings with a contour, for the runtime."""
+"""Describe joints with play, and bearings that are not circular, for the runtime."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class ClearanceInfo:
         return self.constants.get("film_clearance", self.clearance)
 
     @property
-    def at_wall(self) -> bool:
+    def is_corner(self) -> bool:
         """Return whether it is a slider's corner at a wall of its guide."""
         return "." in self.name
 

@@ -17,7 +17,7 @@ from typing import Any
 from gudgeon.contract.clearance_info import ClearanceInfo, ContourInfo
 from gudgeon.contract.methods import INTEGRATORS, KINEMATIC, NEED_SLOPES, STAGED
 from gudgeon.contract.reduction_log import ReductionLog
-from gudgeon.contract.stored import as_text, complete, shorten, tuples
+from gudgeon.contract.stored import convert_lists_to_tuples, format_json, remove_derived, restore_derived
 
 HEADER = "model.h"
 # line of model.h: the engine depends only on the text before it
@@ -29,7 +29,7 @@ GIVEN_ZERO = 0.001  # where that is zero
 
 
 @dataclass(frozen=True)
-class Slot:
+class RuntimeParameter:
     """Describe a run-time parameter: `given[i]` of the C function `prepare`."""
 
     address: str  # "bodies.L2.mass", "parameters.omega"
@@ -176,7 +176,7 @@ class KernelSource:
     start_pivots: tuple[str, ...]  # the same for the kinematic method's projection
     rate_jumps: tuple[str, ...]  # drives whose rate may jump, which causes impulses
     indeterminate: tuple[str, ...]  # joints and drives whose multipliers are undetermined because of redundancy
-    slots: tuple[Slot, ...]
+    slots: tuple[RuntimeParameter, ...]
     derived: tuple[str, ...]  # names of the derived values that follow the parameters in p
     conditions: tuple[Condition, ...]
     outputs: Mapping[str, Any]  # name -> expression tree as nested lists
@@ -209,14 +209,14 @@ class KernelSource:
     laws: tuple[tuple[str, str], ...] = ()  # user-defined laws and their keys (kinds/laws/registered.py)
 
     @property
-    def beside(self) -> tuple[tuple[str, str], ...]:
+    def external_files(self) -> tuple[tuple[str, str], ...]:
         """Return tables and user-defined laws, which the file's text does not contain, with their SHA-256."""
         return (*self.tables, *self.laws)
 
     @property
     def whole_sha256(self) -> str:
         """Return the SHA-256 of the file, including its tables and user-defined laws if there are any."""
-        parts = [self.sha256, *(f"{name} {digest}" for name, digest in self.beside)]
+        parts = [self.sha256, *(f"{name} {digest}" for name, digest in self.external_files)]
         return sha256("\n".join(parts).encode()).hexdigest() if len(parts) > 1 else self.sha256
 
     reference: Mapping[str, Any] = field(default_factory=dict)  # values by the NumPy target (model/reference.py)
@@ -228,7 +228,7 @@ class KernelSource:
     massless: tuple[str, ...] = ()  # bodies without mass or inertia: quantities that need masses are unknown
 
     @cached_property
-    def place(self) -> dict[str, int]:
+    def slot_index(self) -> dict[str, int]:
         """Return the index of each parameter by address. Do not write to it."""
         return {parameter.address: k for k, parameter in enumerate(self.slots)}
 
@@ -240,7 +240,7 @@ class KernelSource:
     @cached_property
     def guides(self) -> tuple[str, ...]:
         """Return the translational joints with play, whose sliders touch at corners."""
-        return tuple(dict.fromkeys(joint.joint for joint in self.clearances if joint.at_wall))
+        return tuple(dict.fromkeys(joint.joint for joint in self.clearances if joint.is_corner))
 
     @property
     def n_memory(self) -> int:
@@ -248,12 +248,12 @@ class KernelSource:
         return len(self.clearances) + len(self.frictions) + len(self.states)
 
     @property
-    def explicit(self) -> bool:
+    def is_explicit(self) -> bool:
         """Return whether only explicit methods fit: a contact law has no derivatives."""
         return bool(self.rigid)
 
     @property
-    def no_slopes(self) -> str:
+    def reason_without_jacobian(self) -> str:
         """Return why there is no Jacobian; "" if there is one.
 
         There is none if nothing is integrated, or if a contact of rigid surfaces opens and closes.
@@ -270,7 +270,7 @@ class KernelSource:
         included if the library has their matrices; those that use the Jacobian only if contact laws have derivatives.
         """
         integrators = tuple(
-            x for x in (*INTEGRATORS, *STAGED * self.stages) if not (self.explicit and x in NEED_SLOPES)
+            x for x in (*INTEGRATORS, *STAGED * self.stages) if not (self.is_explicit and x in NEED_SLOPES)
         )
         return integrators if self.degrees_of_freedom or self.clearances or self.frictions else (KINEMATIC,)
 
@@ -281,12 +281,12 @@ class KernelSource:
     @cached_property
     def _json(self) -> str:
         """Return the JSON text, computed once."""
-        return as_text(shorten(asdict(self), _find_json_defaults()))
+        return format_json(remove_derived(asdict(self), _find_json_defaults()))
 
     @staticmethod
     def from_json(text: str) -> KernelSource:
         """Return the source that `to_json` wrote; values that were left out are restored."""
-        fields = complete(json.loads(text), _find_json_defaults())
+        fields = restore_derived(json.loads(text), _find_json_defaults())
         classes = {
             "bodies": BodyInfo,
             "points": PointInfo,
@@ -295,7 +295,7 @@ class KernelSource:
             "drives": DriveInfo,
             "clearances": ClearanceInfo,
             "start_rows": RowInfo,
-            "slots": Slot,
+            "slots": RuntimeParameter,
             "conditions": Condition,
             "series": SeriesInfo,
             "events": EventInfo,
@@ -305,7 +305,10 @@ class KernelSource:
             "parts": PartInfo,
             "contours": ContourInfo,
         }
-        fields |= {key: tuple(kind(**tuples(item)) for item in fields.get(key, ())) for key, kind in classes.items()}
+        fields |= {
+            key: tuple(kind(**convert_lists_to_tuples(item)) for item in fields.get(key, ()))
+            for key, kind in classes.items()
+        }
         for key, value in fields.items():
             if isinstance(value, list) and key not in classes:
                 fields[key] = tuple(tuple(item) if isinstance(item, list) else item for item in value)
@@ -343,7 +346,7 @@ def _find_json_defaults() -> dict[str, Any]:
     return {"main": MAIN, **empty_values, **json_defaults, "story": {}}
 
 
-def given_parameters(slots: Sequence[Slot], parity: int) -> dict[int, float]:
+def make_given_parameters(slots: Sequence[RuntimeParameter], parity: int) -> dict[int, float]:
     """Return a value for every second parameter from index `parity` (0 or 1) on, by index; choices keep their defaults.
 
     It is GIVEN times the default, GIVEN_ZERO for a default of 0. With these, a library is compared with values of the

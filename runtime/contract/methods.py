@@ -1,4 +1,4 @@
-"""Declare the integrators in C: each once here and, if it is adaptive, once in engine/methods/methods.c."""
+"""Declare the integration methods that are written in C; engine/methods/methods.c also lists the adaptive ones."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Record how a scene's equations were reduced to those that are integrated; `gudgeon check -v` reports it.
+"""Record how the equations of motion were reduced before integration; `gudgeon check -v` shows the record.
 
 The record begins with all coordinates and constraint equations of the closed linkage. Each step removes some and may
 add others; what remains is integrated. A step of elimination removes as many coordinates as equations, so that the
@@ -87,7 +87,7 @@ class ReductionLog:
     after: Solve | None = None  # linear system of what is integrated or followed
     groups: tuple[Group, ...] = ()  # in the order in which they are solved; kinematic linkages only
 
-    def ledger(self) -> Iterator[tuple[Step, int, int]]:
+    def iterate_steps(self) -> Iterator[tuple[Step, int, int]]:
         """Yield each reduction step with the numbers of coordinates and constraint equations that remain after it."""
         n, m = len(self.coordinates), len(self.rows)
         for step in self.steps:

@@ -1,4 +1,4 @@
-"""Describe the reduction of a scene's equations (ledger.py) in words, for `check -v` and the written equations."""
+"""Describe in sentences how the equations of motion were reduced (reduction_log.py), for `gudgeon check -v`."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.contract.reduction_log import ReductionLog, Solve, Step
 
-MOST = 16  # largest number of names that are listed in full
+MAX_NAMES = 16  # largest number of names that are listed in full
 
 
-def reduction_lines(source: KernelSource) -> Iterator[tuple[int, int, str]]:
+def describe_steps(source: KernelSource) -> Iterator[tuple[int, int, str]]:
     """Yield for each reduction step the numbers of coordinates and equations that remain, and its description.
 
     The first item is that of all bodies before the reduction.
     """
     log = source.story
     yield len(log.coordinates), len(log.rows), "every body by x, y and its angle; every joint closed"
-    for step, n, m in log.ledger():
+    for step, n, m in log.iterate_steps():
         yield n, m, _WORDS[step.kind](step)
 
 
-def outcome(source: KernelSource) -> Iterator[tuple[str, str]]:
+def describe_outcome(source: KernelSource) -> Iterator[tuple[str, str]]:
     """Yield titles and texts on the tree, the unknowns, the linear systems and the operations of a scene.
 
     The tree is left out if there is none, the closures for the full formulation.
@@ -37,88 +37,89 @@ def outcome(source: KernelSource) -> Iterator[tuple[str, str]]:
     )
     if is_reduced:
         noun_phrase = "rows that stay" if len(source.closures) > 1 else "the row that stays"
-        yield "closures", f"{listed(source.closures)}: {noun_phrase}" if source.closures else "none: no row stays"
+        yield "closures", f"{format_names(source.closures)}: {noun_phrase}" if source.closures else "none: no row stays"
     yield "solved", _format_linear_systems(log, is_reduced)
     yield "operations", _format_operations(source)
 
 
-def listed(names: Sequence[str]) -> str:
+def format_names(names: Sequence[str]) -> str:
     """Return names as "a, b, c"; of more than MOST names the first ones, and how many there are in all."""
-    if len(names) <= MOST:
+    if len(names) <= MAX_NAMES:
         return ", ".join(names)
-    return f"{', '.join(names[: MOST - 4])}, … ({len(names)} in all)"
+    return f"{', '.join(names[: MAX_NAMES - 4])}, … ({len(names)} in all)"
 
 
-def _plural_ending(names: Sequence[str]) -> str:
+def _get_plural_ending(names: Sequence[str]) -> str:
     """Return the plural ending of a noun for names: "s" unless there is exactly one."""
     return "s" * (len(names) != 1)
 
 
-def _verb_ending(names: Sequence[str]) -> str:
+def _get_verb_ending(names: Sequence[str]) -> str:
     """Return the ending of a verb in the present tense, for names as its subject: "s" for exactly one."""
     return "s" * (len(names) == 1)
 
 
 def _list_bodies(names: Iterable[str]) -> str:
     """Return the bodies of coordinates, each once: "L1, L4" for "L1.theta", "L4.theta"."""
-    return listed(tuple(dict.fromkeys(name.rpartition(".")[0] for name in names)))
+    return format_names(tuple(dict.fromkeys(name.rpartition(".")[0] for name in names)))
 
 
 def _describe_play(step: Step) -> str:
     """Describe the step that opens joints with play."""
     verb = "has" if len(step.owners) == 1 else "have"
-    return f"{listed(step.owners)} {verb} play: a force law instead of rows, and no joint of the tree"
+    return f"{format_names(step.owners)} {verb} play: a force law instead of rows, and no joint of the tree"
 
 
 def _describe_redundant(step: Step) -> str:
     """Describe the step that leaves out redundant equations."""
-    return f"{listed(step.rows_gone)} say{_verb_ending(step.rows_gone)} nothing new: left out"
+    return f"{format_names(step.rows_gone)} say{_get_verb_ending(step.rows_gone)} nothing new: left out"
 
 
 def _describe_prescribed(step: Step) -> str:
     """Describe the step in which drives prescribe angles."""
-    angles = f"the angle{_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
-    return f"{listed(step.owners)} prescribe{_verb_ending(step.owners)} {angles}: known at any time, not integrated"
+    angles = f"the angle{_get_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
+    subject = f"{format_names(step.owners)} prescribe{_get_verb_ending(step.owners)}"
+    return f"{subject} {angles}: known at any time, not integrated"
 
 
 def _describe_constant(step: Step) -> str:
     """Describe the step in which joints keep angles constant."""
-    angles = f"the angle{_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
-    return f"{listed(step.owners)} keep{_verb_ending(step.owners)} {angles} as it is"
+    angles = f"the angle{_get_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
+    return f"{format_names(step.owners)} keep{_get_verb_ending(step.owners)} {angles} as it is"
 
 
 def _describe_following(step: Step) -> str:
     """Describe the step in which angles follow other angles."""
-    angles = f"the angle{_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
-    return f"{angles} follow{_verb_ending(step.gone)} {listed(step.owners)}"
+    angles = f"the angle{_get_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
+    return f"{angles} follow{_get_verb_ending(step.gone)} {format_names(step.owners)}"
 
 
 def _describe_hub(step: Step) -> str:
     """Describe the step that replaces equations of joints that meet in one point."""
     added_bodies, removed_bodies = _list_bodies(step.rows_come), _list_bodies(step.rows_gone)
-    verb = f"stand{_verb_ending(step.rows_come[::2])}"
-    return f"{listed(step.owners)} meet in one point: {added_bodies} {verb} in for {removed_bodies}"
+    verb = f"stand{_get_verb_ending(step.rows_come[::2])}"
+    return f"{format_names(step.owners)} meet in one point: {added_bodies} {verb} in for {removed_bodies}"
 
 
 def _describe_hinges(step: Step) -> str:
     """Describe the step in which hinges place bodies."""
-    return f"{listed(step.owners)}: each places a body, whose x and y follow from angles"
+    return f"{format_names(step.owners)}: each places a body, whose x and y follow from angles"
 
 
 def _describe_slides(step: Step) -> str:
     """Describe the step in which slides replace x and y of bodies."""
-    return f"{listed(step.owners)}: each carries a body, one slide along its axis in place of x and y"
+    return f"{format_names(step.owners)}: each carries a body, one slide along its axis in place of x and y"
 
 
 def _describe_known_slides(step: Step) -> str:
     """Describe the step in which slides become known."""
-    slides = f"the slide{_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
-    return f"{slides} follow{_verb_ending(step.gone)} {listed(step.owners)}"
+    slides = f"the slide{_get_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
+    return f"{slides} follow{_get_verb_ending(step.gone)} {format_names(step.owners)}"
 
 
 def _describe_driven_loops(step: Step) -> str:
     """Describe the step that evaluates loops determined by drives."""
-    clause = f"{listed(step.owners)} close{_verb_ending(step.owners)} loops that drives alone move"
+    clause = f"{format_names(step.owners)} close{_get_verb_ending(step.owners)} loops that drives alone move"
     return f"{clause}: what they make of {_list_bodies(step.gone)} is evaluated, not integrated"
 
 
@@ -146,7 +147,7 @@ def _format_tree(log: ReductionLog) -> str:
     bodies_without_joint = {placed.body for placed in log.tree if not placed.joint}
     for placed in log.tree:
         children.setdefault(placed.parent, []).append(placed.body)
-    if len(log.tree) > 2 * MOST:
+    if len(log.tree) > 2 * MAX_NAMES:
         remark = f", {len(bodies_without_joint)} of them with x and y of their own" * bool(bodies_without_joint)
         return f"{len(log.tree)} bodies, at most {_find_depth(children, 'ground')} behind each other{remark}"
 
@@ -188,7 +189,7 @@ def _describe_coordinates(tree: Sequence[str]) -> Iterator[str]:
     positions = [name for name in tree if "." in name and not name.endswith(".slide")]
     for kind, names, preposition in (("angle", angles, "of "), ("slide", slides, "of "), ("position", positions, "")):
         if names:
-            yield f"{kind}{_plural_ending(names)} {preposition}{listed(names)}"
+            yield f"{kind}{_get_plural_ending(names)} {preposition}{format_names(names)}"
 
 
 def _format_matrix(solve: Solve) -> str:
@@ -203,7 +204,7 @@ def _format_linear_systems(log: ReductionLog, is_reduced: bool) -> str:
         return f"{before} → {_format_matrix(log.after)}" if is_reduced else _format_matrix(log.after)
     sizes = sorted((len(group.rows) for group in log.groups), reverse=True)
     sizes_text = ", ".join(f"{sizes.count(n)} of {n}×{n}" for n in dict.fromkeys(sizes))
-    order = listed([" + ".join(group.coordinates) for group in log.groups])
+    order = format_names([" + ".join(group.coordinates) for group in log.groups])
     return f"{before} → without masses, {sizes_text} one after the other: {order}" if sizes else "nothing: all is known"
 
 
@@ -253,6 +254,6 @@ def _format_law_operations(source: KernelSource) -> str:
         phrases = [f"{film:,} for the film"] * bool(film) + [f"{dry:,} in contact"] * bool(dry)
         joints_by_text.setdefault(" and ".join(phrases), []).append(joint.name)
     return "".join(
-        f"; {listed(names)}{' each' * (len(names) > 1)} add{_verb_ending(names)} {text}"
+        f"; {format_names(names)}{' each' * (len(names) > 1)} add{_get_verb_ending(names)} {text}"
         for text, names in joints_by_text.items()
     )

@@ -1,6 +1,6 @@
-"""Convert a scene's description to and from its stored form, which leaves out all that follows from the rest.
+"""Convert the description of a compiled scene to and from its stored form, without the values that can be derived.
 
-`shorten` and `complete` work on the plain data of a KernelSource, and are inverse to each other.
+`remove_derived` and `restore_derived` work on the plain data of a KernelSource, and are inverse to each other.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ Data = dict[str, Any]
 _UNITS = ("kg", "m", "s")
 
 
-def base_units(dimension: tuple[float, float, float]) -> str:
+def format_base_units(dimension: tuple[float, float, float]) -> str:
     """Return SI base units for exponents of m, kg, s: "kg*m^2/s^2", "kg/m^0.5/s^2"; "" for a pure number."""
     length, mass, time = dimension
     units_and_exponents = list(zip(_UNITS, (mass, length, time), strict=True))
@@ -28,8 +28,8 @@ def base_units(dimension: tuple[float, float, float]) -> str:
     return (numerator or ("1" if denominator else "")) + denominator
 
 
-def shorten(data: Data, defaults: Mapping[str, Any]) -> Data:
-    """Return the data without the values that `complete` restores. `data` is changed.
+def remove_derived(data: Data, defaults: Mapping[str, Any]) -> Data:
+    """Return the data without the values that `restore_derived` restores. `data` is changed.
 
     Left out are values that follow from others, and those that equal `defaults`. Constraint equations that the start
     has too become their indices.
@@ -51,8 +51,8 @@ def shorten(data: Data, defaults: Mapping[str, Any]) -> Data:
     }
 
 
-def complete(data: Data, defaults: Mapping[str, Any]) -> Data:
-    """Return the data with all values that follow from the rest, the inverse of `shorten`. `data` is changed."""
+def restore_derived(data: Data, defaults: Mapping[str, Any]) -> Data:
+    """Return the data with all values that follow from the rest, the inverse of `remove_derived`. `data` is changed."""
     for name, default in defaults.items():
         if name not in _FOLLOWING:
             data.setdefault(name, default)
@@ -71,9 +71,11 @@ def complete(data: Data, defaults: Mapping[str, Any]) -> Data:
     return data
 
 
-def as_text(data: Data) -> str:
+def format_json(data: Data) -> str:
     """Return the data as JSON text, one line for each name and each item of a list."""
-    return "{\n" + ",\n".join(f" {_dumps(name)}: {_format_value(value)}" for name, value in data.items()) + "\n}"
+    return (
+        "{\n" + ",\n".join(f" {_serialize_json(name)}: {_format_value(value)}" for name, value in data.items()) + "\n}"
+    )
 
 
 def _format_value(value: Any) -> str:
@@ -81,10 +83,14 @@ def _format_value(value: Any) -> str:
     is_list_of_records = isinstance(value, (list, tuple)) and any(
         isinstance(item, (dict, list, tuple)) for item in value
     )
-    return "[\n" + ",\n".join(f"  {_dumps(item)}" for item in value) + "\n ]" if is_list_of_records else _dumps(value)
+    return (
+        "[\n" + ",\n".join(f"  {_serialize_json(item)}" for item in value) + "\n ]"
+        if is_list_of_records
+        else _serialize_json(value)
+    )
 
 
-def _dumps(value: Any) -> str:
+def _serialize_json(value: Any) -> str:
     """Return a value as JSON on one line."""
     return json.dumps(value, ensure_ascii=False)
 
@@ -133,7 +139,7 @@ _OF_PARTS: dict[str, dict[str, Callable[[Data, Data], Any]]] = {
     },
     "parts": {"options": lambda data, part: {}},
     "slots": {
-        "unit": lambda data, slot: base_units(slot["dimension"]),
+        "unit": lambda data, slot: format_base_units(slot["dimension"]),
         "words": lambda data, slot: [],
         "tree": lambda data, slot: "",
     },
@@ -145,6 +151,6 @@ _OF_STORY: dict[str, Callable[[Data], Any]] = {
 }
 
 
-def tuples(item: dict[str, Any]) -> dict[str, Any]:
+def convert_lists_to_tuples(item: dict[str, Any]) -> dict[str, Any]:
     """Return a mapping of JSON data with its lists converted to tuples; inner lists stay."""
     return {key: tuple(value) if isinstance(value, list) else value for key, value in item.items()}

@@ -1,1 +1,1 @@
-"""A mechanism as engineers draw it: lines and discs in metres first, then a picture."""
+"""Draw a mechanism with engineering symbols: shapes in metres first, then SVG, matplotlib, TikZ or DXF."""

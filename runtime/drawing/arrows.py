@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gudgeon.assembly.linkage import place_of
-from gudgeon.drawing.movers import HEAD, arrow
-from gudgeon.drawing.posture import Posture, anchors
+from gudgeon.assembly.linkage import compute_point_position
+from gudgeon.drawing.movers import HEAD, draw_arrow
+from gudgeon.drawing.posture import Posture, find_outline_points
 from gudgeon.drawing.shapes import Shape
-from gudgeon.language.plot_units import scale
+from gudgeon.language.plot_units import choose_prefix
 from gudgeon.model.compiled import Array
 
 LONGEST = 9.0  # units
@@ -31,7 +31,7 @@ class Arrows:
     on: str = ""
 
 
-def arrows(
+def draw_arrows(
     role: str, vectors: Mapping[str, tuple[Array, Array]], si_unit: str, unit_length: float, max_magnitude: float
 ) -> Arrows:
     """Return the arrows of vectors given as name: (position, vector), with a reference arrow of a round value.
@@ -45,25 +45,25 @@ def arrows(
     for name, (position, vector) in vectors.items():
         length = metres_per_unit * float(np.hypot(*vector))
         if length > 1e-3 * unit_length:
-            shapes += arrow(
+            shapes += draw_arrow(
                 f"{role} {name}",
                 role,
                 position,
                 position + metres_per_unit * vector,
                 min(0.85 * HEAD * unit_length, 0.6 * length),
             )
-    reference = round_number(max_magnitude)
-    factor, text = scale(reference, si_unit)
+    reference = find_round_number(max_magnitude)
+    factor, text = choose_prefix(reference, si_unit)
     return Arrows(role, tuple(shapes), metres_per_unit * reference, f"{reference * factor:g} {text}")
 
 
-def round_number(limit: float) -> float:
+def find_round_number(limit: float) -> float:
     """Return the largest of 1, 2 or 5 times a power of ten that does not exceed a positive `limit`."""
     power = 10.0 ** np.floor(np.log10(limit))
     return float(max(x for x in (1.0, 2.0, 5.0) if x * power <= limit * (1.0 + 1e-12)) * power)
 
 
-def velocities_of(posture: Posture) -> Iterator[tuple[str, tuple[Array, Array]]]:
+def compute_velocities(posture: Posture) -> Iterator[tuple[str, tuple[Array, Array]]]:
     """Yield (name, (position, velocity)) of each point on a body's outline and of each centre of mass, in m and m/s.
 
     Nothing is yielded for a posture without velocities.
@@ -71,8 +71,8 @@ def velocities_of(posture: Posture) -> Iterator[tuple[str, tuple[Array, Array]]]
     if posture.v is None:
         return
     for body, info in posture.bodies.items():
-        centre, rates = posture.centre(body), posture.v[info.index : info.index + 3]
-        for name in dict.fromkeys([*anchors(posture, body), f"{body}.com"]):
+        centre, rates = posture.get_centre_of_mass(body), posture.v[info.index : info.index + 3]
+        for name in dict.fromkeys([*find_outline_points(posture, body), f"{body}.com"]):
             if name in posture.points:
-                lever = place_of(posture.source, posture.p, posture.q, posture.points[name]) - centre
+                lever = compute_point_position(posture.source, posture.p, posture.q, posture.points[name]) - centre
                 yield name, (centre + lever, rates[:2] + rates[2] * np.array([-lever[1], lever[0]]))

@@ -7,82 +7,97 @@ from collections.abc import Iterator
 import numpy as np
 
 from gudgeon.contract.kernel_source import PartInfo
-from gudgeon.drawing.joint_at import axes_of, axis_of, gap_of, guide_and_slider, is_block, sliding
+from gudgeon.drawing.joint_at import (
+    compute_guide_directions,
+    compute_wall_gap,
+    find_guide_and_slider,
+    find_sliding_axis,
+    is_block,
+    iterate_sliding_joints,
+)
 from gudgeon.drawing.plan import Plan
-from gudgeon.drawing.posture import Posture, anchors, body_of, distinct
-from gudgeon.drawing.shapes import Disc, Label, Line, Shape, rectangle, rounded
+from gudgeon.drawing.posture import Posture, find_outline_points, get_body_name, remove_repeated_positions
+from gudgeon.drawing.shapes import Disc, Label, Line, Shape, compute_rectangle, compute_rounded_outline
 from gudgeon.model.compiled import Array
 
 BLOCK = (2.1, 1.25)  # half length and width of a slider, in units
 SLOT, STRIP = 1.0, 0.55  # half widths: of a slotted link, of a bar that guides
 
 
-def bodies(posture: Posture, plan: Plan, unconnected: frozenset[str] = frozenset()) -> Iterator[Shape]:
+def draw_bodies(posture: Posture, plan: Plan, unconnected: frozenset[str] = frozenset()) -> Iterator[Shape]:
     """Yield the outlines of every body of a scene, closed lines, and dots of its named points.
 
     Bodies in `unconnected` have the colour of an error.
     """
     for tint, body in enumerate(posture.bodies):
-        for role, outline in _outlines(posture, plan, body):
+        for role, outline in _iterate_outlines(posture, plan, body):
             yield Line(f"body {body}", "loose" if body in unconnected and role == "body" else role, outline, True, tint)
-        yield from _point_marks(posture, plan, body, tint)
+        yield from _draw_point_marks(posture, plan, body, tint)
 
 
-def _outlines(posture: Posture, plan: Plan, body: str) -> Iterator[tuple[str, Array]]:
+def _iterate_outlines(posture: Posture, plan: Plan, body: str) -> Iterator[tuple[str, Array]]:
     """Yield role and closed outline (N, 2) of a body: its link or plate, its guides for other bodies, its blocks.
 
     A body with a guide or block that has points at one place only is drawn without link or plate.
     """
-    unit, positions = plan.unit, distinct(anchors(posture, body).values())
+    unit, positions = plan.unit, remove_repeated_positions(find_outline_points(posture, body).values())
     guide_parts, block_parts = [], []
-    for part in sliding(posture):
-        guide, slider = map(body_of, guide_and_slider(part))
+    for part in iterate_sliding_joints(posture):
+        guide, slider = map(get_body_name, find_guide_and_slider(part))
         if guide == body:
             guide_parts.append(part)
         if slider == body and is_block(part):
             block_parts.append(part)
     if not ((block_parts or guide_parts) and _has_one_position(posture, body)):
-        yield "body", rounded(positions, unit if len(positions) > 1 else 1.6 * unit)
+        yield "body", compute_rounded_outline(positions, unit if len(positions) > 1 else 1.6 * unit)
     for part in guide_parts:
-        ends = guide_ends(posture, plan, part)
-        if wall_gap := gap_of(posture, part, unit):
-            yield "guide", rounded(ends, BLOCK[1] * unit + wall_gap + 0.55 * unit)
-            yield "channel", rounded(ends, BLOCK[1] * unit + wall_gap)
+        ends = compute_guide_ends(posture, plan, part)
+        if wall_gap := compute_wall_gap(posture, part, unit):
+            yield "guide", compute_rounded_outline(ends, BLOCK[1] * unit + wall_gap + 0.55 * unit)
+            yield "channel", compute_rounded_outline(ends, BLOCK[1] * unit + wall_gap)
         else:
-            yield "body", rounded(ends, (STRIP if is_block(part) else SLOT + 0.55) * unit)
+            yield "body", compute_rounded_outline(ends, (STRIP if is_block(part) else SLOT + 0.55) * unit)
     for part in block_parts:
-        yield "body", rectangle(axis_of(posture, part)[2], axes_of(posture, part)[1], BLOCK[0] * unit, BLOCK[1] * unit)
+        yield (
+            "body",
+            compute_rectangle(
+                find_sliding_axis(posture, part)[2],
+                compute_guide_directions(posture, part)[1],
+                BLOCK[0] * unit,
+                BLOCK[1] * unit,
+            ),
+        )
 
 
 def _has_one_position(posture: Posture, body: str) -> bool:
     """Return whether all joints and named points of a body are at one position."""
-    names = [name for name in anchors(posture, body) if not name.endswith(".com")]
-    return len(distinct(posture.place(name) for name in names)) < 2
+    names = [name for name in find_outline_points(posture, body) if not name.endswith(".com")]
+    return len(remove_repeated_positions(posture.get_position(name) for name in names)) < 2
 
 
-def guide_ends(posture: Posture, plan: Plan, part: PartInfo) -> list[Array]:
+def compute_guide_ends(posture: Posture, plan: Plan, part: PartInfo) -> list[Array]:
     """Return both ends of a slot or guide bar, two points (2,) in m, as far as the slider travels.
 
     They extend to the body's own point on the line, except for a slot on one of the body's links.
     """
-    line_point, axis, _ = axis_of(posture, part)
+    line_point, axis, _ = find_sliding_axis(posture, part)
     low_coordinate, high_coordinate = plan.travel[part.name]
     overhang = (BLOCK[0] + 0.6 if is_block(part) else 1.6) * plan.unit
     low_coordinate, high_coordinate = low_coordinate - overhang, high_coordinate + overhang
-    guide = body_of(guide_and_slider(part)[0])
-    if is_block(part) or not _lies_on_link(
+    guide = get_body_name(find_guide_and_slider(part)[0])
+    if is_block(part) or not _is_on_link(
         posture, guide, line_point + low_coordinate * axis, line_point + high_coordinate * axis
     ):
         low_coordinate, high_coordinate = min(low_coordinate, 0.0), max(high_coordinate, 0.0)
     return [line_point + low_coordinate * axis, line_point + high_coordinate * axis]
 
 
-def _lies_on_link(posture: Posture, body: str, *ends: Array) -> bool:
+def _is_on_link(posture: Posture, body: str, *ends: Array) -> bool:
     """Return whether the ends of a slot lie on the straight link between two points of its body.
 
     The slot may extend beyond the link, but must overlap it.
     """
-    positions = distinct(anchors(posture, body).values())
+    positions = remove_repeated_positions(find_outline_points(posture, body).values())
     for k, begin in enumerate(positions):
         for end_point in positions[:k]:
             span = end_point - begin
@@ -95,20 +110,20 @@ def _lies_on_link(posture: Posture, body: str, *ends: Array) -> bool:
     return False
 
 
-def _point_marks(posture: Posture, plan: Plan, body: str, tint: int) -> Iterator[Shape]:
+def _draw_point_marks(posture: Posture, plan: Plan, body: str, tint: int) -> Iterator[Shape]:
     """Yield a small dot for each named point of a body that no joint, drive or force element uses."""
     used_points = {end for part in posture.source.parts for end in part.ends}
     for name in posture.points:
         owner, _, point = name.partition(".")
         if owner == body and name not in used_points and point not in ("head", "tail", "origin", "com"):
-            yield Disc(f"point {name}", "mark", posture.place(name), 0.22 * plan.unit, tint)
+            yield Disc(f"point {name}", "mark", posture.get_position(name), 0.22 * plan.unit, tint)
 
 
-def labels_of_bodies(posture: Posture, plan: Plan) -> Iterator[Label]:
+def label_bodies(posture: Posture, plan: Plan) -> Iterator[Label]:
     """Yield the label of each body at the mean of its points, then the labels of named points that have a dot."""
     for body in posture.bodies:
-        positions = distinct(anchors(posture, body).values())
+        positions = remove_repeated_positions(find_outline_points(posture, body).values())
         mean_position = np.mean(positions, axis=0)
         yield Label(f"body {body}", "body", body, mean_position, 1.2 * plan.unit)
-    for shape in (shape for body in posture.bodies for shape in _point_marks(posture, plan, body, 0)):
+    for shape in (shape for body in posture.bodies for shape in _draw_point_marks(posture, plan, body, 0)):
         yield Label(shape.part, "point", shape.part.rpartition(".")[2], shape.centre, 0.4 * plan.unit)  # type: ignore[union-attr]

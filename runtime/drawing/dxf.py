@@ -10,10 +10,10 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from gudgeon.drawing.roles import EDGES, NAMES, ROLES, colour_of
+from gudgeon.drawing.roles import EDGES, NAMES, ROLES, resolve_colour
 from gudgeon.drawing.shapes import Disc, Line, Sketch
 from gudgeon.errors import GudgeonError
-from gudgeon.language.shown import one_line
+from gudgeon.language.text_output import format_one_line
 from gudgeon.model.compiled import Array
 
 try:
@@ -33,7 +33,7 @@ LONGEST = 200  # letters of a layer's name; the format has room for 255
 APART = 0.1  # of the widest sketch, between two
 
 
-def as_dxf(sketches: Sequence[Sketch], titles: Sequence[str]) -> bytes:
+def encode_dxf(sketches: Sequence[Sketch], titles: Sequence[str]) -> bytes:
     """Return sketches as the bytes of one DXF file (ASCII, R2010, millimetres), always the same for the same sketches.
 
     The first sketch has the ground's axes; the others are to its right, with `titles` above. An empty title is left
@@ -82,18 +82,18 @@ class _Layers:
         Forbidden characters are replaced, and a number is added to a name that another part uses.
         """
         if part not in self._names:
-            valid_name = one_line(part).translate(FORBIDDEN)[:LONGEST].strip() or "drawing"
+            valid_name = format_one_line(part).translate(FORBIDDEN)[:LONGEST].strip() or "drawing"
             name, count = valid_name, 1
             while name in self._table:
                 count += 1
                 name = f"{valid_name} {count}"
             colour = EDGES[tint % len(EDGES)] if part.startswith("body ") else "#222222"
-            self._table.add(name, true_color=_as_dxf_colour(colour))
+            self._table.add(name, true_color=_convert_colour(colour))
             self._names[part] = name
         return self._names[part]
 
 
-def _as_dxf_colour(code: str) -> int:
+def _convert_colour(code: str) -> int:
     """Return the DXF colour of a code "#rrggbb"."""
     return rgb2int((int(code[1:3], 16), int(code[3:5], 16), int(code[5:7], 16)))
 
@@ -105,9 +105,9 @@ def _draw_sketch(modelspace: Modelspace, layers: _Layers, sketch: Sketch, offset
     """
     for shape in sorted(sketch.shapes, key=lambda shape: ROLES[shape.role].order):
         attributes: dict[str, str | int] = {"layer": layers(shape.part, shape.tint)}
-        edge = colour_of(ROLES[shape.role].edge, shape.tint)
+        edge = resolve_colour(ROLES[shape.role].edge, shape.tint)
         if edge.startswith("#"):
-            attributes |= {"true_color": _as_dxf_colour(edge)}
+            attributes |= {"true_color": _convert_colour(edge)}
         if isinstance(shape, Disc):
             centre, (radius, _) = _convert_to_millimetres(shape.centre + offset, np.array([shape.radius, 0.0]))
             modelspace.add_circle(centre, radius, dxfattribs=attributes)
@@ -119,7 +119,7 @@ def _draw_sketch(modelspace: Modelspace, layers: _Layers, sketch: Sketch, offset
         colour = NAMES[label.role][0]
         attributes = {"layer": layers(label.part, 0)}
         if colour.startswith("#"):
-            attributes |= {"true_color": _as_dxf_colour(colour)}
+            attributes |= {"true_color": _convert_colour(colour)}
         _draw_text(modelspace, label.text, position, sketch.unit, attributes)
 
 
@@ -135,7 +135,7 @@ def _draw_text(
 ) -> None:
     """Draw a text in one line with the middle of its left edge at a position (m); `height` is in m."""
     ((x, y),) = _convert_to_millimetres(position)
-    entity = modelspace.add_text(one_line(text), height=SCALE * height, dxfattribs=attributes)
+    entity = modelspace.add_text(format_one_line(text), height=SCALE * height, dxfattribs=attributes)
     entity.set_placement((x, y), align=TextEntityAlignment.MIDDLE_LEFT)
 
 

@@ -7,12 +7,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from gudgeon.assembly.closure import Closure
-from gudgeon.assembly.failures import lengths_text
-from gudgeon.assembly.mobility import free_motions
+from gudgeon.assembly.failures import format_length
+from gudgeon.assembly.mobility import compute_free_motions
 from gudgeon.contract.kernel_source import PartInfo
 from gudgeon.drawing.joint_at import JointAt
-from gudgeon.drawing.movers import HEAD, arrow, pivot, round_arrow
-from gudgeon.drawing.posture import Posture, type_of
+from gudgeon.drawing.movers import HEAD, draw_arrow, draw_round_arrow, find_pivot
+from gudgeon.drawing.posture import Posture, get_joint_type
 from gudgeon.drawing.shapes import Label, Line, Shape, unit_vector
 from gudgeon.model.compiled import Array
 
@@ -21,13 +21,13 @@ REACH = 4.0  # units, of an arrow to where a body may go
 MOVES = 1e-6  # fraction of the largest motion below which there is none
 
 
-def gaps(closure: Closure, posture: Posture) -> tuple[list[Shape], list[Label]]:
+def draw_gaps(closure: Closure, posture: Posture) -> tuple[list[Shape], list[Label]]:
     """Return red lines across the gaps of a linkage that does not close, and labels with the residuals of all open
     joints.
 
     Reported are residuals above OPEN times the largest one. A length without a line and an angle have a label only.
     """
-    residual = closure.residual(posture.q)
+    residual = closure.compute_residual(posture.q)
     scaled = np.abs(residual / closure.row_scale)
     max_residual = float(scaled.max(initial=0.0))
     open_rows: dict[str, list[int]] = {}
@@ -36,63 +36,67 @@ def gaps(closure: Closure, posture: Posture) -> tuple[list[Shape], list[Label]]:
             open_rows.setdefault(owner, []).append(row)
     shapes, labels = list[Shape](), list[Label]()
     for owner, row_indices in open_rows.items():
-        for part in posture.parts_named(owner):
+        for part in posture.find_parts(owner):
             part_lengths = [residual[row] for row in row_indices if closure.units[row] == "m"]
             angles = [residual[row] for row in row_indices if closure.units[row] == "rad"]
-            gap_line = _gap_line(posture, part, part_lengths) if part_lengths else None
+            gap_line = _compute_gap_line(posture, part, part_lengths) if part_lengths else None
             if gap_line is not None:
                 shapes.append(Line(f"gap {owner}", "gap", gap_line))
                 part_lengths, position = [float(np.hypot(*(gap_line[1] - gap_line[0])))], gap_line.mean(axis=0)
             elif part_lengths:
-                position = type_of(part).symbol.place(JointAt(posture, part))
+                position = get_joint_type(part).symbol.place(JointAt(posture, part))
             else:
-                position = pivot(posture, part)
-            texts = [lengths_text(length) for length in part_lengths] + [
+                position = find_pivot(posture, part)
+            texts = [format_length(length) for length in part_lengths] + [
                 f"{np.degrees(angle):.3g}°" for angle in angles
             ]
             labels.append(Label(f"gap {owner}", "gap", f"{owner}: {', '.join(texts)}", position, way=90.0))
     return shapes, labels
 
 
-def _gap_line(posture: Posture, part: PartInfo, lengths: list[float]) -> Array | None:
+def _compute_gap_line(posture: Posture, part: PartInfo, lengths: list[float]) -> Array | None:
     """Return the line from the actual to the required end of a joint, driven coordinate or driven distance, (2, 2), in
     m.
 
     `lengths` are the residuals in m. Returns None for a joint whose symbol has no such line.
     """
     if part.section == "joints":
-        gap = type_of(part).symbol.gap
+        gap = get_joint_type(part).symbol.gap
         return np.array(gap(JointAt(posture, part), lengths)) if gap else None
     if part.kind == "coordinate":
         k = "xy".index(part.options["coordinate"])
-        point = posture.place(part.ends[0])
+        point = posture.get_position(part.ends[0])
         return np.array([point, point - lengths[0] * np.eye(2)[k]])
-    begin, end = (posture.place(name) for name in part.ends)
+    begin, end = (posture.get_position(name) for name in part.ends)
     return np.array([begin + (float(np.hypot(*(end - begin))) - lengths[0]) * unit_vector(end - begin), end])
 
 
-def freedoms(
+def draw_free_motions(
     closure: Closure, posture: Posture, unit: float, unconnected: tuple[str, ...]
 ) -> tuple[list[Shape], list[Label]]:
     """Return arrows along the free motions of the bodies of a closed linkage, and labels.
 
     The names of bodies in `unconnected` get the label "nothing holds NAME". `unit` is half a bar's width in m.
     """
-    motions = free_motions(closure.linkage, closure.p, posture.q, closure.t)
+    motions = compute_free_motions(closure.linkage, closure.p, posture.q, closure.t)
     max_motion = float(np.abs(motions * np.where(closure.is_angle, closure.size, 1.0)[:, None]).max(initial=0.0))
     shapes, labels = list[Shape](), list[Label]()
     for body, info in posture.bodies.items():
         body_motions = motions[info.index : info.index + 3]
         body_shapes = list(
-            _motion_arrows(body_motions, posture.centre(body), body, unit, MOVES * max_motion, closure.size)
+            _draw_motion_arrows(
+                body_motions, posture.get_centre_of_mass(body), body, unit, MOVES * max_motion, closure.size
+            )
         )
         shapes += body_shapes
         if body in unconnected:
-            labels.append(Label(f"free {body}", "free", f"nothing holds {body}", posture.centre(body), 1.5 * unit))
+            labels.append(
+                Label(f"free {body}", "free", f"nothing holds {body}", posture.get_centre_of_mass(body), 1.5 * unit)
+            )
     return shapes, labels
 
 
-def _motion_arrows(
+def _draw_motion_arrows(
     motions: Array, centre: Array, body: str, unit: float, min_motion: float, size: float
 ) -> Iterator[Shape]:
     """Yield double arrows along each direction in which the centre of a body can move, and a round arrow for a
@@ -112,9 +116,9 @@ def _motion_arrows(
         free_directions = [np.array([1.0, 0.0]), np.array([0.0, 1.0])]
     for direction in free_directions:
         for sign in (1.0, -1.0):
-            yield from arrow(
+            yield from draw_arrow(
                 part, "free", centre + sign * unit * direction, centre + sign * REACH * unit * direction, head_length
             )
     shows_rotation = not free_directions or len(free_directions) > 1
     if shows_rotation and float(np.abs(motions[2]).max(initial=0.0)) * size > min_motion:
-        yield from round_arrow(part, "free", centre, 3.4 * unit, True, head_length)
+        yield from draw_round_arrow(part, "free", centre, 3.4 * unit, True, head_length)

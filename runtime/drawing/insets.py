@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gudgeon.drawing.joint_at import axis_of, corners, in_walls
-from gudgeon.drawing.plan import is_wide
+from gudgeon.drawing.joint_at import compute_corner_approaches, find_sliding_axis, find_touching_corners
+from gudgeon.drawing.plan import is_visible_to_scale
 from gudgeon.drawing.posture import Posture
-from gudgeon.drawing.shapes import Disc, Label, Line, Shape, rectangle, turned
-from gudgeon.language.plot_units import scale
+from gudgeon.drawing.shapes import Disc, Label, Line, Shape, compute_rectangle, rotate_quarter_turn
+from gudgeon.language.plot_units import choose_prefix
 from gudgeon.model.compiled import Array
 
 DASHED = " (dashed: as far as the journal's centre may go)"
@@ -18,36 +18,38 @@ RADIUS, JOURNAL = 5.0, 0.4  # radius of an inset's hole in units; of the journal
 LONG, HIGH, APART, WALL, DOT = 0.9, 0.34, 0.26, 0.06, 0.06  # halves of slider, gap, half a wall, a corner: the same
 
 
-def eccentricity(posture: Posture, joint: str) -> Array:
+def compute_eccentricity(posture: Posture, joint: str) -> Array:
     """Return the vector from the bearing's centre to the journal's, (2,), m, ground axes."""
-    first, second = next(posture.parts_named(joint)).ends
-    return posture.place(second) - posture.place(first)
+    first, second = next(posture.find_parts(joint)).ends
+    return posture.get_position(second) - posture.get_position(first)
 
 
-def in_contact(posture: Posture) -> frozenset[str]:
+def find_contacts(posture: Posture) -> frozenset[str]:
     """Return the joints and the slider corners with play whose surfaces overlap, by name.
 
     A joint overlaps if its eccentricity is at least its clearance. Joints that only have a film never do.
     """
     clearances = {name: float(posture.p[joint.clearance]) for name, joint in posture.clearances.items() if joint.dry}
     joints = (
-        name for name, clearance in clearances.items() if float(np.hypot(*eccentricity(posture, name))) >= clearance
+        name
+        for name, clearance in clearances.items()
+        if float(np.hypot(*compute_eccentricity(posture, name))) >= clearance
     )
-    return frozenset(joints) | in_walls(posture)
+    return frozenset(joints) | find_touching_corners(posture)
 
 
-def magnification(posture: Posture, joint: str, unit: float) -> float:
+def compute_magnification(posture: Posture, joint: str, unit: float) -> float:
     """Return the factor by which an inset magnifies the drawing, rounded down to two digits.
 
     With it, the clearance or gap of the joint fits the inset. `unit` is half a bar's width in m.
     """
     fraction = APART if joint in posture.guides else 1.0 - JOURNAL
-    exact_factor = RADIUS * fraction * unit / posture.play(joint)
+    exact_factor = RADIUS * fraction * unit / posture.get_clearance(joint)
     step = 10.0 ** (np.floor(np.log10(exact_factor)) - 1.0)
     return float(np.floor(exact_factor / step) * step)
 
 
-def insets(
+def draw_insets(
     posture: Posture,
     unit: float,
     lower_corner: Array,
@@ -63,17 +65,17 @@ def insets(
     """
     radius = RADIUS * unit
     joint_names = dict.fromkeys(joint.joint for joint in posture.source.clearances)
-    inset_joints = [name for name in joint_names if not is_wide(posture, name, unit)]
+    inset_joints = [name for name in joint_names if not is_visible_to_scale(posture, name, unit)]
     for joint, centre in zip(
         inset_joints, _place_insets(len(inset_joints), radius, lower_corner, upper_corner), strict=True
     ):
-        clearance, factor = posture.play(joint), magnification(posture, joint, unit)
+        clearance, factor = posture.get_clearance(joint), compute_magnification(posture, joint, unit)
         draw_inset = _draw_slider if joint in posture.guides else _draw_journal
         shapes, eccentricity_ratio, label_distance = draw_inset(
             posture, joint, centre, radius, touching, touched - touching
         )
         label_text = f"{joint} ×{factor:g}, e/c = {eccentricity_ratio:.2f}"
-        unit_factor, unit_text = scale(clearance, "m")
+        unit_factor, unit_text = choose_prefix(clearance, "m")
         quantity, suffix = ("gap", " on each side") if joint in posture.guides else ("clearance", "")
         note = f"{joint}: {quantity} {clearance * unit_factor:.4g} {unit_text}{suffix}, drawn ×{factor:g}"
         remark = DASHED * (joint == next((name for name in inset_joints if name in posture.clearances), ""))
@@ -93,8 +95,8 @@ def _draw_journal(
     `radius` is that of the inset in m. The bearing is red if `joint` is in `touched`, the journal if it is in
     `touching`.
     """
-    clearance, factor = posture.play(joint), magnification(posture, joint, radius / RADIUS)
-    eccentricity_vector = eccentricity(posture, joint)
+    clearance, factor = posture.get_clearance(joint), compute_magnification(posture, joint, radius / RADIUS)
+    eccentricity_vector = compute_eccentricity(posture, joint)
     part, hole_radius = f"inset {joint}", clearance * factor + JOURNAL * radius
     journal_centre = centre + factor * eccentricity_vector
     shapes: list[Shape] = [
@@ -115,14 +117,18 @@ def _draw_slider(
 
     The two walls are along the axis; a wall or corner in contact is red. Gaps between corners and walls are magnified.
     """
-    clearance, factor = posture.play(joint), magnification(posture, joint, radius / RADIUS)
-    _, axis, _ = axis_of(posture, next(posture.parts_named(joint)))
-    part, normal, corner_approaches = f"inset {joint}", turned(axis), corners(posture, joint)
+    clearance, factor = posture.get_clearance(joint), compute_magnification(posture, joint, radius / RADIUS)
+    _, axis, _ = find_sliding_axis(posture, next(posture.find_parts(joint)))
+    part, normal, corner_approaches = (
+        f"inset {joint}",
+        rotate_quarter_turn(axis),
+        compute_corner_approaches(posture, joint),
+    )
     wall_distance = HIGH * radius + clearance * factor + WALL * radius
     shapes: list[Shape] = []
     for sign, wall_name in ((1.0, "upper"), (-1.0, "lower")):
         is_red = any(name in touched for name in corner_approaches if wall_name in name)
-        wall = rectangle(centre + sign * wall_distance * normal, axis, 1.16 * radius, WALL * radius)
+        wall = compute_rectangle(centre + sign * wall_distance * normal, axis, 1.16 * radius, WALL * radius)
         shapes.append(Line(part, "touched" if is_red else "bearing", wall, True))
     corner_positions = {
         name: centre

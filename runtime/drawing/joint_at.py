@@ -1,5 +1,4 @@
-"""Own `JointAt`, a joint at a posture, with all that the functions of its `Symbol` use
-(generator/kinds/joints/joint_type.py).
+"""Own `JointAt`, the geometry of a joint at one position of the mechanism, from which its symbol is drawn.
 
 Also a slider with play in its guide: the drawn distance of its walls, its tilt, and its corners.
 """
@@ -12,10 +11,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from gudgeon.contract.kernel_source import PartInfo
-from gudgeon.drawing.posture import GROUND, Posture, body_of, type_of
-from gudgeon.drawing.shapes import turned, unit_vector
+from gudgeon.drawing.posture import GROUND, Posture, get_body_name, get_joint_type
+from gudgeon.drawing.shapes import rotate_quarter_turn, unit_vector
 from gudgeon.model.compiled import Array
-from gudgeon.model.contours import corner_approach
+from gudgeon.model.contours import compute_corner_approach
 
 GAP = 0.5  # units: between a slider and each wall of its guide, if not more
 
@@ -28,26 +27,26 @@ class JointAt:
     part: PartInfo
 
     unit_vector = staticmethod(unit_vector)
-    turned = staticmethod(turned)
+    turned = staticmethod(rotate_quarter_turn)
 
     @property
     def bodies(self) -> list[str]:
         """Names of the first and the second body."""
-        return [body_of(end) for end in self.part.ends]
+        return [get_body_name(end) for end in self.part.ends]
 
     @property
     def first(self) -> Array:
         """Position of the first point."""
-        return self.posture.place(self.part.ends[0])
+        return self.posture.get_position(self.part.ends[0])
 
     @property
     def second(self) -> Array:
         """Position of the second point."""
-        return self.posture.place(self.part.ends[1])
+        return self.posture.get_position(self.part.ends[1])
 
     def number(self, key: str) -> float:
         """Return a parameter of the joint, SI; of a vector by "axis.x"."""
-        return self.posture.number(f"joints.{self.part.name}.{key}")
+        return self.posture.get_parameter(f"joints.{self.part.name}.{key}")
 
     def option(self, key: str) -> str:
         """Return an option of the joint, or a body's name."""
@@ -55,22 +54,22 @@ class JointAt:
 
     def direction(self, key: str, body: str) -> Array:
         """Return a vector of the joint in the axes of a body as a unit vector."""
-        return self.posture.direction(self.part, key, body)
+        return self.posture.compute_direction(self.part, key, body)
 
-    def centre(self, k: int, carrier: str) -> Array:
+    def find_pivot(self, k: int, carrier: str) -> Array:
         """Return the pivot of one body of the joint on the body `carrier`, (2,), in m.
 
         `k` is 0 for the first body and 1 for the second. Without a pivot it is the joint's point on that body.
         """
         body = self.bodies[k]
-        pivot = pivot_between(self.posture, body, carrier)
-        end = self.part.ends[k] if pivot is None else next(end for end in pivot.ends if body_of(end) == body)
-        return self.posture.place(end)
+        pivot = find_pivot_joint(self.posture, body, carrier)
+        end = self.part.ends[k] if pivot is None else next(end for end in pivot.ends if get_body_name(end) == body)
+        return self.posture.get_position(end)
 
     @cached_property
     def _axis(self) -> tuple[Array, Array, Array]:
         """Point on the guide's line, direction, and sliding point."""
-        return axis_of(self.posture, self.part)
+        return find_sliding_axis(self.posture, self.part)
 
     @property
     def on_line(self) -> Array:
@@ -93,108 +92,112 @@ class JointAt:
         return has_rail(self.part)
 
 
-def sliding(posture: Posture) -> Iterator[PartInfo]:
+def iterate_sliding_joints(posture: Posture) -> Iterator[PartInfo]:
     """Return the joints with a line on which a body slides."""
-    return (part for part in posture.parts("joints") if type_of(part).slides)
+    return (part for part in posture.iterate_parts("joints") if get_joint_type(part).slides)
 
 
-def guide_and_slider(part: PartInfo) -> tuple[str, str]:
+def find_guide_and_slider(part: PartInfo) -> tuple[str, str]:
     """Return the names of the guiding point and of the sliding point of a sliding joint.
 
     They are exchanged if the ground would slide and the joint keeps the angle, so that the ground guides.
     """
-    slides, (first_end, second_end) = type_of(part).slides, part.ends
+    slides, (first_end, second_end) = get_joint_type(part).slides, part.ends
     assert slides is not None
     guide, slider = (first_end, second_end) if slides.guide == "first" else (second_end, first_end)
-    is_exchanged = type_of(part).keeps_angle and body_of(slider) == GROUND
+    is_exchanged = get_joint_type(part).keeps_angle and get_body_name(slider) == GROUND
     return (slider, guide) if is_exchanged else (guide, slider)
 
 
-def axis_of(posture: Posture, part: PartInfo) -> tuple[Array, Array, Array]:
+def find_sliding_axis(posture: Posture, part: PartInfo) -> tuple[Array, Array, Array]:
     """Return a point on the line of a sliding joint, its direction (unit vector), and the sliding point, each (2,).
 
     Points are in m. The direction belongs to the body that the joint's kind declares as the guide, also if
-    `guide_and_slider` exchanges the points.
+    `find_guide_and_slider` exchanges the points.
     """
-    slides, (guide, slider) = type_of(part).slides, guide_and_slider(part)
+    slides, (guide, slider) = get_joint_type(part).slides, find_guide_and_slider(part)
     assert slides is not None
-    axis_body = body_of(part.ends[0 if slides.guide == "first" else 1])
-    return posture.place(guide), posture.direction(part, slides.direction, axis_body), posture.place(slider)
+    axis_body = get_body_name(part.ends[0 if slides.guide == "first" else 1])
+    return (
+        posture.get_position(guide),
+        posture.compute_direction(part, slides.direction, axis_body),
+        posture.get_position(slider),
+    )
 
 
 def has_rail(part: PartInfo) -> bool:
     """Return whether the ground guides; a slot's pin is fixed to the ground like other pins."""
-    return type_of(part).slides is not None and body_of(guide_and_slider(part)[0]) == GROUND
+    return get_joint_type(part).slides is not None and get_body_name(find_guide_and_slider(part)[0]) == GROUND
 
 
 def is_block(part: PartInfo) -> bool:
     """Return whether the slider cannot rotate in its guide."""
-    return type_of(part).keeps_angle
+    return get_joint_type(part).keeps_angle
 
 
-def pivot_between(posture: Posture, body: str, other_body: str) -> PartInfo | None:
+def find_pivot_joint(posture: Posture, body: str, other_body: str) -> PartInfo | None:
     """Return the first joint of the file that lets two bodies rotate relative to each other, or None."""
-    for joint in posture.parts("joints"):
-        if type_of(joint).is_pivot and {body, other_body} <= set(map(body_of, joint.ends)):
+    for joint in posture.iterate_parts("joints"):
+        if get_joint_type(joint).is_pivot and {body, other_body} <= set(map(get_body_name, joint.ends)):
             return joint
     return None
 
 
-def gap_of(posture: Posture, part: PartInfo, unit: float) -> float:
+def compute_wall_gap(posture: Posture, part: PartInfo, unit: float) -> float:
     """Return the drawn gap between slider and each wall of a guide, m; 0 without play."""
-    return max(GAP * unit, posture.play(part.name)) if part.name in posture.guides else 0.0
+    return max(GAP * unit, posture.get_clearance(part.name)) if part.name in posture.guides else 0.0
 
 
-def axes_of(posture: Posture, part: PartInfo) -> tuple[Array, Array]:
+def compute_guide_directions(posture: Posture, part: PartInfo) -> tuple[Array, Array]:
     """Return the drawn directions of guide and slider of a sliding joint, two unit vectors.
 
     Both are equal without play. With play they differ by the tilt of the slider; the ground counts as the guide if it
     is one of the bodies.
     """
-    _, second = map(body_of, part.ends)
-    _, axis, _ = axis_of(posture, part)
+    _, second = map(get_body_name, part.ends)
+    _, axis, _ = find_sliding_axis(posture, part)
     if part.name not in posture.guides:
         return axis, axis
-    tilt = _tilt_in_guide(posture, part)
-    tilted_axis = math.cos(tilt) * axis + math.sin(tilt) * turned(axis)
+    tilt = _compute_tilt_in_guide(posture, part)
+    tilted_axis = math.cos(tilt) * axis + math.sin(tilt) * rotate_quarter_turn(axis)
     return (tilted_axis, axis) if second == GROUND else (axis, tilted_axis)
 
 
-def _tilt_in_guide(posture: Posture, part: PartInfo) -> float:
+def _compute_tilt_in_guide(posture: Posture, part: PartInfo) -> float:
     """Return the tilt of the slider of a joint with play, in rad, within ±π.
 
     It is the angle of the second body relative to the first, less the mounting angle `angle` of the file, or the
     direction of `axis` if there is none.
     """
-    first, second = map(body_of, part.ends)
+    first, second = map(get_body_name, part.ends)
     address = f"joints.{part.name}.angle"
-    if posture.has(address):
-        angle = posture.number(address)
+    if posture.is_specified(address):
+        angle = posture.get_parameter(address)
     else:
-        angle = math.atan2(*(posture.number(f"joints.{part.name}.axis.{axis}") for axis in "yx"))
-    return math.remainder(posture.theta(second) - posture.theta(first) - angle, 2.0 * math.pi)
+        angle = math.atan2(*(posture.get_parameter(f"joints.{part.name}.axis.{axis}") for axis in "yx"))
+    return math.remainder(posture.get_angle(second) - posture.get_angle(first) - angle, 2.0 * math.pi)
 
 
-def corners(posture: Posture, joint: str) -> Mapping[str, float]:
+def compute_corner_approaches(posture: Posture, joint: str) -> Mapping[str, float]:
     """Return how much nearer to its wall each corner of a slider is than in the middle of its guide, in m, by corner.
 
     `joint` is the name of a sliding joint with play. A corner touches its wall where the value reaches the play.
     """
-    part = next(posture.parts_named(joint))
+    part = next(posture.find_parts(joint))
     first, second = part.ends
-    (_, axis, _), tilt = axis_of(posture, part), _tilt_in_guide(posture, part)
-    offset = float((posture.place(second) - posture.place(first)) @ turned(axis))
+    (_, axis, _), tilt = find_sliding_axis(posture, part), _compute_tilt_in_guide(posture, part)
+    offset = float((posture.get_position(second) - posture.get_position(first)) @ rotate_quarter_turn(axis))
     return {
-        corner.name: corner_approach(posture.source, posture.p, corner, offset, tilt)
+        corner.name: compute_corner_approach(posture.source, posture.p, corner, offset, tilt)
         for corner in posture.guides[joint]
     }
 
 
-def in_walls(posture: Posture) -> frozenset[str]:
+def find_touching_corners(posture: Posture) -> frozenset[str]:
     """Return the names of the corners of all sliders with play that touch or penetrate their walls."""
     return frozenset(
         name
         for joint in posture.guides
-        for name, approach in corners(posture, joint).items()
-        if approach >= posture.play(joint)
+        for name, approach in compute_corner_approaches(posture, joint).items()
+        if approach >= posture.get_clearance(joint)
     )

@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.drawing.roles import NAMES, colour_of
-from gudgeon.drawing.shapes import Disc, Label, Shape, Sketch, arc
+from gudgeon.drawing.roles import NAMES, resolve_colour
+from gudgeon.drawing.shapes import Disc, Label, Shape, Sketch, compute_arc
 from gudgeon.errors import GudgeonError
-from gudgeon.language.shown import one_line
+from gudgeon.language.text_output import format_one_line
 from gudgeon.model.compiled import Array
 
 try:  # here, because everything that draws imports this module before matplotlib
@@ -33,7 +33,7 @@ CROSSED = 2.0  # cost of a crossing of a leader line, in crossings of other line
 LEFT_FREE = 3.0  # points between a name and the leader line of another one
 
 
-class Names(Artist):
+class NameLabels(Artist):
     """All names of a sketch; `boxes` are their boxes after drawing, (left, low, right, high) in pixels by part.
 
     `beside` is then the offset of each name's middle from its part. `held` has the offsets of the previous picture of a
@@ -46,18 +46,18 @@ class Names(Artist):
         self.set_zorder(6.0)
         self.set_in_layout(False)
         self.sketch, self.boxes = sketch, dict[str, tuple[float, float, float, float]]()
-        self.beside, self.held = dict[str, tuple[float, float]](), dict[str, tuple[float, float]]()
+        self.label_offsets, self.previous_offsets = dict[str, tuple[float, float]](), dict[str, tuple[float, float]]()
         self.order = {shape.part: shape.tint for shape in sketch.shapes if shape.part.startswith("body ")}
         self.texts = [self._make_text(label, size) for label in sketch.labels]
 
     def _make_text(self, label: Label, size: float) -> Text:
         """Return the text artist of a label, centred and without position, in the style of its role."""
         colour_name, weight = NAMES[label.role]
-        colour = colour_of(colour_name, self.order.get(label.part, 0)) if colour_name in ("edge",) else colour_name
+        colour = resolve_colour(colour_name, self.order.get(label.part, 0)) if colour_name in ("edge",) else colour_name
         text = Text(
             0.0,
             0.0,
-            one_line(label.text),
+            format_one_line(label.text),
             size=size,
             color=colour,
             weight=weight,
@@ -67,7 +67,7 @@ class Names(Artist):
             parse_math=False,
             style="italic" if label.role == "joint" else "normal",
         )
-        text.set_gid(gid("name", label.part))
+        text.set_gid(make_identifier("name", label.part))
         return text
 
     def draw(self, renderer: Any) -> None:
@@ -77,21 +77,22 @@ class Names(Artist):
         """
         if not self.get_visible() or self.axes is None:
             return
-        self.place(renderer)
+        self.place_texts(renderer)
         renderer.open_group("names")
         for line in self.leads:
             line.draw(renderer)
         for text in self.texts:
             text.draw(renderer)
         if n_omitted := sum(not text.get_visible() for text in self.texts):
-            self._omission_note(n_omitted).draw(renderer)
+            self._create_omission_note(n_omitted).draw(renderer)
         renderer.close_group("names")
         self.stale = False
 
-    def place(self, renderer: Any) -> None:
+    def place_texts(self, renderer: Any) -> None:
         """Find a position for each name in pixels, and create leader lines for distant names.
 
-        Sets `beside`, `boxes` and `leads`, and hides texts without a position.
+        Sets `label_offsets` (pixels from the part), `boxes` and `leads` (leader lines), and hides texts without a
+        position. The search begins at `previous_offsets`.
         """
         axes: Any = self.axes
         figure, to_pixels = axes.get_figure(root=True), axes.transData.transform
@@ -104,20 +105,22 @@ class Names(Artist):
             text.set_position((0.0, 0.0))
             extent = text.get_window_extent(renderer)
             half_sizes[label.part] = 0.5 * np.array([extent.width, extent.height])
-        self.beside = place_names(self.sketch, half_sizes, self.held, to_pixels, metre, point, picture_box)
+        self.label_offsets = place_names(
+            self.sketch, half_sizes, self.previous_offsets, to_pixels, metre, point, picture_box
+        )
         self.leads, self.boxes = [], {}
         for text, label in zip(self.texts, self.sketch.labels, strict=True):
-            text.set_visible(label.part in self.beside)
-            if label.part not in self.beside:
+            text.set_visible(label.part in self.label_offsets)
+            if label.part not in self.label_offsets:
                 continue
             anchor, half_size, clear = to_pixels(label.place), half_sizes[label.part], label.clear * metre
-            middle = anchor + self.beside[label.part]
+            middle = anchor + self.label_offsets[label.part]
             text.set_position((float(middle[0]), float(middle[1])))
             self.boxes[label.part] = tuple([*(middle - half_size), *(middle + half_size)])
-            if needs_leader(anchor, middle, half_size, clear, point):
-                self.leads.append(self._lead_line(anchor, middle, half_size, clear))
+            if is_leader_needed(anchor, middle, half_size, clear, point):
+                self.leads.append(self._create_leader_line(anchor, middle, half_size, clear))
 
-    def _omission_note(self, count: int) -> Text:
+    def _create_omission_note(self, count: int) -> Text:
         """Return a text for the upper right corner that names were left out."""
         axes: Any = self.axes
         note = f"{count} name{'' if count == 1 else 's'} left out: there is no room"
@@ -125,10 +128,10 @@ class Names(Artist):
         text.set_figure(axes.get_figure(root=True))
         return text
 
-    def _lead_line(self, anchor: Array, text_centre: Array, half_size: Array, clearance: float) -> Line2D:
-        """Return the leader line of a name as an artist in pixels, with the arguments of `leader_line`."""
+    def _create_leader_line(self, anchor: Array, text_centre: Array, half_size: Array, clearance: float) -> Line2D:
+        """Return the leader line of a name as an artist in pixels, with the arguments of `compute_leader_line`."""
         axes: Any = self.axes
-        ends = leader_line(anchor, text_centre, half_size, clearance).reshape(2, 2)
+        ends = compute_leader_line(anchor, text_centre, half_size, clearance).reshape(2, 2)
         line = Line2D(*ends.T, color="#999999", lw=0.5, transform=None)
         line.set_figure(axes.get_figure(root=True))
         return line
@@ -157,11 +160,13 @@ def place_names(
         box = np.array([[*(text_centre - half_size), *(text_centre + half_size)]])
         if (
             label.part not in previous_offsets
-            or overlapping(box, occupied_boxes).any()
+            or find_overlaps(box, occupied_boxes).any()
             or not _is_within(box, picture_box)[0]
         ):
-            shape_segments = obstacles(sketch.shapes, to_pixels) if shape_segments is None else shape_segments
-            position = best_place(
+            shape_segments = (
+                collect_outline_segments(sketch.shapes, to_pixels) if shape_segments is None else shape_segments
+            )
+            position = find_best_position(
                 anchor,
                 half_size,
                 label.way,
@@ -176,16 +181,16 @@ def place_names(
                 continue
             text_centre = position
             box = np.array([[*(text_centre - half_size), *(text_centre + half_size)]])
-            if needs_leader(anchor, text_centre, half_size, clearance, point):
+            if is_leader_needed(anchor, text_centre, half_size, clearance, point):
                 leader_lines = np.vstack(
-                    [leader_lines, leader_line(anchor, text_centre, half_size, clearance)]
+                    [leader_lines, compute_leader_line(anchor, text_centre, half_size, clearance)]
                 )  # which later names avoid
         offsets[label.part] = float(text_centre[0] - anchor[0]), float(text_centre[1] - anchor[1])
         occupied_boxes = np.vstack([occupied_boxes, box])
     return offsets
 
 
-def leader_line(anchor: Array, text_centre: Array, half_size: Array, clearance: float) -> Array:
+def compute_leader_line(anchor: Array, text_centre: Array, half_size: Array, clearance: float) -> Array:
     """Return the leader line from the edge of a part to the box of its name, a segment (1, 4) in pixels.
 
     The part is a circle of radius `clearance` around `anchor`, the name a box of `half_size` around `text_centre`.
@@ -195,36 +200,36 @@ def leader_line(anchor: Array, text_centre: Array, half_size: Array, clearance: 
     return np.array([[*start, *edge]])
 
 
-def needs_leader(anchor: Array, text_centre: Array, half_size: Array, clearance: float, point: float) -> bool:
+def is_leader_needed(anchor: Array, text_centre: Array, half_size: Array, clearance: float, point: float) -> bool:
     """Return whether a name is more than LED points from its part, so that it needs a leader line.
 
-    Arguments as for `leader_line`, in pixels; `point` is the size of a point.
+    Arguments as for `compute_leader_line`, in pixels; `point` is the size of a point.
     """
     edge = np.clip(anchor, text_centre - half_size, text_centre + half_size)
     return float(np.hypot(*(edge - anchor))) - clearance > LED * point
 
 
-def gid(kind: str, part: str) -> str:
+def make_identifier(kind: str, part: str) -> str:
     """Return the identifier of a part in a picture: "joint A" is "joint-A", its name "name-joint-A"."""
     return "-".join([*([kind] if kind else []), *part.split()])
 
 
-def obstacles(shapes: Sequence[Shape], to_pixels: Any) -> Array:
+def collect_outline_segments(shapes: Sequence[Shape], to_pixels: Any) -> Array:
     """Return the outlines of all shapes as segments in pixels, (S, 4); circles as 16 segments."""
-    polylines = [to_pixels(points) for points in _outlines(shapes)]
+    polylines = [to_pixels(points) for points in _iterate_outlines(shapes)]
     return np.vstack([np.hstack([points[:-1], points[1:]]) for points in polylines]) if polylines else np.zeros((0, 4))
 
 
-def _outlines(shapes: Sequence[Shape]) -> Iterator[Array]:
+def _iterate_outlines(shapes: Sequence[Shape]) -> Iterator[Array]:
     """Yield the outline of each shape as points (N, 2) in m: a closed line or a disc ends at its first point."""
     for shape in shapes:
         if isinstance(shape, Disc):
-            yield arc(shape.centre, shape.radius, 0.0, 2.0 * np.pi, 17)
+            yield compute_arc(shape.centre, shape.radius, 0.0, 2.0 * np.pi, 17)
         else:
             yield np.vstack([shape.points, shape.points[:1]]) if shape.closed else shape.points
 
 
-def best_place(
+def find_best_position(
     anchor: Array,
     half_size: Array,
     direction: float,
@@ -251,21 +256,24 @@ def best_place(
         if ring == RINGS[0] and clearance * point > 0.0:
             middles = np.vstack([anchor, middles])
         boxes = np.hstack([middles - half_size - GAP * point, middles + half_size + GAP * point])
-        is_free = ~overlapping(boxes, occupied_boxes).any(axis=1) & _is_within(boxes, picture_box)
+        is_free = ~find_overlaps(boxes, occupied_boxes).any(axis=1) & _is_within(boxes, picture_box)
         crossings = np.array(
             [
-                crossing(box, shape_segments) + CROSSED * crossing(box, leader_lines) if is_allowed else np.inf
+                count_crossings(box, shape_segments) + CROSSED * count_crossings(box, leader_lines)
+                if is_allowed
+                else np.inf
                 for box, is_allowed in zip(boxes, is_free, strict=True)
             ]
         )
         for j in np.flatnonzero(is_free):
-            if len(occupied_boxes) and needs_leader(anchor, middles[j], half_size, clearance, point):
-                leader = leader_line(anchor, middles[j], half_size, clearance)
+            if len(occupied_boxes) and is_leader_needed(anchor, middles[j], half_size, clearance, point):
+                leader = compute_leader_line(anchor, middles[j], half_size, clearance)
                 n_crossed = sum(
-                    crossing(box, leader) for box in occupied_boxes + LEFT_FREE * point * np.array([-1, -1, 1, 1])
+                    count_crossings(box, leader)
+                    for box in occupied_boxes + LEFT_FREE * point * np.array([-1, -1, 1, 1])
                 )
                 crossings[j] += CROSSED * (
-                    n_crossed + sum(_segments_cross(leader[0], other_line) for other_line in leader_lines)
+                    n_crossed + sum(_have_intersection(leader[0], other_line) for other_line in leader_lines)
                 )
         costs = crossings + 0.02 * ring
         k = int(np.argmin(costs))
@@ -276,7 +284,7 @@ def best_place(
     return fallback if np.isfinite(fewest) else None
 
 
-def overlapping(boxes: Array, other_boxes: Array) -> NDArray[np.bool_]:
+def find_overlaps(boxes: Array, other_boxes: Array) -> NDArray[np.bool_]:
     """Return a matrix (B, T) that is true where a box (B, 4) overlaps another box (T, 4)."""
     a, b = boxes[:, None], other_boxes[None]
     overlaps_in_x = (a[..., 0] < b[..., 2]) & (b[..., 0] < a[..., 2])
@@ -290,7 +298,7 @@ def _is_within(boxes: Array, picture_box: Array) -> NDArray[np.bool_]:
     )
 
 
-def _segments_cross(first: Array, second: Array) -> bool:
+def _have_intersection(first: Array, second: Array) -> bool:
     """Return whether two segments (4,) cross in their interiors."""
 
     def compute_signed_area(line: Array, point: Array) -> float:
@@ -304,7 +312,7 @@ def _segments_cross(first: Array, second: Array) -> bool:
     )
 
 
-def crossing(box: Array, lines: Array) -> float:
+def count_crossings(box: Array, lines: Array) -> float:
     """Return the number of segments (S, 4) that meet a box (4,), by the method of Liang and Barsky."""
     start, span = lines[:, :2], lines[:, 2:] - lines[:, :2]
     with np.errstate(all="ignore"):

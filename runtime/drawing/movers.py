@@ -8,11 +8,22 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import PartInfo
 from gudgeon.drawing.bodies import BLOCK
-from gudgeon.drawing.joint_at import axis_of, has_rail, pivot_between, sliding
-from gudgeon.drawing.pen import PIN, ground_wall
+from gudgeon.drawing.joint_at import find_pivot_joint, find_sliding_axis, has_rail, iterate_sliding_joints
+from gudgeon.drawing.pen import PIN, draw_ground_wall
 from gudgeon.drawing.plan import Plan
-from gudgeon.drawing.posture import GROUND, Posture, body_of
-from gudgeon.drawing.shapes import Disc, Label, Line, Shape, arc, arrow_head, rectangle, turned, unit_vector, zigzag
+from gudgeon.drawing.posture import GROUND, Posture, get_body_name
+from gudgeon.drawing.shapes import (
+    Disc,
+    Label,
+    Line,
+    Shape,
+    compute_arc,
+    compute_arrow_head,
+    compute_rectangle,
+    compute_zigzag,
+    rotate_quarter_turn,
+    unit_vector,
+)
 from gudgeon.model.compiled import Array
 
 ARROW, HEAD = 5.2, 1.3  # lengths in units: of an arrow whose size means nothing, and of its head
@@ -23,35 +34,38 @@ ALONG = 0.5  # cosine above which a guide counts as parallel to a coordinate
 
 def draw_drives_and_forces(posture: Posture, plan: Plan) -> Iterator[Shape]:
     """Yield the shapes of drives, then of force elements."""
-    for part in posture.parts("drives"):
+    for part in posture.iterate_parts("drives"):
         yield from _DRIVES[part.kind](posture, plan, part)
-    for part in posture.parts("forces"):
+    for part in posture.iterate_parts("forces"):
         yield from _FORCES.get(part.kind, _draw_generic_element)(posture, plan, part)
 
 
-def labels_of_drives_and_forces(posture: Posture, plan: Plan, shows_zero_loads: bool) -> Iterator[Label]:
+def label_drives_and_forces(posture: Posture, plan: Plan, shows_zero_loads: bool) -> Iterator[Label]:
     """Yield the label of each drive, then of each force element.
 
     With `shows_zero_loads`, a force or torque whose load is zero has the label "NAME = 0".
     """
-    for part in (*posture.parts("drives"), *posture.parts("forces")):
+    for part in (*posture.iterate_parts("drives"), *posture.iterate_parts("forces")):
         kind = part.section[:-1]
         direction = 45.0
         if part.kind in ("distance", "spring_damper"):
-            position, clearance = 0.5 * (posture.place(part.ends[0]) + posture.place(part.ends[1])), 1.2
+            position, clearance = 0.5 * (posture.get_position(part.ends[0]) + posture.get_position(part.ends[1])), 1.2
         elif part.kind == "coordinate" and part.options["coordinate"] != "theta":
             (position, direction_vector), clearance = _find_arrow_position(posture, plan, part), 0.5
             direction = float(np.degrees(np.arctan2(direction_vector[1], direction_vector[0])))
         elif part.kind == "force":
             arrow_vector = _compute_arrow_vector(posture, plan, part)
-            position, clearance = posture.place(part.ends[0]) + 0.5 * arrow_vector, 0.5 if arrow_vector.any() else 1.2
+            position, clearance = (
+                posture.get_position(part.ends[0]) + 0.5 * arrow_vector,
+                0.5 if arrow_vector.any() else 1.2,
+            )
             direction = (
                 float(np.degrees(np.arctan2(arrow_vector[0], -arrow_vector[1]))) if arrow_vector.any() else direction
             )
         elif part.kind == "dry_friction":
-            position, clearance = posture.place(part.ends[1]), 2.0
+            position, clearance = posture.get_position(part.ends[1]), 2.0
         else:
-            position = pivot(posture, part)
+            position = find_pivot(posture, part)
             clearance = RADII[part.kind]
         is_zero = (
             shows_zero_loads and part.kind in ("force", "torque") and not np.any(posture.loads.get(part.name, 1.0))
@@ -60,17 +74,17 @@ def labels_of_drives_and_forces(posture: Posture, plan: Plan, shows_zero_loads: 
         yield Label(f"{kind} {part.name}", kind, text, position, clearance * plan.unit, direction)
 
 
-def arrow(part: str, role: str, tail: Array, tip: Array, head: float) -> Iterator[Shape]:
+def draw_arrow(part: str, role: str, tail: Array, tip: Array, head: float) -> Iterator[Shape]:
     """Yield line and head of a straight arrow from `tail` to `tip`; the line ends within the head.
 
     `head` is the length of the head in m. The head has the role "ROLE head".
     """
     direction = unit_vector(tip - tail)
     yield Line(part, role, np.array([tail, tip - 0.8 * head * direction]))
-    yield Line(part, f"{role} head", arrow_head(tip, direction, head), True)
+    yield Line(part, f"{role} head", compute_arrow_head(tip, direction, head), True)
 
 
-def round_arrow(
+def draw_round_arrow(
     part: str, role: str, centre: Array, radius: float, is_counterclockwise: bool, head_length: float
 ) -> Iterator[Shape]:
     """Yield line and head of an arrow along an arc of 220° around a point.
@@ -78,31 +92,33 @@ def round_arrow(
     It turns counterclockwise if `is_counterclockwise`, else clockwise. `radius` and `head_length` are in m.
     """
     start_angle, end_angle = np.radians([-25.0, 195.0]) if is_counterclockwise else np.radians([205.0, -15.0])
-    points = arc(centre, radius, float(start_angle), float(end_angle), 33)
-    arc_end = arc(centre, radius, float(end_angle), float(end_angle), 1)[0]
-    tangent = turned(unit_vector(arc_end - centre)) * (1.0 if is_counterclockwise else -1.0)
+    points = compute_arc(centre, radius, float(start_angle), float(end_angle), 33)
+    arc_end = compute_arc(centre, radius, float(end_angle), float(end_angle), 1)[0]
+    tangent = rotate_quarter_turn(unit_vector(arc_end - centre)) * (1.0 if is_counterclockwise else -1.0)
     yield Line(part, role, points)
-    yield Line(part, f"{role} head", arrow_head(arc_end + 0.9 * head_length * tangent, tangent, head_length), True)
+    yield Line(
+        part, f"{role} head", compute_arrow_head(arc_end + 0.9 * head_length * tangent, tangent, head_length), True
+    )
 
 
-def pivot(posture: Posture, part: PartInfo) -> Array:
+def find_pivot(posture: Posture, part: PartInfo) -> Array:
     """Return the point about which the body of a drive or force element turns, (2,), in m.
 
     It is a joint between the body and the other one or the ground, or else the body's centre of mass.
     """
     joint, body = _find_pivot(posture, part)
     if joint is not None:
-        return posture.place(next(end for end in joint.ends if body_of(end) == body))
-    return posture.centre(body) if body in posture.bodies else np.zeros(2)
+        return posture.get_position(next(end for end in joint.ends if get_body_name(end) == body))
+    return posture.get_centre_of_mass(body) if body in posture.bodies else np.zeros(2)
 
 
-def arcs(posture: Posture) -> dict[str, float]:
+def compute_arrow_radii(posture: Posture) -> dict[str, float]:
     """Return the radius, in units, of the largest arrow or spiral spring around each joint that has one, by joint.
 
     Used to place the joints' names outside of them.
     """
     radii = dict[str, float]()
-    for part in (*posture.parts("drives"), *posture.parts("forces")):
+    for part in (*posture.iterate_parts("drives"), *posture.iterate_parts("forces")):
         if part.kind in RADII and part.options.get("coordinate", "theta") == "theta":
             joint, _ = _find_pivot(posture, part)
             if joint is not None:
@@ -115,10 +131,10 @@ def _find_pivot(posture: Posture, part: PartInfo) -> tuple[PartInfo | None, str]
 
     The body is the first one that is not the ground; the joint connects it with the element's other body or the ground.
     """
-    bodies = [body_of(end) for end in part.ends]
+    bodies = [get_body_name(end) for end in part.ends]
     turning_body = next((body for body in bodies if body != GROUND), bodies[0])
     other_body = next((body for body in bodies if body != turning_body), GROUND)
-    return pivot_between(posture, turning_body, other_body), turning_body
+    return find_pivot_joint(posture, turning_body, other_body), turning_body
 
 
 def _draw_angle_drive(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
@@ -126,10 +142,10 @@ def _draw_angle_drive(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[
 
     The rate is that of the first body relative to the second; an unknown rate counts as growing.
     """
-    rate = posture.omega(body_of(part.ends[0]))
-    rate -= posture.omega(body_of(part.ends[1])) if len(part.ends) > 1 else 0.0
-    centre, u = pivot(posture, part), plan.unit
-    yield from round_arrow(f"drive {part.name}", "drive", centre, DRIVEN * u, rate >= 0.0, HEAD * u)
+    rate = posture.get_angular_velocity(get_body_name(part.ends[0]))
+    rate -= posture.get_angular_velocity(get_body_name(part.ends[1])) if len(part.ends) > 1 else 0.0
+    centre, u = find_pivot(posture, part), plan.unit
+    yield from draw_round_arrow(f"drive {part.name}", "drive", centre, DRIVEN * u, rate >= 0.0, HEAD * u)
 
 
 def _draw_coordinate_drive(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
@@ -140,10 +156,10 @@ def _draw_coordinate_drive(posture: Posture, plan: Plan, part: PartInfo) -> Iter
     if (axis := part.options["coordinate"]) == "theta":
         yield from _draw_angle_drive(posture, plan, part)
         return
-    index = posture.bodies[body_of(part.ends[0])].index + "xy".index(axis)
+    index = posture.bodies[get_body_name(part.ends[0])].index + "xy".index(axis)
     direction = np.eye(2)["xy".index(axis)] * (-1.0 if posture.v is not None and posture.v[index] < 0.0 else 1.0)
     (middle, _), half_arrow = _find_arrow_position(posture, plan, part), 0.5 * ARROW * plan.unit * direction
-    yield from arrow(f"drive {part.name}", "drive", middle - half_arrow, middle + half_arrow, HEAD * plan.unit)
+    yield from draw_arrow(f"drive {part.name}", "drive", middle - half_arrow, middle + half_arrow, HEAD * plan.unit)
 
 
 def _find_arrow_position(posture: Posture, plan: Plan, part: PartInfo) -> tuple[Array, Array]:
@@ -153,35 +169,42 @@ def _find_arrow_position(posture: Posture, plan: Plan, part: PartInfo) -> tuple[
     For a body that slides on the ground along the coordinate, the arrow is next to the block, away from the ground.
     """
     axis = np.eye(2)["xy".index(part.options["coordinate"])]
-    position, normal = posture.place(part.ends[0]), turned(axis)
-    for joint in sliding(posture):
-        if joint.name in plan.ways and body_of(part.ends[0]) in map(body_of, joint.ends):
-            _, line_direction, slider = axis_of(posture, joint)
+    position, normal = posture.get_position(part.ends[0]), rotate_quarter_turn(axis)
+    for joint in iterate_sliding_joints(posture):
+        if joint.name in plan.ground_directions and get_body_name(part.ends[0]) in map(get_body_name, joint.ends):
+            _, line_direction, slider = find_sliding_axis(posture, joint)
             if abs(float(line_direction @ axis)) > ALONG:
-                position, normal = slider, -normal if float(plan.ways[joint.name] @ normal) > 0.0 else normal
+                position, normal = (
+                    slider,
+                    -normal if float(plan.ground_directions[joint.name] @ normal) > 0.0 else normal,
+                )
     return position + 2.0 * plan.unit * normal, normal
 
 
 def _draw_cylinder(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
     """Yield the symbol of a driven distance: a hydraulic cylinder with barrel, piston, rod, and a pin at each end."""
     name, u = f"drive {part.name}", plan.unit
-    begin, end = (posture.place(point) for point in part.ends)
+    begin, end = (posture.get_position(point) for point in part.ends)
     axis, length = unit_vector(end - begin), float(np.hypot(*(end - begin)))
     yield from _draw_ground_ends(posture, part, name, plan)
     yield Line(name, "piston", np.array([begin + 0.5 * length * axis, end]))
-    yield Line(name, "barrel", rectangle(begin + 0.34 * length * axis, axis, 0.27 * length, 0.85 * u), True)
+    yield Line(name, "barrel", compute_rectangle(begin + 0.34 * length * axis, axis, 0.27 * length, 0.85 * u), True)
     yield Line(name, "drive", np.array([begin, begin + 0.07 * length * axis]))
     head = begin + 0.5 * length * axis
-    yield Line(name, "piston", np.array([head - 0.85 * u * turned(axis), head + 0.85 * u * turned(axis)]))
+    yield Line(
+        name,
+        "piston",
+        np.array([head - 0.85 * u * rotate_quarter_turn(axis), head + 0.85 * u * rotate_quarter_turn(axis)]),
+    )
     yield from (Disc(name, "pin", position, 0.8 * PIN * u) for position in (begin, end))
 
 
 def _draw_ground_ends(posture: Posture, part: PartInfo, name: str, plan: Plan) -> Iterator[Shape]:
     """Yield a hatched wall at each end of a drive or force element on the ground where no joint draws the ground."""
-    joint_ends = {end for joint in posture.parts("joints") if not has_rail(joint) for end in joint.ends}
+    joint_ends = {end for joint in posture.iterate_parts("joints") if not has_rail(joint) for end in joint.ends}
     for end in part.ends:
-        if body_of(end) == GROUND and end not in joint_ends:
-            yield from ground_wall(name, posture.place(end), plan.ways[part.name], plan.unit)
+        if get_body_name(end) == GROUND and end not in joint_ends:
+            yield from draw_ground_wall(name, posture.get_position(end), plan.ground_directions[part.name], plan.unit)
 
 
 def _draw_spring_damper(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
@@ -191,13 +214,15 @@ def _draw_spring_damper(posture: Posture, plan: Plan, part: PartInfo) -> Iterato
     to a ground rail, both symbols are on the side away from the ground.
     """
     name, u = f"force {part.name}", plan.unit
-    begin, end = (posture.place(point) for point in part.ends)
+    begin, end = (posture.get_position(point) for point in part.ends)
     yield from _draw_ground_ends(posture, part, name, plan)
     yield from (Disc(name, "mark", position, 0.26 * u) for position in (begin, end))
     if float(np.hypot(*(end - begin))) < 1e-6 * u:
         return
-    has_spring, has_damper = (posture.number(f"forces.{part.name}.{key}") != 0.0 for key in ("stiffness", "damping"))
-    offset = 1.15 * u * turned(unit_vector(end - begin)) if has_spring and has_damper else np.zeros(2)
+    has_spring, has_damper = (
+        posture.get_parameter(f"forces.{part.name}.{key}") != 0.0 for key in ("stiffness", "damping")
+    )
+    offset = 1.15 * u * rotate_quarter_turn(unit_vector(end - begin)) if has_spring and has_damper else np.zeros(2)
     ground_side = _find_ground_side(posture, plan, part, begin, end)
     if has_spring and has_damper and ground_side is not None:  # both next to the rail
         offset = -1.15 * u * ground_side
@@ -205,9 +230,9 @@ def _draw_spring_damper(posture: Posture, plan: Plan, part: PartInfo) -> Iterato
     else:
         attachments = begin, end
     if has_spring or not has_damper:
-        free_length = posture.number(f"forces.{part.name}.free_length") or float(np.hypot(*(end - begin)))
+        free_length = posture.get_parameter(f"forces.{part.name}.free_length") or float(np.hypot(*(end - begin)))
         teeth = int(np.clip(round(0.35 * free_length / u), 4, 14))
-        points = zigzag(
+        points = compute_zigzag(
             begin + 0.12 * (end - begin), begin + 0.88 * (end - begin), 0.9 * u, teeth, 0.12 if has_damper else 0.05
         )
         points = np.vstack([begin, points + offset, end]) if not has_damper else points + offset
@@ -227,19 +252,23 @@ def _find_ground_side(posture: Posture, plan: Plan, part: PartInfo, begin: Array
 
     Returns None otherwise. `begin` and `end` are the element's points.
     """
-    bodies = {body_of(end) for end in part.ends}
-    for joint in sliding(posture):
-        if has_rail(joint) and joint.name in plan.ways and bodies == {body_of(end) for end in joint.ends}:
-            line_point, axis, _ = axis_of(posture, joint)
-            if max(abs(float((point - line_point) @ turned(axis))) for point in (begin, end)) < plan.unit:
-                return plan.ways[joint.name]
+    bodies = {get_body_name(end) for end in part.ends}
+    for joint in iterate_sliding_joints(posture):
+        if (
+            has_rail(joint)
+            and joint.name in plan.ground_directions
+            and bodies == {get_body_name(end) for end in joint.ends}
+        ):
+            line_point, axis, _ = find_sliding_axis(posture, joint)
+            if max(abs(float((point - line_point) @ rotate_quarter_turn(axis))) for point in (begin, end)) < plan.unit:
+                return plan.ground_directions[joint.name]
     return None
 
 
 def _draw_damper(name: str, begin: Array, end: Array, unit: float) -> Iterator[Shape]:
     """Yield the symbol of a damper between two points: a piston in a cylinder that is open on one side."""
     axis, middle = unit_vector(end - begin), 0.5 * (begin + end)
-    half_width = 0.75 * unit * turned(axis)
+    half_width = 0.75 * unit * rotate_quarter_turn(axis)
     half_length = min(1.6 * unit, 0.3 * float(np.hypot(*(end - begin))))
     cylinder_bottom, cylinder_top = middle - half_length * axis, middle + half_length * axis
     yield Line(
@@ -261,7 +290,7 @@ def _draw_damper(name: str, begin: Array, end: Array, unit: float) -> Iterator[S
 
 def _draw_spiral_spring(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
     """Yield a spiral spring of 2.25 turns around the pivot of a rotational spring or damper."""
-    angle, centre = np.linspace(0.0, 4.5 * np.pi, 90), pivot(posture, part)
+    angle, centre = np.linspace(0.0, 4.5 * np.pi, 90), find_pivot(posture, part)
     radius = plan.unit * np.linspace(0.6, WOUND, len(angle))
     yield Line(
         f"force {part.name}", "spring", centre + np.column_stack([np.cos(angle), np.sin(angle)]) * radius[:, None]
@@ -271,18 +300,20 @@ def _draw_spiral_spring(posture: Posture, plan: Plan, part: PartInfo) -> Iterato
 def _draw_torque(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
     """Yield the round arrow of a torque around its pivot; clockwise only if the torque is negative."""
     is_counterclockwise = posture.loads.get(part.name, (1.0, 0.0))[0] >= 0.0
-    centre, unit = pivot(posture, part), plan.unit
-    yield from round_arrow(f"force {part.name}", "force", centre, LOADED * unit, is_counterclockwise, HEAD * unit)
+    centre, unit = find_pivot(posture, part), plan.unit
+    yield from draw_round_arrow(f"force {part.name}", "force", centre, LOADED * unit, is_counterclockwise, HEAD * unit)
 
 
 def _draw_force(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
     """Yield the arrow of a force that begins at its point; a ring if the force is zero or unknown."""
-    name, unit, point = f"force {part.name}", plan.unit, posture.place(part.ends[0])
+    name, unit, point = f"force {part.name}", plan.unit, posture.get_position(part.ends[0])
     arrow_vector = _compute_arrow_vector(posture, plan, part)
     if not arrow_vector.any():
         yield Disc(name, "no force", point, 0.9 * unit)
         return
-    yield from arrow(name, "force", point, point + arrow_vector, min(HEAD * unit, 0.6 * float(np.hypot(*arrow_vector))))
+    yield from draw_arrow(
+        name, "force", point, point + arrow_vector, min(HEAD * unit, 0.6 * float(np.hypot(*arrow_vector)))
+    )
 
 
 def _compute_arrow_vector(posture: Posture, plan: Plan, part: PartInfo) -> Array:
@@ -300,14 +331,18 @@ def _compute_arrow_vector(posture: Posture, plan: Plan, part: PartInfo) -> Array
 def _draw_dry_friction(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
     """Yield a rough line under the second body's point, and for a moving surface the arrow of its speed."""
     name, u = f"force {part.name}", plan.unit
-    line_direction = posture.direction(part, "direction", body_of(part.ends[0]))
-    down = -turned(line_direction) if turned(line_direction)[1] >= 0.0 else turned(line_direction)
-    centre = posture.place(part.ends[1]) + BLOCK[1] * u * down
-    points = zigzag(centre - 2.0 * u * line_direction, centre + 2.0 * u * line_direction, 0.3 * u, 7, 0.0)
+    line_direction = posture.compute_direction(part, "direction", get_body_name(part.ends[0]))
+    down = (
+        -rotate_quarter_turn(line_direction)
+        if rotate_quarter_turn(line_direction)[1] >= 0.0
+        else rotate_quarter_turn(line_direction)
+    )
+    centre = posture.get_position(part.ends[1]) + BLOCK[1] * u * down
+    points = compute_zigzag(centre - 2.0 * u * line_direction, centre + 2.0 * u * line_direction, 0.3 * u, 7, 0.0)
     yield Line(name, "rough", points - 0.1 * u * down)
-    if (speed := posture.number(f"forces.{part.name}.speed")) != 0.0:
+    if (speed := posture.get_parameter(f"forces.{part.name}.speed")) != 0.0:
         direction, arrow_centre = line_direction * np.sign(speed), centre + 2.3 * u * down
-        yield from arrow(
+        yield from draw_arrow(
             name,
             "force",
             arrow_centre - 0.5 * ARROW * u * direction,
@@ -318,7 +353,7 @@ def _draw_dry_friction(posture: Posture, plan: Plan, part: PartInfo) -> Iterator
 
 def _draw_generic_element(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
     """Yield a line with a dot at each end, for a force element of a kind without a symbol."""
-    positions = [posture.place(end) for end in part.ends]
+    positions = [posture.get_position(end) for end in part.ends]
     yield Line(f"force {part.name}", "spring", np.array(positions))
     yield from (Disc(f"force {part.name}", "mark", position, 0.3 * plan.unit) for position in positions)
 
@@ -333,7 +368,7 @@ _FORCES = {
 }
 
 
-def gravity_of(posture: Posture) -> Array | None:
+def find_gravity_direction(posture: Posture) -> Array | None:
     """Return the direction of gravity, a unit vector in ground axes; None without gravity."""
-    g = np.array([posture.number("gravity.x"), posture.number("gravity.y")])
+    g = np.array([posture.get_parameter("gravity.x"), posture.get_parameter("gravity.y")])
     return unit_vector(g) if float(np.hypot(*g)) > 0.0 else None

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from gudgeon.drawing.labels import gid, place_names
-from gudgeon.drawing.roles import EDGES, NAMES, ROLES, TINTS, colour_of
+from gudgeon.drawing.labels import make_identifier, place_names
+from gudgeon.drawing.roles import EDGES, NAMES, ROLES, TINTS, resolve_colour
 from gudgeon.drawing.shapes import Disc, Shape, Sketch
 from gudgeon.model.compiled import Array
 
@@ -20,7 +20,7 @@ PIXELS = 100.0  # an inch
 Styles = dict[tuple[str, int], int]
 
 
-def page(
+def write_animation_page(
     title: str,
     sketches: Sequence[Sketch],
     times: Sequence[float],
@@ -44,23 +44,23 @@ def page(
         return (points - first.low) * [scale, -scale] + [0.0, height]
 
     styles: Styles = {}
-    identifiers = _identifiers_in_order(sketches)
+    identifiers = _order_identifiers(sketches)
     frames = [_make_frame(sketch, identifiers, to_pixels, scale, styles) for sketch in sketches]
     labels = [label for label in first.labels if label.part in label_offsets]
     label_parts = [label.part for label in labels]
     offsets_by_picture = _track_names(sketches, label_offsets, half_sizes, scale)
     label_positions = [
-        _label_positions(sketch, label_parts, to_pixels, offsets)
+        _compute_label_positions(sketch, label_parts, to_pixels, offsets)
         for sketch, offsets in zip(sketches, offsets_by_picture, strict=True)
     ]
     data = {
         "times": [round(time, 9) for time in times],
         "seconds": seconds,
-        "styles": [_style_of(*key) for key in styles],
+        "styles": [_format_style(*key) for key in styles],
         "frames": _encode_changes(frames),
         "places": _encode_changes(label_positions),
     }
-    name_elements = "".join(_name_element(label.text, label.role, label.part, first) for label in labels)
+    name_elements = "".join(_format_name_element(label.text, label.role, label.part, first) for label in labels)
     path_elements = "".join(f'<path id="{name}"/>' for name in identifiers)
     notes = "<br>".join(escape(notes) for notes in first.notes)
     encoded = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
@@ -78,7 +78,7 @@ def page(
     )  # in one go: a title may hold such a word
 
 
-def _shapes_by_identifier(sketch: Sketch) -> dict[str, Shape]:
+def _map_shapes_by_identifier(sketch: Sketch) -> dict[str, Shape]:
     """Return the shapes of a sketch by an identifier that is the same in all pictures of a motion.
 
     The identifier is made of the part and, from its second shape on, a number.
@@ -86,18 +86,18 @@ def _shapes_by_identifier(sketch: Sketch) -> dict[str, Shape]:
     counts, shapes_by_identifier = dict[str, int](), dict[str, Shape]()
     for shape in sketch.shapes:
         k = counts[shape.part] = counts.get(shape.part, 0) + 1
-        shapes_by_identifier[gid("", shape.part) + (f"-{k}" if k > 1 else "")] = shape
+        shapes_by_identifier[make_identifier("", shape.part) + (f"-{k}" if k > 1 else "")] = shape
     return shapes_by_identifier
 
 
-def _identifiers_in_order(sketches: Sequence[Sketch]) -> list[str]:
+def _order_identifiers(sketches: Sequence[Sketch]) -> list[str]:
     """Return the identifiers of all shapes of all sketches, in the order of painting."""
     order = {
         name: ROLES[shape.role].order
         for sketch in reversed(sketches)
-        for name, shape in _shapes_by_identifier(sketch).items()
+        for name, shape in _map_shapes_by_identifier(sketch).items()
     }
-    first_identifiers = [name for name in _shapes_by_identifier(sketches[0]) if name in order]
+    first_identifiers = [name for name in _map_shapes_by_identifier(sketches[0]) if name in order]
     return sorted(
         [*first_identifiers, *(name for name in order if name not in first_identifiers)], key=lambda name: order[name]
     )
@@ -108,18 +108,18 @@ def _make_frame(sketch: Sketch, identifiers: Sequence[str], to_pixels: Any, scal
 
     New styles are added to `styles`.
     """
-    shapes, frame = _shapes_by_identifier(sketch), list[Any]()
+    shapes, frame = _map_shapes_by_identifier(sketch), list[Any]()
     for name in identifiers:
         shape = shapes.get(name)
         if shape is None:
             frame.append("")
             continue
         style = styles.setdefault((shape.role, shape.tint % len(TINTS)), len(styles))
-        frame.append([_path_data(shape, to_pixels, scale), style])
+        frame.append([_format_path_data(shape, to_pixels, scale), style])
     return frame
 
 
-def _path_data(shape: Shape, to_pixels: Any, scale: float) -> str:
+def _format_path_data(shape: Shape, to_pixels: Any, scale: float) -> str:
     """Return the SVG path data of a shape, to a tenth of a pixel; `scale` is in pixels per metre."""
     if isinstance(shape, Disc):
         (x, y), r = to_pixels(shape.centre), round(shape.radius * scale, 1)  # rounded once: both arcs are half a circle
@@ -128,12 +128,12 @@ def _path_data(shape: Shape, to_pixels: Any, scale: float) -> str:
     return f"M{text}{'z' if shape.closed else ''}"
 
 
-def _style_of(role: str, tint: int) -> str:
+def _format_style(role: str, tint: int) -> str:
     """Return the CSS of a role for shapes with the colours of body `tint`."""
     role_style = ROLES[role]
     dashes = f";stroke-dasharray:{' '.join(f'{x:g}' for x in role_style.dashes)}" if role_style.dashes else ""
     width = role_style.width * PIXELS / 72.0
-    edge, face = colour_of(role_style.edge, tint), colour_of(role_style.face, tint)
+    edge, face = resolve_colour(role_style.edge, tint), resolve_colour(role_style.face, tint)
     return f"stroke:{edge};fill:{face};stroke-width:{width:.2f}{dashes}"
 
 
@@ -163,7 +163,7 @@ def _track_names(
         yield label_offsets
 
 
-def _label_positions(
+def _compute_label_positions(
     sketch: Sketch, parts: Sequence[str], to_pixels: Any, offsets: Mapping[str, tuple[float, float]]
 ) -> list[list[Any]]:
     """Return [x, y] of the middle of each name in pixels; of an inset also its text, which changes."""
@@ -174,7 +174,7 @@ def _label_positions(
     return positions
 
 
-def _name_element(text: str, role: str, part: str, sketch: Sketch) -> str:
+def _format_name_element(text: str, role: str, part: str, sketch: Sketch) -> str:
     """Return the SVG text element of a name, without position, in the style of its role."""
     colour, weight = NAMES[role]
     tint = next((shape.tint for shape in sketch.shapes if shape.part == part), 0)

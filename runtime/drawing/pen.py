@@ -8,11 +8,19 @@ from typing import ClassVar
 
 import numpy as np
 
-from gudgeon.drawing.bodies import BLOCK, SLOT, guide_ends
-from gudgeon.drawing.joint_at import JointAt, axes_of, gap_of
-from gudgeon.drawing.plan import Plan, is_wide
-from gudgeon.drawing.posture import GROUND, body_of
-from gudgeon.drawing.shapes import Disc, Line, Shape, hatching, rectangle, rounded, turned
+from gudgeon.drawing.bodies import BLOCK, SLOT, compute_guide_ends
+from gudgeon.drawing.joint_at import JointAt, compute_guide_directions, compute_wall_gap
+from gudgeon.drawing.plan import Plan, is_visible_to_scale
+from gudgeon.drawing.posture import GROUND, get_body_name
+from gudgeon.drawing.shapes import (
+    Disc,
+    Line,
+    Shape,
+    compute_hatching,
+    compute_rectangle,
+    compute_rounded_outline,
+    rotate_quarter_turn,
+)
 from gudgeon.model.compiled import Array
 
 PIN, WORN = 0.46, 0.86  # radii in units: of a pin, of the hole around one that has play
@@ -42,11 +50,11 @@ class Pen(JointAt):
     @property
     def on_ground(self) -> bool:
         """Whether one of the bodies is the ground."""
-        return self.part.name in self.plan.ways
+        return self.part.name in self.plan.ground_directions
 
     def axis_of_body(self, k: int) -> Array:
         """Return the x axis of the first (0) or second (1) body, a unit vector."""
-        angle = self.posture.theta(self.bodies[k])
+        angle = self.posture.get_angle(self.bodies[k])
         return np.array([np.cos(angle), np.sin(angle)])
 
     def line(self, role: str, points: Sequence[Array], closed: bool = False, tint: int = 0) -> None:
@@ -59,7 +67,7 @@ class Pen(JointAt):
 
     def box(self, role: str, centre: Array, axis: Array, length: float, width: float) -> None:
         """Add a rectangle with half its length, along the unit vector `axis`, and half its width in units."""
-        self.line(role, list(rectangle(centre, axis, length * self.unit, width * self.unit)), True)
+        self.line(role, list(compute_rectangle(centre, axis, length * self.unit, width * self.unit)), True)
 
     def pin(self, position: Array, size: float = 1.0) -> None:
         """Add a pin; `size` is a fraction of the usual size."""
@@ -71,14 +79,16 @@ class Pen(JointAt):
         Nothing is added if neither body is the ground.
         """
         for end in self.part.ends if self.on_ground else ():
-            if body_of(end) == GROUND:
-                position, direction = self.posture.place(end), self.plan.ways[self.part.name]
+            if get_body_name(end) == GROUND:
+                position, direction = self.posture.get_position(end), self.plan.ground_directions[self.part.name]
                 self.shapes.extend(_draw_stand(self.name, position, direction, self.unit))
 
     def wall(self, position: Array) -> None:
         """Add the ground at a fixed point; nothing if neither body is the ground."""
         if self.on_ground:
-            self.shapes.extend(ground_wall(self.name, position, self.plan.ways[self.part.name], self.unit, 2.0))
+            self.shapes.extend(
+                draw_ground_wall(self.name, position, self.plan.ground_directions[self.part.name], self.unit, 2.0)
+            )
 
     def bearing(self) -> None:
         """Add the stand of a pin, and for a joint with play the hole around its first point.
@@ -87,7 +97,7 @@ class Pen(JointAt):
         """
         posture, name = self.posture, self.part.name
         has_play = name in posture.clearances
-        if has_play and is_wide(posture, name, self.unit):
+        if has_play and is_visible_to_scale(posture, name, self.unit):
             self.disc("clearance", self.first, float(posture.p[posture.clearances[name].clearance]))
             return
         self.stand()
@@ -97,19 +107,20 @@ class Pen(JointAt):
     def rail(self, below: float, side: float = 1.0) -> None:
         """Add the hatched ground under a slider over its whole travel.
 
-        `below` is its distance from the slider's line in m. With `side` −1 the ground is on the other side of the line.
+        `below` is its distance from the slider's line in m. With `side` −1 the ground is on the other side of the
+        line.
         """
         line_point, axis, name = self.on_line, self.along, self.part.name
         if name in self.posture.guides:
-            axis = axes_of(self.posture, self.part)[0]
+            axis = compute_guide_directions(self.posture, self.part)[0]
         min_travel, max_travel = self.plan.travel[name]
-        overhang, ground_direction = (2.0 * BLOCK[0] + 0.4) * self.unit * axis, side * self.plan.ways[name]
+        overhang, ground_direction = (2.0 * BLOCK[0] + 0.4) * self.unit * axis, side * self.plan.ground_directions[name]
         begin, end = (
             line_point + min_travel * axis - overhang + below * ground_direction,
             line_point + max_travel * axis + overhang + below * ground_direction,
         )
         self.line("rail", [begin, end])
-        for stroke in hatching(begin, end, ground_direction, 0.95 * self.unit):
+        for stroke in compute_hatching(begin, end, ground_direction, 0.95 * self.unit):
             self.line("hatch", list(stroke))
 
     def guide(self) -> None:
@@ -118,15 +129,19 @@ class Pen(JointAt):
         Rails are on one side without play, on both sides with play. The axis line lies under the block.
         """
         if not self.on_ground:
-            self.line("axis", guide_ends(self.posture, self.plan, self.part))
+            self.line("axis", compute_guide_ends(self.posture, self.plan, self.part))
             return
-        wall_gap = gap_of(self.posture, self.part, self.unit)
+        wall_gap = compute_wall_gap(self.posture, self.part, self.unit)
         for sign in (1.0, -1.0) if wall_gap else (1.0,):
             self.rail(BLOCK[1] * self.unit + wall_gap, sign)
 
     def slot(self) -> None:
         """Add the slot in the guiding body, as long as the travel."""
-        self.line("slot", list(rounded(guide_ends(self.posture, self.plan, self.part), SLOT * self.unit)), True)
+        self.line(
+            "slot",
+            list(compute_rounded_outline(compute_guide_ends(self.posture, self.plan, self.part), SLOT * self.unit)),
+            True,
+        )
 
     def wheel(self, k: int, centre: Array, radius: float, is_ring: bool = False) -> None:
         """Add a wheel of the first (0) or second (1) body: its pitch circle and a spoke that shows its rotation.
@@ -143,7 +158,7 @@ class Pen(JointAt):
         self.line("spoke", [centre + r * direction for r in spoke_radii], tint=tint)
 
 
-def ground_wall(
+def draw_ground_wall(
     part: str, position: Array, ground_direction: Array, unit: float, half_length: float = 1.5
 ) -> Iterator[Shape]:
     """Yield a hatched line through a point that is fixed to the ground.
@@ -152,11 +167,11 @@ def ground_wall(
     units.
     """
     begin, end = (
-        position - half_length * unit * turned(ground_direction),
-        position + half_length * unit * turned(ground_direction),
+        position - half_length * unit * rotate_quarter_turn(ground_direction),
+        position + half_length * unit * rotate_quarter_turn(ground_direction),
     )
     yield Line(part, "rail", np.array([begin, end]))
-    yield from (Line(part, "hatch", stroke) for stroke in hatching(begin, end, ground_direction, 0.95 * unit))
+    yield from (Line(part, "hatch", stroke) for stroke in compute_hatching(begin, end, ground_direction, 0.95 * unit))
 
 
 def _draw_stand(part: str, pin: Array, direction: Array, unit: float) -> Iterator[Shape]:
@@ -164,8 +179,8 @@ def _draw_stand(part: str, pin: Array, direction: Array, unit: float) -> Iterato
 
     `direction` is the unit vector from the pin to the ground, `unit` half a bar's width in m.
     """
-    ground_point, tangent = pin + STAND * unit * direction, turned(direction)
+    ground_point, tangent = pin + STAND * unit * direction, rotate_quarter_turn(direction)
     yield Line(
         part, "stand", np.array([pin, ground_point - 1.25 * unit * tangent, ground_point + 1.25 * unit * tangent]), True
     )
-    yield from ground_wall(part, ground_point, direction, unit, 1.9)
+    yield from draw_ground_wall(part, ground_point, direction, unit, 1.9)

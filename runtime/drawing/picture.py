@@ -11,10 +11,10 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from gudgeon.drawing.labels import Names, gid
-from gudgeon.drawing.roles import ROLES, Role, colour_of
+from gudgeon.drawing.labels import NameLabels, make_identifier
+from gudgeon.drawing.roles import ROLES, Role, resolve_colour
 from gudgeon.drawing.shapes import Disc, Shape, Sketch
-from gudgeon.language.shown import figure_title
+from gudgeon.language.text_output import format_figure_title
 
 import matplotlib  # isort: skip  (labels.py says where it is missing)
 from matplotlib.axes import Axes  # isort: skip
@@ -30,7 +30,7 @@ STYLE = {"font.size": 9, "text.usetex": False, "svg.hashsalt": "gudgeon", "path.
 _LACKS = re.compile(r"Glyph (\d+) .*missing from font")
 
 
-def draw_on(ax: Axes, sketch: Sketch, is_background: bool = False) -> None:
+def draw_sketch(ax: Axes, sketch: Sketch, is_background: bool = False) -> None:
     """Draw the shapes and names of a sketch on matplotlib axes, set their limits and hide the frame.
 
     With `is_background`, all shapes but paths are grey and lie under the others. Each patch gets an identifier of its
@@ -43,11 +43,11 @@ def draw_on(ax: Axes, sketch: Sketch, is_background: bool = False) -> None:
         patch = _make_patch(shape, role, is_grey)
         patch.set_zorder(role.order - (2.0 if is_grey else 0.0))
         shape_counts[shape.part] += 1
-        identifier = gid("", shape.part)
+        identifier = make_identifier("", shape.part)
         patch.set_gid(identifier if shape_counts[shape.part] == 1 else f"{identifier}-{shape_counts[shape.part]}")
         ax.add_artist(patch)  # limits are set below: add_patch would look for them shape by shape
     if sketch.labels:
-        names = Names(sketch, 8.0 if len(sketch.labels) <= FEW else 7.0)
+        names = NameLabels(sketch, 8.0 if len(sketch.labels) <= FEW else 7.0)
         ax.add_artist(names)
         names.set_clip_on(False)
     ax.set(xlim=(sketch.low[0], sketch.high[0]), ylim=(sketch.low[1], sketch.high[1]), aspect="equal")
@@ -56,7 +56,7 @@ def draw_on(ax: Axes, sketch: Sketch, is_background: bool = False) -> None:
 
 def _make_patch(shape: Shape, role: Role, is_grey: bool) -> Patch:
     """Return the matplotlib patch of a shape in the style `role`; in grey if `is_grey`."""
-    edge, face = colour_of(role.edge, shape.tint), colour_of(role.face, shape.tint)
+    edge, face = resolve_colour(role.edge, shape.tint), resolve_colour(role.face, shape.tint)
     style: dict[str, Any] = {"ec": edge, "fc": face, "lw": role.width, "joinstyle": "round", "capstyle": "round"}
     if role.dashes:
         style |= {"ls": (0.0, role.dashes)}
@@ -69,7 +69,7 @@ def _make_patch(shape: Shape, role: Role, is_grey: bool) -> Patch:
     return Polygon(shape.points, closed=shape.closed, **style)
 
 
-def size_of(sketch: Sketch, max_length: float = LARGEST) -> tuple[float, float]:
+def compute_figure_size(sketch: Sketch, max_length: float = LARGEST) -> tuple[float, float]:
     """Return width and height in inches that suit a sketch.
 
     The longer side is `max_length`, but grows up to MOST so that half a bar's width is at least LEAST_UNIT.
@@ -79,14 +79,14 @@ def size_of(sketch: Sketch, max_length: float = LARGEST) -> tuple[float, float]:
     return max(SMALLEST, width * scale), max(0.75 * SMALLEST, height * scale)
 
 
-def figure_of(sketches: Sequence[Sketch], titles: Sequence[str], caption: str) -> Figure:
+def build_figure(sketches: Sequence[Sketch], titles: Sequence[str], caption: str) -> Figure:
     """Return a figure of one sketch, or of several in two or three columns with titles, under a caption.
 
     The notes of each sketch are below it. All pictures have the same size in inches.
     """
     n_columns = min(len(sketches), 3 if len(sketches) != 4 else 2)
     n_rows = -(-len(sketches) // n_columns)
-    picture_sizes = [size_of(sketch, LARGEST if n_columns == 1 else 5.0) for sketch in sketches]
+    picture_sizes = [compute_figure_size(sketch, LARGEST if n_columns == 1 else 5.0) for sketch in sketches]
     width, height = max(w for w, _ in picture_sizes), max(h for _, h in picture_sizes)
     n_lines = len(textwrap.wrap(caption, int(PER_INCH * n_columns * width)))
     title_height, notes_height = 0.25 + 0.17 * n_lines, 0.17 * max(len(sketch.notes) for sketch in sketches) + 0.05
@@ -115,7 +115,7 @@ def figure_of(sketches: Sequence[Sketch], titles: Sequence[str], caption: str) -
                     height / figure_height,
                 )
             )
-            draw_on(ax, sketch)
+            draw_sketch(ax, sketch)
             if title:
                 ax.set_title(title, fontsize=9)
             note = "\n".join(sketch.notes)
@@ -123,7 +123,7 @@ def figure_of(sketches: Sequence[Sketch], titles: Sequence[str], caption: str) -
             figure.text(*position, note, fontsize=7.5, va="top", color="#444444", parse_math=False)
         width = int(PER_INCH * figure_width)
         figure.suptitle(
-            figure_title(caption, width),
+            format_figure_title(caption, width),
             x=0.1 / figure_width,
             y=1.0 - 0.1 / figure_height,
             ha="left",
@@ -152,7 +152,7 @@ def report_missing_glyphs() -> Iterator[None]:
         warnings.warn(f"the font has no sign for {characters}: {hint}", stacklevel=4)
 
 
-def as_bytes(picture: Figure, suffix: str, dpi: int = 120) -> bytes:
+def encode_figure(picture: Figure, suffix: str, dpi: int = 120) -> bytes:
     """Return a figure as the bytes of an SVG, PNG or PDF file, always the same for the same figure.
 
     `suffix` is ".svg", ".png" or ".pdf". Date and version are left out. Raises KeyError for any other suffix.

@@ -1,4 +1,4 @@
-"""Own `Posture`, a scene at one position: positions of its points, and its parameters by address."""
+"""Own `Posture`, a mechanism at one position: coordinates of its points, and values of its parameters."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from gudgeon.assembly.linkage import place_of
+from gudgeon.assembly.linkage import compute_point_position
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import BodyInfo, KernelSource, PartInfo, PointInfo
 from gudgeon.errors import GudgeonError
@@ -18,7 +18,7 @@ from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import JointType, joint_types
 from gudgeon.language.units import DIMENSIONLESS
 from gudgeon.model.compiled import Array
-from gudgeon.model.contours import slider_of
+from gudgeon.model.contours import find_slider_dimensions
 
 GROUND = "ground"
 UNKNOWN = JointType("", "joint", (), "", (), (), lambda *_: [], None)  # of a file that a later gudgeon wrote
@@ -58,17 +58,17 @@ class Posture:
         return {body.name: body for body in self.source.bodies}
 
     @cached_property
-    def held(self) -> Mapping[str, tuple[str, ...]]:
+    def outline_points(self) -> Mapping[str, tuple[str, ...]]:
         """Names of the points of each body that are drawn, by body.
 
         First the ends of joints, drives and force elements that join points, then named points of the file other than
         origin and com. A body without such points is absent.
         """
-        end_names = [end for part in self.source.parts if _joins_points(part) for end in part.ends]
+        end_names = [end for part in self.source.parts if _is_between_points(part) for end in part.ends]
         end_names += [name for name in self.points if name.partition(".")[2] not in ("origin", "com")]
         names_by_body = dict[str, list[str]]()
         for name in dict.fromkeys(end_names):
-            names_by_body.setdefault(body_of(name), []).append(name)
+            names_by_body.setdefault(get_body_name(name), []).append(name)
         return {body: tuple(names) for body, names in names_by_body.items()}
 
     @cached_property
@@ -79,15 +79,15 @@ class Posture:
     @cached_property
     def clearances(self) -> Mapping[str, ClearanceInfo]:
         """Joints with play by name whose play is a circle."""
-        return {joint.name: joint for joint in self.source.clearances if not joint.at_wall}
+        return {joint.name: joint for joint in self.source.clearances if not joint.is_corner}
 
     @cached_property
     def guides(self) -> Mapping[str, tuple[ClearanceInfo, ...]]:
         """Contacts of the four corners of each slider with play, by the name of the joint."""
-        corners = [contact for contact in self.source.clearances if contact.at_wall]
+        corners = [contact for contact in self.source.clearances if contact.is_corner]
         return {name: tuple(contact for contact in corners if contact.joint == name) for name in self.source.guides}
 
-    def play(self, joint: str) -> float:
+    def get_clearance(self, joint: str) -> float:
         """Return the radial clearance of a joint with play, or the gap on each side of a guide, in m.
 
         `joint` is the name in the file. Raises StopIteration for a joint without play.
@@ -96,15 +96,15 @@ class Posture:
             self.p[next(clearance.clearance for clearance in self.source.clearances if clearance.joint == joint)]
         )
 
-    def slider(self, corner: ClearanceInfo) -> tuple[str, float, float, float]:
+    def get_slider_dimensions(self, corner: ClearanceInfo) -> tuple[str, float, float, float]:
         """Return the guide's address, half the length and half the height of a slider, and the radius of its corners,
         all in m.
 
         `corner` is one of the contacts in `guides`.
         """
-        return slider_of(self.source, self.p, corner)
+        return find_slider_dimensions(self.source, self.p, corner)
 
-    def parts(self, section: str, *kinds: str) -> Iterator[PartInfo]:
+    def iterate_parts(self, section: str, *kinds: str) -> Iterator[PartInfo]:
         """Yield the joints, drives or force elements of the scene, in the order of the file.
 
         `section` is "joints", "drives" or "forces"; `kinds` are the kinds to yield, by default all.
@@ -113,7 +113,7 @@ class Posture:
             if part.section == section and (not kinds or part.kind in kinds):
                 yield part
 
-    def parts_named(self, name: str) -> Iterator[PartInfo]:
+    def find_parts(self, name: str) -> Iterator[PartInfo]:
         """Return the part of that name, as an iterator: joints, drives and forces have different names."""
         return (part for part in self.source.parts if part.name == name)
 
@@ -122,97 +122,99 @@ class Posture:
         """Cache of positions by point."""
         return {}
 
-    def place(self, point: str) -> Array:
+    def get_position(self, point: str) -> Array:
         """Return the position of a point in ground axes, (2,), in m; the origin if the scene has no point of that name.
 
         `point` is a name such as "L1.head". The position is cached in this posture.
         """
         if point not in self._places:
             info = self.points.get(point)
-            self._places[point] = place_of(self.source, self.p, self.q, info) if info is not None else np.zeros(2)
+            self._places[point] = (
+                compute_point_position(self.source, self.p, self.q, info) if info is not None else np.zeros(2)
+            )
         return self._places[point]
 
-    def centre(self, body: str) -> Array:
+    def get_centre_of_mass(self, body: str) -> Array:
         """Return the position of a body's centre of mass, (2,), m."""
         k = self.bodies[body].index
         return self.q[k : k + 2]
 
-    def theta(self, body: str) -> float:
+    def get_angle(self, body: str) -> float:
         """Return the angle of a body, rad; 0 for the ground."""
         return float(self.q[self.bodies[body].index + 2]) if body in self.bodies else 0.0
 
-    def omega(self, body: str) -> float:
+    def get_angular_velocity(self, body: str) -> float:
         """Return the angular velocity of a body in rad/s; 0 for the ground and in a posture without velocities."""
         if self.v is None or body not in self.bodies:
             return 0.0
         return float(self.v[self.bodies[body].index + 2])
 
-    def number(self, address: str) -> float:
+    def get_parameter(self, address: str) -> float:
         """Return a parameter of the file, SI; 0 if it is absent or a plain 0."""
         return float(self.p[self._slots[address]]) if address in self._slots else 0.0
 
-    def has(self, address: str) -> bool:
+    def is_specified(self, address: str) -> bool:
         """Return whether the file specifies a value at an address."""
         return address in self._slots or any(entry.address == address for entry in self.source.written)
 
-    def direction(self, part: PartInfo, key: str, body: str) -> Array:
+    def compute_direction(self, part: PartInfo, key: str, body: str) -> Array:
         """Return a vector of a joint or force element as a unit vector in ground axes, (2,).
 
         The file gives the vector under `key` in the axes of `body`. The result is (1, 0) if the vector is zero.
         """
-        x, y = (self.number(f"{part.section}.{part.name}.{key}.{axis}") for axis in "xy")
-        length, angle = float(np.hypot(x, y)), self.theta(body)
+        x, y = (self.get_parameter(f"{part.section}.{part.name}.{key}.{axis}") for axis in "xy")
+        length, angle = float(np.hypot(x, y)), self.get_angle(body)
         if not length > 0.0:
             return np.array([1.0, 0.0])
         c, s = np.cos(angle), np.sin(angle)
         return np.array([c * x - s * y, s * x + c * y]) / length
 
 
-def type_of(joint: PartInfo) -> JointType:
+def get_joint_type(joint: PartInfo) -> JointType:
     """Return the declaration of a joint's kind; UNKNOWN for a kind that this version does not have."""
     return joint_types().get(joint.kind, UNKNOWN)
 
 
-def _joins_points(part: PartInfo) -> bool:
+def _is_between_points(part: PartInfo) -> bool:
     """Return whether a joint, drive or force element connects points; otherwise it connects bodies.
 
     A drive or force element of an unknown kind counts as one that connects points.
     """
     if part.section == "joints":
-        return type_of(part).joins == "points"
+        return get_joint_type(part).joins == "points"
     kinds = DRIVES if part.section == "drives" else element_types()
     return part.kind not in kinds or kinds[part.kind].targets == "points"
 
 
-def directions(part: PartInfo) -> list[str]:
+def list_direction_keys(part: PartInfo) -> list[str]:
     """Return the keys of a joint's or force element's vectors without a dimension, which are directions.
 
     A drive has none, nor has a force element of an unknown kind.
     """
-    fields = type_of(part).fields if part.section == "joints" else ()
+    fields = get_joint_type(part).fields if part.section == "joints" else ()
     if part.section == "forces" and part.kind in element_types():
         fields = element_types()[part.kind].fields
     return [item.name for item in fields if item.kind == VECTOR and item.dimension == DIMENSIONLESS]
 
 
-def body_of(end: str) -> str:
+def get_body_name(end: str) -> str:
     """Return the body of a point: "L1.head" is a point of L1."""
     return end.partition(".")[0]
 
 
-def anchors(posture: Posture, body: str) -> dict[str, Array]:
+def find_outline_points(posture: Posture, body: str) -> dict[str, Array]:
     """Return the positions (2,) in m of the points on a body's outline, by name.
 
     They are the ends of joints, drives and force elements, and the named points. If fewer than two positions differ,
     the centre of mass is added as "BODY.com".
     """
-    positions = {name: posture.place(name) for name in posture.held.get(body, ())}
-    if len(distinct(positions.values())) < 2:
-        positions[f"{body}.com"] = posture.centre(body)
+    positions = {name: posture.get_position(name) for name in posture.outline_points.get(body, ())}
+    if len(remove_repeated_positions(positions.values())) < 2:
+        positions[f"{body}.com"] = posture.get_centre_of_mass(body)
     return positions
 
 
-def distinct(positions: object) -> list[Array]:
+def remove_repeated_positions(positions: object) -> list[Array]:
     """Return positions (2,) without repetitions, in their order.
 
     Positions are equal if they differ by less than 1e-9 of 1 m plus their distance from the origin.

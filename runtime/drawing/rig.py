@@ -1,4 +1,4 @@
-"""Own `Rig`, a drawing that moves without being drawn again: a carrier for each point, found from drawings of postures.
+"""Own `Rig`, a drawing for animation: each point stores the body or joint with which it moves.
 
 A point moves with another point, with an angle about that, and with a length:
 
@@ -20,10 +20,10 @@ from typing import Any
 import numpy as np
 
 from gudgeon.drawing.plan import Plan, make_plan
-from gudgeon.drawing.posture import GROUND, Posture, body_of, directions
+from gudgeon.drawing.posture import GROUND, Posture, get_body_name, list_direction_keys
 from gudgeon.drawing.roles import ROLES
 from gudgeon.drawing.shapes import Disc, Shape, Sketch
-from gudgeon.drawing.sketch import make_sketch, room_of_all
+from gudgeon.drawing.sketch import compute_common_box, make_sketch
 from gudgeon.model.compiled import Array
 
 EXACT = 1e-9  # tolerance of a carried point as a fraction of the drawing's size
@@ -42,14 +42,14 @@ class Carrier:
 
     point: str = ""
     turn: tuple[Any, ...] = ()
-    by: int = -1
+    length_index: int = -1
 
-    def frame(self, posture: Posture) -> tuple[Array, Array, float]:
+    def compute_frame(self, posture: Posture) -> tuple[Array, Array, float]:
         """Return origin r_P (2,) in m, rotation matrix A (2, 2) and length s of the carrier at a posture.
 
         The matrix is the identity if the direction that defines φ is a zero vector.
         """
-        origin, q, p = posture.place(self.point) if self.point else np.zeros(2), posture.q, posture.p
+        origin, q, p = posture.get_position(self.point) if self.point else np.zeros(2), posture.q, posture.p
         x, y = 1.0, 0.0
         kind, *arguments = self.turn or ("",)
         if kind == "body":
@@ -60,7 +60,7 @@ class Carrier:
                 c, s = np.cos(q[arguments[2]]), np.sin(q[arguments[2]])
                 x, y = c * x - s * y, s * x + c * y
         elif kind == "pair":
-            x, y = posture.place(arguments[0]) - origin
+            x, y = posture.get_position(arguments[0]) - origin
         elif kind == "load":
             x, y = posture.loads.get(arguments[0], (0.0, 0.0))
         length = float(np.hypot(x, y))
@@ -68,25 +68,25 @@ class Carrier:
         return (
             origin,
             np.array([[c, -s], [s, c]]),
-            0.0 if self.by == -1 else length if self.by == -2 else float(p[self.by]),
+            0.0 if self.length_index == -1 else length if self.length_index == -2 else float(p[self.length_index]),
         )
 
 
 @dataclass(frozen=True, eq=False)
-class Carried:
+class CarriedShape:
     """A shape with the carrier of each point and its c₀, c₁, (N, 4); for a disc also its radius r₀ + r₁ p[k]."""
 
     shape: Shape
     carriers: tuple[Carrier, ...]
     offsets: Array
     radius: tuple[float, float, int] = (0.0, 0.0, -1)
-    off: float = 0.0  # m: how far it is off at the worst posture that was tried
+    max_error: float = 0.0  # m: how far it is off at the worst posture that was tried
 
-    def at(self, posture: Posture) -> Shape:
+    def move_to(self, posture: Posture) -> Shape:
         """Return the shape moved to a posture: points of a line, or centre and radius of a disc."""
         positions = np.empty((len(self.carriers), 2))
         for carrier in dict.fromkeys(self.carriers):
-            origin, rotation, s = carrier.frame(posture)
+            origin, rotation, s = carrier.compute_frame(posture)
             point_indices = [k for k, other in enumerate(self.carriers) if other == carrier]
             positions[point_indices] = (
                 origin + (self.offsets[point_indices, :2] + s * self.offsets[point_indices, 2:]) @ rotation.T
@@ -101,18 +101,18 @@ class Carried:
 class Rig:
     """All shapes in the order of painting, names, and the box and unit of the drawing (m)."""
 
-    shapes: tuple[Carried, ...]
+    shapes: tuple[CarriedShape, ...]
     sketch: Sketch  # of the first posture: its labels, its box
 
     labels: tuple[Carrier, ...]
-    places: Array  # of labels, (L, 4)
+    label_offsets: Array  # of labels, (L, 4)
 
     @property
     def size(self) -> float:
         """Larger side of the box, m."""
         return float((self.sketch.high - self.sketch.low).max())
 
-    def json(self, resolution: float = 1e-2 * EXACT) -> dict[str, Any]:
+    def to_json_data(self, resolution: float = 1e-2 * EXACT) -> dict[str, Any]:
         """Return the data for drawing.js as a dictionary that JSON can hold.
 
         Lengths are integers in units of `resolution` times the size of the drawing. Successive points of a shape with
@@ -130,16 +130,16 @@ class Rig:
             "low": self.sketch.low.tolist(),
             "high": self.sketch.high.tolist(),
             "unit": self.sketch.unit,
-            "carriers": [[carrier.point, list(carrier.turn), carrier.by] for carrier in order],
+            "carriers": [[carrier.point, list(carrier.turn), carrier.length_index] for carrier in order],
             "shapes": [_encode_shape(shape, order, step) for shape in self.shapes],
             "labels": [
-                [order[carrier], *_as_integers(offset, step)]
-                for carrier, offset in zip(self.labels, self.places, strict=True)
+                [order[carrier], *_round_to_integers(offset, step)]
+                for carrier, offset in zip(self.labels, self.label_offsets, strict=True)
             ],
         }
 
 
-def _encode_shape(carried: Carried, carrier_indices: dict[Carrier, int], step: float) -> list[Any]:
+def _encode_shape(carried: CarriedShape, carrier_indices: dict[Carrier, int], step: float) -> list[Any]:
     """Return a shape for JSON: [part, role, tint, closed or radius, carrier, [integers], carrier, [integers], …].
 
     A line has 0 or 1 for closed, a disc [r₀, r₁, k]. Integers are offsets in units of `step` (m).
@@ -148,14 +148,14 @@ def _encode_shape(carried: Carried, carrier_indices: dict[Carrier, int], step: f
     for carrier, offset in zip(carried.carriers, carried.offsets, strict=True):
         if carrier != previous_carrier:
             encoded_points += [carrier_indices[carrier], []]
-        encoded_points[-1] += _as_integers(offset if carrier.by != -1 else offset[:2], step)
+        encoded_points[-1] += _round_to_integers(offset if carrier.length_index != -1 else offset[:2], step)
         previous_carrier = carrier
     r0, r1, k = carried.radius
     closed: Any = [round(r0 / step), r1, k] if isinstance(shape, Disc) else int(shape.closed)
     return [shape.part, shape.role, shape.tint, closed, *encoded_points]
 
 
-def _as_integers(lengths: Array, step: float) -> list[int]:
+def _round_to_integers(lengths: Array, step: float) -> list[int]:
     """Return lengths as integers in units of `step`, rounded."""
     return [round(float(x) / step) for x in lengths]
 
@@ -168,29 +168,32 @@ def make_rig(postures: Sequence[Posture], plan: Plan | None = None) -> Rig:
     """
     plan = plan or make_plan(postures)
     postures = [replace(posture, v=postures[0].v) for posture in postures]
-    box = room_of_all(postures, [plan])
-    sketches = [make_sketch(postures[0], plan, box=box, inset=False, still=False)]
+    box = compute_common_box(postures, [plan])
+    sketches = [make_sketch(postures[0], plan, box=box, shows_insets=False, shows_zero_loads=False)]
     motion_postures = list(postures[:: max(1, len(postures) // 6)][:8])
     trial_postures = [*motion_postures, *_vary_postures(motion_postures, float((box[1] - box[0]).max()))]
-    sketches += [make_sketch(posture, plan, box=box, inset=False, still=False) for posture in trial_postures[1:]]
-    shapes_by_key = [{key: shape for key, shape in _numbered_shapes(sketch)} for sketch in sketches]
-    size, carried_by_key = float((box[1] - box[0]).max()), dict[tuple[str, int], Carried]()
+    sketches += [
+        make_sketch(posture, plan, box=box, shows_insets=False, shows_zero_loads=False)
+        for posture in trial_postures[1:]
+    ]
+    shapes_by_key = [{key: shape for key, shape in _number_shapes(sketch)} for sketch in sketches]
+    size, carried_by_key = float((box[1] - box[0]).max()), dict[tuple[str, int], CarriedShape]()
     parts = dict.fromkeys(shape.part for shape in sketches[0].shapes)
     for part in parts:
-        part_shapes = [(key, shape) for key, shape in _numbered_shapes(sketches[0]) if shape.part == part]
+        part_shapes = [(key, shape) for key, shape in _number_shapes(sketches[0]) if shape.part == part]
         search = _CarrierSearch(
-            trial_postures, list(_candidates(trial_postures[0], part)), EXACT * size, len(motion_postures)
+            trial_postures, list(_iterate_candidates(trial_postures[0], part)), EXACT * size, len(motion_postures)
         )
         for key, shape in part_shapes:
             carried_by_key[key] = search.carry(
                 shape, [shapes_of_posture.get(key) for shapes_of_posture in shapes_by_key]
             )
     shapes = sorted(
-        (carried_by_key[key] for key, _ in _numbered_shapes(sketches[0])),
+        (carried_by_key[key] for key, _ in _number_shapes(sketches[0])),
         key=lambda carried: ROLES[carried.shape.role].order,
     )
     label_carriers = [
-        _carry_label(trial_postures, sketches, k, EXACT * size, len(motion_postures))
+        _find_label_carrier(trial_postures, sketches, k, EXACT * size, len(motion_postures))
         for k in range(len(sketches[0].labels))
     ]
     labels, offsets = (
@@ -200,7 +203,7 @@ def make_rig(postures: Sequence[Posture], plan: Plan | None = None) -> Rig:
     return Rig(tuple(shapes), sketches[0], labels, offsets.reshape(-1, 4))
 
 
-def _carry_label(
+def _find_label_carrier(
     postures: Sequence[Posture], sketches: Sequence[Sketch], k: int, tolerance: float, n_motion: int
 ) -> tuple[Carrier, Array]:
     """Return carrier and offsets (4,) of the k-th name, which moves with its part.
@@ -208,13 +211,13 @@ def _carry_label(
     `sketches` are the drawings of `postures`, of which the first `n_motion` belong to the motion. `tolerance` is in m.
     """
     label = sketches[0].labels[k]
-    search = _CarrierSearch(postures, list(_candidates(postures[0], label.part)), tolerance, n_motion)
+    search = _CarrierSearch(postures, list(_iterate_candidates(postures[0], label.part)), tolerance, n_motion)
     label_positions = [Disc(label.part, "mark", sketch.labels[k].place, 1.0) for sketch in sketches]
     carried = search.carry(label_positions[0], list(label_positions))
     return carried.carriers[0], carried.offsets[0]
 
 
-def _numbered_shapes(sketch: Sketch) -> Iterator[tuple[tuple[str, int], Shape]]:
+def _number_shapes(sketch: Sketch) -> Iterator[tuple[tuple[str, int], Shape]]:
     """Yield each shape of a sketch with its key: the part and the shape's number within the part, from 0."""
     counts = dict[str, int]()
     for shape in sketch.shapes:
@@ -254,7 +257,7 @@ def _vary_postures(postures: Sequence[Posture], size: float) -> Iterator[Posture
             yield Posture(source, p, q, posture.t, posture.v, loads)
 
 
-def _candidates(posture: Posture, part: str) -> Iterator[Carrier]:
+def _iterate_candidates(posture: Posture, part: str) -> Iterator[Carrier]:
     """Yield the possible carriers of a part's shapes, the simplest first.
 
     `part` is a kind and a name, such as "body L1". The order is: fixed points, points with a rotation, pairs of points
@@ -263,14 +266,18 @@ def _candidates(posture: Posture, part: str) -> Iterator[Carrier]:
     source, kind = posture.source, part.partition(" ")[0]
     name = part.partition(" ")[2]
     parts = [
-        item for item in source.parts if (name in map(body_of, item.ends) if kind == "body" else item.name == name)
+        item
+        for item in source.parts
+        if (name in map(get_body_name, item.ends) if kind == "body" else item.name == name)
     ]
     parts = parts if kind in ("body", "joint", "drive", "force", "point") else []
-    ends = list(dict.fromkeys(end for item in parts for end in item.ends if kind != "body" or body_of(end) == name))
-    bodies = list(dict.fromkeys([body_of(end) for end in ends] + ([name] if kind == "body" else [])))
+    ends = list(
+        dict.fromkeys(end for item in parts for end in item.ends if kind != "body" or get_body_name(end) == name)
+    )
+    bodies = list(dict.fromkeys([get_body_name(end) for end in ends] + ([name] if kind == "body" else [])))
     if kind == "point":
-        bodies, ends = [body_of(name)], [name]
-    outline_points = [end for body in bodies for end in posture.held.get(body, ()) if body != GROUND]
+        bodies, ends = [get_body_name(name)], [name]
+    outline_points = [end for body in bodies for end in posture.outline_points.get(body, ()) if body != GROUND]
     points = [
         name
         for name in dict.fromkeys([*ends, *outline_points, *(f"{body}.com" for body in bodies)])
@@ -278,7 +285,7 @@ def _candidates(posture: Posture, part: str) -> Iterator[Carrier]:
     ]
     turns: list[tuple[Any, ...]] = [()]
     turns += [("body", posture.bodies[body].index + 2) for body in bodies if body in posture.bodies]
-    turns += _axis_directions(posture, parts) + [("load", item.name) for item in parts if item.kind == "force"]
+    turns += _list_axis_directions(posture, parts) + [("load", item.name) for item in parts if item.kind == "force"]
     parameter_indices = {parameter.address: k for k, parameter in enumerate(source.slots)}
     turns += (
         [("axis", parameter_indices.get("gravity.x", -1), parameter_indices.get("gravity.y", -1), -1)]
@@ -297,14 +304,14 @@ def _candidates(posture: Posture, part: str) -> Iterator[Carrier]:
     length_indices += [
         item.clearance
         for item in source.clearances
-        if item.at_wall and item.joint in (item_part.name for item_part in parts)
+        if item.is_corner and item.joint in (item_part.name for item_part in parts)
     ]
     for k in dict.fromkeys(length_indices):
         yield from (Carrier(point, turn, k) for turn in turns for point in points)
         yield from (Carrier(item, ("pair", second), k) for item, second in permutations(points, 2))
 
 
-def _axis_directions(posture: Posture, parts: Sequence[Any]) -> list[tuple[Any, ...]]:
+def _list_axis_directions(posture: Posture, parts: Sequence[Any]) -> list[tuple[Any, ...]]:
     """Return the angles of carriers for the directions of parts' axes: ("axis", index of x, index of y, index in q).
 
     There is one in the frame of each of the two bodies of a part. Directions whose components are all absent from the
@@ -315,11 +322,12 @@ def _axis_directions(posture: Posture, parts: Sequence[Any]) -> list[tuple[Any, 
         list[tuple[Any, ...]](),
     )
     for part in parts:
-        for key in directions(part):
+        for key in list_direction_keys(part):
             component_indices = [parameter_indices.get(f"{part.section}.{part.name}.{key}.{axis}", -1) for axis in "xy"]
             if max(component_indices) >= 0:
                 indices = [
-                    posture.bodies[body].index + 2 if body in posture.bodies else -1 for body in map(body_of, part.ends)
+                    posture.bodies[body].index + 2 if body in posture.bodies else -1
+                    for body in map(get_body_name, part.ends)
                 ]
                 turns += [("axis", *component_indices, index) for index in dict.fromkeys(indices)]
     return turns
@@ -337,23 +345,25 @@ class _CarrierSearch:
         is in m.
         """
         self.postures, self.carriers, self.exact, self.real = postures, carriers, tolerance, n_motion
-        self.frames = [[carrier.frame(posture) for posture in postures] for carrier in carriers]
+        self.frames = [[carrier.compute_frame(posture) for posture in postures] for carrier in carriers]
 
-    def carry(self, shape: Shape, shapes: Sequence[Shape | None]) -> Carried:
+    def carry(self, shape: Shape, shapes: Sequence[Shape | None]) -> CarriedShape:
         """Return the shape with the first carrier of each point that reproduces it within the tolerance, else the best
         one.
 
         `shapes` are its drawings at all postures, None where it is absent. If too few have the same number of points,
         only the first is used.
         """
-        points = _points_of(shape)
+        points = _get_shape_points(shape)
         indices = [
             k
             for k, candidate in enumerate(shapes)
-            if candidate is not None and type(candidate) is type(shape) and len(_points_of(candidate)) == len(points)
+            if candidate is not None
+            and type(candidate) is type(shape)
+            and len(_get_shape_points(candidate)) == len(points)
         ]
         indices = indices if len(indices) >= FEW else list(range(1))
-        positions = np.array([_points_of(shapes[k]) for k in indices])  # type: ignore[arg-type]
+        positions = np.array([_get_shape_points(shapes[k]) for k in indices])  # type: ignore[arg-type]
         best_carriers, best_errors = np.zeros(len(points), dtype=int), np.full(len(points), np.inf)
         offsets, best_ranks = np.zeros((len(points), 4)), np.full(len(points), np.inf)
         for index in range(len(self.carriers)):
@@ -368,7 +378,9 @@ class _CarrierSearch:
             )
             offsets[is_better] = fitted[is_better]
         carriers = tuple(self.carriers[index] for index in best_carriers)
-        return Carried(shape, carriers, offsets, self._fit_radius(shape, shapes), float(best_errors.max(initial=0.0)))
+        return CarriedShape(
+            shape, carriers, offsets, self._fit_radius(shape, shapes), float(best_errors.max(initial=0.0))
+        )
 
     def _fit_carrier(self, index: int, positions: Array, posture_indices: Sequence[int]) -> tuple[Array, Array, Array]:
         """Return offsets c₀, c₁ (N, 4), ranks (N,) and largest errors (N,) in m of all points for one carrier.
@@ -385,7 +397,7 @@ class _CarrierSearch:
         )
         s = np.array([s for *_, s in frames])
         slope = np.zeros_like(local_points[0])
-        if self.carriers[index].by != -1 and np.ptp(s) > 0.0:
+        if self.carriers[index].length_index != -1 and np.ptp(s) > 0.0:
             slope = np.tensordot(s - s.mean(), local_points - local_points.mean(axis=0), 1) / float(
                 ((s - s.mean()) ** 2).sum()
             )
@@ -423,6 +435,6 @@ class _CarrierSearch:
         return shape.radius, 0.0, -1
 
 
-def _points_of(shape: Shape) -> Array:
+def _get_shape_points(shape: Shape) -> Array:
     """Return the points of a line, or the centre of a disc, (N, 2)."""
     return shape.centre[None] if isinstance(shape, Disc) else shape.points

@@ -1,4 +1,4 @@
-"""Own the style of each kind of shape, the same in figures and pages."""
+"""Own the colours and line styles of each kind of shape in drawings, the same in figures and HTML pages."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ NAMES: Mapping[str, tuple[str, str]] = {
 }
 
 
-def colour_of(colour_name: str, tint: int) -> str:
+def resolve_colour(colour_name: str, tint: int) -> str:
     """Return the CSS colour of a colour's name; for "tint" and "edge" that of the body `tint`, "none" for ""."""
     palette = {"tint": TINTS, "edge": EDGES}.get(colour_name)
     return palette[tint % len(palette)] if palette else colour_name or "none"

@@ -64,7 +64,7 @@ class Sketch:
         return [shape for shape in self.shapes if shape.part == part]
 
 
-def turned(vector: Array) -> Array:
+def rotate_quarter_turn(vector: Array) -> Array:
     """Return a vector rotated by +90°."""
     return np.array([-vector[1], vector[0]])
 
@@ -75,13 +75,13 @@ def unit_vector(vector: Array, otherwise: tuple[float, float] = (1.0, 0.0)) -> A
     return vector / size if size > 0.0 else np.array(otherwise)
 
 
-def arc(centre: Array, radius: float, begin: float, end: float, count: int = 25) -> Array:
+def compute_arc(centre: Array, radius: float, begin: float, end: float, count: int = 25) -> Array:
     """Return points of an arc, angles in rad."""
     angle = np.linspace(begin, end, count)
     return centre + radius * np.column_stack([np.cos(angle), np.sin(angle)])
 
 
-def hull(points: Sequence[Array]) -> Array:
+def compute_convex_hull(points: Sequence[Array]) -> Array:
     """Return the corners of the convex hull (N, 2), counterclockwise, by Andrew's monotone chain.
 
     The list begins with the first of `points` that is a corner. Fewer than three different points are returned as they
@@ -113,14 +113,14 @@ def hull(points: Sequence[Array]) -> Array:
     return np.array(corners[first:] + corners[:first])
 
 
-def rounded(points: Sequence[Array], radius: float) -> Array:
+def compute_rounded_outline(points: Sequence[Array], radius: float) -> Array:
     """Return the outline (N, 2) of the convex hull of discs around points, all with one radius in m.
 
     It is a circle for one point, a link for two, and a plate with round corners for more.
     """
-    corners = hull(points)
+    corners = compute_convex_hull(points)
     if len(corners) == 1:
-        return arc(corners[0], radius, 0.0, 2.0 * np.pi, 37)[:-1]
+        return compute_arc(corners[0], radius, 0.0, 2.0 * np.pi, 37)[:-1]
     edges = np.roll(corners, -1, axis=0) - corners
     normals = np.arctan2(-edges[:, 0], edges[:, 1])  # outwards, of the edge that leaves each corner
     outline, n_points = (
@@ -130,13 +130,13 @@ def rounded(points: Sequence[Array], radius: float) -> Array:
     for k, corner in enumerate(corners):
         start_angle = float(normals[k - 1])
         angle = float((normals[k] - start_angle) % (2.0 * np.pi))
-        outline.append(arc(corner, radius, start_angle, start_angle + angle, n_points))
+        outline.append(compute_arc(corner, radius, start_angle, start_angle + angle, n_points))
     return np.concatenate(outline)
 
 
-def rectangle(centre: Array, axis: Array, length: float, width: float) -> Array:
+def compute_rectangle(centre: Array, axis: Array, length: float, width: float) -> Array:
     """Return the corners (4, 2) of a rectangle; `axis` is a unit vector, `length` and `width` are halves, in m."""
-    half_length_vector, half_width_vector = length * axis, width * turned(axis)
+    half_length_vector, half_width_vector = length * axis, width * rotate_quarter_turn(axis)
     return np.array(
         [
             centre - half_length_vector - half_width_vector,
@@ -147,7 +147,7 @@ def rectangle(centre: Array, axis: Array, length: float, width: float) -> Array:
     )
 
 
-def hatching(begin: Array, end: Array, direction: Array, length: float) -> list[Array]:
+def compute_hatching(begin: Array, end: Array, direction: Array, length: float) -> list[Array]:
     """Return short oblique strokes, each (2, 2), along the line from `begin` to `end`: the symbol of the ground.
 
     They lie on the side of the unit vector `direction`. `length` (m) sets their size and spacing; there are at least
@@ -165,28 +165,28 @@ def hatching(begin: Array, end: Array, direction: Array, length: float) -> list[
     ]
 
 
-def zigzag(begin: Array, end: Array, height: float, teeth: int = 6, straight_fraction: float = 0.2) -> Array:
+def compute_zigzag(begin: Array, end: Array, height: float, teeth: int = 6, straight_fraction: float = 0.2) -> Array:
     """Return the polyline (N, 2) of a spring between two points.
 
     `height` is the amplitude in m, `teeth` the number of periods, `straight_fraction` the fraction of straight wire at
     each end.
     """
-    amplitude_vector = turned(unit_vector(end - begin)) * height
+    amplitude_vector = rotate_quarter_turn(unit_vector(end - begin)) * height
     fractions = np.linspace(straight_fraction, 1.0 - straight_fraction, 2 * teeth + 2)
     offsets = np.array([0.0, *([1.0, -1.0] * teeth), 0.0])
     zigzag_points = begin + fractions[:, None] * (end - begin) + offsets[:, None] * amplitude_vector
     return np.vstack([begin, zigzag_points, end])
 
 
-def arrow_head(tip: Array, direction: Array, size: float) -> Array:
+def compute_arrow_head(tip: Array, direction: Array, size: float) -> Array:
     """Return the corners (3, 2) of a slender triangle with its tip at `tip`, in the unit vector `direction`; `size` is
     its length in m.
     """
-    half_width_vector = 0.38 * size * turned(direction)
+    half_width_vector = 0.38 * size * rotate_quarter_turn(direction)
     return np.array([tip, tip - size * direction + half_width_vector, tip - size * direction - half_width_vector])
 
 
-def box_of(shapes: Iterable[Shape]) -> tuple[Array, Array]:
+def compute_bounding_box(shapes: Iterable[Shape]) -> tuple[Array, Array]:
     """Return the lower left and upper right corner of the box that contains all shapes, (2,) each, in m."""
     lows, highs = [], []
     for shape in shapes:

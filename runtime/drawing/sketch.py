@@ -9,15 +9,22 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from gudgeon.drawing.arrows import Arrows, round_number
-from gudgeon.drawing.bodies import BLOCK, bodies, labels_of_bodies
-from gudgeon.drawing.insets import in_contact, insets
-from gudgeon.drawing.joint_at import JointAt, gap_of, has_rail
-from gudgeon.drawing.movers import HEAD, arcs, arrow, draw_drives_and_forces, gravity_of, labels_of_drives_and_forces
+from gudgeon.drawing.arrows import Arrows, find_round_number
+from gudgeon.drawing.bodies import BLOCK, draw_bodies, label_bodies
+from gudgeon.drawing.insets import draw_insets, find_contacts
+from gudgeon.drawing.joint_at import JointAt, compute_wall_gap, has_rail
+from gudgeon.drawing.movers import (
+    HEAD,
+    compute_arrow_radii,
+    draw_arrow,
+    draw_drives_and_forces,
+    find_gravity_direction,
+    label_drives_and_forces,
+)
 from gudgeon.drawing.pen import Pen
 from gudgeon.drawing.plan import Plan, make_plan
-from gudgeon.drawing.posture import Posture, type_of
-from gudgeon.drawing.shapes import Label, Line, Shape, Sketch, box_of
+from gudgeon.drawing.posture import Posture, get_joint_type
+from gudgeon.drawing.shapes import Label, Line, Shape, Sketch, compute_bounding_box
 from gudgeon.model.compiled import Array
 
 MARGIN = 2.6  # units around all
@@ -27,62 +34,68 @@ def make_sketch(
     posture: Posture,
     plan: Plan | None = None,
     *,
-    more: Sequence[Shape] = (),
+    shapes_on_top: Sequence[Shape] = (),
     labels: Sequence[Label] = (),
     arrows: Sequence[Arrows] = (),
-    loose: frozenset[str] = frozenset(),
+    unconnected: frozenset[str] = frozenset(),
     touching: frozenset[str] | None = None,
     touched: frozenset[str] = frozenset(),
     box: tuple[Array, Array] | None = None,
-    inset: bool = True,
-    still: bool = True,
+    shows_insets: bool = True,
+    shows_zero_loads: bool = True,
 ) -> Sketch:
-    """Return the drawing of a posture, with `more` shapes, their `labels`, and `arrows` with their scales on top.
+    """Return the drawing of a posture, with `shapes_on_top` shapes, their `labels`, and `arrows` with their scales on
+    top.
 
-    With a `box` from `room_of_all` the drawing has the same box as others of a motion; names of a picture that is not
-    `still` contain no values that change. `touching`: joints with play in contact, None: those that overlap; `touched`:
-    those in contact since the previous picture. `inset` False leaves insets out. Bodies in `loose` have the colour of
-    an error.
+    With a `box` from `compute_common_box` the drawing has the same box as others of a motion; names of a picture that
+    is not `shows_zero_loads` contain no values that change. `touching`: joints with play in contact, None: those that
+    overlap; `touched`:
+    those in contact since the previous picture. `shows_insets` False leaves insets out. Bodies in `unconnected` have
+    the colour of an error.
     """
     plan = plan or make_plan([posture])
-    more = [*more, *(shape for kind in arrows for shape in kind.shapes)]
+    shapes_on_top = [*shapes_on_top, *(shape for kind in arrows for shape in kind.shapes)]
     shapes = [
-        *bodies(posture, plan, loose),
-        *joints(posture, plan),
+        *draw_bodies(posture, plan, unconnected),
+        *draw_joints(posture, plan),
         *draw_drives_and_forces(posture, plan),
-        *more,
+        *shapes_on_top,
     ]
-    low, high = box or room_of(shapes, plan)
-    all_labels = [*labels_of_bodies(posture, plan), *labels_of_joints(posture, plan, arcs(posture))]
-    all_labels = [*labels, *all_labels, *labels_of_drives_and_forces(posture, plan, still)]
-    touching = in_contact(posture) if touching is None else touching
+    low, high = box or compute_box(shapes, plan)
+    all_labels = [*label_bodies(posture, plan), *label_joints(posture, plan, compute_arrow_radii(posture))]
+    all_labels = [*labels, *all_labels, *label_drives_and_forces(posture, plan, shows_zero_loads)]
+    touching = find_contacts(posture) if touching is None else touching
     notes, upper_corner, annotations = list[str](), high.copy(), list[Shape]()
-    for inset_shapes, label, note in insets(posture, plan.unit, low, high, touching, touched) if inset else ():
+    for inset_shapes, label, note in (
+        draw_insets(posture, plan.unit, low, high, touching, touched) if shows_insets else ()
+    ):
         annotations += inset_shapes
         all_labels, notes = [*all_labels, label], [*notes, note]
-        upper_corner = np.maximum(upper_corner, box_of(inset_shapes)[1] + 1.5 * plan.unit)
-        low = np.minimum(low, [low[0], float(box_of(inset_shapes)[0][1]) - 3.0 * plan.unit])
+        upper_corner = np.maximum(upper_corner, compute_bounding_box(inset_shapes)[1] + 1.5 * plan.unit)
+        low = np.minimum(low, [low[0], float(compute_bounding_box(inset_shapes)[0][1]) - 3.0 * plan.unit])
     for reference_shapes, label in _draw_references(posture, plan, low, high, arrows):
         annotations += reference_shapes
         all_labels.append(label)
-    low = np.minimum(low, box_of(annotations)[0] - 0.8 * plan.unit)
+    low = np.minimum(low, compute_bounding_box(annotations)[0] - 0.8 * plan.unit)
     return Sketch((*shapes, *annotations), tuple(all_labels), low, upper_corner, plan.unit, tuple(notes))
 
 
-def room_of(shapes: Sequence[Shape], plan: Plan) -> tuple[Array, Array]:
+def compute_box(shapes: Sequence[Shape], plan: Plan) -> tuple[Array, Array]:
     """Return the box of shapes with a margin for names."""
-    lower_corner, upper_corner = box_of(shapes)
+    lower_corner, upper_corner = compute_bounding_box(shapes)
     return lower_corner - MARGIN * plan.unit, upper_corner + MARGIN * plan.unit
 
 
-def room_of_all(postures: Sequence[Posture], plans: Sequence[Plan]) -> tuple[Array, Array]:
+def compute_common_box(postures: Sequence[Posture], plans: Sequence[Plan]) -> tuple[Array, Array]:
     """Return the lower and upper corner of the box that contains the drawings of several postures, in m.
 
     `plans` is one plan for all postures, or one for each.
     """
     postures_and_plans = zip(postures, plans if len(plans) > 1 else [plans[0]] * len(postures), strict=True)
     boxes = [
-        room_of([*bodies(posture, plan), *joints(posture, plan), *draw_drives_and_forces(posture, plan)], plan)
+        compute_box(
+            [*draw_bodies(posture, plan), *draw_joints(posture, plan), *draw_drives_and_forces(posture, plan)], plan
+        )
         for posture, plan in postures_and_plans
     ]
     return np.min([low for low, _ in boxes], axis=0), np.max([high for _, high in boxes], axis=0)
@@ -98,53 +111,53 @@ def _draw_references(
     the scale.
     """
     unit = plan.unit
-    if (gravity := gravity_of(posture)) is not None:
+    if (gravity := find_gravity_direction(posture)) is not None:
         centre = np.array([lower_corner[0] + 1.5 * unit, upper_corner[1] - 2.5 * unit])
         shapes = list(
-            arrow("gravity", "gravity", centre - 2.0 * unit * gravity, centre + 2.0 * unit * gravity, HEAD * unit)
+            draw_arrow("gravity", "gravity", centre - 2.0 * unit * gravity, centre + 2.0 * unit * gravity, HEAD * unit)
         )
         yield shapes, Label("gravity", "gravity", "g", centre, 0.6 * unit, 0.0)
     box_size = upper_corner - lower_corner
-    length = round_number(min(0.22 * float(box_size.max()), 0.6 * float(box_size[0])))
+    length = find_round_number(min(0.22 * float(box_size.max()), 0.6 * float(box_size[0])))
     start = np.array([lower_corner[0] + 0.5 * unit, lower_corner[1] - 1.0 * unit])
     end = start + [length, 0.0]
     tick = np.array([0.0, 0.5 * unit])
     bar = np.array([start + tick, start - tick, start, end, end + tick, end - tick])
-    yield [Line("scale", "scale", bar)], Label("scale", "scale", length_text(length), end, 0.6 * unit, 0.0)
+    yield [Line("scale", "scale", bar)], Label("scale", "scale", format_length(length), end, 0.6 * unit, 0.0)
     for k, kind in enumerate(kind for kind in arrows if kind.length > 0.0):
         tail = start - [0.0, 2.6 * unit * (k + 1)]
         tip = tail + [kind.length, 0.0]
         yield (
-            list(arrow(f"scale {kind.role}", kind.role, tail, tip, HEAD * unit)),
+            list(draw_arrow(f"scale {kind.role}", kind.role, tail, tip, HEAD * unit)),
             Label(f"scale {kind.role}", "scale", f"{kind.role}{kind.on}: {kind.text}", tip, 0.6 * unit, 0.0),
         )
 
 
-def length_text(length: float) -> str:
+def format_length(length: float) -> str:
     """Return a round length in mm or m."""
     return f"{1e3 * length:g} mm" if length < 1.0 else f"{length:g} m"
 
 
-def joints(posture: Posture, plan: Plan) -> Iterator[Shape]:
+def draw_joints(posture: Posture, plan: Plan) -> Iterator[Shape]:
     """Yield the shapes of all joints, drawn by the symbols of their kinds."""
-    for part in posture.parts("joints"):
+    for part in posture.iterate_parts("joints"):
         pen = Pen(posture, part, plan)
-        type_of(part).symbol.draw(pen)
+        get_joint_type(part).symbol.draw(pen)
         yield from pen.shapes
 
 
-def labels_of_joints(posture: Posture, plan: Plan, arrow_radii: Mapping[str, float]) -> Iterator[Label]:
+def label_joints(posture: Posture, plan: Plan, arrow_radii: Mapping[str, float]) -> Iterator[Label]:
     """Yield the label of each joint, outside of the arrows around it.
 
     `arrow_radii` are the radii in units of these arrows, by joint. The label of a joint on a rail lies beyond the
     ground.
     """
-    for part in posture.parts("joints"):
-        symbol = type_of(part).symbol
+    for part in posture.iterate_parts("joints"):
+        symbol = get_joint_type(part).symbol
         position = symbol.place(JointAt(posture, part))
         clearance, angle = max(symbol.clear, arrow_radii.get(part.name, 0.0)), 45.0
-        if has_rail(part) and part.name in plan.ways:  # beyond the ground, where nothing slides
-            x, y = plan.ways[part.name]
+        if has_rail(part) and part.name in plan.ground_directions:  # beyond the ground, where nothing slides
+            x, y = plan.ground_directions[part.name]
             clearance, angle = BLOCK[1] + 1.2, float(np.degrees(np.arctan2(y, x)))
-            clearance += gap_of(posture, part, plan.unit) / plan.unit
+            clearance += compute_wall_gap(posture, part, plan.unit) / plan.unit
         yield Label(f"joint {part.name}", "joint", part.name, position, clearance * plan.unit, angle)

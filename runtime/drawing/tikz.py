@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 
-from gudgeon.drawing.labels import LED, Names
-from gudgeon.drawing.picture import draw_on, size_of
-from gudgeon.drawing.roles import NAMES, ROLES, colour_of
+from gudgeon.drawing.labels import LED, NameLabels
+from gudgeon.drawing.picture import compute_figure_size, draw_sketch
+from gudgeon.drawing.roles import NAMES, ROLES, resolve_colour
 from gudgeon.drawing.shapes import Disc, Shape, Sketch
-from gudgeon.language.shown import one_line
+from gudgeon.language.text_output import format_one_line
 from gudgeon.model.compiled import Array
 
 from matplotlib.figure import Figure  # isort: skip  (labels.py says where it is missing)
@@ -16,23 +16,23 @@ from matplotlib.figure import Figure  # isort: skip  (labels.py says where it is
 WIDEST, HIGHEST = 6.3, 5.0  # inches on the page
 
 
-def tikz_of(sketch: Sketch, escape_latex: Callable[[str], str]) -> str:
+def write_tikz(sketch: Sketch, escape_latex: Callable[[str], str]) -> str:
     """Return a sketch as the text of a tikzpicture with definitions of its colours.
 
     It is at most WIDEST by HIGHEST inches. `escape_latex` converts a name to LaTeX without commands.
     """
-    width, height = size_of(sketch, WIDEST)
+    width, height = compute_figure_size(sketch, WIDEST)
     shrink_factor = min(1.0, WIDEST / width, HIGHEST / height)
     width, height = width * shrink_factor, height * shrink_factor
     figure = Figure(figsize=(width, height), dpi=72)
-    draw_on(figure.add_axes((0.0, 0.0, 1.0, 1.0)), sketch)
+    draw_sketch(figure.add_axes((0.0, 0.0, 1.0, 1.0)), sketch)
     figure.draw_without_rendering()
     to_points = figure.axes[0].transData.transform  # pixels at 72 to the inch are TeX's bp
     colours = _Colours()
     lines = [
         _draw_path(shape, to_points, colours) for shape in sorted(sketch.shapes, key=lambda s: ROLES[s.role].order)
     ]
-    names = next((artist for artist in figure.axes[0].get_children() if isinstance(artist, Names)), None)
+    names = next((artist for artist in figure.axes[0].get_children() if isinstance(artist, NameLabels)), None)
     lines += list(_draw_names(names, sketch, to_points, colours, escape_latex)) if names is not None else []
     bounding_box = rf"\useasboundingbox (0,0) rectangle ({72.0 * width:.1f},{72.0 * height:.1f});"
     begin = r"\begin{tikzpicture}[x=1bp, y=1bp, line join=round, line cap=round]"
@@ -63,7 +63,7 @@ def _draw_path(shape: Shape, to_points: Callable[[Array], Array], colours: _Colo
     `to_points` converts metres to points; `colours` collects the colours that need a definition.
     """
     role = ROLES[shape.role]
-    edge, face = colour_of(role.edge, shape.tint), colour_of(role.face, shape.tint)
+    edge, face = resolve_colour(role.edge, shape.tint), resolve_colour(role.face, shape.tint)
     is_filled = face != "none" and (isinstance(shape, Disc) or shape.closed)
     options = [
         f"line width={role.width:g}bp",
@@ -77,19 +77,21 @@ def _draw_path(shape: Shape, to_points: Callable[[Array], Array], colours: _Colo
         )
     if isinstance(shape, Disc):
         centre, rim = to_points(shape.centre), to_points(shape.centre + [shape.radius, 0.0])
-        path_text = f"{_coordinates(centre)} circle[radius={rim[0] - centre[0]:.2f}]"
+        path_text = f"{_format_coordinates(centre)} circle[radius={rim[0] - centre[0]:.2f}]"
     else:
-        path_text = " -- ".join([*map(_coordinates, to_points(shape.points)), *(["cycle"] if shape.closed else [])])
+        path_text = " -- ".join(
+            [*map(_format_coordinates, to_points(shape.points)), *(["cycle"] if shape.closed else [])]
+        )
     return rf"\path[{', '.join(options)}] {path_text};"
 
 
-def _coordinates(point: Sequence[float] | Array) -> str:
+def _format_coordinates(point: Sequence[float] | Array) -> str:
     """Return a point as TikZ coordinates."""
     return f"({point[0]:.2f},{point[1]:.2f})"
 
 
 def _draw_names(
-    names: Names,
+    names: NameLabels,
     sketch: Sketch,
     to_points: Callable[[Array], Array],
     colours: _Colours,
@@ -100,16 +102,18 @@ def _draw_names(
     Names that matplotlib left out are left out here.
     """
     for label, text in zip(sketch.labels, names.texts, strict=True):
-        if label.part not in names.beside or not text.get_visible():
+        if label.part not in names.label_offsets or not text.get_visible():
             continue
         position = to_points(label.place)
-        text_centre = position + names.beside[label.part]
+        text_centre = position + names.label_offsets[label.part]
         colour_name, weight = NAMES[label.role]
         colour = colours(
-            colour_of(colour_name, names.order.get(label.part, 0)) if colour_name == "edge" else colour_name
+            resolve_colour(colour_name, names.order.get(label.part, 0)) if colour_name == "edge" else colour_name
         )
         if float(abs(text_centre - position).max()) > 2.0 * LED:
-            yield rf"\path[line width=.4bp, draw=gray] {_coordinates(position)} -- {_coordinates(text_centre)};"
+            ends = f"{_format_coordinates(position)} -- {_format_coordinates(text_centre)}"
+            yield rf"\path[line width=.4bp, draw=gray] {ends};"
         font = r"\bfseries" if weight == "bold" else r"\itshape" if label.role == "joint" else ""
         options = rf"inner sep=1bp, text={colour}, font=\sffamily\scriptsize{font}"
-        yield rf"\node[{options}] at {_coordinates(text_centre)} {{{escape_latex(one_line(label.text))}}};"
+        label_text = escape_latex(format_one_line(label.text))
+        yield rf"\node[{options}] at {_format_coordinates(text_centre)} {{{label_text}}};"

@@ -1,1 +1,1 @@
-"""Linkages of other programs, read as mechanisms."""
+"""Read linkages of other programs as mechanisms, and export scenes as functional mock-up units (FMU)."""

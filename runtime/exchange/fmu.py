@@ -24,14 +24,28 @@ from typing import TYPE_CHECKING
 
 from gudgeon.contract.methods import FINE
 from gudgeon.errors import BadValueError, BuildError
-from gudgeon.exchange.fmu_description import UNITS, build, description, exchange_obstacle, jumps, outputs, token
+from gudgeon.exchange.fmu_description import (
+    UNITS,
+    build_build_description,
+    build_description,
+    compute_token,
+    explain_exchange_obstacle,
+    find_jumps,
+    iterate_outputs,
+)
 from gudgeon.files.writing import write_bytes
-from gudgeon.integrators.adaptive import FELT_BY_FILMS, RTOL, first_method, integrated_angles, stiff_method
+from gudgeon.integrators.adaptive import (
+    FELT_BY_FILMS,
+    RTOL,
+    find_integrated_angles,
+    select_first_method,
+    select_stiff_method,
+)
 from gudgeon.integrators.kinematic import REACH
 from gudgeon.loading import compiler
-from gudgeon.loading.engine import engine_files
-from gudgeon.model.parameters import GAINS, conditions, expected
-from gudgeon.model.sizes import LEAST_CLEARANCE, size_places
+from gudgeon.loading.engine import read_engine_files
+from gudgeon.model.parameters import GAINS, format_conditions, list_conditions
+from gudgeon.model.sizes import MIN_RELATIVE_CLEARANCE, find_size_indices
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
@@ -47,10 +61,10 @@ def write_fmu(simulation: Simulation, target: str | os.PathLike[str]) -> None:
     Raises BuildError if the C does not compile, BadValueError for scenes with contours or user-defined C, OutputError
     if writing fails.
     """
-    write_bytes(target, fmu_bytes(simulation))
+    write_bytes(target, build_fmu(simulation))
 
 
-def fmu_bytes(simulation: Simulation) -> bytes:
+def build_fmu(simulation: Simulation) -> bytes:
     """Return the FMU of a scene as the bytes of a zip archive, always the same for the same scene.
 
     Without a compiler it contains the sources only. Raises as `write_fmu`.
@@ -62,16 +76,16 @@ def fmu_bytes(simulation: Simulation) -> bytes:
     scene_files = {
         path: text for path, text in source.files.items() if path not in (README, "lanes.c")
     }  # not called by an FMU
-    sources = {**scene_files, **_engine_texts(), "fmu.h": _header_text(simulation)}
+    sources = {**scene_files, **_read_engine_texts(), "fmu.h": _format_header(simulation)}
     files = {
-        "modelDescription.xml": description(source, name).encode(),
-        "sources/buildDescription.xml": build(name).encode(),
+        "modelDescription.xml": build_description(source, name).encode(),
+        "sources/buildDescription.xml": build_build_description(name).encode(),
         **{f"sources/{path}": text.encode() for path, text in sources.items()},
-        f"sources/{README}": _readme_text(source, name, scene_files).encode(),
+        f"sources/{README}": _format_readme(source, name, scene_files).encode(),
     }
-    if compiler.is_there():
-        files[f"binaries/{_platform_name()}/{name}{'.dylib' if sys.platform == 'darwin' else '.so'}"] = _compile_binary(
-            sources
+    if compiler.has_compiler():
+        files[f"binaries/{_get_platform_name()}/{name}{'.dylib' if sys.platform == 'darwin' else '.so'}"] = (
+            _compile_binary(sources)
         )
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
@@ -80,7 +94,7 @@ def fmu_bytes(simulation: Simulation) -> bytes:
     return buffer.getvalue()
 
 
-def _readme_text(source: KernelSource, name: str, scene_files: Mapping[str, str]) -> str:
+def _format_readme(source: KernelSource, name: str, scene_files: Mapping[str, str]) -> str:
     """Return the README of the folder `sources`, with the lines of the scene's README about its files.
 
     `scene_files` are the scene's files in the FMU, `name` is the model identifier.
@@ -108,12 +122,12 @@ def _readme_text(source: KernelSource, name: str, scene_files: Mapping[str, str]
     )
 
 
-def _engine_texts() -> dict[str, str]:
+def _read_engine_texts() -> dict[str, str]:
     """Return the engine's C files as texts by path."""
-    return {path: text for path, text in engine_files().items() if not path.endswith(".py")}
+    return {path: text for path, text in read_engine_files().items() if not path.endswith(".py")}
 
 
-def _platform_name() -> str:
+def _get_platform_name() -> str:
     """Return the name of FMI's folder for binaries of this machine, such as "x86_64-linux"."""
     machine = {"arm64": "aarch64", "amd64": "x86_64"}.get(os.uname().machine.lower(), os.uname().machine)
     return f"{machine}-{'darwin' if sys.platform == 'darwin' else 'linux'}"
@@ -132,14 +146,18 @@ def _compile_binary(sources: Mapping[str, str]) -> bytes:
             file.write_text(text, encoding="utf-8")
         command_line = [
             *command,
-            *compiler.flags(True, command),
-            *compiler.link_flags(),
+            *compiler.build_flags(True, command),
+            *compiler.build_link_flags(),
             "-fvisibility=hidden",
             "-I.",
             *UNITS,
         ]
         process = subprocess.run(
-            [*command_line, "-o", "made", "-lm"], cwd=folder, env=compiler.plain(), capture_output=True, text=True
+            [*command_line, "-o", "made", "-lm"],
+            cwd=folder,
+            env=compiler.build_environment(),
+            capture_output=True,
+            text=True,
         )
         if process.returncode:
             raise BuildError(
@@ -148,7 +166,7 @@ def _compile_binary(sources: Mapping[str, str]) -> bytes:
         return Path(folder, "made").read_bytes()
 
 
-def _header_text(simulation: Simulation) -> str:
+def _format_header(simulation: Simulation) -> str:
     """Return the text of fmu.h, the tables of this scene that engine/fmi/fmi3.c reads.
 
     They are constants, default parameters, the start, indices and outputs, and the tables of conditions. The start is
@@ -156,14 +174,17 @@ def _header_text(simulation: Simulation) -> str:
     """
     source, compiled = simulation.source, simulation.compiled
     start = simulation.start()
-    methods = {rtol: (first_method(source, rtol), stiff_method(source, rtol)) for rtol in (2.0 * FINE, 0.5 * FINE)}
+    methods = {
+        rtol: (select_first_method(source, rtol), select_stiff_method(source, rtol))
+        for rtol in (2.0 * FINE, 0.5 * FINE)
+    }
     (first_method_name, stiff_method_name), (first_method_fine, stiff_method_fine) = methods.values()
-    gains = [source.place[name] for name in GAINS if name in source.place]
-    sizes, clearance_indices = size_places(source), [joint.clearance for joint in source.clearances]
-    angles = [int(x) for x in integrated_angles(source)] if source.tree or source.formulation == "full" else []
-    output_columns = [(part, column) for _, _, part, column, _ in outputs(source)]
+    gains = [source.slot_index[name] for name in GAINS if name in source.slot_index]
+    sizes, clearance_indices = find_size_indices(source), [joint.clearance for joint in source.clearances]
+    angles = [int(x) for x in find_integrated_angles(source)] if source.tree or source.formulation == "full" else []
+    output_columns = [(part, column) for _, _, part, column, _ in iterate_outputs(source)]
     defines: dict[str, object] = {
-        "FMU_TOKEN": f'"{token(source)}"',
+        "FMU_TOKEN": f'"{compute_token(source)}"',
         "FMU_SLOTS": max(len(source.slots), 1),
         "FMU_NUMBERS": max(compiled.n_p, 1),
         "FMU_SLOTS_USED": len(source.slots),
@@ -175,77 +196,79 @@ def _header_text(simulation: Simulation) -> str:
         "FMU_FINE": repr(FINE),
         "FMU_FILM": int(any(joint.film for joint in source.clearances)),
         "FMU_FELT": repr(FELT_BY_FILMS),
-        "FMU_BEYOND": int(bool(compiled.beyond)),
+        "FMU_BEYOND": int(bool(compiled.has_mod_in_drives)),
         "FMU_REACH": repr(REACH),
-        "FMU_AUTOMATIC": int(not source.explicit),
+        "FMU_AUTOMATIC": int(not source.is_explicit),
         "FMU_BEGINS": f'"{first_method_name}"',
         "FMU_STIFF": f'"{stiff_method_name}"',
         "FMU_BEGINS_FINE": f'"{first_method_fine}"',
         "FMU_STIFF_FINE": f'"{stiff_method_fine}"',
-        "FMU_EXCHANGE": int(not exchange_obstacle(source)),
-        "FMU_CONDITIONS": len(conditions(source)),
-        "FMU_JUMPS": len(jumps(source)),
-        "FMU_LEAST_CLEARANCE": repr(LEAST_CLEARANCE),
+        "FMU_EXCHANGE": int(not explain_exchange_obstacle(source)),
+        "FMU_CONDITIONS": len(list_conditions(source)),
+        "FMU_JUMPS": len(find_jumps(source)),
+        "FMU_LEAST_CLEARANCE": repr(MIN_RELATIVE_CLEARANCE),
     }
     lines = ["/* What the FMU's functions must know of this scene. */", "#define FMU_AT_LEAST(n) ((n) > 0 ? (n) : 1)"]
     lines += [f"#define {name} {value}" for name, value in defines.items()]
     lines += [
-        _c_array("double", "fmu_defaults", [repr(float(parameter.default)) for parameter in source.slots]),
-        _c_array("double", "fmu_start", [repr(float(x)) for x in (*start.q, *start.v)]),
-        _c_array("int", "fmu_gains", gains),
-        _c_array("int", "fmu_plays", clearance_indices),
-        _c_array("int", "fmu_sizes", [f"{{{x}, {y}}}" for x, y in sizes], "[2]"),
-        _c_array("unsigned char", "fmu_is_angle", angles),
-        _c_array("int", "fmu_jumps", jumps(source)),
-        _c_array("int", "fmu_outputs", [f"{{{part}, {column}}}" for part, column in output_columns], "[2]"),
+        _format_c_array("double", "fmu_defaults", [repr(float(parameter.default)) for parameter in source.slots]),
+        _format_c_array("double", "fmu_start", [repr(float(x)) for x in (*start.q, *start.v)]),
+        _format_c_array("int", "fmu_gains", gains),
+        _format_c_array("int", "fmu_plays", clearance_indices),
+        _format_c_array("int", "fmu_sizes", [f"{{{x}, {y}}}" for x, y in sizes], "[2]"),
+        _format_c_array("unsigned char", "fmu_is_angle", angles),
+        _format_c_array("int", "fmu_jumps", find_jumps(source)),
+        _format_c_array("int", "fmu_outputs", [f"{{{part}, {column}}}" for part, column in output_columns], "[2]"),
     ]
-    return "\n".join([*lines, *_condition_tables(source)]) + "\n"
+    return "\n".join([*lines, *_format_condition_tables(source)]) + "\n"
 
 
-def _condition_tables(source: KernelSource) -> list[str]:
+def _format_condition_tables(source: KernelSource) -> list[str]:
     """Return the C tables of a scene's parameters, of their conditions, of the parameters in bounds, and of joints with
     play.
 
     A condition relates a parameter to a constant plus a sum of other parameters (conditions.c).
     """
     parameter_rows = [
-        f"{{{_c_string(parameter.address)}, {_c_string(parameter.unit)}, {int(parameter.follows)},"
+        f"{{{_format_c_string(parameter.address)}, {_format_c_string(parameter.unit)}, {int(parameter.follows)},"
         f" {int(bool(parameter.words))}}}"
         for parameter in source.slots
     ]
     condition_rows: list[str] = []
     bound_indices: list[int] = []
-    for condition in conditions(source):
+    for condition in list_conditions(source):
         constant = 0.0 if isinstance(condition.bound, str) else float(condition.bound)
-        message_literal = _c_string(f"{condition.message}; expected {expected(source, condition.address)}")
-        index = source.place[condition.address]
+        message_literal = _format_c_string(
+            f"{condition.message}; expected {format_conditions(source, condition.address)}"
+        )
+        index = source.slot_index[condition.address]
         condition_rows.append(
             f"{{{index}, {len(bound_indices)}, {len(condition.addresses)},"
             f' "{condition.relation}", {constant!r}, {message_literal}}}'
         )
-        bound_indices += [source.place[address] for address in condition.addresses]
+        bound_indices += [source.slot_index[address] for address in condition.addresses]
     return [
-        _c_array(
+        _format_c_array(
             "struct { const char *address, *unit; int follows, chosen; }",
             "fmu_slots",
             parameter_rows or ['{"", "", 0, 0}'],
         ),
-        _c_array(
+        _format_c_array(
             "struct { int slot, first, count; const char *relation; double bound; const char *message; }",
             "fmu_conditions",
             condition_rows or ['{0, 0, 0, "<", 0.0, ""}'],
         ),
-        _c_array("int", "fmu_bounds", bound_indices),
-        _c_array("char *const", "fmu_joints", [_c_string(joint.name) for joint in source.clearances]),
+        _format_c_array("int", "fmu_bounds", bound_indices),
+        _format_c_array("char *const", "fmu_joints", [_format_c_string(joint.name) for joint in source.clearances]),
     ]
 
 
-def _c_string(text: str) -> str:
+def _format_c_string(text: str) -> str:
     """Return a text as a string literal of C."""
     return json.dumps(text, ensure_ascii=False)
 
 
-def _c_array(c_type: str, name: str, values: Sequence[object], dimensions: str = "") -> str:
+def _format_c_array(c_type: str, name: str, values: Sequence[object], dimensions: str = "") -> str:
     """Return the definition of a static array of C with eight elements a line.
 
     `dimensions` are further dimensions, such as "[2]". An empty array gets one element that is not read.

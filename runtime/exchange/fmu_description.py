@@ -25,11 +25,11 @@ from gudgeon.contract.boundary import (
     WORK_NAMES,
 )
 from gudgeon.contract.kernel_source import HEADER, KernelSource
-from gudgeon.integrators.adaptive import RTOL, integrated_angles
+from gudgeon.integrators.adaptive import RTOL, find_integrated_angles
 from gudgeon.language.units import DIMENSIONLESS, parse_unit
-from gudgeon.loading.engine import sizes
-from gudgeon.model.parameters import conditions, expected
-from gudgeon.results.series import catalogue
+from gudgeon.loading.engine import parse_sizes
+from gudgeon.model.parameters import format_conditions, list_conditions
+from gudgeon.results.series import get_catalogue
 
 # Arrays of which outputs are columns, in the order of `parts` in engine/fmi/instance.c.
 PARTS = (
@@ -52,7 +52,7 @@ WIDTHS = {"reactions": N_REACTION_COLUMNS, "clearance": N_CLEARANCE_COLUMNS, "fr
 UNITS = ("scene.c", "engine/engine.c", "engine/fmi/fmi3.c")  # C files that are compiled
 
 
-def outputs(source: KernelSource) -> Iterator[tuple[str, str, int, int, str]]:
+def iterate_outputs(source: KernelSource) -> Iterator[tuple[str, str, int, int, str]]:
     """Yield name, unit, array, column and meaning of each series that is a column of an array.
 
     array: index into PARTS, or -1 for the states of contacts. Series that redundancy leaves indeterminate are left out.
@@ -61,7 +61,7 @@ def outputs(source: KernelSource) -> Iterator[tuple[str, str, int, int, str]]:
         f"{name}.{component}" for name in source.indeterminate for component in ("Fx", "Fy", "M", "torque", "force")
     }
     indeterminate_names |= {f"lambda.{row.name}" for row in source.rows if row.owner in source.indeterminate}
-    for name, series in catalogue(source).items():
+    for name, series in get_catalogue(source).items():
         if name in indeterminate_names:
             continue
         if series.stored is not None:
@@ -75,17 +75,17 @@ def outputs(source: KernelSource) -> Iterator[tuple[str, str, int, int, str]]:
         yield name, series.unit, -1 if array == "state" else PARTS.index(array), column, series.meaning
 
 
-def _bound_attributes(source: KernelSource, address: str) -> str:
+def _format_bound_attributes(source: KernelSource, address: str) -> str:
     """Return the XML attributes of a parameter: its description, and min and max of its constant conditions.
 
     Other conditions cannot be written in FMI; the description lists them. Returns "" without conditions.
     """
-    condition_text = expected(source, address)
+    condition_text = format_conditions(source, address)
     attributes = f" description={quoteattr(f'expected {condition_text}')}" if condition_text else ""
     for name, relation, tightest in (("min", ">=", max), ("max", "<=", min)):
         bounds = [
             condition.bound
-            for condition in conditions(source)
+            for condition in list_conditions(source)
             if condition.address == address and condition.relation == relation
         ]
         constant_bounds = [bound for bound in bounds if not isinstance(bound, str)]
@@ -93,14 +93,14 @@ def _bound_attributes(source: KernelSource, address: str) -> str:
     return attributes
 
 
-def parameters(source: KernelSource) -> Iterator[tuple[int, str, str, float]]:
+def iterate_parameters(source: KernelSource) -> Iterator[tuple[int, str, str, float]]:
     """Yield index, address, unit and default of each parameter that an FMU can set; choices of a name are left out."""
     for k, parameter in enumerate(source.slots):
         if not parameter.words:
             yield k, parameter.address, parameter.unit, parameter.default
 
 
-def exchange_obstacle(source: KernelSource) -> str:
+def explain_exchange_obstacle(source: KernelSource) -> str:
     """Return the reason why a scene supports co-simulation only, or "" if an importer may integrate it too."""
     if source.degrees_of_freedom == 0:
         return "no freedom is left: it follows its drives"
@@ -112,18 +112,18 @@ def exchange_obstacle(source: KernelSource) -> str:
         return f"inner states of laws ({', '.join(source.states)})"
     if source.chain:
         return "loops that drives alone determine"
-    return source.no_slopes
+    return source.reason_without_jacobian
 
 
-def states(source: KernelSource) -> list[tuple[str, str]]:
+def list_states(source: KernelSource) -> list[tuple[str, str]]:
     """Return (name, unit) of each state of model exchange: coordinates, their velocities, the works.
 
     The list is empty for a scene that supports co-simulation only.
     """
-    if exchange_obstacle(source):
+    if explain_exchange_obstacle(source):
         return []
     names = source.tree if source.formulation == "reduced" else source.coordinates
-    angles = integrated_angles(source)
+    angles = find_integrated_angles(source)
     position_states = [
         (f"state.{name}", "rad" if is_angle else "m") for name, is_angle in zip(names, angles, strict=True)
     ]
@@ -133,7 +133,7 @@ def states(source: KernelSource) -> list[tuple[str, str]]:
     return position_states + [(f"state.work.{kind}", "J") for kind in WORK_NAMES]
 
 
-def token(source: KernelSource) -> str:
+def compute_token(source: KernelSource) -> str:
     """Return the instantiation token by which a library recognizes its description.
 
     It is a hash of mechanism, scene and generated C.
@@ -142,17 +142,17 @@ def token(source: KernelSource) -> str:
     return "{" + sha256("\0".join(texts).encode()).hexdigest()[:32] + "}"
 
 
-def _rate_unit(unit: str) -> str:
+def _find_rate_unit(unit: str) -> str:
     """Return the unit of the time derivative of a quantity."""
     return {"J": "W", "m/s": "m/s^2", "rad/s": "rad/s^2"}.get(unit, f"{unit}/s")
 
 
-def _unit_attribute(unit: str) -> str:
+def _format_unit_attribute(unit: str) -> str:
     """Return the XML attribute of a unit, "" without one."""
     return f" unit={quoteattr(unit)}" if unit else ""
 
 
-def _unit_elements(names: set[str]) -> list[str]:
+def _format_unit_elements(names: set[str]) -> list[str]:
     """Return an XML element of each unit, with the exponents of kg, m, s and rad; without a unit "" is left out.
 
     A unit with fractional exponents has its name only.
@@ -175,7 +175,7 @@ def _unit_elements(names: set[str]) -> list[str]:
     return elements
 
 
-def _variable_elements(source: KernelSource) -> Iterator[str]:
+def _iterate_variable_elements(source: KernelSource) -> Iterator[str]:
     """Yield the XML element of each variable, with its value reference.
 
     The order is time, tolerance, parameters, outputs, states with their rates, event indicators.
@@ -189,58 +189,61 @@ def _variable_elements(source: KernelSource) -> Iterator[str]:
         f' min="1e-14" max="1.0" start="{RTOL!r}" description="of a step in co-simulation, in place of the tolerance'
         ' that the importer asks for; docs/error_control.md of gudgeon defines it"/>'
     )
-    for k, address, unit, default in parameters(source):
-        bounds = _bound_attributes(source, address)
+    for k, address, unit, default in iterate_parameters(source):
+        bounds = _format_bound_attributes(source, address)
         yield (
             f'    <Float64 name={quoteattr(address)} valueReference="{VR_PARAMETERS + k}" causality="parameter"'
-            f' variability="fixed" start="{float(default)!r}"{_unit_attribute(unit)}{bounds}/>'
+            f' variability="fixed" start="{float(default)!r}"{_format_unit_attribute(unit)}{bounds}/>'
         )
-    for k, (name, unit, _, _, meaning) in enumerate(outputs(source)):
+    for k, (name, unit, _, _, meaning) in enumerate(iterate_outputs(source)):
         yield (
             f'    <Float64 name={quoteattr(name)} valueReference="{VR_OUTPUTS + k}" causality="output"'
-            f' variability="continuous" initial="calculated"{_unit_attribute(unit)} description={quoteattr(meaning)}/>'
+            f' variability="continuous" initial="calculated"{_format_unit_attribute(unit)}'
+            f" description={quoteattr(meaning)}/>"
         )
-    for k, (name, unit) in enumerate(states(source)):
-        yield _local_variable(name, VR_STATES + k, unit)
-        yield _local_variable(f"rate of {name}", VR_RATES + k, _rate_unit(unit), f' derivative="{VR_STATES + k}"')
-    for k, (name, unit) in enumerate(indicators(source)):
-        yield _local_variable(name, VR_INDICATORS + k, unit)
+    for k, (name, unit) in enumerate(list_states(source)):
+        yield _format_local_variable(name, VR_STATES + k, unit)
+        yield _format_local_variable(
+            f"rate of {name}", VR_RATES + k, _find_rate_unit(unit), f' derivative="{VR_STATES + k}"'
+        )
+    for k, (name, unit) in enumerate(list_indicators(source)):
+        yield _format_local_variable(name, VR_INDICATORS + k, unit)
 
 
-def _local_variable(name: str, reference: int, unit: str, attributes: str = "") -> str:
+def _format_local_variable(name: str, reference: int, unit: str, attributes: str = "") -> str:
     """Return the XML element of a local variable; `attributes` are further XML attributes."""
     return (
         f'    <Float64 name={quoteattr(name)} valueReference="{reference}" causality="local" variability="continuous"'
-        f' initial="calculated"{attributes}{_unit_attribute(unit)}/>'
+        f' initial="calculated"{attributes}{_format_unit_attribute(unit)}/>'
     )
 
 
-def jumps(source: KernelSource) -> list[int]:
+def find_jumps(source: KernelSource) -> list[int]:
     """Return the indices of switching points at which a value may jump, because the branches may differ there.
 
     They are read from the header of the scene. Branches of contact laws meet, so that they are left out. Empty for
     co-simulation only.
     """
-    if exchange_obstacle(source):
+    if explain_exchange_obstacle(source):
         return []
     meets_flags = re.findall(r" meets\[\] = \{(.*?)\}", source.files[HEADER], re.DOTALL)[0].split(",")
-    return [k for k in range(sizes(source)["N_SWITCHES"]) if int(meets_flags[k]) == 0]
+    return [k for k in range(parse_sizes(source)["N_SWITCHES"]) if int(meets_flags[k]) == 0]
 
 
-def indicators(source: KernelSource) -> list[tuple[str, str]]:
+def list_indicators(source: KernelSource) -> list[tuple[str, str]]:
     """Return (name, unit) of each event indicator: penetrations of joints with play, then switching functions.
 
     The list is empty for a scene that supports co-simulation only.
     """
-    if exchange_obstacle(source):
+    if explain_exchange_obstacle(source):
         return []
-    switching_functions = [(f"corner {k + 1}", "") for k in range(len(jumps(source)))]
+    switching_functions = [(f"corner {k + 1}", "") for k in range(len(find_jumps(source)))]
     return [(f"{joint.name}.indicator", "m") for joint in source.clearances] + switching_functions
 
 
-def _structure_elements(source: KernelSource) -> Iterator[str]:
+def _iterate_structure_elements(source: KernelSource) -> Iterator[str]:
     """Yield the XML elements of the model structure: outputs, derivatives, initial unknowns, event indicators."""
-    n_outputs, n_states = len(list(outputs(source))), len(states(source))
+    n_outputs, n_states = len(list(iterate_outputs(source))), len(list_states(source))
     rate_references = range(VR_RATES, VR_RATES + n_states)
     references_by_kind = {
         "Output": range(VR_OUTPUTS, VR_OUTPUTS + n_outputs),
@@ -254,23 +257,30 @@ def _structure_elements(source: KernelSource) -> Iterator[str]:
         references_by_kind["ContinuousStateDerivative"],
     ):
         yield from (f'    <InitialUnknown valueReference="{reference}"/>' for reference in references)
-    yield from (f'    <EventIndicator valueReference="{VR_INDICATORS + k}"/>' for k in range(len(indicators(source))))
+    yield from (
+        f'    <EventIndicator valueReference="{VR_INDICATORS + k}"/>' for k in range(len(list_indicators(source)))
+    )
 
 
-def description(source: KernelSource, name: str) -> str:
+def build_description(source: KernelSource, name: str) -> str:
     """Return the text of modelDescription.xml; `name` is the model identifier.
 
     Model exchange is left out for a scene that supports co-simulation only.
     """
-    state_units = {unit for _, unit in states(source)}
-    units = {unit for _, unit, *_ in outputs(source)} | {unit for _, _, unit, _ in parameters(source)} | {"s"}
-    units |= state_units | {_rate_unit(unit) for unit in state_units}
+    state_units = {unit for _, unit in list_states(source)}
+    units = (
+        {unit for _, unit, *_ in iterate_outputs(source)}
+        | {unit for _, _, unit, _ in iterate_parameters(source)}
+        | {"s"}
+    )
+    units |= state_units | {_find_rate_unit(unit) for unit in state_units}
     title = quoteattr(source.title or source.mechanism)
     derivative_attribute = ' providesDirectionalDerivatives="true"'
     return "\n".join(
         [
             '<?xml version="1.0" encoding="UTF-8"?>',
-            f'<fmiModelDescription fmiVersion="3.0" modelName={quoteattr(name)} instantiationToken="{token(source)}"',
+            f'<fmiModelDescription fmiVersion="3.0" modelName={quoteattr(name)} '
+            f'instantiationToken="{compute_token(source)}"',
             f'  description={title} generationTool="gudgeon" variableNamingConvention="flat">',
             *(
                 [
@@ -283,14 +293,14 @@ def description(source: KernelSource, name: str) -> str:
             f'  <CoSimulation modelIdentifier="{name}" canHandleVariableCommunicationStepSize="true"',
             '    canGetAndSetFMUState="true" canSerializeFMUState="true"/>',
             "  <UnitDefinitions>",
-            *_unit_elements(units),
+            *_format_unit_elements(units),
             "  </UnitDefinitions>",
             f'  <DefaultExperiment startTime="0" tolerance="{RTOL!r}"/>',
             "  <ModelVariables>",
-            *_variable_elements(source),
+            *_iterate_variable_elements(source),
             "  </ModelVariables>",
             "  <ModelStructure>",
-            *_structure_elements(source),
+            *_iterate_structure_elements(source),
             "  </ModelStructure>",
             "</fmiModelDescription>",
             "",
@@ -298,7 +308,7 @@ def description(source: KernelSource, name: str) -> str:
     )
 
 
-def build(name: str) -> str:
+def build_build_description(name: str) -> str:
     """Return the text of sources/buildDescription.xml, which lists the C files; `name` is the model identifier."""
     return "\n".join(
         [

@@ -25,7 +25,7 @@ class Body:
     inertia: float | None = None
     com: Point | None = None
 
-    def placed(self, first: str, second: str, distance: float, angle: float) -> Point:
+    def compute_position(self, first: str, second: str, distance: float, angle: float) -> Point:
         """Return the position at `distance` from the first point, at `angle` (rad) from the direction to the second.
 
         Both points are of this body; positions are in its own frame.
@@ -75,9 +75,11 @@ class Linkage:
     gravity: Point | None = None
     measured: bool = False  # whether the file specifies the unit
     notes: list[str] = field(default_factory=list)
-    holders: dict[str, list[Body]] = field(default_factory=dict)  # bodies of each point; written by `add` and `hold`
+    holders: dict[str, list[Body]] = field(
+        default_factory=dict
+    )  # bodies of each point; written by `add` and `add_point`
 
-    def add(self, body: Body) -> Body:
+    def add_body(self, body: Body) -> Body:
         """Add a body, and return it.
 
         Raises InputError if it has fewer than two points, or if the first two coincide.
@@ -92,27 +94,27 @@ class Linkage:
             self.holders.setdefault(point, []).append(body)
         return body
 
-    def hold(self, body: Body, point: str, position: Point) -> None:
+    def add_point(self, body: Body, point: str, position: Point) -> None:
         """Add a point to a body at a position in the body's frame; a point that it has is moved."""
         if point not in body.local:
             self.holders.setdefault(point, []).append(body)
         body.local[point] = position
 
-    def holding(self, *points: str) -> Body | None:
+    def find_body(self, *points: str) -> Body | None:
         """Return the first body that contains all of these points, or None."""
         candidates = min((self.holders.get(point, []) for point in points), key=len)
         return next((body for body in candidates if all(point in body.local for point in points)), None)
 
-    def bar(self, first: str, second: str, length: float) -> Body | None:
+    def find_or_add_bar(self, first: str, second: str, length: float) -> Body | None:
         """Return the first body that contains both points, or else add a bar of this length and return it.
 
         Returns None if both are points of the ground.
         """
         if first in self.ground and second in self.ground:
             return None
-        if body := self.holding(first, second):
+        if body := self.find_body(first, second):
             return body
-        return self.add(Body(f"{first}_{second}", {first: (0.0, 0.0), second: (length, 0.0)}))
+        return self.add_body(Body(f"{first}_{second}", {first: (0.0, 0.0), second: (length, 0.0)}))
 
     def points(self) -> Iterator[str]:
         """Yield the name of every point once."""

@@ -83,7 +83,7 @@ class _Writer:
 
     def length(self, x: float) -> str:
         """Return a length with its unit as text."""
-        return f"{_number(x)} {self.unit}"
+        return f"{_format_number(x)} {self.unit}"
 
     def place(self, body: Body, point: str) -> str:
         """Return how a joint refers to a point of a body: "rod.head"; the first two points are tail and head."""
@@ -96,12 +96,12 @@ class _Writer:
         Without a mass it is a bar of LINE_MASS. A moment of inertia that is not known is that of a slender bar.
         """
         length, points, com = self.shapes[id(body)]
-        mass = body.mass if body.mass is not None else LINE_MASS * length * _unit_in_metres(self.unit)
+        mass = body.mass if body.mass is not None else LINE_MASS * length * _convert_unit_to_metres(self.unit)
         inertia = body.inertia
         if inertia is None and com is not None:  # "auto" is that of a bar whose centre of mass is in its middle
-            inertia = mass * (length * _unit_in_metres(self.unit)) ** 2 / 12.0
-        inertia_text = "auto" if inertia is None else f"{_number(inertia)} kg*m^2"
-        entries = [f"length: {self.length(length)}", f"mass: {_number(mass)} kg", f"inertia: {inertia_text}"]
+            inertia = mass * (length * _convert_unit_to_metres(self.unit)) ** 2 / 12.0
+        inertia_text = "auto" if inertia is None else f"{_format_number(inertia)} kg*m^2"
+        entries = [f"length: {self.length(length)}", f"mass: {_format_number(mass)} kg", f"inertia: {inertia_text}"]
         if com is not None:
             entries.append(f"com: [{self.length(com[0])}, {self.length(com[1])}]")
         if points:
@@ -124,7 +124,7 @@ class _Writer:
                 name = self.names.of(("joint", point, index), point if index == 0 else f"{point}_{index + 1}")
                 lines.append(f"  {name}: {{revolute: [{holders[0]}, {other_end}]}}")
         for index, line in enumerate(self.linkage.lines):
-            body, carrier = self.linkage.holding(line.point), line.body
+            body, carrier = self.linkage.find_body(line.point), line.body
             if body is None:
                 raise InputError(f"joint {line.point}: it keeps to a line, and no link holds it")
             line_point = self.place(carrier, line.through) if carrier else f"ground.{self.point(line.through)}"
@@ -132,7 +132,7 @@ class _Writer:
             length = math.hypot(x, y)
             if not length > 0.0:
                 raise InputError(f"joint {line.point}: the line to which it keeps has no direction")
-            direction = f"[{_number(x / length)}, {_number(y / length)}]"
+            direction = f"[{_format_number(x / length)}, {_format_number(y / length)}]"
             points = f"[{self.place(body, line.point)}, {line_point}]"
             name = self.names.of(("line", index), f"{line.point}_slot")
             lines.append(f"  {name}: {{point_on_line: {points}, direction: {direction}}}")
@@ -159,30 +159,32 @@ class _Writer:
             notes.append(f"masses are not in it: bars of {LINE_MASS:g} kg/m stand for them")
         if not linkage.measured:
             notes.append("it has no units: lengths are taken for metres")
-        comments = "".join(f"# {note[0].upper()}{note[1:]}.\n" for note in map(_comment_text, notes))
+        comments = "".join(f"# {note[0].upper()}{note[1:]}.\n" for note in map(_format_comment, notes))
         name = _Names("mechanism").of("", linkage.name)
-        texts = [HEAD.format(title=_comment_text(linkage.name), notes=comments, name=name)]
+        texts = [HEAD.format(title=_format_comment(linkage.name), notes=comments, name=name)]
         if linkage.gravity is not None:
-            texts.append(f"gravity: [{_number(linkage.gravity[0])}, {_number(linkage.gravity[1])} m/s^2]\n")
+            texts.append(
+                f"gravity: [{_format_number(linkage.gravity[0])}, {_format_number(linkage.gravity[1])} m/s^2]\n"
+            )
         if linkage.drives:
             names_and_drives = zip(self.rates, linkage.drives, strict=True)
-            rates = (f"  {name}: {_number(drive.rate)} 1/s" for name, drive in names_and_drives)
+            rates = (f"  {name}: {_format_number(drive.rate)} 1/s" for name, drive in names_and_drives)
             texts += ["\nparameters:\n", *(f"{line}\n" for line in rates)]
         texts += ["\nbodies:\n", *(f"{self.body(body)}\n" for body in linkage.bodies)]
         joints = self.joints()
-        if ground := self._ground():
+        if ground := self._list_ground_points():
             point_entries = (f"{self.point(point)}: [{self.length(x)}, {self.length(y)}]" for point, (x, y) in ground)
             texts += [f"\nground: {{{', '.join(point_entries)}}}\n"]
         if joints:
             texts += ["\njoints:\n", *(f"{line}\n" for line in joints)]
-        return "".join([*texts, *self._motion()])
+        return "".join([*texts, *self._format_motion()])
 
-    def _ground(self) -> list[tuple[str, Point]]:
+    def _list_ground_points(self) -> list[tuple[str, Point]]:
         """Return the points of the ground that bodies or lines use."""
         used = {*self.linkage.holders, *(line.through for line in self.linkage.lines)}
-        return [(p, place) for p, place in self.linkage.ground.items() if p in used]
+        return [(p, position) for p, position in self.linkage.ground.items() if p in used]
 
-    def _motion(self) -> list[str]:
+    def _format_motion(self) -> list[str]:
         """Return the lines of the drives, which begin at the initial angles, and the guesses of the other bodies'
         angles.
         """
@@ -193,16 +195,16 @@ class _Writer:
             if not other_body:
                 driven_ids.add(id(drive.body))
             motor = self.names.of(("drive", k), f"{name}_motor")
-            lines.append(f"  {motor}: {{angle: {target}, value: {self._value(drive, rate)}}}\n")
+            lines.append(f"  {motor}: {{angle: {target}, value: {self._format_drive_expression(drive, rate)}}}\n")
         lines = ["\ndrives:\n", *lines] if lines else []
         guesses = [
-            f"{self.named(body)}.theta: {_number(math.degrees(angle))} deg"
+            f"{self.named(body)}.theta: {_format_number(math.degrees(angle))} deg"
             for body in self.linkage.bodies
             if id(body) not in driven_ids and (angle := self.angle(body)) is not None
         ]
         return [*lines, *([f"\nstart:\n  guess: {{{', '.join(guesses)}}}\n"] if guesses else [])]
 
-    def _value(self, drive: Drive, rate: str) -> str:
+    def _format_drive_expression(self, drive: Drive, rate: str) -> str:
         """Return the expression of a drive: a constant rate, or a triangle wave between the ends of an arc.
 
         `rate` is the name of the parameter. The start angle is moved into the arc by whole turns; raises InputError if
@@ -211,7 +213,7 @@ class _Writer:
         ends = self.angle(drive.body), self.angle(drive.relative_to)
         start_angle = 0.0 if None in ends else ends[0] - ends[1]  # type: ignore[operator]
         if drive.arc is None:
-            return f"{_number(math.degrees(start_angle))} deg + {rate} * t"
+            return f"{_format_number(math.degrees(start_angle))} deg + {rate} * t"
         low, high = drive.arc
         n_turns = math.ceil((low - start_angle) / math.tau - 1e-9)
         start_angle = max(start_angle + n_turns * math.tau, low)
@@ -220,11 +222,13 @@ class _Writer:
                 f"link {drive.body.name}: at {math.degrees(start_angle):g}° it lies outside its arc from"
                 f" {math.degrees(low):g}° to {math.degrees(high):g}°"
             )
-        high_text, width_text, offset_text = (_number(math.degrees(x)) for x in (high, high - low, start_angle - low))
+        high_text, width_text, offset_text = (
+            _format_number(math.degrees(x)) for x in (high, high - low, start_angle - low)
+        )
         return f"{high_text} deg - abs(mod({offset_text} deg + {rate} * t, 2 * {width_text} deg) - {width_text} deg)"
 
 
-def mechanism_text(linkage: Linkage) -> str:
+def write_mechanism_text(linkage: Linkage) -> str:
     """Return the YAML text of a linkage. Raises InputError for a linkage without bodies."""
     if not linkage.bodies:
         raise InputError("nothing in it moves: it has no link of two joints")
@@ -248,7 +252,7 @@ def _convert_to_bar_axes(body: Body) -> tuple[float, dict[str, Point], Point | N
         )
         return longitudinal / length, transverse / length
 
-    other_points = {name: convert_to_bar_axes(at) for name, at in list(body.local.items())[2:]}
+    other_points = {name: convert_to_bar_axes(point) for name, point in list(body.local.items())[2:]}
     return length, other_points, None if body.com is None else convert_to_bar_axes(body.com)
 
 
@@ -260,16 +264,16 @@ def _convert_direction(body: Body, direction: Point) -> Point:
     ) - direction[0] * (y_head - y_tail)
 
 
-def _unit_in_metres(unit: str) -> float:
+def _convert_unit_to_metres(unit: str) -> float:
     """Return the length of a unit in m."""
     return {"m": 1.0, "cm": 0.01, "mm": 0.001}[unit]
 
 
-def _number(x: float) -> str:
+def _format_number(x: float) -> str:
     """Return a number with 15 digits."""
     return f"{x + 0.0:.15g}"
 
 
-def _comment_text(text: str) -> str:
+def _format_comment(text: str) -> str:
     """Return a text that can stand in a comment: printable, at most 200 characters."""
     return "".join(c for c in text if c.isprintable())[:200]

@@ -1,4 +1,4 @@
-"""Read links that PMKS+ (https://pmksplus.com) shares; such a link contains the whole mechanism in its address.
+"""Read the URLs that PMKS+ (https://pmksplus.com) shares; such a URL encodes the whole mechanism.
 
 After "?" follow, separated by dots, flags, decimal and whole settings, units, a part for each joint, an empty part, a
 part for each link, an empty part, and forces. Numbers are in thousandths to the base 64; a leading 0 makes a number
@@ -40,14 +40,14 @@ UNITS = {
 
 
 @dataclass
-class Joints:
+class SpecialJoints:
     """Names of driven joints, and directions (rad) of sliders, of one mechanism of PMKS+."""
 
     inputs: list[str] = field(default_factory=list)
     sliders: dict[str, float] = field(default_factory=dict)
 
 
-def address_in(text: str) -> str | None:
+def find_address(text: str) -> str | None:
     """Return the decoded text after the question mark of the first link of PMKS+ in a text; None if there is none."""
     for link in text.split():
         start = link.find("://")
@@ -71,7 +71,7 @@ def read_pmks(address: str, name: str = "pmks") -> Linkage:
         raise InputError("the link of PMKS+ has too few parts", hint="copy the whole link that Share gives")
     flags, _, integer_settings, unit_settings = sections[:4]
     scale, unit = LENGTHS[min(_decode_digits(unit_settings[:1] or "1"), len(LENGTHS) - 1)]
-    linkage, special_joints = Linkage(name, unit, measured=True), Joints()
+    linkage, special_joints = Linkage(name, unit, measured=True), SpecialJoints()
     joints, links, forces = _split_sections(sections[4:])
     for joint in joints:
         _read_joint(linkage, joint, special_joints, scale)
@@ -80,7 +80,7 @@ def read_pmks(address: str, name: str = "pmks") -> Linkage:
         _decode_integer(integer_settings.partition(",")[0]) * math.pi / 30.0 * (-1.0 if flag_bits & CLOCKWISE else 1.0)
     )
     _read_links(linkage, links, special_joints, scale)
-    drive_inputs(linkage, special_joints, rate)
+    add_input_drives(linkage, special_joints, rate)
     linkage.notes.append("its masses are taken for kg, moments of inertia for kg m^2")
     if flag_bits & GRAVITY:
         linkage.gravity = 0.0, -9.81
@@ -145,7 +145,7 @@ def _decode_decimal(text: str) -> float:
     return _decode_integer(text) / 1000.0
 
 
-def _read_joint(linkage: Linkage, text: str, joints: Joints, scale: float) -> None:
+def _read_joint(linkage: Linkage, text: str, joints: SpecialJoints, scale: float) -> None:
     """Read the part of a joint and add it to the linkage; a slider or an input is also added to `joints`.
 
     Its cells: flags and id, name (not in old links), x, y, direction (rad) of a slider. `scale` converts positions.
@@ -219,7 +219,7 @@ def _is_colour(text: str) -> bool:
     return len(text) in (3, 6) and all(digit in "0123456789abcdefABCDEF" for digit in text)
 
 
-def _read_links(linkage: Linkage, texts: Sequence[str], driven_joints: Joints, scale: float) -> None:
+def _read_links(linkage: Linkage, texts: Sequence[str], driven_joints: SpecialJoints, scale: float) -> None:
     """Read the parts of all links and add the bodies and pistons of the root links.
 
     A link without mass gets that of its welded parts. Raises InputError.
@@ -231,7 +231,7 @@ def _read_links(linkage: Linkage, texts: Sequence[str], driven_joints: Joints, s
         name = next(link.name for link in roots if by_name[link.name] is not link)
         raise InputError(f"two links are called {name}")
     for link in roots:
-        refuse_unknown(linkage, link.name, link.joints)
+        check_joints_exist(linkage, link.name, link.joints)
         if link.kind == PISTON:
             _add_piston(linkage, link, driven_joints)
             continue
@@ -241,7 +241,7 @@ def _read_links(linkage: Linkage, texts: Sequence[str], driven_joints: Joints, s
         add_link(linkage, link.name, link.joints, link.mass, link.inertia, com, driven_joints)
 
 
-def refuse_unknown(linkage: Linkage, name: str, joints: Sequence[str]) -> None:
+def check_joints_exist(linkage: Linkage, name: str, joints: Sequence[str]) -> None:
     """Raise InputError for the first joint of a link that the linkage does not have."""
     for joint in joints:
         if joint not in linkage.positions:
@@ -249,7 +249,13 @@ def refuse_unknown(linkage: Linkage, name: str, joints: Sequence[str]) -> None:
 
 
 def add_link(
-    linkage: Linkage, name: str, joints: Sequence[str], mass: float, inertia: float, com: Point, special_joints: Joints
+    linkage: Linkage,
+    name: str,
+    joints: Sequence[str],
+    mass: float,
+    inertia: float,
+    com: Point,
+    special_joints: SpecialJoints,
 ) -> None:
     """Add a body at the positions of its joints, driven joints first.
 
@@ -261,7 +267,7 @@ def add_link(
             raise InputError(f"link {name}: its {quantity} is {value:g}, expected a number above 0")
     joints = sorted(joints, key=lambda joint: joint not in special_joints.inputs)
     positions = {joint: linkage.positions[joint] for joint in joints}
-    linkage.add(Body(name, positions, mass or None, inertia or None, com if mass else None))
+    linkage.add_body(Body(name, positions, mass or None, inertia or None, com if mass else None))
     if mass and not inertia:
         linkage.notes.append("moments of inertia that are not in it are those of slender bars")
 
@@ -281,7 +287,7 @@ def _combine_welded_parts(link: _Link, parts: Sequence[_Link]) -> None:
         link.inertia = sum(part.inertia for part in parts) + sum(parallel_axis_terms)
 
 
-def drive_inputs(linkage: Linkage, special_joints: Joints, rate: float) -> None:
+def add_input_drives(linkage: Linkage, special_joints: SpecialJoints, rate: float) -> None:
     """Add a drive for each driven joint: links against the ground, or two links against each other.
 
     `rate` is in rad/s. Raises InputError for driven sliders, other joints, and a link that two inputs drive.
@@ -309,7 +315,7 @@ def drive_inputs(linkage: Linkage, special_joints: Joints, rate: float) -> None:
         linkage.drives += drives
 
 
-def _add_piston(linkage: Linkage, link: _Link, special_joints: Joints) -> None:
+def _add_piston(linkage: Linkage, link: _Link, special_joints: SpecialJoints) -> None:
     """Add the line of a piston's pin through its slider.
 
     Raises InputError unless the piston has one slider, fixed to the ground and not driven, and one pin.
@@ -350,7 +356,7 @@ def _read_old_link(address: str, name: str) -> Linkage:
     if len(settings) < 4 or settings[3].lower() not in UNITS:
         raise InputError(f"its settings are {parts.get('s', '')!r}, expected a speed, a direction, gravity and a unit")
     scale, unit = UNITS[settings[3].lower()]
-    linkage, old_joints = Linkage(name, unit, measured=True), Joints()
+    linkage, old_joints = Linkage(name, unit, measured=True), SpecialJoints()
     for line in filter(str.strip, parts.get("j", "").splitlines()):
         _read_old_joint(linkage, line.strip(), old_joints, scale)
     for line in filter(str.strip, parts.get("l", "").splitlines()):
@@ -359,10 +365,10 @@ def _read_old_link(address: str, name: str) -> Linkage:
             raise InputError(f"{line[:60]!r} is no link of PMKS+")
         mass, inertia, x, y = (_read_number(cells[k], f"link {cells[0]}") for k in (1, 2, 3, 4))
         joints = list(dict.fromkeys(filter(None, cells[5].split("|"))))
-        refuse_unknown(linkage, cells[0], joints)
+        check_joints_exist(linkage, cells[0], joints)
         add_link(linkage, cells[0], joints, mass, inertia, (scale * x, scale * y), old_joints)
     rate = _read_number(settings[0], "the speed") * math.pi / 30.0
-    drive_inputs(linkage, old_joints, -rate if settings[1] == "true" else rate)
+    add_input_drives(linkage, old_joints, -rate if settings[1] == "true" else rate)
     linkage.notes.append("its masses are taken for kg, moments of inertia for kg m^2")
     if settings[2] == "true":
         linkage.gravity = 0.0, -9.81
@@ -371,7 +377,7 @@ def _read_old_link(address: str, name: str) -> Linkage:
     return linkage
 
 
-def _read_old_joint(linkage: Linkage, line: str, joints: Joints, scale: float) -> None:
+def _read_old_joint(linkage: Linkage, line: str, joints: SpecialJoints, scale: float) -> None:
     """Read the line of a joint and add it to the linkage; a driven one is also added to `joints`.
 
     Its cells: id, x, y, links, kind, whether it is grounded, angle, friction, whether it is driven. From 2022 on: id,

@@ -46,12 +46,12 @@ def _read_name(entry: Entry, key: str, description: str) -> str:
     name = entry.get(key)
     if isinstance(name, bool) or not isinstance(name, (str, int)) or name == "":
         raise InputError(
-            f"a {description} of type {entry.get('type')!r}: {key} is {_short_text(name)}, expected a name"
+            f"a {description} of type {entry.get('type')!r}: {key} is {_shorten_text(name)}, expected a name"
         )
     return str(name)
 
 
-def _short_text(value: Any) -> str:
+def _shorten_text(value: Any) -> str:
     """Return a value as short text for messages."""
     return repr(value)[:40] if not isinstance(value, int) or abs(value) < MAX_NUMBER else "a number above 1e12"
 
@@ -63,7 +63,7 @@ def _read_number(entry: Entry, key: str, owner: str) -> float:
     """
     value = entry.get(key)
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= MAX_NUMBER:
-        raise InputError(f"{owner}: {key} is {_short_text(value)}, expected a number up to {MAX_NUMBER:g}")
+        raise InputError(f"{owner}: {key} is {_shorten_text(value)}, expected a number up to {MAX_NUMBER:g}")
     return float(value)
 
 
@@ -86,7 +86,7 @@ def _read_pair(value: Any, key: str, owner: str) -> Point | None:
     if value is None:
         return None
     if not isinstance(value, list) or len(value) != 2:
-        raise InputError(f"{owner}: {key} is {_short_text(value)}, expected two numbers")
+        raise InputError(f"{owner}: {key} is {_shorten_text(value)}, expected two numbers")
     if None in value:
         return None
     x, y = (_read_number({key: component}, key, owner) for component in value)
@@ -169,24 +169,24 @@ def _add_joint(linkage: Linkage, name: str, joint: Entry, parents: Sequence[str 
     if joint_type == "Static":
         linkage.ground[name] = linkage.positions[name] = position or (0.0, 0.0)
     elif joint_type == "Crank":
-        body = linkage.bar(_require_parent(name, parents[0]), name, _read_length(joint, "distance", owner))
+        body = linkage.find_or_add_bar(_require_parent(name, parents[0]), name, _read_length(joint, "distance", owner))
         if body is None:
             raise InputError(f"{owner}: a crank that the ground holds")
         linkage.drives.append(Drive(body, _read_number(joint, "angle", owner)))
         linkage.notes.append(STEPPED)
     elif joint_type == "Revolute":
         for key, parent in zip(("distance0", "distance1"), parents, strict=False):
-            linkage.bar(_require_parent(name, parent), name, _read_length(joint, key, owner))
+            linkage.find_or_add_bar(_require_parent(name, parent), name, _read_length(joint, key, owner))
     elif joint_type == "Fixed":
         _add_fixed_point(
             linkage, name, parents, _read_number(joint, "distance", owner), _read_number(joint, "angle", owner)
         )
     elif joint_type in ("Linear", "Prismatic"):
-        linkage.bar(_require_parent(name, parents[0]), name, _read_length(joint, "revolute_radius", owner))
+        linkage.find_or_add_bar(_require_parent(name, parents[0]), name, _read_length(joint, "revolute_radius", owner))
         _add_line(linkage, name, _require_parent(name, parents[1]), _require_parent(name, parents[2]))
     else:
         raise InputError(
-            f"{owner}: {_short_text(joint_type)} is no joint of pylinkage; expected one of {', '.join(OLD)}"
+            f"{owner}: {_shorten_text(joint_type)} is no joint of pylinkage; expected one of {', '.join(OLD)}"
         )
 
 
@@ -206,9 +206,9 @@ def _add_fixed_point(linkage: Linkage, name: str, parents: Sequence[str | None],
     first, second = _require_parent(name, parents[0]), _require_parent(name, parents[1])
     if first in linkage.ground and second in linkage.ground:
         body = Body("ground", linkage.ground)
-        linkage.ground[name] = linkage.positions[name] = body.placed(first, second, distance, angle)
-    elif parent_body := linkage.holding(first, second):
-        linkage.hold(parent_body, name, parent_body.placed(first, second, distance, angle))
+        linkage.ground[name] = linkage.positions[name] = body.compute_position(first, second, distance, angle)
+    elif parent_body := linkage.find_body(first, second):
+        linkage.add_point(parent_body, name, parent_body.compute_position(first, second, distance, angle))
     else:
         raise InputError(
             f"joint {name}: it is fixed to {first} and {second}, which nothing holds at a distance",
@@ -223,7 +223,7 @@ def _add_line(linkage: Linkage, name: str, first: str, second: str) -> None:
     """
     if first in linkage.ground and second in linkage.ground:
         points, body = linkage.ground, None
-    elif body := linkage.holding(first, second):
+    elif body := linkage.find_body(first, second):
         points = body.local
     else:
         raise InputError(f"joint {name}: its line leads through {first} and {second}, which no body holds")
@@ -242,7 +242,7 @@ def _read_links(linkage: Linkage, joints: Sequence[Entry], links: Any) -> None:
     if len(dict(named_links)) < len(named_links):
         repeated_name = next(name for name, link in named_links if dict(named_links)[name] is not link)
         raise InputError(f"two links are called {repeated_name}", hint="each link needs an id of its own")
-    joints_by_link = {name: _joints_of_link(link, name) for name, link in named_links}
+    joints_by_link = {name: _list_joints_of_link(link, name) for name, link in named_links}
     # as in pylinkage, joints of a ground link and motor joints are fixed, independent of their type
     fixed_joints = {
         joint for name, link in named_links if link.get("type") == "ground" for joint in joints_by_link[name]
@@ -285,7 +285,7 @@ def _place_joint(linkage: Linkage, joint: Entry, fixed_joints: set[str]) -> None
     if joint.get("type") == "prismatic":
         direction = _read_pair(joint.get("axis", [1.0, 0.0]), "axis", owner)
         if direction is None or not math.hypot(*direction) > 0.0:
-            raise InputError(f"{owner}: axis is {_short_text(joint.get('axis'))}, expected a direction")
+            raise InputError(f"{owner}: axis is {_shorten_text(joint.get('axis'))}, expected a direction")
         line_point = f"{name}_line"
         while line_point in linkage.positions or line_point in linkage.ground:
             line_point += "_"
@@ -293,14 +293,14 @@ def _place_joint(linkage: Linkage, joint: Entry, fixed_joints: set[str]) -> None
         linkage.lines.append(Line(name, line_point, None, direction))
 
 
-def _joints_of_link(link: Entry, name: str) -> list[str]:
+def _list_joints_of_link(link: Entry, name: str) -> list[str]:
     """Return the names of the joints of a link in their order, each once.
 
     Raises InputError if they are not a list of names.
     """
     joints = link.get("joints")
     if not isinstance(joints, list):
-        raise InputError(f"link {name}: joints is {_short_text(joints)}, expected a list of joints")
+        raise InputError(f"link {name}: joints is {_shorten_text(joints)}, expected a list of joints")
     return list(
         dict.fromkeys(_read_name({"id": joint, "type": "link"}, "id", f"joint of link {name}") for joint in joints)
     )
@@ -316,7 +316,7 @@ def _add_link(linkage: Linkage, name: str, link: Entry, joints: list[str]) -> No
         if joint not in linkage.positions:
             raise InputError(f"{owner}: no joint is called {joint}")
     joints.sort(key=lambda joint: joint != motor)
-    body = linkage.add(Body(name, {joint: linkage.positions[joint] for joint in joints}))
+    body = linkage.add_body(Body(name, {joint: linkage.positions[joint] for joint in joints}))
     if link_type not in DRIVERS:
         return
     if joints[0] != motor:

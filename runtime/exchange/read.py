@@ -8,10 +8,10 @@ from pathlib import Path
 
 from gudgeon.errors import InputError, InputErrors
 from gudgeon.exchange.linkage import Linkage
-from gudgeon.exchange.mechanism_yaml import mechanism_text
-from gudgeon.exchange.pmks import BEGIN, address_in, read_old_pmks, read_pmks
+from gudgeon.exchange.mechanism_yaml import write_mechanism_text
+from gudgeon.exchange.pmks import BEGIN, find_address, read_old_pmks, read_pmks
 from gudgeon.exchange.pylinkage import read_pylinkage
-from gudgeon.files.reading import MAX_BYTES, read_named
+from gudgeon.files.reading import MAX_BYTES, read_user_file
 
 KNOWN = "JSON of pylinkage (Linkage.to_json, mechanism_to_json), or a text with a link that PMKS+ shares"
 
@@ -21,13 +21,13 @@ def read_linkage(file: str | os.PathLike[str]) -> Linkage:
 
     Raises InputError for other files and unsupported contents, LimitError for large files.
     """
-    data = read_named(file, MAX_BYTES, hint=f"name a file: {KNOWN}")
+    data = read_user_file(file, MAX_BYTES, hint=f"name a file: {KNOWN}")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InputError(f"{file} is no text", hint=f"expected {KNOWN}") from error
     try:
-        address = None if text.lstrip()[:1] in ("{", "[") else address_in(text)
+        address = None if text.lstrip()[:1] in ("{", "[") else find_address(text)
         if address is None:
             return read_pylinkage(_parse_json(text))
         return (read_old_pmks if address.startswith(BEGIN) else read_pmks)(address, Path(file).stem)
@@ -35,7 +35,7 @@ def read_linkage(file: str | os.PathLike[str]) -> Linkage:
         raise InputError(f"{os.fspath(file)}: {error.message}", hint=error.hint) from error
 
 
-def mechanism_of(file: str | os.PathLike[str]) -> str:
+def convert_to_mechanism(file: str | os.PathLike[str]) -> str:
     """Return the text of a mechanism file for the linkage in a file; its first lines list what was assumed.
 
     Raises InputError if the file is refused, or if the mechanism format refuses the result.
@@ -44,7 +44,7 @@ def mechanism_of(file: str | os.PathLike[str]) -> str:
 
     linkage = read_linkage(file)
     try:
-        text = mechanism_text(linkage)
+        text = write_mechanism_text(linkage)
         read_mechanism(text.encode(), os.fspath(file))
     except InputError as error:
         first_error = error.errors[0] if isinstance(error, InputErrors) else error

@@ -1,1 +1,1 @@
-"""Files of the user's: written whole or not at all, believed only if they are the user's own."""
+"""Read and write files: written completely or not at all, and trusted only if no other user could change them."""

@@ -26,8 +26,8 @@ def check_memory(size: float, purpose: str) -> None:
 
     Up to LEAST bytes are always allowed.
     """
-    if size > LEAST and size > SHARE * (free := free_memory()):
-        raise MemoryError(f"{purpose} would take {size_text(size)}, and {size_text(free)} are free")
+    if size > LEAST and size > SHARE * (free := read_free_memory()):
+        raise MemoryError(f"{purpose} would take {format_size(size)}, and {format_size(free)} are free")
 
 
 def check_disk(folder: str | os.PathLike[str], size: float, purpose: str, path: str | os.PathLike[str] = "") -> None:
@@ -35,14 +35,14 @@ def check_disk(folder: str | os.PathLike[str], size: float, purpose: str, path: 
 
     `purpose` names what needs them; the error is that of `path`, or else of the folder.
     """
-    if size > (free := free_disk(folder)):
+    if size > (free := read_free_disk(folder)):
         description = (
-            f"{os.strerror(errno.ENOSPC)}: {purpose} would take {size_text(size)}, and {size_text(free)} are free"
+            f"{os.strerror(errno.ENOSPC)}: {purpose} would take {format_size(size)}, and {format_size(free)} are free"
         )
         raise OutputError(path or folder, OSError(errno.ENOSPC, description))
 
 
-def free_disk(folder: str | os.PathLike[str]) -> float:
+def read_free_disk(folder: str | os.PathLike[str]) -> float:
     """Return the bytes that the user may write in a folder, or in its nearest existing parent; infinite if unknown."""
     path = Path(folder).absolute()
     for existing_folder in (path, *path.parents):
@@ -52,7 +52,7 @@ def free_disk(folder: str | os.PathLike[str]) -> float:
     return math.inf
 
 
-def free_memory(root: Path = Path("/")) -> float:
+def read_free_memory(root: Path = Path("/")) -> float:
     """Return the bytes of memory that this process may still use: of machine, control groups and own limit.
 
     `root` is the folder with /proc and /sys. The result is infinite if nothing is known.
@@ -121,7 +121,7 @@ def _read_free_memory_of_process(root: Path) -> float:
     return math.inf
 
 
-def size_text(size: float) -> str:
+def format_size(size: float) -> str:
     """Return a number of bytes as text with three digits: "1.2 GB"."""
     for power, unit in ((12, "TB"), (9, "GB"), (6, "MB"), (3, "kB")):
         if size >= 10.0**power:

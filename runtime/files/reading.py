@@ -1,6 +1,7 @@
-"""Read files: only regular ones up to a size. Files that a mechanism names must be in its folder, not behind links.
+"""Read files, but only regular files up to a maximum size. Files that a mechanism names must be in its folder, not
+behind links.
 
-`read_named` reads what a call or the command line names, `read_beside` what a mechanism names.
+`read_user_file` reads what a call or the command line names, `read_table_file` what a mechanism names.
 """
 
 from __future__ import annotations
@@ -9,22 +10,22 @@ import os
 import stat
 from pathlib import Path
 
-from gudgeon.errors import BadValueError, InputError, LimitError, Location, shortened
-from gudgeon.files.writing import kind
+from gudgeon.errors import BadValueError, InputError, LimitError, Location, shorten_path
+from gudgeon.files.writing import describe_file_type
 
 _PARTS = 8  # largest number of parts of a path
 MAX_BYTES = 1 << 20  # of a mechanism file
 MAX_TABLE_BYTES = 1 << 26  # of a table of a curve: more than a million points
 
 
-def read_named(file: str | os.PathLike[str], max_bytes: int, description: str = "", hint: str = "") -> bytes:
+def read_user_file(file: str | os.PathLike[str], max_bytes: int, description: str = "", hint: str = "") -> bytes:
     """Return the bytes of a file that a call or the command line names, at most `max_bytes`.
 
     `description` and `hint` are used in errors. Raises InputError if it cannot be read or is not a regular file,
     LimitError if it is too large. Devices and pipes are not opened: they may have no end or block, and files are read
     more than once.
     """
-    file_text = f"{description} {shortened(file)}".strip()
+    file_text = f"{description} {shorten_path(file)}".strip()
     try:
         status = os.stat(file)
         if stat.S_ISREG(status.st_mode):
@@ -49,10 +50,10 @@ def check_regular(status: os.stat_result, file_text: str, hint: str = "") -> Non
     if not stat.S_ISREG(status.st_mode):
         is_pipe = stat.S_ISFIFO(status.st_mode)
         hint = "write what comes through the pipe to a file first" if is_pipe else hint
-        raise InputError(f"cannot read {file_text}: it is {kind(status)}, not a file", hint=hint)
+        raise InputError(f"cannot read {file_text}: it is {describe_file_type(status)}, not a file", hint=hint)
 
 
-def read_beside(file: str | os.PathLike[str], name: str, max_bytes: int, location: Location | None = None) -> bytes:
+def read_table_file(file: str | os.PathLike[str], name: str, max_bytes: int, location: Location | None = None) -> bytes:
     """Return the bytes of a table that a mechanism names, at most `max_bytes`.
 
     `name` is a path relative to the folder of `file`, with "/" between its parts. Neither a folder on the path nor the
@@ -71,7 +72,9 @@ def read_beside(file: str | os.PathLike[str], name: str, max_bytes: int, locatio
         hint = "expected a file in the folder of the mechanism or below"
         raise InputError(f"cannot read the table {name}: {reason}", location, hint) from error
     if not stat.S_ISREG(status.st_mode):
-        raise InputError(f"cannot read the table {name}: it is {kind(status)}, not a file", location, "name a CSV file")
+        raise InputError(
+            f"cannot read the table {name}: it is {describe_file_type(status)}, not a file", location, "name a CSV file"
+        )
     if (size := max(status.st_size, len(data))) > max_bytes:
         raise LimitError(f"a table of {size} bytes", location, f"expected at most {max_bytes}")
     return data

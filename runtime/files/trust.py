@@ -28,10 +28,10 @@ def check_path(path: str | os.PathLike[str]) -> None:
     for component, status in components[:-1] if exists else components:
         _check_parent(component, status)
     if exists:
-        check(*components[-1])
+        check_owner_and_permissions(*components[-1])
 
 
-def check(path: str | os.PathLike[str], status: os.stat_result) -> None:
+def check_owner_and_permissions(path: str | os.PathLike[str], status: os.stat_result) -> None:
     """Raise Untrusted if a file or folder is not the user's or root's, or if group or others may write it.
 
     `status` is the result of os.stat. The permissions of a link do not count.
@@ -51,7 +51,7 @@ def check_folder(path: str | os.PathLike[str]) -> None:
     status = os.lstat(path)
     if not stat.S_ISDIR(status.st_mode):
         raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), os.fspath(path))
-    check(path, status)
+    check_owner_and_permissions(path, status)
 
 
 def _check_parent(path: str, status: os.stat_result) -> None:
@@ -69,7 +69,7 @@ def _check_parent(path: str, status: os.stat_result) -> None:
         raise Untrusted(f"{writer} may write {path}")
 
 
-def read(path: str | os.PathLike[str]) -> bytes:
+def read_trusted(path: str | os.PathLike[str]) -> bytes:
     """Return the bytes of a regular file that only the user or root may write; links are not followed.
 
     Raises Untrusted, and OSError for a file that cannot be opened or is not regular.
@@ -79,7 +79,7 @@ def read(path: str | os.PathLike[str]) -> bytes:
         status = os.fstat(descriptor)
         if not stat.S_ISREG(status.st_mode):
             raise OSError(errno.EINVAL, "no regular file", os.fspath(path))
-        check(path, status)
+        check_owner_and_permissions(path, status)
         return file.read()
 
 

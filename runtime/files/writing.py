@@ -1,4 +1,4 @@
-"""Write all files for users: to a temporary name first, then moved into place.
+"""Write output files completely or not at all: first under a temporary name, then renamed.
 
 The old file stays complete until the new one is; a full disk, a limit or Ctrl-C leaves nothing behind. The temporary
 name is random and opened exclusively within the opened folder, so that nothing outside it is written. A link in the
@@ -42,7 +42,7 @@ class AtomicFiles:
 
     def __enter__(self) -> AtomicFiles:
         """Make and open the folder."""
-        with telling(self.folder):
+        with convert_os_errors(self.folder):
             self._made = [path for path in (self.folder, *self.folder.parents) if not os.path.lexists(path)]
             self.folder.mkdir(parents=True, exist_ok=True)
             self._fd = os.open(self.folder, _FOLDER | (0 if self.follow else os.O_NOFOLLOW))
@@ -81,7 +81,7 @@ class AtomicFiles:
         It is complete when the block ends without error; `move` then puts it in place. Raises OutputError for a target
         that may not be replaced, and for each OSError.
         """
-        with telling(self.folder / name):
+        with convert_os_errors(self.folder / name):
             old_status = _check_replaceable(self.folder, name, self._fd)
             temporary_name = f".gudgeon-{os.urandom(8).hex()}.part"
             self._parts.append(temporary_name)  # first: Ctrl-C may come as it has been opened
@@ -111,7 +111,7 @@ class AtomicFiles:
         """
         for _ in range(len(self._whole) if count is None else count):
             temporary_name, name = self._whole.pop(0)
-            with telling(self.folder / name):
+            with convert_os_errors(self.folder / name):
                 os.replace(temporary_name, name, src_dir_fd=self._fd, dst_dir_fd=self._fd)
                 self._parts.remove(temporary_name)
 
@@ -120,19 +120,19 @@ class AtomicFiles:
 
         An absent file is not an error. Raises OutputError.
         """
-        with telling(self.folder / name):
+        with convert_os_errors(self.folder / name):
             data = read_regular(name, dir_fd=self._fd)
             if data is not None and is_accepted(data):
                 os.unlink(name, dir_fd=self._fd)
 
 
 @contextmanager
-def written(path: str | os.PathLike[str], *, sync: bool = False) -> Iterator[BinaryIO]:
+def open_atomic(path: str | os.PathLike[str], *, sync: bool = False) -> Iterator[BinaryIO]:
     """Yield a binary file to write; it is moved to `path` when the block ends without error.
 
     Raises OutputError, also for an OSError of the block; `path` is then unchanged. sync: as in AtomicFiles.
     """
-    path = _file_path(path)
+    path = _check_file_path(path)
     with AtomicFiles(path.parent, sync=sync) as folder:
         with folder.file(path.name) as file:
             yield file
@@ -141,7 +141,7 @@ def written(path: str | os.PathLike[str], *, sync: bool = False) -> Iterator[Bin
 
 def write_bytes(path: str | os.PathLike[str], data: bytes | memoryview) -> None:
     """Write a file with these bytes at `path`. Raise OutputError and leave `path` unchanged if that fails."""
-    with written(path) as file:
+    with open_atomic(path) as file:
         file.write(data)
 
 
@@ -177,8 +177,8 @@ def check_target(path: str | os.PathLike[str]) -> None:
 
     Nothing is written. Called before long computations.
     """
-    path = _file_path(path)
-    with telling(path):
+    path = _check_file_path(path)
+    with convert_os_errors(path):
         with suppress(FileNotFoundError, NotADirectoryError):
             path.lstat()
         if path.parent.exists():
@@ -189,7 +189,7 @@ def check_target(path: str | os.PathLike[str]) -> None:
                 os.close(descriptor)
 
 
-def _file_path(path: str | os.PathLike[str]) -> Path:
+def _check_file_path(path: str | os.PathLike[str]) -> Path:
     """Return the path of a file to be written.
 
     Raises OutputError for an empty name, and for names of folders such as "." and "/".
@@ -202,7 +202,7 @@ def _file_path(path: str | os.PathLike[str]) -> Path:
 
 
 @contextmanager
-def telling(path: Path) -> Iterator[None]:
+def convert_os_errors(path: Path) -> Iterator[None]:
     """Convert each OSError within the context to an OutputError for `path`."""
     try:
         yield
@@ -225,7 +225,9 @@ def _check_replaceable(folder: Path, name: str, descriptor: int) -> os.stat_resu
             raise OutputError(folder / name, "the system's own")
         return None
     if not stat.S_ISREG(status.st_mode):
-        raise OutputError(folder / name, "it is a folder" if stat.S_ISDIR(status.st_mode) else f"it is {kind(status)}")
+        raise OutputError(
+            folder / name, "it is a folder" if stat.S_ISDIR(status.st_mode) else f"it is {describe_file_type(status)}"
+        )
     if not status.st_mode & 0o222:
         raise OutputError(folder / name, "there is a file that is write-protected")
     return status
@@ -243,7 +245,7 @@ def _flush_to_disk(descriptor: int) -> None:
             raise
 
 
-def kind(status: os.stat_result) -> str:
+def describe_file_type(status: os.stat_result) -> str:
     """Return a description of a path that is not a regular file, such as "a pipe", from the result of os.stat."""
     descriptions = {
         stat.S_IFDIR: "a folder",

@@ -1,1 +1,1 @@
-"""What drives the time loops in C."""
+"""Drive the time loops in C: choice of method, batches of runs, threads, SIMD lanes, stored results."""

@@ -2,7 +2,8 @@
 
 - `dop853`: explicit, order 8, dense output of order 7 (E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary
   Differential Equations I, 1993, section II.5).
-- `dopri5`: explicit, order 5, dense output of order 4 (J. R. Dormand, P. J. Prince, 1980; engine/scalar_simd/runge_kutta.h).
+- `dopri5`: explicit, order 5, dense output of order 4 (J. R. Dormand, P. J. Prince, 1980;
+engine/scalar_simd/runge_kutta.h).
 - `rodas5p`: Rosenbrock, order 5, L-stable, exact Jacobian, dense output of order 4 (G. Steinebach, BIT 63:27, 2023).
 - `taylor`: Taylor series of the motion, of an order that follows from the tolerance, for smooth motion.
 - `radau5`, `radau9`: Radau IIA of orders 5 and 9, L-stable, exact Jacobian, dense output of order 4
@@ -28,20 +29,20 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.assembly.linkage import angles
-from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.assembly.linkage import find_angles
+from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
 from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, FINE, KINEMATIC, STAGED, STIFF
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.parameters import number
-from gudgeon.model.sizes import mechanism_sizes
+from gudgeon.model.parameters import read_parameter_value
+from gudgeon.model.sizes import compute_mechanism_sizes
 
 RTOL = 1e-8  # default tolerance of a run
 FELT_BY_FILMS = 0.015  # largest error of velocities relative to the speeds within a film
 SMALLEST = 1e-14  # smallest rtol: below it, rounding errors would be controlled
 
 
-def tolerance(rtol: float | str | None, method: str, has_fixed_step: bool) -> float:
+def parse_tolerance(rtol: float | str | None, method: str, has_fixed_step: bool) -> float:
     """Return the checked relative tolerance of a step from the argument `rtol`; the default RTOL if it is None.
 
     Raises BadValueError if the value is out of range, or if the step of the method is fixed.
@@ -54,7 +55,7 @@ def tolerance(rtol: float | str | None, method: str, has_fixed_step: bool) -> fl
             hint=f"leave out rtol; or leave out step and take {', '.join(('auto', *CHOOSING))}",
         )
     try:
-        value = number(rtol, Slot("rtol", "", 0.0, False, (0, 0, 0)))
+        value = read_parameter_value(rtol, RuntimeParameter("rtol", "", 0.0, False, (0, 0, 0)))
     except InputError:
         value = math.nan
     if not SMALLEST <= value < 1.0:
@@ -66,7 +67,7 @@ def tolerance(rtol: float | str | None, method: str, has_fixed_step: bool) -> fl
     return value
 
 
-def stiff_method(source: KernelSource, rtol: float) -> str:
+def select_stiff_method(source: KernelSource, rtol: float) -> str:
     """Return the name of the stiff method that `auto` uses for a scene at a tolerance.
 
     For a scene with a film whose library has stages, a tight tolerance selects the higher order.
@@ -74,7 +75,7 @@ def stiff_method(source: KernelSource, rtol: float) -> str:
     return STAGED[rtol < FINE] if source.stages and _has_film(source) else STIFF
 
 
-def first_method(source: KernelSource, rtol: float = RTOL) -> str:
+def select_first_method(source: KernelSource, rtol: float = RTOL) -> str:
     """Return the name of the method with which `auto` begins a run of the scene.
 
     It is the kinematic analysis without degrees of freedom, the stiff method with a film, else the explicit one
@@ -82,7 +83,7 @@ def first_method(source: KernelSource, rtol: float = RTOL) -> str:
     """
     if KINEMATIC in source.methods:
         return KINEMATIC
-    return stiff_method(source, rtol) if _has_film(source) and not source.explicit else EXPLICIT
+    return select_stiff_method(source, rtol) if _has_film(source) and not source.is_explicit else EXPLICIT
 
 
 def _has_film(source: KernelSource) -> bool:
@@ -90,45 +91,45 @@ def _has_film(source: KernelSource) -> bool:
     return any(joint.film for joint in source.clearances)
 
 
-def choice_of(compiled: CompiledModel, method: str, rtol: float) -> tuple[int, int]:
+def find_method_numbers(compiled: CompiledModel, method: str, rtol: float) -> tuple[int, int]:
     """Return C's numbers of the first method and of the stiff one to which a run may switch; 0: it may not switch.
 
     Only "adaptive", which is what auto runs, may switch.
     """
     if method != ADAPTIVE:
         return int(compiled.lib.gudgeon_method(method.encode())), 0
-    names = first_method(compiled.source, rtol), stiff_method(compiled.source, rtol)
+    names = select_first_method(compiled.source, rtol), select_stiff_method(compiled.source, rtol)
     first, stiff = (int(compiled.lib.gudgeon_method(name.encode())) for name in names)
     return first, stiff
 
 
-def lengths(compiled: CompiledModel, p: Array) -> tuple[Array, Array]:
+def compute_error_lengths(compiled: CompiledModel, p: Array) -> tuple[Array, Array]:
     """Return the length L of allowed errors and the mechanism's size S (m), for parameter values p (..., n_p).
 
     L is the smallest positive clearance, else S. Both have the shape (...); see this module's head.
     """
-    size = mechanism_sizes(compiled.source, p)
+    size = compute_mechanism_sizes(compiled.source, p)
     clearances = p[..., [joint.clearance for joint in compiled.source.clearances]]
     min_clearance = np.where(clearances > 0.0, clearances, np.inf).min(axis=-1, initial=np.inf)
     return np.where(np.isfinite(min_clearance), min_clearance, size), size
 
 
-def integrated_angles(source: KernelSource) -> NDArray[np.bool_]:
+def find_integrated_angles(source: KernelSource) -> NDArray[np.bool_]:
     """Return a mask (n_x,) of the integrated coordinates that are angles, for either formulation."""
     if source.formulation == "reduced":  # a tree's angles have the names of bodies, its slides "guide.slide", "L3.x"
         return np.array(["." not in name for name in source.tree], dtype=bool)
-    return angles(source)
+    return find_angles(source)
 
 
-def tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array]:
+def compute_tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array]:
     """Return the error tolerances (..., 2 n_x) of a step, and L and L/S, (..., 2), for the time loop in C.
 
     The first n_x are those of coordinates, the others those of velocities per unit of speed. Films have tighter
     velocities. `p` (..., n_slots + n_derived) holds the parameter values of one run, or of several.
     """
     source = compiled.source
-    length, size = lengths(compiled, p)
-    is_angle = integrated_angles(source)
+    length, size = compute_error_lengths(compiled, p)
+    is_angle = find_integrated_angles(source)
     of_q = rtol * np.where(is_angle, (length / size)[..., None], length[..., None])
     of_v = np.minimum(rtol, FELT_BY_FILMS * length / size if _has_film(source) else rtol)
     of_speed = np.broadcast_to(of_v[..., None], of_q.shape)

@@ -2,8 +2,8 @@
 
 A call of C integrates runs from start to end without Python's global lock. Python distributes the runs and fetches the
 lists of contacts and events. Many runs use threads (threads.py); a single one stays in the calling thread
-(`integrate`). A method without a loop in C is a Python function from a Problem to a Trajectory (`Runs.drive`), whose
-runs fill the same arrays.
+(`integrate_problem`). A method without a loop in C is a Python function from a Problem to a Trajectory
+(`Runs.drive`), whose runs fill the same arrays.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.assembly.guess_warnings import unfollowed
-from gudgeon.assembly.rank import check_start, left_out
-from gudgeon.assembly.start import assemble
+from gudgeon.assembly.guess_warnings import find_unfollowed_guesses
+from gudgeon.assembly.rank import check_redundant_equations, list_redundant_equations
+from gudgeon.assembly.start import assemble_start
 from gudgeon.contract.boundary import (
     AUDITED,
     BEGUN,
@@ -34,22 +34,22 @@ from gudgeon.contract.boundary import (
 )
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes
-from gudgeon.integrators.failure import INTERRUPTED, audit_failure, failure
-from gudgeon.integrators.lanes import Flow
+from gudgeon.integrators.failure import INTERRUPTED, build_audit_error, build_run_error
+from gudgeon.integrators.lanes import LaneProvider
 from gudgeon.integrators.steps import Look, StepLog
 from gudgeon.integrators.stored import StoredRuns
 from gudgeon.integrators.threads import run_in_threads
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.sizes import mechanism_sizes
-from gudgeon.waiting.asking import Asker
-from gudgeon.waiting.ctrl_c import CtrlC
+from gudgeon.model.sizes import compute_mechanism_sizes
+from gudgeon.waiting.cancellation import CancellationPoll
+from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 if TYPE_CHECKING:
     from gudgeon.results.results import State
 
-Drive: TypeAlias = Callable[[Problem], Trajectory]  # a method without a loop over runs in C
+PythonLoop: TypeAlias = Callable[[Problem], Trajectory]  # a method without a loop over runs in C
 CHUNK = 4_000  # steps of one call of C, which polls Python for cancellation meanwhile (asking.py)
 TOGETHER = 4096  # largest number of samples of finished runs that wait to be stored together
 
@@ -57,8 +57,8 @@ TOGETHER = 4096  # largest number of samples of finished runs that wait to be st
 class Runs(StoredRuns):
     """Integrate runs from start to end.
 
-    Each run has its own rows of samples or, if they are `shared`, those of its thread. Shared samples are lost unless
-    `over` stores them when runs end.
+    Each run has its own rows of samples or, if they are `has_shared_rows`, those of its thread. Shared samples are
+    lost unless `over` stores them when runs end.
     """
 
     def __init__(
@@ -74,29 +74,36 @@ class Runs(StoredRuns):
         audit: int,
         side_by_side: bool,
         threads: int,
-        shared: bool = False,
-        drive: Drive | None = None,
+        has_shared_rows: bool = False,
+        python_loop: PythonLoop | None = None,
     ) -> None:
-        self.threads, self.rtol, self.shared, self.drive = threads, rtol, shared, drive
+        self.threads, self.rtol, self.has_shared_rows, self.python_loop = threads, rtol, has_shared_rows, python_loop
         self.stop, self.audit = stop, audit
-        self.over: Callable[[Sequence[int]], None] | None = None  # stores the results of finished runs
-        n, N = len(p), times.most
-        has_lanes = side_by_side and not drive and lanes.expected(compiled, method, n)
+        self.store_results: Callable[[Sequence[int]], None] | None = None  # stores the results of finished runs
+        n, N = len(p), times.max_count
+        has_lanes = side_by_side and not python_loop and lanes.may_use_lanes(compiled, method, n)
         if has_lanes:
-            compiled.lib.best()  # whose functions are called from within lanes, for all runs
-        self.flow = Flow(compiled) if has_lanes else None
-        self.abreast = self.flow.count if self.flow else 1
-        if self.flow and shared:
-            self.abreast = min(self.abreast, max(lanes.ALWAYS, TOGETHER // N))
-        n_spare = min(self.abreast, TOGETHER // N) if self.flow else 0  # of runs that are over, and not taken yet
-        self.places = self.abreast + n_spare  # rows of samples per thread
+            compiled.lib.wait_for_optimized()  # whose functions are called from within lanes, for all runs
+        self.flow = LaneProvider(compiled) if has_lanes else None
+        self.n_lanes = self.flow.count if self.flow else 1
+        if self.flow and has_shared_rows:
+            self.n_lanes = min(self.n_lanes, max(lanes.ALWAYS, TOGETHER // N))
+        n_spare = min(self.n_lanes, TOGETHER // N) if self.flow else 0  # of runs that are over, and not taken yet
+        self.n_rows_per_thread = self.n_lanes + n_spare  # rows of samples per thread
         super().__init__(
-            compiled, method, p, p_motion, times, step, threads * self.places if shared else n, bool(drive)
+            compiled,
+            method,
+            p,
+            p_motion,
+            times,
+            step,
+            threads * self.n_rows_per_thread if has_shared_rows else n,
+            bool(python_loop),
         )
-        self.struct: Any = None if drive else self._make_struct()
+        self.struct: Any = None if python_loop else self._make_struct()
         # guesses of the start that the assembly could not follow, by run
         self.unfollowed: dict[int, dict[str, float]] = {}
-        self.looks: Sequence[Look | None] = ()  # observers of all steps, one per run; empty without any
+        self.observers: Sequence[Look | None] = ()  # observers of all steps, one per run; empty without any
         self.resumed = set[int]()  # runs that resume from a state
 
     def _make_struct(self) -> Any:
@@ -105,13 +112,13 @@ class Runs(StoredRuns):
         All arrays are made contiguous. Not called for time loops in Python.
         """
         compiled, n, x = self.compiled, self.n, self.arrays
-        scale, least = adaptive.tolerances(compiled, x["p"], self.rtol)
+        scale, least = adaptive.compute_tolerances(compiled, x["p"], self.rtol)
         x |= {
             "t": self.times.t,
             "wanted": self.times.count,
             "scale": scale,
             "least": least,
-            "size": mechanism_sizes(compiled.source, x["p"]),
+            "size": compute_mechanism_sizes(compiled.source, x["p"]),
             "checked": np.zeros(n, np.int_),
             "last": np.full((n, 2 * compiled.n + N_WORK), np.nan),
             "audited": np.full((n, N_CHECKS), -1.0),
@@ -123,9 +130,9 @@ class Runs(StoredRuns):
         }
         self.arrays = {name: np.ascontiguousarray(array) for name, array in x.items()}
         struct = compiled.ffi.new("Batch *")
-        struct.samples, struct.apart, struct.numbers = self.times.most, self.times.apart, x["p"].shape[1]
+        struct.samples, struct.apart, struct.numbers = self.times.max_count, self.times.stride, x["p"].shape[1]
         struct.limit = CHUNK
-        struct.choice, struct.automatic = adaptive.choice_of(compiled, self.method, self.rtol)
+        struct.choice, struct.automatic = adaptive.find_method_numbers(compiled, self.method, self.rtol)
         struct.fixed, struct.stop, struct.audit = math.isfinite(x["step"][0]), self.stop, self.audit
         kinds = {"B": "unsigned char *", "b": "signed char *", "i": "int *", "l": "long *", "d": "double *"}
         for name, array in self.arrays.items():
@@ -134,21 +141,21 @@ class Runs(StoredRuns):
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state for pickling: arrays and lists of finished runs, without C's structures."""
-        none = dict.fromkeys(("struct", "flow", "over", "drive", "fetched"))
-        return self.__dict__ | none | {"looks": ()}
+        none = dict.fromkeys(("struct", "flow", "store_results", "python_loop", "fetched"))
+        return self.__dict__ | none | {"observers": ()}
 
-    def let_go(self) -> None:
+    def release_samples(self) -> None:
         """Release the samples of all runs and C's struct, after `over` has stored what is needed of them."""
         self.arrays |= {name: np.zeros_like(self.arrays[name][:0]) for name in ("y", "latched", "state")}
         self.arrays.pop("a", None)
-        self.struct, self.over = None, None
+        self.struct, self.store_results = None, None
 
     @property
-    def stopping(self) -> bool:
+    def is_stopping(self) -> bool:
         """Return whether all runs shall end where they are; C reads the same flag."""
         return bool(self.arrays["ending"][0])
 
-    def begin(self, starts: Sequence[State | Problem]) -> None:
+    def set_starts(self, starts: Sequence[State | Problem]) -> None:
         """Set the states from which the runs begin, one each, at the first of their times; others are assembled later.
 
         A state with contact codes marks its run as resumed.
@@ -162,25 +169,25 @@ class Runs(StoredRuns):
                 self.resumed.add(i)
         x["started"][: len(starts)] = 1
 
-    def leave_out(self, failures: dict[int, Any]) -> None:
+    def exclude_runs(self, failures: dict[int, Any]) -> None:
         """Record runs as failed, with their errors by index, and mark them as over so that they are not integrated."""
         self.failures.update(failures)
         self.arrays["phase"][list(failures)] = OVER
 
-    def run(self, progress: Progress | None) -> None:
+    def integrate_all(self, progress: Progress | None) -> None:
         """Integrate all runs in threads, assemble missing starts, and record failures; Ctrl-C ends them where they are.
 
         Starts are assembled in C where possible, in Python for the rest. `progress` is called with the fraction of runs
         done.
         """
-        with CtrlC() as ctrl_c:
+        with DelayedCtrlC() as ctrl_c:
             try:
-                if self.drive or left_out(self.compiled):
+                if self.python_loop or list_redundant_equations(self.compiled):
                     self._assemble_all(np.flatnonzero(self.arrays["phase"] == NEW).tolist(), ctrl_c)
                 run_in_threads(self, progress, range(self.n), ctrl_c)
                 if unassembled := self._find_unassembled_runs():
                     run_in_threads(self, progress, self._assemble_all(unassembled, ctrl_c), ctrl_c)
-                ctrl_c.take()
+                ctrl_c.raise_delayed()
             except KeyboardInterrupt:
                 self.interrupted = True
             self._join_contacts()
@@ -198,11 +205,11 @@ class Runs(StoredRuns):
         for i in np.flatnonzero(~np.isin(x["status"], (0, ENDED))).tolist():
             if i not in self.failures:
                 self.failures[i] = self._build_error(i)
-        if self.shared:
+        if self.has_shared_rows:
             return
         without_samples = x["done"] == 0
         x["y"][without_samples], x["latched"][without_samples] = np.nan, np.nan
-        for i in np.flatnonzero(~without_samples & (x["done"] < self.times.most)).tolist():
+        for i in np.flatnonzero(~without_samples & (x["done"] < self.times.max_count)).tolist():
             x["y"][i, x["done"][i] :], x["latched"][i, x["done"][i] :] = np.nan, np.nan
 
     def _find_unassembled_runs(self) -> list[int]:
@@ -211,7 +218,7 @@ class Runs(StoredRuns):
         self.arrays["phase"][unassembled], self.arrays["status"][unassembled] = NEW, 0
         return unassembled
 
-    def _assemble_all(self, runs: Sequence[int], ctrl_c: CtrlC) -> list[int]:
+    def _assemble_all(self, runs: Sequence[int], ctrl_c: DelayedCtrlC) -> list[int]:
         """Assemble the starts of these runs in Python and store them; return the indices of runs that may begin.
 
         Given starts are only checked. A run whose start does not close is recorded as failed. Guesses that were not
@@ -219,26 +226,28 @@ class Runs(StoredRuns):
         """
         x = self.arrays
         for i in runs:
-            ctrl_c.take()
+            ctrl_c.raise_delayed()
             try:
                 if not x["started"][i]:
-                    start = assemble(self.compiled, x["p"][i])
-                    if guess_distances := unfollowed(self.compiled, x["p"][i], start.q):
+                    start = assemble_start(self.compiled, x["p"][i])
+                    if guess_distances := find_unfollowed_guesses(self.compiled, x["p"][i], start.q):
                         self.unfollowed[i] = guess_distances
                     x["start"][i] = np.concatenate([start.q, start.v])
-                check_start(self.compiled, x["p"][i], float(self.times.of(i)[0]), x["start"][i, : self.compiled.n])
+                check_redundant_equations(
+                    self.compiled, x["p"][i], float(self.times.get_times(i)[0]), x["start"][i, : self.compiled.n]
+                )
                 x["started"][i] = 1
             except GudgeonError as error:
-                self.leave_out({i: error})
+                self.exclude_runs({i: error})
         return [i for i in runs if x["phase"][i] == NEW]
 
-    def problem(self, i: int) -> Problem:
+    def build_problem(self, i: int) -> Problem:
         """Build the Problem of run i, whose start is known, as for a single run; it has no observer and no progress."""
         x, n, joints = self.arrays, self.compiled.n, len(self.compiled.source.clearances)
         return Problem(
             self.compiled,
             x["p"][i],
-            self.times.of(i),
+            self.times.get_times(i),
             x["start"][i, :n],
             x["start"][i, n:],
             x["remembered"][i, : self.compiled.n_memory],
@@ -248,51 +257,56 @@ class Runs(StoredRuns):
             rtol=self.rtol,
             p_free=None if self.method == "rk4" else x["p_motion"][i],
             stop=self.stop,
-            start_is_sample=not self.times.skipped[i],
+            start_is_sample=not self.times.n_skipped[i],
             audit=self.audit,
         )
 
-    def take(self) -> None:
+    def poll_cancellation(self) -> None:
         """Raise KeyboardInterrupt if all runs shall end; a time loop in Python calls it to poll for cancellation."""
-        if self.stopping:
+        if self.is_stopping:
             raise KeyboardInterrupt
 
-    def follow(self, i: int) -> None:
+    def integrate_in_python(self, i: int) -> None:
         """Integrate run i from start to end by a time loop in Python, and store its results.
 
         An error is recorded as its failure. Nothing is stored if Ctrl-C comes before the first sample.
         """
-        assert self.drive
+        assert self.python_loop
         try:
-            look = self.looks[i] if self.looks else None
-            self.store(i, self.drive(replace(self.problem(i), take=self.take, look=look)))
+            look = self.observers[i] if self.observers else None
+            self.store_trajectory(
+                i,
+                self.python_loop(
+                    replace(self.build_problem(i), poll_cancellation=self.poll_cancellation, observer=look)
+                ),
+            )
         except KeyboardInterrupt:  # before it had anything
             return
         except GudgeonError as error:
-            self.leave_out({i: error})
+            self.exclude_runs({i: error})
             return
-        self.are_over([i])
+        self.store_finished_runs([i])
 
-    def to_its_end(self, i: int, memory: NDArray[np.uint8], step_log: StepLog | None = None) -> None:
+    def integrate_to_end(self, i: int, memory: NDArray[np.uint8], step_log: StepLog | None = None) -> None:
         """Integrate run i in C, alone in this thread, from its present state to its end, and store its results.
 
         `memory`: storage of C's integrator; `step_log`: step record for an observer.
         """
-        self.alone(i, i + 1, memory, step_log)
-        self.are_over([i])
+        self.integrate_sequentially(i, i + 1, memory, step_log)
+        self.store_finished_runs([i])
 
-    def are_over(self, runs: Sequence[int]) -> None:
+    def store_finished_runs(self, runs: Sequence[int]) -> None:
         """Pass those of the given runs that have ended to `finished`, which stores their results; do nothing without
         it.
 
         Runs whose start C could not assemble are skipped. Their rows of samples may be reused after that.
         """
         x = self.arrays
-        finished = [i for i in runs if self.over and x["phase"][i] == OVER and x["status"][i] != NOT_CLOSED]
-        if self.over and finished:
-            self.over(finished)
+        finished = [i for i in runs if self.store_results and x["phase"][i] == OVER and x["status"][i] != NOT_CLOSED]
+        if self.store_results and finished:
+            self.store_results(finished)
 
-    def alone(
+    def integrate_sequentially(
         self,
         first: int,
         end: int,
@@ -306,29 +320,29 @@ class Runs(StoredRuns):
         C's integrator. `step_log`: step record for observers. `poll` is called after each call of C.
         """
         compiled, current = self.compiled, self.compiled.ffi.new("long *", first)
-        compiled.lib.newest()
+        compiled.lib.switch_if_ready()
         run = compiled.pointer(memory, "void *")
         while current[0] < end:  # what has begun is handed over even where the batch is ending
             status = compiled.lib.gudgeon_ensemble(self.struct, run, current, end)
             if status in (LISTS, RUN_OVER):
-                self.fetch(int(current[0]), run, status == RUN_OVER)
+                self.fetch_lists(int(current[0]), run, status == RUN_OVER)
                 if step_log:
-                    step_log.look = self.looks[int(current[0])]
-                    step_log.fetch(run)
+                    step_log.observer = self.observers[int(current[0])]
+                    step_log.pass_steps(run)
             current[0] += status == RUN_OVER
             poll()
 
-    def here(self, problem: Problem) -> Trajectory:
+    def integrate_single_run(self, problem: Problem) -> Trajectory:
         """Integrate the only run in the calling thread, in C or Python, and return its Trajectory.
 
         `problem` polls for cancellation. Raises KeyboardInterrupt if no sample was reached.
         """
-        if self.drive:
-            self.store(0, self.drive(problem))
+        if self.python_loop:
+            self.store_trajectory(0, self.python_loop(problem))
         else:
             self._integrate_in_c(problem)
         self._join_contacts()
-        return self.trajectory(0)
+        return self.build_trajectory(0)
 
     def _integrate_in_c(self, problem: Problem) -> None:
         """Integrate the only run by the time loop in C. After Ctrl-C, the samples up to there are kept.
@@ -338,24 +352,24 @@ class Runs(StoredRuns):
         """
         compiled, x = self.compiled, self.arrays
         memory = np.zeros(compiled.lib.gudgeon_run_size(), dtype=np.uint8)
-        run, step_log = compiled.pointer(memory, "void *", True), StepLog(compiled) if self.looks else None
+        run, step_log = compiled.pointer(memory, "void *", True), StepLog(compiled) if self.observers else None
         if step_log:
-            step_log.lay(run)
-        cancellation = Asker(compiled, lambda: self._poll_and_report(problem, run))
-        self.struct.ask, self.struct.caller, self.struct.every = cancellation.arguments
+            step_log.register(run)
+        cancellation = CancellationPoll(compiled, lambda: self._poll_and_report(problem, run))
+        self.struct.ask, self.struct.caller, self.struct.every = cancellation.c_arguments
 
         def poll() -> None:
             """Raise what a poll from C raised, and poll once more."""
-            cancellation.check(False)
+            cancellation.raise_stored(False)
             self._poll_and_report(problem, run)
 
         try:
-            self.alone(0, 1, memory, step_log, poll)
+            self.integrate_sequentially(0, 1, memory, step_log, poll)
         except KeyboardInterrupt:
             if not x["done"][0]:
                 raise
             self.interrupted, x["ending"][0] = True, 1
-            self.alone(0, 1, memory, step_log)
+            self.integrate_sequentially(0, 1, memory, step_log)
         if not self.interrupted and x["status"][0] not in (0, ENDED):
             self.failures[0] = self._build_error(0)
         if not x["done"][0]:  # at least the start
@@ -370,8 +384,8 @@ class Runs(StoredRuns):
         `run`: pointer to C's integrator. Raises KeyboardInterrupt.
         """
         x, b, t = self.arrays, self.struct, problem.t
-        self.compiled.lib.newest()
-        problem.take()
+        self.compiled.lib.switch_if_ready()
+        problem.poll_cancellation()
         if problem.progress:
             if x["phase"][0] == BEGUN:
                 self.compiled.lib.gudgeon_run_report(run, b.t_last, b.counts, b.residuals, b.peaks)
@@ -381,13 +395,13 @@ class Runs(StoredRuns):
     def _build_error(self, i: int) -> GudgeonError:
         """Build the error that ended run i in C, from its status and what C stored of it."""
         if self.arrays["status"][i] == AUDITED:
-            return audit_failure(self.findings(i))
+            return build_audit_error(self.build_findings(i))
         names = "status", "t_last", "last", "peaks", "p_motion", "step", "gained", "paced", "ended"
         stored = {name: self.arrays[name][i] for name in names}
-        return failure(self.compiled, self.method, stored, float(self.times.of(i)[-1]))
+        return build_run_error(self.compiled, self.method, stored, float(self.times.get_times(i)[-1]))
 
 
-def integrate(problem: Problem, drive: Drive | None = None) -> Trajectory:
+def integrate_problem(problem: Problem, drive: PythonLoop | None = None) -> Trajectory:
     """Integrate one run, in C or by the time loop `drive` in Python, and return its Trajectory.
 
     Raises KeyboardInterrupt if no sample was reached.
@@ -406,10 +420,10 @@ def integrate(problem: Problem, drive: Drive | None = None) -> Trajectory:
         problem.audit,
         side_by_side=False,
         threads=1,
-        drive=drive,
+        python_loop=drive,
     )
-    runs.begin([problem])
-    runs.looks = [problem.look] if problem.look else ()
+    runs.set_starts([problem])
+    runs.observers = [problem.observer] if problem.observer else ()
     if problem.compiled.source.clearances and not drive:
-        runs.keep_trace()
-    return runs.here(problem)
+        runs.allocate_envelope()
+    return runs.integrate_single_run(problem)

@@ -1,4 +1,4 @@
-"""Explain why a run ended: errors for the statuses of C's time loops (engine/boundary.h) and for failed audits."""
+"""Explain why a run failed: errors for the status codes of the time loops in C (engine/boundary.h)."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.assembly.linkage import mechanism_size
-from gudgeon.assembly.rank import nearly_dependent_rows
+from gudgeon.assembly.linkage import compute_mechanism_size
+from gudgeon.assembly.rank import find_nearly_dependent_equations
 from gudgeon.contract.audit import CHECKS, SAMPLE_CHECKS, Check, Finding
 from gudgeon.contract.boundary import (
     AT_REST,
@@ -31,17 +31,17 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import NEED_SLOPES
 from gudgeon.errors import AuditError, NonFiniteError, SingularError, SolverError
 from gudgeon.language.functions import CORNERED
-from gudgeon.language.tree import functions
+from gudgeon.language.tree import list_functions
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import widest
+from gudgeon.model.contours import compute_max_clearance
 from gudgeon.model.written import (
-    rate_reason,
-    reason,
-    steep_force,
-    trees,
-    unbounded_drive,
-    undefined_here,
-    values_of_time,
+    evaluate_at_times,
+    explain_undefined_ahead,
+    explain_undefined_near,
+    explain_undefined_rate,
+    find_steep_force,
+    find_unbounded_drive,
+    read_expression_trees,
 )
 
 # messages by status
@@ -74,7 +74,7 @@ REMEDY = (
 )
 
 
-def failure(compiled: CompiledModel, method: str, run: Mapping[str, Any], t_end: float) -> SolverError:
+def build_run_error(compiled: CompiledModel, method: str, run: Mapping[str, Any], t_end: float) -> SolverError:
     """Build the error of a run to t_end (s) that C ended, from the values that C stored of it.
 
     `run`: status, t_last, step and others by the names of Batch (engine/scene/calls.h).
@@ -104,27 +104,29 @@ def _build_status_error(
 
     `step_ahead` (s): how far a step of fixed length evaluated after that state.
     """
-    if status != STOPPED and (too_large := overflowing(compiled, p, t)):
+    if status != STOPPED and (too_large := build_overflow_error(compiled, p, t)):
         return too_large
     q, v = np.ravel(last_state)[: compiled.n], np.ravel(last_state)[compiled.n : 2 * compiled.n]
     if status in (UNBOUNDED, TOO_SMALL, NOT_FINITE) and (
-        reason_text := undefined_here(compiled.source, p, t, q, v, step_ahead)
+        reason_text := explain_undefined_near(compiled.source, p, t, q, v, step_ahead)
     ):
         return NonFiniteError(f"{reason_text}\n  {NO_NUMBER}", t)
-    if status in (UNBOUNDED, TOO_SMALL) and (drive := unbounded_drive(compiled, p, t)):
+    if status in (UNBOUNDED, TOO_SMALL) and (drive := find_unbounded_drive(compiled, p, t)):
         return _build_unbounded_drive_error(drive, t)
     status = NOT_FINITE if status == UNBOUNDED else status
     if status in (NOT_FINITE, TOO_SMALL) or status > 0:
-        reason_text = reason(compiled.source, p, t, q, v, step_ahead)
+        reason_text = explain_undefined_ahead(compiled.source, p, t, q, v, step_ahead)
         if reason_text or (
-            reason_text := rate_reason(compiled, p, np.array([t, t + 1e-13 * max(1.0, abs(t))]), np.zeros_like(q))[0]
+            reason_text := explain_undefined_rate(
+                compiled, p, np.array([t, t + 1e-13 * max(1.0, abs(t))]), np.zeros_like(q)
+            )[0]
         ):
             return NonFiniteError(f"{reason_text}\n  {NO_NUMBER}", t)
-        if drive := unbounded_drive(compiled, p, t):
+        if drive := find_unbounded_drive(compiled, p, t):
             return _build_unbounded_drive_error(drive, t)
-        if method in NEED_SLOPES and (reason_text := steep_force(compiled.source, p, t, q, v)):
+        if method in NEED_SLOPES and (reason_text := find_steep_force(compiled.source, p, t, q, v)):
             return NonFiniteError(f"{reason_text}\n  {NO_SLOPE}", t)
-        fast_drives = drives_text(compiled, p, t, TOO_FAST)
+        fast_drives = format_drive_states(compiled, p, t, TOO_FAST)
         advice = GROWN if fast_drives else advice
     if status == NOT_FINITE:
         return NonFiniteError(f"the motion is no longer finite at t = {t:.9g} s{fast_drives}\n  {advice}", t)
@@ -133,20 +135,22 @@ def _build_status_error(
     if status == CHATTERING:
         return _build_chattering_error(compiled, t)
     if status == TOO_SMALL:
-        known = _build_squeezed_film_error(compiled, e_max, p, t) or _build_dead_centre_error(
+        known_error = _build_squeezed_film_error(compiled, e_max, p, t) or _build_dead_centre_error(
             compiled, last_state, p, t
         )
-        return known or SolverError(f"no step is small enough at t = {t:.9g} s{fast_drives}\n  {advice}", t)
+        return known_error or SolverError(f"no step is small enough at t = {t:.9g} s{fast_drives}\n  {advice}", t)
     if status == LOST:
         lies = {True: "a free corner lies in its wall", False: "a free journal lies outside its bearing"}
-        which = sorted({lies[joint.at_wall] for joint in compiled.source.clearances}, reverse=True)
+        which = sorted({lies[joint.is_corner] for joint in compiled.source.clearances}, reverse=True)
         return SolverError(f"a contact was lost at t = {t:.9g} s: {', or '.join(which)}", t)
     if status == OUTSIDE:
         return _build_penetration_error(compiled, e_max, p, t)
     if status == STOPPED:
         return SolverError(INTERRUPTED, t)
     if status == STALLED:
-        return SolverError(f"the run no longer advances at t = {t:.9g} s{drives_text(compiled, p, t)}\n  {advice}", t)
+        return SolverError(
+            f"the run no longer advances at t = {t:.9g} s{format_drive_states(compiled, p, t)}\n  {advice}", t
+        )
     return _build_singular_error(compiled, status, t, advice, last_state, p, fast_drives)
 
 
@@ -188,7 +192,7 @@ def _build_singular_error(
     if row in compiled.source.chain_rows:
         return SingularError(
             f"the linkage reaches a dead centre at t = {t:.9g} s: where its drives want it, nothing closes constraint"
-            f" row {row}{drives_text(compiled, p, t)}\n"
+            f" row {row}{format_drive_states(compiled, p, t)}\n"
             "  the lengths do not let the drives move on from there; end the run before it, or change the drive; in rk4"
             " a shorter step follows a faster one",
             t,
@@ -214,30 +218,30 @@ def _build_singular_error(
 
 
 @dataclass(frozen=True)
-class Pace:
+class Progress:
     """Describe the progress of a run that no longer advances: time, remaining time, and gain of its last steps (s)."""
 
     t: float
-    left: float
-    gained: float
+    remaining: float
+    gain: float
     steps: int
-    crawls: bool  # whether steps became far shorter than before; else its end is too far away
+    is_crawling: bool  # whether steps became far shorter than before; else its end is too far away
 
     @property
-    def needed(self) -> float:
+    def steps_to_end(self) -> float:
         """Return the number of steps to the end at this pace."""
-        return self.left / max(self.gained, 1e-300) * self.steps
+        return self.remaining / max(self.gain, 1e-300) * self.steps
 
 
-def drives_text(compiled: CompiledModel, p: Array, t: float, min_rate: float = 0.0) -> str:
+def format_drive_states(compiled: CompiledModel, p: Array, t: float, min_rate: float = 0.0) -> str:
     """Return a text with value and rate of each drive whose rate is at least `min_rate`; "" without any.
 
     An example is "; drive motor is at 12.3 rad, its rate 2 rad/s". Drives that are not expressions are left out.
     """
     source, rates = compiled.source, compiled.closed_nu(t, np.zeros(compiled.n), p)
-    written = {info.address.split(".")[1]: tree for info, tree in trees(source, ("drives",))}
+    written = {info.address.split(".")[1]: tree for info, tree in read_expression_trees(source, ("drives",))}
     with np.errstate(all="ignore"):
-        values = {name: values_of_time(source, p, tree, np.array([t]))[0] for name, tree in written.items()}
+        values = {name: evaluate_at_times(source, p, tree, np.array([t]))[0] for name, tree in written.items()}
     parts = [
         f"drive {row.owner} is at {values[row.owner]:.9g} {row.unit}, its rate {rate:.9g} {row.unit}/s"
         for row, rate in zip(source.start_rows, rates, strict=True)
@@ -246,7 +250,7 @@ def drives_text(compiled: CompiledModel, p: Array, t: float, min_rate: float = 0
     return "".join(f"; {text}" for text in parts)
 
 
-def overflowing(compiled: CompiledModel, p: Array, t: float) -> NonFiniteError | None:
+def build_overflow_error(compiled: CompiledModel, p: Array, t: float) -> NonFiniteError | None:
     """Return the error for drives so fast at t (s) that accelerations overflow; None if there are none.
 
     Drives that are not numbers, or that grow to such speeds, have their own messages.
@@ -254,27 +258,28 @@ def overflowing(compiled: CompiledModel, p: Array, t: float) -> NonFiniteError |
     rates = [compiled.closed_nu(s, np.zeros(compiled.n), p) for s in (t, 0.5 * t)]
     if not (np.abs(rates) >= OVERFLOWING).all(axis=0).any():
         return None
-    if fast := drives_text(compiled, p, t, OVERFLOWING):
+    if fast := format_drive_states(compiled, p, t, OVERFLOWING):
         message = f"velocities and accelerations are too large for doubles at t = {t:.9g} s{fast}"
         return NonFiniteError(f"{message}\n  {SLOWER}", t)
     return None
 
 
-def runaway_error(pace: Pace, drive_states: str) -> SolverError:
+def build_runaway_error(pace: Progress, drive_states: str) -> SolverError:
     """Build the error for a run whose motion becomes ever faster; `drive_states`: text of drives_text."""
     return SolverError(
-        f"the motion no longer advances at t = {pace.t:.12g} s: its last {pace.steps} steps gained {pace.gained:.3g} s"
-        f" and less and less, {pace.left:.3g} s are left{drive_states}\n"
+        f"the motion no longer advances at t = {pace.t:.12g} s: its last {pace.steps} steps gained {pace.gain:.3g} s"
+        f" and less and less, {pace.remaining:.3g} s are left{drive_states}\n"
         f"  {GROWN}",
         pace.t,
     )
 
 
-def too_slow_error(pace: Pace) -> SolverError:
+def build_too_slow_error(pace: Progress) -> SolverError:
     """Build the error for a run whose end is too far away at its present pace."""
     return SolverError(
-        f"the run has come to t = {pace.t:.9g} s, and at the pace of its last {pace.steps} steps the {pace.left:.3g} s"
-        f" that are left take {pace.needed:.1e} more\n"
+        f"the run has come to t = {pace.t:.9g} s, and at the pace of its last {pace.steps} steps the "
+        f"{pace.remaining:.3g} s"
+        f" that are left take {pace.steps_to_end:.1e} more\n"
         "  take a nearer t_end, or go on from the final state of what was computed, which is kept",
         pace.t,
     )
@@ -282,8 +287,12 @@ def too_slow_error(pace: Pace) -> SolverError:
 
 def _format_forces_with_switching_points(source: KernelSource) -> str:
     """Return the addresses and lines of the file's forces with switching points; "" if there are none."""
-    found = [info for info, tree in trees(source, ("forces",)) if not CORNERED.isdisjoint(functions(tree))]
-    return ", ".join(f"{info.address} (line {info.line}, column {info.column})" for info in found)
+    force_names = [
+        info
+        for info, tree in read_expression_trees(source, ("forces",))
+        if not CORNERED.isdisjoint(list_functions(tree))
+    ]
+    return ", ".join(f"{info.address} (line {info.line}, column {info.column})" for info in force_names)
 
 
 def _build_stalled_error(compiled: CompiledModel, run: Mapping[str, Any], t_end: float, e_max: Array) -> SolverError:
@@ -293,14 +302,14 @@ def _build_stalled_error(compiled: CompiledModel, run: Mapping[str, Any], t_end:
     contacts, switching points of forces, frictions and events. `e_max` (n_clearances,): largest eccentricities.
     """
     t, (steps, crawls), ended, p = float(run["t_last"]), run["paced"].tolist(), run["ended"], run["p_motion"]
-    pace = Pace(t, t_end - t, float(run["gained"]), steps, bool(crawls))
-    if not pace.crawls:
-        return too_slow_error(pace)
+    pace = Progress(t, t_end - t, float(run["gained"]), steps, bool(crawls))
+    if not pace.is_crawling:
+        return build_too_slow_error(pace)
     # a drive that still turns on in steps so short is what they are short for
-    fast = drives_text(compiled, p, t, FELT * pace.steps / max(pace.gained, 1e-300))
+    fast = format_drive_states(compiled, p, t, FELT * pace.steps / max(pace.gain, 1e-300))
     film, whose = _format_squeezed_film(compiled, e_max, p), int(ended.argmax())
     if fast and not film and ended[whose] <= 0.01 * pace.steps:
-        return runaway_error(pace, fast)
+        return build_runaway_error(pace, fast)
     cornered = _format_forces_with_switching_points(compiled.source)
     form = f" in {cornered}" if cornered else " of a law"
     kinds = (
@@ -317,8 +326,8 @@ def _build_stalled_error(compiled: CompiledModel, run: Mapping[str, Any], t_end:
     else:
         why = "their errors allow no longer ones: what acts there changes fast, or speeds grow"
     return SolverError(
-        f"the run no longer advances at t = {pace.t:.9g} s: its last {pace.steps} steps gained {pace.gained:.3g} s;"
-        f" {pace.left:.3g} s are left, {pace.needed:.1e} steps at this pace\n  {why}\n"
+        f"the run no longer advances at t = {pace.t:.9g} s: its last {pace.steps} steps gained {pace.gain:.3g} s;"
+        f" {pace.remaining:.3g} s are left, {pace.steps_to_end:.1e} steps at this pace\n  {why}\n"
         f"  what was computed is kept: look at its last samples, or end the run before; {JUMPS};"
         " rk4 with a step of its own goes over a jump of a force, with an error",
         pace.t,
@@ -344,9 +353,9 @@ def _build_penetration_error(compiled: CompiledModel, e_max: Array, p: Array, t:
     largest eccentricities (m). The error is marked as outside the model.
     """
     _, penetration, law_limit, name, at_wall = max(
-        (depth / min(law_limit, 0.1 * float(p[joint.constants["R_i"]])), depth, law_limit, joint.name, joint.at_wall)
+        (depth / min(law_limit, 0.1 * float(p[joint.constants["R_i"]])), depth, law_limit, joint.name, joint.is_corner)
         for joint, e in zip(compiled.source.clearances, e_max, strict=True)
-        for depth in [float(e) - widest(compiled.source, p, joint)]
+        for depth in [float(e) - compute_max_clearance(compiled.source, p, joint)]
         for law_limit in [float(p[joint.constants["deepest"]]) if "deepest" in joint.constants else np.inf]
     )
     tenth = "a tenth of half the guide's width," if at_wall else "a tenth of its radius,"
@@ -365,14 +374,16 @@ def _build_penetration_error(compiled: CompiledModel, e_max: Array, p: Array, t:
 def _is_within_bounds(compiled: CompiledModel, last_state: Array, p: Array) -> bool:
     """Return whether all coordinates x, y of the `last_state` state are below 10⁴ times the mechanism's size."""
     indices = [k for k, name in enumerate(compiled.source.coordinates) if not name.endswith(".theta")]
-    return bool(np.abs(np.ravel(last_state)[indices]).max(initial=0.0) < 1e4 * max(mechanism_size(compiled, p), 1e-3))
+    return bool(
+        np.abs(np.ravel(last_state)[indices]).max(initial=0.0) < 1e4 * max(compute_mechanism_size(compiled, p), 1e-3)
+    )
 
 
 def _build_dead_centre_error(compiled: CompiledModel, last_state: Array, p: Array, t: float) -> SolverError | None:
     """Build the error for a linkage in a dead centre, where constraint equations depend on each other; else return
     None.
     """
-    rows = nearly_dependent_rows(compiled, p, t, np.ravel(last_state)[: compiled.n])
+    rows = find_nearly_dependent_equations(compiled, p, t, np.ravel(last_state)[: compiled.n])
     if not rows:
         return None
     advice = (
@@ -406,7 +417,7 @@ def _build_squeezed_film_error(compiled: CompiledModel, e_max: Array, p: Array, 
     return None
 
 
-def as_findings(source: KernelSource, values: Array, t: Array, places: NDArray[np.intc]) -> tuple[Finding, ...]:
+def build_findings(source: KernelSource, values: Array, t: Array, places: NDArray[np.intc]) -> tuple[Finding, ...]:
     """Build the audit findings from the largest value, time (s) and place of each check, (n_checks,), as C reports
     them.
 
@@ -414,8 +425,8 @@ def as_findings(source: KernelSource, values: Array, t: Array, places: NDArray[n
     """
     rows = zip(CHECKS, values.tolist(), t.tolist(), places.tolist(), strict=True)
     return tuple(
-        Finding(check.name, value, at, _get_place_name(source, check, k))
-        for check, value, at, k in rows
+        Finding(check.name, value, time, _get_place_name(source, check, k))
+        for check, value, time, k in rows
         if value >= 0.0
     )
 
@@ -436,22 +447,22 @@ def _get_place_name(source: KernelSource, check: Check, index: int) -> str:
     return source.coordinates[index] if check.place == "coordinate" else f"{check.place} {index}"
 
 
-def audit_failure(findings: tuple[Finding, ...]) -> AuditError:
+def build_audit_error(findings: tuple[Finding, ...]) -> AuditError:
     """Build the error of a run that its audit ended: the worst finding with its time, and a remedy."""
     worst = max(findings, key=lambda one: one.worst)
-    return AuditError(f"{describe(worst)}\n  {REMEDY}", worst.t)
+    return AuditError(f"{format_finding(worst)}\n  {REMEDY}", worst.t)
 
 
-def notes_of(findings: tuple[Finding, ...]) -> tuple[str, ...]:
+def build_audit_notes(findings: tuple[Finding, ...]) -> tuple[str, ...]:
     """Return a note, as text, for each audit finding whose value is above its limit or NaN."""
-    return tuple(describe(finding) for finding in findings if not finding.worst <= 1.0)
+    return tuple(format_finding(finding) for finding in findings if not finding.worst <= 1.0)
 
 
-def describe(finding: Finding) -> str:
+def format_finding(finding: Finding) -> str:
     """Return a finding as text: the check, what it compares, how often it exceeds its limit, time (s) and place."""
-    check = next(one for one in (*CHECKS, *SAMPLE_CHECKS) if one.name == finding.check)
-    place = f" at {check.place} {finding.place}" if finding.place else ""
+    check = next(candidate for candidate in (*CHECKS, *SAMPLE_CHECKS) if candidate.name == finding.check)
+    location = f" at {check.place} {finding.place}" if finding.place else ""
     return (
         f"audit: check {check.name} of {check.compares} exceeds its limit {finding.worst:.3g} times at"
-        f" t = {finding.t:.9g} s{place}"
+        f" t = {finding.t:.9g} s{location}"
     )

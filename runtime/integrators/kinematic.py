@@ -1,5 +1,4 @@
-"""Follow a linkage without degrees of freedom: positions by Newton's method from sample to sample, rates by linear
-solves.
+"""Compute the motion of a linkage without degrees of freedom: positions by Newton's method, then rates.
 
 Only the works of drives and force elements are integrated, for the energy balance, by Gauss–Legendre quadrature of
 their power over the steps (engine/kinematic/kinematic.c). `Trajectory.seconds` is the time of the motion, without works
@@ -18,24 +17,31 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.assembly.linkage import mechanism_size
-from gudgeon.assembly.rank import branches_text
+from gudgeon.assembly.linkage import compute_mechanism_size
+from gudgeon.assembly.rank import describe_branches
 from gudgeon.contract.boundary import EVENT_STOPS, EVENTS_FULL, MAX_LISTED, N_PEAK, N_WORK, NOT_FINITE, STALLED, STOPPED
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
-from gudgeon.integrators.failure import NO_NUMBER, Pace, drives_text, overflowing, runaway_error, too_slow_error
-from gudgeon.integrators.steps import Course, Look, Steps
+from gudgeon.integrators.failure import (
+    NO_NUMBER,
+    Progress,
+    build_overflow_error,
+    build_runaway_error,
+    build_too_slow_error,
+    format_drive_states,
+)
+from gudgeon.integrators.steps import KinematicStepLog, Look, Steps
 from gudgeon.integrators.trajectory import (
     EVENT_DTYPE,
     Counts,
     Problem,
     Trajectory,
-    no_events,
-    resolution,
+    compute_time_resolution,
+    make_empty_events,
     split_undefined,
 )
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.written import rate_reason, reason, reason_between
-from gudgeon.waiting.asking import Asker
+from gudgeon.model.written import explain_undefined_ahead, explain_undefined_between, explain_undefined_rate
+from gudgeon.waiting.cancellation import CancellationPoll
 
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
 
@@ -51,35 +57,35 @@ class _KinematicRun:
 
     def __init__(self, problem: Problem) -> None:
         self.problem, self.compiled, self.t = problem, problem.compiled, problem.t
-        self.compiled.lib.newest()
+        self.compiled.lib.switch_if_ready()
         self.q, self.v, self.a = (np.zeros((len(self.t), self.compiled.n)) for _ in range(3))
         self.work = np.zeros((len(self.t), N_WORK))
         self.q[0], self.v[0], self.a[0] = problem.q, problem.v, np.nan
         self.maxima, self.longs = np.zeros(2), np.zeros(2, dtype=np.int_)  # |Φ|, |Φ̇|; and steps, rows of a call
         self.reached, self.seconds = 0, 0.0
         self.events = Events(problem) if self.compiled.source.events else None
-        self.asker = Asker(self.compiled, self.poll_and_report)
+        self.asker = CancellationPoll(self.compiled, self.poll_and_report)
         self.course = self._allocate_course()
-        self.steps = self._make_step_log(problem.look) if problem.look else None
+        self.steps = self._make_step_log(problem.observer) if problem.observer else None
         if self.steps:
-            self.steps.lay(self.pointer(self.course, "void *"))
+            self.steps.register(self.pointer(self.course, "void *"))
 
     def _allocate_course(self) -> NDArray[Any]:
         """Allocate and initialise a struct of C that follows the motion, or its works; return its bytes."""
         course = np.zeros(self.compiled.lib.gudgeon_kinematic_size(), dtype=np.uint8)
-        size = mechanism_size(self.compiled, self.problem.p)
+        size = compute_mechanism_size(self.compiled, self.problem.p)
         self.compiled.lib.gudgeon_kinematic_begin(
-            self.pointer(course, "void *"), REACH, size, float(self.t[-1]), *self.asker.arguments
+            self.pointer(course, "void *"), REACH, size, float(self.t[-1]), *self.asker.c_arguments
         )
         return course
 
-    def _make_step_log(self, look: Look) -> Course:
+    def _make_step_log(self, look: Look) -> KinematicStepLog:
         """Return a record that collects all steps for the observer `poll_and_report`, beginning with the start."""
         none = np.zeros((1, 0))
         begin = Steps(
             self.t[:1], self.q[:1], self.v[:1], self.work[:1], none, none.astype(np.int8), np.ones(1, dtype=bool)
         )
-        return Course(self.compiled, look, self._allocate_course, begin)
+        return KinematicStepLog(self.compiled, look, self._allocate_course, begin)
 
     def pointer(self, array: NDArray[Any], kind: str = "double *") -> Any:
         """Return a C pointer to an array."""
@@ -90,8 +96,8 @@ class _KinematicRun:
 
         Raises KeyboardInterrupt.
         """
-        self.compiled.lib.newest()
-        self.problem.take()
+        self.compiled.lib.switch_if_ready()
+        self.problem.poll_cancellation()
         if self.problem.progress:
             t = self.problem.t
             come = float(np.nanmean(self._read_progress()[0])) if self.has_first_sample else t[0]  # of motion and works
@@ -107,12 +113,12 @@ class _KinematicRun:
         while first < last or not self.has_first_sample:
             before = perf_counter()
             end, failed = self._compute_motion(first, min(first + chunk, last))
-            stops = self.events is not None and end > first and self.events.find(self, first, end)
+            stops = self.events is not None and end > first and self.events.find_events(self, first, end)
             if stops:
-                end = last = self._cut_at_event(first, end)
+                end = last = self._truncate_at_event(first, end)
             self.reached = self._compute_works(first, end)
             if self.steps:
-                self.steps.hand_on(self.problem.p, (self.t[end], self.q[end], self.v[end]) if stops else None)
+                self.steps.pass_steps(self.problem.p, (self.t[end], self.q[end], self.v[end]) if stops else None)
             if failed and not stops:
                 raise self._build_error(failed)
             first = end
@@ -147,8 +153,8 @@ class _KinematicRun:
             self.seconds += perf_counter() - before
             first += int(self.longs[1])
             if self.steps:
-                self.steps.fetch(course)
-            self.asker.check(status == STOPPED)
+                self.steps.collect_steps(course)
+            self.asker.raise_stored(status == STOPPED)
         return first, int(status)
 
     def _compute_works(self, first: int, last: int) -> int:
@@ -167,23 +173,23 @@ class _KinematicRun:
             *(self.pointer(x[rows]) for x in (self.q, self.v, self.work)),
             self.pointer(done, "long *"),
         )
-        self.asker.check(status == STOPPED)
+        self.asker.raise_stored(status == STOPPED)
         if status:
             self.reached = first + int(done[0])
             raise self._build_error(status)
         return last
 
-    def _cut_at_event(self, first: int, end: int) -> int:
+    def _truncate_at_event(self, first: int, end: int) -> int:
         """Shorten the samples to the event that ends the run between `first` and `end`; return the last sample's index.
 
         The event's time becomes the last sample, whose motion is computed. Recording of steps ends. Raises SolverError.
         """
         assert self.events is not None
-        t_end = float(self.events.in_order()[0]["t"][-1])
-        last = first + int(np.searchsorted(self.t[first : end + 1], t_end - resolution(self.problem.t)))
+        t_end = float(self.events.sort_events()[0]["t"][-1])
+        last = first + int(np.searchsorted(self.t[first : end + 1], t_end - compute_time_resolution(self.problem.t)))
         self.t = np.append(self.t[:last], t_end)
         if self.steps:
-            self.steps.lay(self.pointer(self.course, "void *"), 0)
+            self.steps.register(self.pointer(self.course, "void *"), 0)
         if last > first:
             self.compiled.lib.gudgeon_kinematic_restart(self.pointer(self.course, "void *"))
             _, failed = self._compute_motion(last - 1, last)
@@ -195,15 +201,17 @@ class _KinematicRun:
         """Build the error for a nonzero status of C: no progress, a value that is not a number, or a motion not to
         be followed.
         """
-        at, gained, steps, crawls = self._read_progress()
-        t, t_end = float(at[0]), float(self.problem.t[-1])
+        failure_time, gained, steps, crawls = self._read_progress()
+        t, t_end = float(failure_time[0]), float(self.problem.t[-1])
         if status == STALLED:
-            pace = Pace(t, t_end - t, gained, steps, bool(crawls))
+            pace = Progress(t, t_end - t, gained, steps, bool(crawls))
             return (
-                runaway_error(pace, drives_text(self.compiled, self.problem.p, t)) if crawls else too_slow_error(pace)
+                build_runaway_error(pace, format_drive_states(self.compiled, self.problem.p, t))
+                if crawls
+                else build_too_slow_error(pace)
             )
         if status == NOT_FINITE:
-            return self._build_undefined_error(float(at[1]))
+            return self._build_undefined_error(float(failure_time[1]))
         return _build_motion_error(self.problem, status, t, self._compute_positions(t))
 
     def _compute_positions(self, t: float) -> Array:
@@ -213,16 +221,16 @@ class _KinematicRun:
         k = self.reached
         if not self.has_first_sample or not t > self.t[k]:
             return self.q[k]
-        return along(self.compiled, self.problem.p, np.array([self.t[k], t]), self.q[k], self.v[k])[0][1]
+        return compute_motion_at(self.compiled, self.problem.p, np.array([self.t[k], t]), self.q[k], self.v[k])[0][1]
 
     def _build_undefined_error(self, t: float) -> SolverError:
         """Build the error for a drive, a force or one of their rates that is not a number at t (s), with its
         expression.
         """
         compiled, p = self.compiled, self.problem.p
-        why = reason(compiled.source, p, t, self.q[self.reached], self.v[self.reached])
-        why = why or rate_reason(compiled, p, np.array([t]), np.zeros(compiled.n))[0]
-        why = why or f"what the drives and forces do is no number at t = {t:.9g} s{drives_text(compiled, p, t)}"
+        why = explain_undefined_ahead(compiled.source, p, t, self.q[self.reached], self.v[self.reached])
+        why = why or explain_undefined_rate(compiled, p, np.array([t]), np.zeros(compiled.n))[0]
+        why = why or f"what the drives and forces do is no number at t = {t:.9g} s{format_drive_states(compiled, p, t)}"
         return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
 
     def _read_progress(self) -> tuple[Array, float, int, int]:
@@ -245,7 +253,7 @@ class _KinematicRun:
             self.pointer(self.course, "void *"), self.pointer(first)
         )
         empty, t = np.zeros((self.reached + 1, 0)), self.t[rows].copy()
-        events, lost = (no_events(), no_events()) if self.events is None else self.events.in_order()
+        events, lost = (make_empty_events(), make_empty_events()) if self.events is None else self.events.sort_events()
         counts = Counts(int(self.longs[0]), 0, phi_max=float(self.maxima[0]), phi_dot_max=float(self.maxima[1]))
         return Trajectory(
             t,
@@ -262,12 +270,12 @@ class _KinematicRun:
             stopped,
             self.seconds,
             events[events["t"] <= t[-1]],
-            no_number=lost[lost["t"] <= t[-1]],
+            undefined_events=lost[lost["t"] <= t[-1]],
             change_points=(passed, float(first[0])),
         )
 
 
-def run(problem: Problem) -> Trajectory:
+def integrate_kinematic(problem: Problem) -> Trajectory:
     """Integrate a kinematic run and return its Trajectory at the output times, or up to an event that ends it.
 
     An error ends the trajectory and is its `stopped`. A chunk that Ctrl-C interrupts is discarded, because motion,
@@ -286,7 +294,7 @@ def run(problem: Problem) -> Trajectory:
     return run_state.build_trajectory(interrupted, stopped)
 
 
-def along(compiled: CompiledModel, p: Array, t: Array, q: Array, v: Array) -> tuple[Array, Array]:
+def compute_motion_at(compiled: CompiledModel, p: Array, t: Array, q: Array, v: Array) -> tuple[Array, Array]:
     """Compute q and q̇ (T, n) of a kinematic motion at times t (T,) in s, following it from the state q, v at t[0].
 
     Rows after a failure are NaN. Nothing polls for Ctrl-C.
@@ -300,7 +308,7 @@ def along(compiled: CompiledModel, p: Array, t: Array, q: Array, v: Array) -> tu
     every_q, every_v = np.full((T, len(q)), np.nan), np.full((T, len(q)), np.nan)
     every_q[0], every_v[0] = q, v
     where, null = pointer(course, "void *", True), compiled.ffi.NULL
-    size = mechanism_size(compiled, p)
+    size = compute_mechanism_size(compiled, p)
     compiled.lib.gudgeon_kinematic_begin(where, REACH, size, float(t[-1]), null, null, 1.0)
     compiled.lib.gudgeon_kinematic(
         where,
@@ -322,37 +330,37 @@ def _build_motion_error(problem: Problem, status: int, t: float, q: Array) -> So
     Its cause is the first that applies: overflow, an undefined drive, no position (status < 0), a branching of the
     motion, or a singular position.
     """
-    if message := overflowing(problem.compiled, problem.p, t):
+    if message := build_overflow_error(problem.compiled, problem.p, t):
         return message
     later = problem.t[problem.t > t]
     t_next = float(later[0]) if len(later) else t
-    reason_text, when = reason_between(problem.compiled.source, problem.p, t, t_next)
+    reason_text, when = explain_undefined_between(problem.compiled.source, problem.p, t, t_next)
     if not reason_text:
         times = np.linspace(t, t_next, 1001)
-        reason_text, when = rate_reason(problem.compiled, problem.p, times, np.zeros(problem.compiled.n))
+        reason_text, when = explain_undefined_rate(problem.compiled, problem.p, times, np.zeros(problem.compiled.n))
     if reason_text:
         return NonFiniteError(f"{reason_text}\n  {NO_NUMBER}", when)
     if status < 0:
         return SolverError(
             f"the linkage cannot follow its drives beyond t = {t:.12g} s: Newton's method finds no position"
-            f" there{drives_text(problem.compiled, problem.p, t)}\n"
+            f" there{format_drive_states(problem.compiled, problem.p, t)}\n"
             "  the lengths do not let the drives turn on, or the linkage passes a dead centre",
             t,
         )
     row = problem.compiled.source.start_pivots[status - 1]
-    if branches := branches_text(problem.compiled, problem.p, t, q):
+    if branches := describe_branches(problem.compiled, problem.p, t, q):
         begun = t > float(problem.t[0])
         remedy = "end the run before it" if begun else "give one of these rates in start.rates, or begin elsewhere"
         return SingularError(
             f"the linkage cannot be followed beyond t = {t:.12g} s: {branches}"
-            f"{drives_text(problem.compiled, problem.p, t)}\n"
+            f"{format_drive_states(problem.compiled, problem.p, t)}\n"
             f"  the drives do not tell on which one it goes on: {remedy}",
             t,
             row,
         )
     return SingularError(
         f"the linkage cannot be followed beyond t = {t:.12g} s: it is singular there, the pivot of constraint row {row}"
-        f" vanished{drives_text(problem.compiled, problem.p, t)}\n"
+        f" vanished{format_drive_states(problem.compiled, problem.p, t)}\n"
         "  links lie in one line (a dead centre) or do not reach further, or constraints are redundant: end the run"
         " before it, or change lengths or drives",
         t,
@@ -365,10 +373,10 @@ class Events:
 
     def __init__(self, problem: Problem) -> None:
         self.problem, self.end = problem, float(problem.t[-1])
-        self.side = np.zeros(len(problem.compiled.source.events), dtype=np.int8)  # of zero, seen last
-        self.found, self.capacity = no_events(), MAX_LISTED
+        self.signs = np.zeros(len(problem.compiled.source.events), dtype=np.int8)  # of zero, seen last
+        self.found, self.capacity = make_empty_events(), MAX_LISTED
 
-    def find(self, run_state: _KinematicRun, first: int, last: int) -> bool:
+    def find_events(self, run_state: _KinematicRun, first: int, last: int) -> bool:
         """Search the intervals between samples `first` to `last`; return whether an event ends the run there.
 
         Events are appended to `found`. The last interval is searched slightly beyond the end. Raises SolverError where
@@ -399,7 +407,7 @@ class Events:
         Return the status of C and the number of complete intervals. Raises KeyboardInterrupt.
         """
         pointer, counts = self.problem.compiled.pointer, np.zeros(2, dtype=np.int_)
-        at, which = np.zeros(self.capacity), np.zeros(self.capacity, dtype=np.intc)
+        event_times, which = np.zeros(self.capacity), np.zeros(self.capacity, dtype=np.intc)
         status = self.problem.compiled.lib.gudgeon_kinematic_events(
             pointer(run_state.course, "void *"),
             len(times) - 1,
@@ -409,20 +417,20 @@ class Events:
             pointer(run_state.v[first:]),
             float(run_state.t[0]),
             int(self.problem.stop),
-            pointer(self.side, "signed char *"),
+            pointer(self.signs, "signed char *"),
             self.capacity,
-            pointer(at),
+            pointer(event_times),
             pointer(which, "int *"),
             pointer(counts, "long *"),
             pointer(counts[1:], "long *"),
         )
-        run_state.asker.check(status == STOPPED)
+        run_state.asker.raise_stored(status == STOPPED)
         new_events = np.zeros(int(counts[0]), dtype=EVENT_DTYPE)
-        new_events["event"], new_events["t"] = which[: len(new_events)], at[: len(new_events)]
+        new_events["event"], new_events["t"] = which[: len(new_events)], event_times[: len(new_events)]
         self.found = np.concatenate([self.found, new_events])
         return int(status), int(counts[1])
 
-    def in_order(self) -> tuple[NDArray[Any], NDArray[Any]]:
+    def sort_events(self) -> tuple[NDArray[Any], NDArray[Any]]:
         """Return the events sorted by time, not beyond the end, and for each undefined event the first time of that.
 
         Both are arrays (EVENT_DTYPE).

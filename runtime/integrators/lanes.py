@@ -21,10 +21,10 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.boundary import ALL_OVER, LISTS, NEW, NOT_CLOSED, OVER
 from gudgeon.contract.methods import SMOOTH
-from gudgeon.loading.compiler import is_there
-from gudgeon.model.arrays import address
+from gudgeon.loading.compiler import has_compiler
+from gudgeon.model.arrays import find_address
 from gudgeon.model.compiled import CompiledModel
-from gudgeon.waiting.programs import until
+from gudgeon.waiting.programs import set_wait_condition
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
@@ -55,7 +55,7 @@ class Lanes:
         single = compiled.ffi.cast("uintptr_t", compiled.lib.gudgeon_single())
         self.single = self.ffi.cast("void *", int(single))
 
-    def flow(
+    def integrate_runs(
         self,
         runs: Runs,
         waiting_runs: Iterator[int],
@@ -70,13 +70,13 @@ class Lanes:
         lane. If the batch is stopped, begun runs are handed over one by one.
         """
         arguments, rows, run_of_lane = self._build_arguments(runs, memories)
-        free_rows, unstored, status = [*range(first_row, first_row + runs.places)], list[int](), LISTS
+        free_rows, unstored, status = [*range(first_row, first_row + runs.n_rows_per_thread)], list[int](), LISTS
         empty_lanes = [*range(len(rows))]
-        while status != ALL_OVER and not runs.stopping:
+        while status != ALL_OVER and not runs.is_stopping:
             for k in empty_lanes:
                 if (i := next(waiting_runs, NONE)) != NONE:
                     run_of_lane[k] = i
-                    if runs.shared:
+                    if runs.has_shared_rows:
                         runs.arrays["place"][i] = free_rows.pop()
             before = list(run_of_lane)
             status = self.lib.gudgeon_lanes(*arguments, run_of_lane)
@@ -85,14 +85,14 @@ class Lanes:
                 if before[k] != NONE:
                     _fetch_lists(runs, before[k], rows[k], step_logs[k] if step_logs else None)
             unstored += [before[k] for k in empty_lanes if before[k] != NONE]
-            if runs.shared and len(free_rows) < len(empty_lanes):
-                runs.are_over(unstored)
+            if runs.has_shared_rows and len(free_rows) < len(empty_lanes):
+                runs.store_finished_runs(unstored)
                 free_rows += runs.arrays["place"][unstored].tolist()
                 unstored.clear()
-        runs.are_over(unstored)
+        runs.store_finished_runs(unstored)
         for k, i in enumerate(run_of_lane):
             if i != NONE:
-                runs.to_its_end(i, memories[k], step_logs[k] if step_logs else None)
+                runs.integrate_to_end(i, memories[k], step_logs[k] if step_logs else None)
 
     def _build_arguments(self, runs: Runs, memories: NDArray[np.uint8]) -> tuple[tuple[Any, ...], list[Any], Any]:
         """Return three things for calls of C: its arguments, pointers to the rows of `memories`, and an array of run
@@ -103,12 +103,12 @@ class Lanes:
         rows = [runs.compiled.pointer(memory, "void *") for memory in memories[: self.count]]
         pointers = self.ffi.new("void *[]", self.count)
         for k, memory in enumerate(memories[: self.count]):
-            pointers[k] = self.ffi.cast("void *", address(runs.compiled.ffi, memory))
+            pointers[k] = self.ffi.cast("void *", find_address(runs.compiled.ffi, memory))
         batch = self.ffi.cast("void *", int(runs.compiled.ffi.cast("uintptr_t", runs.struct)))
         return (batch, self.single, pointers), rows, self.ffi.new("long[]", [NONE] * self.count)
 
 
-class Flow:
+class LaneProvider:
     """Provide the lanes of a batch, as soon as compiling their library is worth the time."""
 
     def __init__(self, compiled: CompiledModel) -> None:
@@ -118,7 +118,7 @@ class Flow:
             self.lanes = _load_lanes(compiled)
         self.began = time.perf_counter()
 
-    def begins(self, runs: Runs) -> Lanes | None:
+    def get_lanes(self, runs: Runs) -> Lanes | None:
         """Return the lanes if the remaining runs are worth them, else None; called before each portion of runs.
 
         The first thread for which they pay off compiles their library while the others continue. None is returned if
@@ -127,7 +127,7 @@ class Flow:
         self.lanes = self.lanes or _made.get(self.compiled)  # another batch may have made them
         if self.lanes is None and self._is_worth(runs) and _making.acquire(blocking=False):
             try:
-                with until(lambda: runs.stopping):
+                with set_wait_condition(lambda: runs.is_stopping):
                     self.lanes = self.lanes or _load_lanes(self.compiled)
             except KeyboardInterrupt:  # the batch is ending: who waits for it has taken Ctrl-C
                 return None
@@ -144,7 +144,7 @@ class Flow:
 
 
 @contextmanager
-def followed_by(n_runs: int) -> Iterator[None]:
+def announce_later_runs(n_runs: int) -> Iterator[None]:
     """Announce within a with block how many runs follow in later batches, so that lanes are compiled earlier."""
     token = _later.set(n_runs)
     try:
@@ -158,12 +158,12 @@ def _load_lanes(compiled: CompiledModel) -> Lanes:
     return _made.setdefault(compiled, _made.get(compiled) or Lanes(compiled))
 
 
-def numbers_of(runs: Runs, portions: deque[range | list[int]]) -> Iterator[int]:
+def yield_waiting_runs(runs: Runs, portions: deque[range | list[int]]) -> Iterator[int]:
     """Yield the indices of runs that have not begun, taking portions from the shared queue until it is empty.
 
     Yielding ends early if the batch is stopped. Several threads may take from the queue.
     """
-    while portions and not runs.stopping:
+    while portions and not runs.is_stopping:
         try:
             portion = portions.popleft()
         except IndexError:  # another thread was quicker
@@ -173,9 +173,9 @@ def numbers_of(runs: Runs, portions: deque[range | list[int]]) -> Iterator[int]:
 
 def _build_lane_source(compiled: CompiledModel) -> KernelSource:
     """Return the kernel source of a scene with main file and declarations replaced by those of its library of lanes."""
-    from gudgeon.loading.engine import lane_declarations
+    from gudgeon.loading.engine import list_lane_declarations
 
-    return replace(compiled.source, main=compiled.source.lanes, cdef=lane_declarations())
+    return replace(compiled.source, main=compiled.source.lanes, cdef=list_lane_declarations())
 
 
 def _is_compiled(compiled: CompiledModel) -> bool:
@@ -194,15 +194,15 @@ def _fetch_lists(runs: Runs, i: int, run: Any, step_log: StepLog | None = None) 
         return
     over = bool(runs.arrays["phase"][i] == OVER)
     if step_log and (over or runs.compiled.lib.gudgeon_run_full(run)):
-        step_log.look = runs.looks[i]
-        step_log.fetch(run)
-    runs.fetch(i, run, over)
+        step_log.observer = runs.observers[i]
+        step_log.pass_steps(run)
+    runs.fetch_lists(i, run, over)
 
 
-def expected(compiled: CompiledModel, method: str, n_runs: int) -> bool:
+def may_use_lanes(compiled: CompiledModel, method: str, n_runs: int) -> bool:
     """Return whether the runs of a batch may share vectors: enough runs, a method that the lanes have, and a compiler.
 
     Scenes derived for Taylor's method have lanes for it only.
     """
     has_lanes = bool(compiled.source.lanes) and (method in SMOOTH) == bool(compiled.source.taylor)
-    return n_runs >= MIN_RUNS and has_lanes and is_there()
+    return n_runs >= MIN_RUNS and has_lanes and has_compiler()

@@ -1,4 +1,4 @@
-"""Pass the states of all steps of a run to an observer: ends of steps and points between them, in blocks.
+"""Pass states at and between the step ends of a run to observers, such as the search for peaks.
 
 The time loops in C write the states into rows (engine/run/step_record.c) and return when the rows are full. An observer
 reads the rows before the loop continues. A run without observers has no rows.
@@ -29,7 +29,7 @@ class Steps:
     work: Array  # (k, 3)
     memory: Array  # (k, n_memory)
     state: NDArray[Any]  # (k, n_clearances) int8
-    jumped: NDArray[np.bool_]  # (k,) whether something jumped, or began, since the row before
+    is_after_jump: NDArray[np.bool_]  # (k,) whether something jumped, or began, since the row before
 
     def __len__(self) -> int:
         """Return the number k of states."""
@@ -39,7 +39,7 @@ class Steps:
         """Return the states of these rows."""
         return Steps(*(getattr(self, each.name)[rows] for each in fields(self)))
 
-    def then(self, later: Steps) -> Steps:
+    def concatenate(self, later: Steps) -> Steps:
         """Return new Steps: these states followed by the later ones."""
         return Steps(*(np.concatenate([getattr(self, x.name), getattr(later, x.name)]) for x in fields(self)))
 
@@ -51,22 +51,22 @@ class StepLog:
     """Hold the rows that a run in C fills, and pass them to the observer `look`."""
 
     def __init__(self, compiled: CompiledModel, look: Look | None = None) -> None:
-        self.compiled, self.look = compiled, look
+        self.compiled, self.observer = compiled, look
         joints = len(compiled.source.clearances)
         self.widths = (N_RECORD_HEAD, 2 * compiled.n + N_WORK, max(compiled.n_memory, 1), max(joints, 1))
         self.rows = np.zeros((ROWS, sum(self.widths)))
 
-    def lay(self, run: Any) -> None:
+    def register(self, run: Any) -> None:
         """Register the rows with C's integrator `run`, which is about to begin and will write its states into them."""
         self.compiled.lib.gudgeon_run_record(run, self.compiled.pointer(self.rows, written=True), len(self.rows))
 
-    def fetch(self, run: Any) -> None:
+    def pass_steps(self, run: Any) -> None:
         """Pass a copy of the states that C's integrator has written since the last call to the observer, if there
         are any.
         """
         count = int(self.compiled.lib.gudgeon_run_recorded(run))
-        if count and self.look:
-            self.look(self._convert_rows(self.rows[:count].copy()))
+        if count and self.observer:
+            self.observer(self._convert_rows(self.rows[:count].copy()))
 
     def _convert_rows(self, rows: Array) -> Steps:
         """Convert rows that C wrote (head, state, discrete states, contact codes) to Steps."""
@@ -83,13 +83,13 @@ class StepLog:
         )
 
 
-class Shown:
+class StepCollector:
     """Collect the states of a run with a time loop in Python, and pass them in blocks to the observer `look`, if
     any.
     """
 
     def __init__(self, compiled: CompiledModel, look: Look | None) -> None:
-        self.n, self.look = compiled.n, look
+        self.n, self.observer = compiled.n, look
         self.waiting: list[Steps] = []
 
     def add(self, t: Array, y: Array, memory: Array, state: NDArray[Any], is_after_jump: bool) -> None:
@@ -102,42 +102,42 @@ class Shown:
         repeated = np.tile(memory, (k, 1)), np.tile(state, (k, 1))
         self.waiting.append(Steps(t, y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], *repeated, first))
         if sum(map(len, self.waiting)) >= ROWS:
-            self.hand_on()
+            self.pass_steps()
 
-    def hand_on(self) -> None:
+    def pass_steps(self) -> None:
         """Pass the collected states to the observer and clear them; do nothing without an observer or states."""
         waiting, self.waiting = self.waiting, []
-        if self.look and waiting:
+        if self.observer and waiting:
             columns = zip(*(vars(steps).values() for steps in waiting), strict=True)
-            self.look(Steps(*(np.concatenate(column) for column in columns)))
+            self.observer(Steps(*(np.concatenate(column) for column in columns)))
 
 
-class Course:
+class KinematicStepLog:
     """Collect the states of a kinematic motion (engine/kinematic), add their works, and pass them to an observer."""
 
     def __init__(self, compiled: CompiledModel, look: Look, begin: Callable[[], NDArray[Any]], first: Steps) -> None:
-        self.compiled, self.look, self.last = compiled, look, first
+        self.compiled, self.observer, self.last = compiled, look, first
         self.rows = np.zeros((ROWS, 1 + 2 * compiled.n))
         self.waiting: list[Array] = []  # rows of a chunk that an event may yet cut off
         self.works = begin()  # a separate struct of C for the works
         look(first)
 
-    def lay(self, course: Any, rows: int = ROWS) -> None:
+    def register(self, course: Any, rows: int = ROWS) -> None:
         """Register the rows with C's struct `course`, which writes its states into them from now on; with 0 rows,
         end that.
         """
         lib, where = self.compiled.lib, self.compiled.pointer(self.rows, written=True)
         lib.gudgeon_kinematic_record(course, where if rows else self.compiled.ffi.NULL, rows)
 
-    def fetch(self, course: Any) -> None:
-        """Copy the states that C has written since the last call; they wait for `hand_on`, since an event may cut
+    def collect_steps(self, course: Any) -> None:
+        """Copy the states that C has written since the last call; they wait for `pass_steps`, since an event may cut
         them off.
         """
         count = int(self.compiled.lib.gudgeon_kinematic_recorded(course))
         if count:
             self.waiting.append(self.rows[:count].copy())
 
-    def hand_on(self, p: Array, end: tuple[float, Array, Array] | None = None) -> None:
+    def pass_steps(self, p: Array, end: tuple[float, Array, Array] | None = None) -> None:
         """Pass the collected states to the observer in blocks, with parameter values p, and clear them.
 
         `end`: last state (t, q, q̇) if an event ends the motion; states after it are dropped. States that were passed
@@ -177,4 +177,4 @@ class Course:
         none = np.zeros((count, 0))
         steps = Steps(t, q, v, work[1:], none, none.astype(np.int8), np.zeros(count, dtype=bool))
         self.last = steps[-1:]
-        self.look(steps)
+        self.observer(steps)

@@ -28,24 +28,24 @@ from gudgeon.contract.boundary import (
     IMPACT_t_on,
 )
 from gudgeon.errors import GudgeonError, SolverError
-from gudgeon.integrators.failure import as_findings
+from gudgeon.integrators.failure import build_findings
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import (
     IMPACT_DTYPE,
     NO_CHANGE_POINTS,
     TRACE_ROWS,
     Counts,
-    Trace,
+    Envelope,
     Trajectory,
-    counts_of,
+    compute_envelope_width,
+    compute_time_resolution,
+    convert_counts,
     fetch_events,
-    joined,
-    no_events,
-    no_states,
-    plain,
-    resolution,
+    join_contacts,
+    make_empty_event_states,
+    make_empty_events,
+    remove_event_states,
     split_undefined,
-    trace_width,
 )
 from gudgeon.model.compiled import Array, CompiledModel
 
@@ -67,7 +67,7 @@ class Contacts:
     def __init__(self, compiled: CompiledModel) -> None:
         self.compiled, self.own, self.all = compiled, local(), list[_ThreadContacts]()
 
-    def fetch(self, i: int, run: Any, is_over: bool) -> None:
+    def fetch_contacts(self, i: int, run: Any, is_over: bool) -> None:
         """Fetch and clear the contacts that C's integrator `run` lists for run i; with `is_over` also those still
         closed.
 
@@ -80,7 +80,7 @@ class Contacts:
             self.all.append(fetched)
         fetched.fetch(i, run, is_over)
 
-    def joined(self, n_runs: int) -> tuple[NDArray[Any], NDArray[np.int_]]:
+    def join_contacts(self, n_runs: int) -> tuple[NDArray[Any], NDArray[np.int_]]:
         """Return the contacts (IMPACT_DTYPE) of all n runs sorted by run and onset, and the first index of each run.
 
         The indices have the shape (n + 1,). Call it once, after all threads have ended: the lists are released.
@@ -164,7 +164,7 @@ class StoredRuns:
         in_python: bool,
     ) -> None:
         self.compiled, self.method, self.times, self.n = compiled, method, times, len(p)
-        n, N, size, nc = self.n, times.most, 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
+        n, N, size, nc = self.n, times.max_count, 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
         self.arrays: dict[str, NDArray[Any]] = {
             "place": np.arange(n) % n_rows,
             "p": p,
@@ -189,30 +189,33 @@ class StoredRuns:
         }
         if in_python:
             self.arrays["a"] = np.full((n_rows, N, compiled.n), np.nan)
-        self.driven: dict[int, _PythonLists] = {}
+        self.python_lists: dict[int, _PythonLists] = {}
         self.fetched = Contacts(compiled)
         self.events: dict[int, list[NDArray[Any]]] = {}  # lists of events with states, of runs that have any
         # contacts by run once all are over, and each run's first index
-        self.contacts, self.cuts = np.zeros(0, IMPACT_DTYPE), np.zeros(n + 1, np.int_)
+        self.contacts, self.first_contact_indices = np.zeros(0, IMPACT_DTYPE), np.zeros(n + 1, np.int_)
         self.failures: dict[int, GudgeonError] = {}
         self.interrupted = False
 
-    def keep_trace(self) -> None:
+    def allocate_envelope(self) -> None:
         """Allocate the envelope of forces and paths, and register it with C, so that new runs record it for plots."""
         joints, x = len(self.compiled.source.clearances), self.arrays
-        x["trace"], x["traced"] = np.empty((self.n, TRACE_ROWS, trace_width(joints))), np.zeros(self.n, np.int_)
+        x["trace"], x["traced"] = (
+            np.empty((self.n, TRACE_ROWS, compute_envelope_width(joints))),
+            np.zeros(self.n, np.int_),
+        )
         self.struct.trace, self.struct.trace_rows = self.compiled.pointer(x["trace"], written=True), TRACE_ROWS
         self.struct.traced = self.compiled.pointer(x["traced"], "long *", True)
 
     def _join_contacts(self) -> None:
         """Join the contacts of all runs to one array sorted by run and onset, after all runs have ended."""
-        if not self.driven:
-            self.contacts, self.cuts = self.fetched.joined(self.n)
+        if not self.python_lists:
+            self.contacts, self.first_contact_indices = self.fetched.join_contacts(self.n)
             return
-        each = [self.driven[i].impacts if i in self.driven else self.contacts for i in range(self.n)]
-        self.contacts, self.cuts = joined(each), np.cumsum([0, *map(len, each)])
+        each = [self.python_lists[i].impacts if i in self.python_lists else self.contacts for i in range(self.n)]
+        self.contacts, self.first_contact_indices = join_contacts(each), np.cumsum([0, *map(len, each)])
 
-    def store(self, i: int, trajectory: Trajectory) -> None:
+    def store_trajectory(self, i: int, trajectory: Trajectory) -> None:
         """Copy the Trajectory of run i, which a time loop in Python computed, into the arrays, and record its error
         if any.
         """
@@ -228,47 +231,47 @@ class StoredRuns:
         if trajectory.a is not None:
             x["a"][k, :N] = trajectory.a
         x["done"][i], x["t_last"][i], x["seconds"][i], x["phase"][i] = N, trajectory.t[-1], trajectory.seconds, OVER
-        ended = ENDED if len(self.times.of(i)) > N or trajectory.t[-1] < self.times.of(i)[-1] else 0
+        ended = ENDED if len(self.times.get_times(i)) > N or trajectory.t[-1] < self.times.get_times(i)[-1] else 0
         x["status"][i] = STOPPED if trajectory.interrupted else ended
         x["counts"][i] = [getattr(trajectory.counts, name, 0) for name in COUNT_NAMES]
         x["residuals"][i] = [getattr(trajectory.counts, name, math.nan) for name in RESIDUAL_NAMES]
         x["peaks"][i, : len(trajectory.peaks)] = trajectory.peaks
-        self.driven[i] = _PythonLists(
-            trajectory.impacts, trajectory.events, trajectory.no_number, trajectory.change_points
+        self.python_lists[i] = _PythonLists(
+            trajectory.impacts, trajectory.events, trajectory.undefined_events, trajectory.change_points
         )
         if trajectory.stopped is not None:
             self.failures[i] = trajectory.stopped
 
-    def fetch(self, i: int, run: Any, is_over: bool) -> None:
+    def fetch_lists(self, i: int, run: Any, is_over: bool) -> None:
         """Fetch and clear the lists of contacts and events of run i in C's integrator; with `is_over` also closed
         contacts.
         """
         if self.compiled.source.clearances:
-            self.fetched.fetch(i, run, is_over)
+            self.fetched.fetch_contacts(i, run, is_over)
         if self.compiled.source.events and self.compiled.lib.gudgeon_run_listed(run):
-            self.events.setdefault(i, []).append(fetch_events(self.compiled, run, self.times.of(i)))
+            self.events.setdefault(i, []).append(fetch_events(self.compiled, run, self.times.get_times(i)))
 
-    def findings(self, i: int) -> tuple[Finding, ...]:
+    def build_findings(self, i: int) -> tuple[Finding, ...]:
         """Return the audit findings of run i; () for runs of a time loop in Python."""
-        if i in self.driven:
+        if i in self.python_lists:
             return ()
-        return as_findings(self.compiled.source, *(self.arrays[f"audited{x}"][i] for x in ("", "_t", "_where")))
+        return build_findings(self.compiled.source, *(self.arrays[f"audited{x}"][i] for x in ("", "_t", "_where")))
 
-    def impacts_of(self, i: int) -> NDArray[Any]:
+    def get_contacts(self, i: int) -> NDArray[Any]:
         """Return the contacts (IMPACT_DTYPE) of run i, sorted by onset; a copy for runs in C."""
-        if i in self.driven:
-            return self.driven[i].impacts
-        return self.contacts[self.cuts[i] : self.cuts[i + 1]].copy()
+        if i in self.python_lists:
+            return self.python_lists[i].impacts
+        return self.contacts[self.first_contact_indices[i] : self.first_contact_indices[i + 1]].copy()
 
-    def all_impacts(self) -> tuple[NDArray[Any], ...]:
+    def list_contacts(self) -> tuple[NDArray[Any], ...]:
         """Return the contacts of each run, as views of one array."""
-        return tuple(self.contacts[a:b] for a, b in pairwise(self.cuts.tolist()))
+        return tuple(self.contacts[a:b] for a, b in pairwise(self.first_contact_indices.tolist()))
 
-    def all_events(self) -> tuple[NDArray[Any], ...]:
+    def list_events(self) -> tuple[NDArray[Any], ...]:
         """Return the user events (EVENT_DTYPE) of each run, by time."""
-        events = [no_events()] * self.n
-        for i in (*self.events, *self.driven):
-            events[i] = plain(self._get_events(i)[0])
+        events = [make_empty_events()] * self.n
+        for i in (*self.events, *self.python_lists):
+            events[i] = remove_event_states(self._get_events(i)[0])
         return tuple(events)
 
     def _get_events(self, i: int) -> tuple[NDArray[Any], NDArray[Any]]:
@@ -276,27 +279,27 @@ class StoredRuns:
 
         For runs in C both contain the states there (event_dtype), and events after the last sample are dropped.
         """
-        if i in self.driven:
-            return self.driven[i].events, self.driven[i].no_number
+        if i in self.python_lists:
+            return self.python_lists[i].events, self.python_lists[i].no_number
         if i not in self.events:
-            return no_states(self.compiled), no_states(self.compiled)
-        x, times = self.arrays, self.times.of(i)
+            return make_empty_event_states(self.compiled), make_empty_event_states(self.compiled)
+        x, times = self.arrays, self.times.get_times(i)
         events, lost = split_undefined(self.compiled, np.concatenate(self.events[i]))
         if x["status"][i] not in (0, ENDED, STOPPED) or not x["done"][i]:
             return events, lost
-        t_last = self._get_reached_times(i)[-1] + resolution(times)
+        t_last = self._get_reached_times(i)[-1] + compute_time_resolution(times)
         return events[events["t"] <= t_last], lost[lost["t"] <= t_last]
 
     def is_complete(self, i: int) -> bool:
         """Return whether run i has a sample at the last of its output times and was not interrupted."""
         reached = self._get_reached_times(i)
-        return self.arrays["status"][i] != STOPPED and len(reached) > 0 and reached[-1] >= self.times.of(i)[-1]
+        return self.arrays["status"][i] != STOPPED and len(reached) > 0 and reached[-1] >= self.times.get_times(i)[-1]
 
-    def counts(self, i: int) -> Counts:
+    def get_counts(self, i: int) -> Counts:
         """Return the counts, sums and maxima over the steps of run i."""
-        return counts_of(self.arrays["counts"][i], self.arrays["residuals"][i])
+        return convert_counts(self.arrays["counts"][i], self.arrays["residuals"][i])
 
-    def samples(self, i: int) -> tuple[Array, Array, Array, NDArray[Any]]:
+    def get_samples(self, i: int) -> tuple[Array, Array, Array, NDArray[Any]]:
         """Return the times (s) of the reached samples of run i, and views of its states, discrete states and contact
         codes.
 
@@ -307,7 +310,7 @@ class StoredRuns:
         y, memory, state = (x[name][k, : len(t)] for name in ("y", "latched", "state"))
         return t, y, memory[:, : compiled.n_memory], state[:, :joints]
 
-    def accelerations(self, i: int) -> Array | None:
+    def get_accelerations(self, i: int) -> Array | None:
         """Return a view of q̈ (k, n) at the samples of run i if a time loop in Python computed it; else None."""
         a: Array | None = self.arrays.get("a")
         return None if a is None else a[self.arrays["place"][i], : self.arrays["done"][i]]
@@ -315,18 +318,18 @@ class StoredRuns:
     def _get_reached_times(self, i: int) -> Array:
         """Return the times (s) of the samples of run i that were reached; where it ended early, the last is its end."""
         done = int(self.arrays["done"][i])
-        t = self.times.of(i)[:done].copy()
+        t = self.times.get_times(i)[:done].copy()
         if done and self.arrays["status"][i] in (ENDED, STOPPED, STALLED):
             t[-1] = self.arrays["t_last"][i]
         return t
 
-    def trajectory(self, i: int) -> Trajectory:
+    def build_trajectory(self, i: int) -> Trajectory:
         """Return run i as a Trajectory: copies of its rows, or views if it is the only run.
 
         An error of an interrupted run is left out.
         """
         copy_if_shared, x, n = np.copy if self.n > 1 else np.asarray, self.arrays, self.compiled.n
-        (t, y, memory, state), a, driven = self.samples(i), self.accelerations(i), self.driven.get(i)
+        (t, y, memory, state), a, driven = self.get_samples(i), self.get_accelerations(i), self.python_lists.get(i)
         error, (events, no_number) = self.failures.get(i), self._get_events(i)
         joints = len(self.compiled.source.clearances)
         is_stopped = x["status"][i] == STOPPED or (self.n == 1 and self.interrupted)
@@ -338,23 +341,23 @@ class StoredRuns:
             copy_if_shared(memory),
             copy_if_shared(state),
             copy_if_shared(y[:, 2 * n :]),
-            self.impacts_of(i),
+            self.get_contacts(i),
             copy_if_shared(x["peaks"][i, :joints]),
-            self.counts(i),
+            self.get_counts(i),
             is_stopped,
             error if isinstance(error, SolverError) and not is_stopped else None,
             seconds=float(x["seconds"][i]),
-            events=plain(events),
+            events=remove_event_states(events),
             event_states=None if driven else events,
-            no_number=plain(no_number),
+            undefined_events=remove_event_states(no_number),
             trace=self._build_envelope(i),
-            audit=self.findings(i),
+            audit=self.build_findings(i),
             change_points=driven.change_points if driven else NO_CHANGE_POINTS,
         )
 
-    def _build_envelope(self, i: int) -> Trace | None:
+    def _build_envelope(self, i: int) -> Envelope | None:
         """Return the envelope of forces and paths of run i; None if none was recorded."""
         if "trace" not in self.arrays:
             return None
         rows = self.arrays["trace"][i, : self.arrays["traced"][i]]
-        return Trace.of_rows(rows, len(self.compiled.source.clearances))
+        return Envelope.from_rows(rows, len(self.compiled.source.clearances))

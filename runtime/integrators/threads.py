@@ -1,4 +1,4 @@
-"""Work on the runs of a batch in threads, each of which takes portions of runs."""
+"""Distribute the runs of a batch over threads; each thread takes one portion of the runs at a time."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gudgeon.integrators.lanes import NEW, OVER, numbers_of
+from gudgeon.integrators.lanes import NEW, OVER, yield_waiting_runs
 from gudgeon.integrators.steps import StepLog
-from gudgeon.waiting.ctrl_c import CtrlC
+from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 if TYPE_CHECKING:
     from gudgeon.integrators.batch import Runs
@@ -28,7 +28,7 @@ def available_threads() -> int:
 
 
 def wait_for(
-    futures: set[Future[None]], ctrl_c: CtrlC, progress: Progress | None, fraction: Callable[[int], float]
+    futures: set[Future[None]], ctrl_c: DelayedCtrlC, progress: Progress | None, fraction: Callable[[int], float]
 ) -> None:
     """Wait until all futures are done, and report progress; raise their errors, and KeyboardInterrupt after Ctrl-C.
 
@@ -36,14 +36,14 @@ def wait_for(
     """
     while futures:
         ended, futures = wait(futures, POLL_INTERVAL_S)
-        ctrl_c.take()
+        ctrl_c.raise_delayed()
         for future in ended:
             future.result()
         if progress:
             progress(fraction(len(futures)), "integrating")
 
 
-def run_in_threads(runs: Runs, progress: Progress | None, indices: range | list[int], ctrl_c: CtrlC) -> None:
+def run_in_threads(runs: Runs, progress: Progress | None, indices: range | list[int], ctrl_c: DelayedCtrlC) -> None:
     """Integrate the runs with indices `indices` to their ends in threads, which take them in portions from a queue.
 
     `progress` is called with the fraction of finished runs. Ctrl-C or an error ends all runs where they are, and is
@@ -53,7 +53,7 @@ def run_in_threads(runs: Runs, progress: Progress | None, indices: range | list[
     portions = deque(indices[k : k + portion] for k in range(0, len(indices), portion))
     with ThreadPoolExecutor(runs.threads, thread_name_prefix="gudgeon") as pool:
         try:
-            work = _integrate_portions_in_python if runs.drive else _integrate_portions_in_c
+            work = _integrate_portions_in_python if runs.python_loop else _integrate_portions_in_c
             waiting: set[Future[None]] = {pool.submit(work, runs, portions, k) for k in range(runs.threads)}
             wait_for(waiting, ctrl_c, progress, lambda _: float(np.mean(runs.arrays["phase"] == OVER)))
         except BaseException:
@@ -63,10 +63,10 @@ def run_in_threads(runs: Runs, progress: Progress | None, indices: range | list[
 
 def _integrate_portions_in_python(runs: Runs, portions: deque[range | list[int]], thread_index: int) -> None:
     """Integrate runs with a time loop in Python, in the thread `thread_index`, until the queue of portions is empty."""
-    for i in numbers_of(runs, portions):
-        if runs.shared:
-            runs.arrays["place"][i] = thread_index * runs.places
-        runs.follow(i)
+    for i in yield_waiting_runs(runs, portions):
+        if runs.has_shared_rows:
+            runs.arrays["place"][i] = thread_index * runs.n_rows_per_thread
+        runs.integrate_in_python(i)
 
 
 def _integrate_portions_in_c(runs: Runs, portions: deque[range | list[int]], thread_index: int) -> None:
@@ -74,24 +74,27 @@ def _integrate_portions_in_c(runs: Runs, portions: deque[range | list[int]], thr
 
     Runs are integrated in vector lanes as soon as these are worth it, else one by one. Observers get step records.
     """
-    memories = np.zeros((runs.abreast, runs.compiled.lib.gudgeon_run_size()), dtype=np.uint8)
-    step_logs, first_row = [StepLog(runs.compiled) for _ in memories] if runs.looks else [], thread_index * runs.places
+    memories = np.zeros((runs.n_lanes, runs.compiled.lib.gudgeon_run_size()), dtype=np.uint8)
+    step_logs, first_row = (
+        [StepLog(runs.compiled) for _ in memories] if runs.observers else [],
+        thread_index * runs.n_rows_per_thread,
+    )
     for memory, step_log in zip(memories, step_logs, strict=False):
-        step_log.lay(runs.compiled.pointer(memory, "void *"))
+        step_log.register(runs.compiled.pointer(memory, "void *"))
     first_log = step_logs[0] if step_logs else None
-    while portions and not runs.stopping:
-        if runs.flow and (lanes := runs.flow.begins(runs)):
-            lanes.flow(runs, numbers_of(runs, portions), memories, step_logs, first_row)
+    while portions and not runs.is_stopping:
+        if runs.flow and (lanes := runs.flow.get_lanes(runs)):
+            lanes.integrate_runs(runs, yield_waiting_runs(runs, portions), memories, step_logs, first_row)
             return
         try:
             portion = portions.popleft()
         except IndexError:  # another thread was quicker
             return
-        if runs.over is None and isinstance(portion, range):
-            runs.alone(portion.start, portion.stop, memories[0], first_log)
+        if runs.store_results is None and isinstance(portion, range):
+            runs.integrate_sequentially(portion.start, portion.stop, memories[0], first_log)
             continue
         for i in portion:
             if runs.arrays["phase"][i] == NEW:
-                if runs.shared:
+                if runs.has_shared_rows:
                     runs.arrays["place"][i] = first_row
-                runs.to_its_end(i, memories[0], first_log)
+                runs.integrate_to_end(i, memories[0], first_log)

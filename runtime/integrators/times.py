@@ -20,10 +20,10 @@ class Times:
 
     t: Array  # s
     count: NDArray[np.int_]  # (n,) number of times of each run
-    skipped: NDArray[np.int_]  # (n,) 1 if the first time, the start, was not requested and is not a sample
+    n_skipped: NDArray[np.int_]  # (n,) 1 if the first time, the start, was not requested and is not a sample
 
     @staticmethod
-    def of_runs(times_of_runs: Mapping[int, tuple[Array, bool]], n_runs: int) -> Times:
+    def from_runs(times_of_runs: Mapping[int, tuple[Array, bool]], n_runs: int) -> Times:
         """Build the Times of n runs from the times of those that begin, by index, each with whether its start was
         requested.
 
@@ -40,7 +40,7 @@ class Times:
         return Times(t, count, skipped)
 
     @property
-    def most(self) -> int:
+    def max_count(self) -> int:
         """Return N, the number of rows of a run in the arrays of a batch."""
         return self.t.shape[-1]
 
@@ -50,56 +50,56 @@ class Times:
         return float(self.t[0] if self.t.ndim == 1 else np.nanmin(self.t[:, 0]))
 
     @property
-    def apart(self) -> int:
+    def stride(self) -> int:
         """Return the stride in memory, in numbers, between the times of two runs; 0 if all runs share them."""
-        return self.most if self.t.ndim == 2 else 0
+        return self.max_count if self.t.ndim == 2 else 0
 
-    def of(self, i: int) -> Array:
+    def get_times(self, i: int) -> Array:
         """Return the times (s) of run i, (count[i],), its start included; a view."""
         return (self.t[i] if self.t.ndim == 2 else self.t)[: self.count[i]]
 
-    def before(self, ends: Mapping[int, float]) -> Times:
+    def cut_before(self, ends: Mapping[int, float]) -> Times:
         """Return Times in which the runs with indices in `ends` have only times before their end (s); the first time
         stays.
         """
         count = self.count.copy()
         for i, end in ends.items():
-            count[i] = max(int(np.searchsorted(self.of(i), end)), 1)
+            count[i] = max(int(np.searchsorted(self.get_times(i), end)), 1)
         return replace(self, count=count)
 
-    def requested(self) -> Array:
+    def get_requested(self) -> Array:
         """Return the requested sample times, without starts that were not requested: (N',), or (n, N') as `t`.
 
         The shape is (n, N') too if only some runs skip their start; NaN follows a run's last time.
         """
-        if self.t.ndim == 1 and (self.skipped == self.skipped[:1]).all():
-            return self.t[self.skipped[:1].sum() :]
-        return self.without_starts(np.broadcast_to(self.t, (len(self.count), self.most)))
+        if self.t.ndim == 1 and (self.n_skipped == self.n_skipped[:1]).all():
+            return self.t[self.n_skipped[:1].sum() :]
+        return self.select_requested(np.broadcast_to(self.t, (len(self.count), self.max_count)))
 
-    def without_starts(self, values: Array) -> Array:
+    def select_requested(self, values: Array) -> Array:
         """Return rows of all runs, (n, N, …), at the requested times, (n, N', …), without starts that were not
         requested.
 
         Runs with fewer times are filled with NaN, arrays of integers with 0. A view is returned if all runs are alike.
         """
-        if (self.skipped == self.skipped[:1]).all():
-            return values[:, self.skipped[:1].sum() :]
-        most = int((self.count - self.skipped).max())
+        if (self.n_skipped == self.n_skipped[:1]).all():
+            return values[:, self.n_skipped[:1].sum() :]
+        most = int((self.count - self.n_skipped).max())
         selected = np.full(
             (len(values), most, *values.shape[2:]), np.nan if values.dtype.kind == "f" else 0, values.dtype
         )
-        for i, skip in enumerate(self.skipped.tolist()):
+        for i, skip in enumerate(self.n_skipped.tolist()):
             row = values[i, skip : skip + most]
             selected[i, : len(row)] = row
         return selected
 
-    def ends(self) -> Array:
+    def get_ends(self) -> Array:
         """Return the last time of each run, (n,); NaN for runs without times."""
-        t = np.broadcast_to(self.t, (len(self.count), self.most))
+        t = np.broadcast_to(self.t, (len(self.count), self.max_count))
         return np.where(self.count > 0, t[np.arange(len(self.count)), self.count - 1], np.nan)
 
 
-def last_step(duration: float, step: float) -> float:
+def compute_last_step(duration: float, step: float) -> float:
     """Return the length (s) of the last fixed step of a run over `duration` (s): `step`, or the remainder.
 
     A remainder equal to `step` up to rounding counts as `step`, as in step_end in numbers.h.

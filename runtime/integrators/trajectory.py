@@ -1,4 +1,4 @@
-"""Define the input and output of every integration method: Problem, Trajectory, Counts, events and envelope."""
+"""Define the input and output of every integration method: initial value problem, trajectory, counts, events."""
 
 from __future__ import annotations
 
@@ -51,25 +51,25 @@ EPSILON = float(np.finfo(np.float64).eps)
 
 
 @cache
-def event_dtype(n: int, n_memory: int, n_clearances: int) -> np.dtype[Any]:
+def build_event_dtype(n: int, n_memory: int, n_clearances: int) -> np.dtype[Any]:
     """Return NumPy's type of a user event with its state: y is q, v (n each) and the works; cached by sizes."""
-    at = [("y", "f8", (2 * n + N_WORK,)), ("memory", "f8", (n_memory,)), ("state", "i1", (n_clearances,))]
-    return np.dtype([("event", "i4"), ("t", "f8"), *at])
+    state_fields = [("y", "f8", (2 * n + N_WORK,)), ("memory", "f8", (n_memory,)), ("state", "i1", (n_clearances,))]
+    return np.dtype([("event", "i4"), ("t", "f8"), *state_fields])
 
 
-def plain(events_with_states: NDArray[Any]) -> NDArray[Any]:
+def remove_event_states(events_with_states: NDArray[Any]) -> NDArray[Any]:
     """Return events with states as events without them (EVENT_DTYPE): number and time."""
     events = np.zeros(len(events_with_states), dtype=EVENT_DTYPE)
     events["event"], events["t"] = events_with_states["event"], events_with_states["t"]
     return events
 
 
-def no_events() -> NDArray[Any]:
+def make_empty_events() -> NDArray[Any]:
     """Return an empty list of events."""
     return np.zeros(0, dtype=EVENT_DTYPE)
 
 
-def joined(lists: Iterable[NDArray[Any]]) -> NDArray[Any]:
+def join_contacts(lists: Iterable[NDArray[Any]]) -> NDArray[Any]:
     """Join lists of contacts (IMPACT_DTYPE) to one array; faster than numpy, which compares all fields."""
     return np.frombuffer(bytearray().join(lists), IMPACT_DTYPE)  # type: ignore[arg-type]
 
@@ -94,9 +94,9 @@ class Problem:
     remarks: tuple[str, ...] = ()  # notes on the start, which come first in the run's notes
     start_is_sample: bool = True  # False: t[0] was not requested
     audit: int = 1  # level of the audit (contract/audit.py)
-    begun: State | None = None  # state that the run resumes from
-    look: Look | None = None  # observer of all steps
-    take: Callable[[], object] = lambda: None  # raises KeyboardInterrupt after Ctrl-C (asking.py)
+    resumed_state: State | None = None  # state that the run resumes from
+    observer: Look | None = None  # observer of all steps
+    poll_cancellation: Callable[[], object] = lambda: None  # raises KeyboardInterrupt after Ctrl-C (asking.py)
 
 
 @dataclass(frozen=True)
@@ -117,24 +117,24 @@ class Counts:
     stiff_steps: int = 0
 
 
-def counts_of(counts: NDArray[Any], residual_values: Array) -> Counts:
+def convert_counts(counts: NDArray[Any], residual_values: Array) -> Counts:
     """Convert the arrays (N_COUNTS,) and (N_RESIDUALS,) that gudgeon_run_report writes to Counts; infinite residuals
     are NaN.
     """
     residuals = [x if math.isfinite(x) else math.nan for x in residual_values.tolist()]
-    known = dict(zip((*COUNT_NAMES, *RESIDUAL_NAMES), (*counts.tolist(), *residuals), strict=True))
-    return Counts(**{each.name: known[each.name] for each in fields(Counts)})
+    counts_by_name = dict(zip((*COUNT_NAMES, *RESIDUAL_NAMES), (*counts.tolist(), *residuals), strict=True))
+    return Counts(**{each.name: counts_by_name[each.name] for each in fields(Counts)})
 
 
-def counts_of_runs(counts: NDArray[Any], residual_values: Array) -> dict[str, NDArray[Any]]:
+def convert_counts_of_runs(counts: NDArray[Any], residual_values: Array) -> dict[str, NDArray[Any]]:
     """Return arrays (n,) by the field names of Counts, from C's (n, N_COUNTS) and (n, N_RESIDUALS) of n runs.
 
     Residuals that are not finite become NaN.
     """
-    known = dict(zip(COUNT_NAMES, counts.T.copy(), strict=True))
+    counts_by_name = dict(zip(COUNT_NAMES, counts.T.copy(), strict=True))
     finite = np.where(np.isfinite(residual_values), residual_values, math.nan)
-    known |= dict(zip(RESIDUAL_NAMES, finite.T.copy(), strict=True))
-    return {each.name: known[each.name] for each in fields(Counts)}
+    counts_by_name |= dict(zip(RESIDUAL_NAMES, finite.T.copy(), strict=True))
+    return {each.name: counts_by_name[each.name] for each in fields(Counts)}
 
 
 @dataclass(frozen=True)
@@ -158,42 +158,42 @@ class Trajectory:
     interrupted: bool = False
     stopped: SolverError | None = None
     seconds: float = 0.0  # spent in the time loop
-    events: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE, by time
+    events: NDArray[Any] = field(default_factory=make_empty_events)  # EVENT_DTYPE, by time
     event_states: NDArray[Any] | None = None  # event_dtype, the same with states; None: the method keeps none
-    trace: Trace | None = None  # forces and paths from the steps; None: the method keeps none
+    trace: Envelope | None = None  # forces and paths from the steps; None: the method keeps none
     audit: tuple[Finding, ...] = ()  # largest value of each check
     # EVENT_DTYPE: times from which on an event is not a number
-    no_number: NDArray[Any] = field(default_factory=no_events)
+    undefined_events: NDArray[Any] = field(default_factory=make_empty_events)
     change_points: tuple[int, float] = NO_CHANGE_POINTS  # samples at or near one, and the time of the first (s)
 
 
 @dataclass(frozen=True, eq=False)
-class Trace:
+class Envelope:
     """Hold the envelope of forces and paths: R rows, each of the same number of steps except the last."""
 
     t: Array  # (R,) s, the end of the row's last step
     joints: Array  # (R, n_clearances, 9) as TRACE_COLUMNS has them, SI
 
     @staticmethod
-    def of_rows(rows: Array, clearances: int) -> Trace:
+    def from_rows(rows: Array, clearances: int) -> Envelope:
         """Build the envelope from the rows (R, width) that C writes, keeping only TRACE_COLUMNS."""
         joints = rows[:, 1:].reshape(len(rows), clearances, N_ENVELOPE_COLUMNS)
-        return Trace(rows[:, 0].copy(), joints[:, :, [ENVELOPE_COLUMN_NAMES.index(name) for name in TRACE_COLUMNS]])
+        return Envelope(rows[:, 0].copy(), joints[:, :, [ENVELOPE_COLUMN_NAMES.index(name) for name in TRACE_COLUMNS]])
 
 
-def trace_width(clearances: int) -> int:
+def compute_envelope_width(clearances: int) -> int:
     """Return the number of values in a row of the envelope."""
     return 1 + N_ENVELOPE_COLUMNS * clearances
 
 
-def resolution(t: Array) -> float:
+def compute_time_resolution(t: Array) -> float:
     """Return the time difference (s) up to which an event and a sample coincide in a run with output times t (N,)."""
     return max(32 * EPSILON * float(abs(t[[0, -1]]).max()), min(1e-11, 1e-10 * float(t[-1] - t[0])))
 
 
-def no_states(compiled: CompiledModel) -> NDArray[Any]:
+def make_empty_event_states(compiled: CompiledModel) -> NDArray[Any]:
     """Return an empty list of events with states."""
-    return np.zeros(0, dtype=event_dtype(compiled.n, compiled.n_memory, len(compiled.source.clearances)))
+    return np.zeros(0, dtype=build_event_dtype(compiled.n, compiled.n_memory, len(compiled.source.clearances)))
 
 
 def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any]:
@@ -214,7 +214,7 @@ def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any
         compiled.pointer(memory),
         compiled.pointer(state, "signed char *"),
     )
-    parts, count = [no_states(compiled)], rows
+    parts, count = [make_empty_event_states(compiled)], rows
     while count == rows:
         count = compiled.lib.gudgeon_run_events(run, rows, *arrays)
         part = np.zeros(count, dtype=parts[0].dtype)
@@ -223,7 +223,7 @@ def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any
         parts.append(part)
     fetched = np.concatenate(parts)
     no_number = fetched["event"] >= len(compiled.source.events)
-    return fetched[no_number | (fetched["t"] > times[0] + resolution(times))]
+    return fetched[no_number | (fetched["t"] > times[0] + compute_time_resolution(times))]
 
 
 def split_undefined(compiled: CompiledModel, listed: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:

@@ -1,1 +1,1 @@
-"""Numbers, units, names, expressions and arguments as people give them; no YAML, no SymPy."""
+"""Parse and check numbers, units, names, expressions and arguments that users write, without YAML or SymPy."""

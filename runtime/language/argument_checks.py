@@ -19,7 +19,7 @@ One = TypeVar("One")  # type of the items of a checked list
 IN_RANGE = "expected a magnitude from 2.3e-308 to 1.7e308"
 
 
-def message(value: object) -> str:
+def shorten_value(value: object) -> str:
     """Return a text of at most about 60 characters that shows any value in an error message.
 
     Texts and bytes are quoted; objects other than numbers and None have their type before the value. It never raises,
@@ -36,68 +36,69 @@ def message(value: object) -> str:
     return f"{type(value).__name__} {representation[:60]}".strip()
 
 
-def refuse(name: str, value: object, expected: str, hint: str = "") -> NoReturn:
+def raise_bad_value(name: str, value: object, expected: str, hint: str = "") -> NoReturn:
     """Raise BadValueError: the argument `name` has this value, and `expected` says what it should be."""
-    raise BadValueError(f"{name} is {message(value)}: expected {expected}", hint=hint)
+    raise BadValueError(f"{name} is {shorten_value(value)}: expected {expected}", hint=hint)
 
 
-def flag(value: object, name: str) -> bool:
+def check_flag(value: object, name: str) -> bool:
     """Return a flag as bool. Raises BadValueError unless it is True or False of Python or NumPy."""
     if not isinstance(value, (bool, np.bool_)):
-        refuse(name, value, "True or False")
+        raise_bad_value(name, value, "True or False")
     return bool(value)
 
 
-def text(value: object, name: str, expected: str = "a text") -> str:
+def check_text(value: object, name: str, expected: str = "a text") -> str:
     """Return the value if it is a str that can be encoded as UTF-8, else raise BadValueError with `expected`."""
     if not isinstance(value, str):
-        refuse(name, value, expected)
+        raise_bad_value(name, value, expected)
     try:
         value.encode()
     except UnicodeEncodeError:
-        refuse(name, value, f"{expected} of whole characters")
+        raise_bad_value(name, value, f"{expected} of whole characters")
     return value
 
 
-def function(value: Any, name: str) -> Any:
+def check_callable(value: Any, name: str) -> Any:
     """Return the value if it is a callable or None, else raise BadValueError."""
     if value is not None and not callable(value):
-        refuse(name, value, "a function, or None")
+        raise_bad_value(name, value, "a function, or None")
     return value
 
 
-def path(value: Any, name: str) -> str | os.PathLike[str]:
-    """Return a file name (str or PathLike) unchanged; raise BadValueError unless the file system can have such a name.
+def check_path(value: Any, name: str) -> str | os.PathLike[str]:
+    """Return a file name (str or PathLike) unchanged; raise BadValueError unless the file system can have such a
+    name.
     """
     if not isinstance(value, (str, os.PathLike)) or not isinstance(os.fspath(value), str):
-        refuse(name, value, "the name of a file: a text or a Path")
+        raise_bad_value(name, value, "the name of a file: a text or a Path")
     try:
         is_possible = b"\0" not in os.fsencode(value)
     except UnicodeEncodeError:
         is_possible = False
     if not is_possible:
-        refuse(name, value, "a name that a file can have")
+        raise_bad_value(name, value, "a name that a file can have")
     return value
 
 
-def is_whole(value: object) -> TypeGuard[int]:
+def is_integer(value: object) -> TypeGuard[int]:
     """Return whether a value is an integer of Python or NumPy, but neither a boolean nor a timedelta."""
     return isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
 
 
-def whole(value: Any, name: str, minimum: int, maximum: int) -> int:
+def check_integer(value: Any, name: str, minimum: int, maximum: int) -> int:
     """Return a value as int if it is an integer with minimum ≤ value ≤ maximum, else raise BadValueError.
 
     Arrays without dimensions are accepted.
     """
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value[()]
-    if not is_whole(value) or not minimum <= value <= maximum:
-        refuse(name, value, f"a whole number from {minimum} to {maximum}")
+    if not is_integer(value) or not minimum <= value <= maximum:
+        raise_bad_value(name, value, f"a whole number from {minimum} to {maximum}")
     return int(value)
 
 
-def number_of(value: Any, name: str) -> float:
+def check_number(value: Any, name: str) -> float:
     """Return any one real number as a finite float.
 
     Raises BadValueError for texts, booleans, complex numbers, times, arrays with dimensions, NaN and infinity.
@@ -109,97 +110,97 @@ def number_of(value: Any, name: str) -> float:
             raise TypeError
         result = float(value)
     except (TypeError, ValueError, OverflowError):
-        shown = value if isinstance(value, str) else message(value)
+        shown = value if isinstance(value, str) else shorten_value(value)
         raise BadValueError(f"{name}: {shown[:60]!r} is not one real number") from None
     if not math.isfinite(result):
         raise BadValueError(f"{name}: {value!r} is not a finite number")
     return result
 
 
-def whole_digits(number: float, name: str) -> float:
+def check_not_subnormal(number: float, name: str) -> float:
     """Return the number unchanged. Raises BadValueError if it is subnormal, since such numbers have lost digits."""
     if number and abs(number) < sys.float_info.min:
         raise BadValueError(f"{name}: {number!r} is out of range", hint=IN_RANGE)
     return number
 
 
-def time(value: Any) -> float:
+def check_time(value: Any) -> float:
     """Return a time (s) as float; a float is returned unchanged, also NaN and infinity, which C handles.
 
     Raises BadValueError for anything that is not a number.
     """
-    return value if isinstance(value, float) else number_of(value, "t")
+    return value if isinstance(value, float) else check_number(value, "t")
 
 
-def mapping(value: Any, name: str, hint: str = "") -> Mapping[str, Any]:
+def check_mapping(value: Any, name: str, hint: str = "") -> Mapping[str, Any]:
     """Return a mapping with texts as keys; None gives an empty mapping, a pandas Series becomes a dict.
 
     Raises BadValueError with `hint` for other values, keys that are not texts, or a Series with repeated names.
     """
     if value is None:
         return {}
-    found = value
+    mapping = value
     if not isinstance(value, Mapping) and getattr(value, "ndim", 0) == 1 and callable(getattr(value, "items", None)):
-        found = dict(value.items())
-        if len(found) != len(value):
+        mapping = dict(value.items())
+        if len(mapping) != len(value):
             raise BadValueError(f"{name}: its index has a name twice", hint="give each number once")
-    if not isinstance(found, Mapping):
+    if not isinstance(mapping, Mapping):
         raise BadValueError(f"{name} is a {type(value).__name__}: expected a mapping", hint=hint)
-    for key in found:
+    for key in mapping:
         if not isinstance(key, str):
-            raise BadValueError(f"{name}: its key {message(key)} is no text", hint=hint)
-    return found
+            raise BadValueError(f"{name}: its key {shorten_value(key)} is no text", hint=hint)
+    return mapping
 
 
-def listed(value: Any, name: str, kind: type[One], expected: str) -> list[One]:
+def check_list(value: Any, name: str, kind: type[One], expected: str) -> list[One]:
     """Return a list of the items of a sequence, set, one-dimensional array or table column, all of type `kind`.
 
     Raises BadValueError with `expected` for other values, also for a single text, a mapping, or a column of 10⁶ or
     more items.
     """
     if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Iterable) or getattr(value, "ndim", 1) != 1:
-        refuse(name, value, expected)
+        raise_bad_value(name, value, expected)
     if isinstance(value, Sequence) or len(getattr(value, "shape", ())) == 0 or len(value) < 10**6:  # type: ignore[arg-type]
-        found = list(value)
-        if all(isinstance(one, kind) for one in found):
-            return found
-    refuse(name, value, expected)
+        items = list(value)
+        if all(isinstance(item, kind) for item in items):
+            return items
+    raise_bad_value(name, value, expected)
 
 
-def names(value: Any, name: str, expected: str) -> list[str]:
+def check_names(value: Any, name: str, expected: str) -> list[str]:
     """Return one name, or several in any sequence or set, as a list of plain str. Raises BadValueError with
     `expected`.
     """
-    every = [value] if isinstance(value, str) else listed(value, name, str, expected)
-    return [str.__str__(text(one, name, expected)) for one in every]
+    every = [value] if isinstance(value, str) else check_list(value, name, str, expected)
+    return [str.__str__(check_text(text, name, expected)) for text in every]
 
 
-def instance(value: Any, name: str, kind: type[One]) -> One:
+def check_instance(value: Any, name: str, kind: type[One]) -> One:
     """Return the value if it is an instance of the class `kind`, else raise BadValueError."""
     if not isinstance(value, kind):
-        refuse(name, value, f"a {kind.__name__}")
+        raise_bad_value(name, value, f"a {kind.__name__}")
     return value
 
 
-def optional(value: Any, name: str, kind: type[One]) -> One | None:
+def check_optional_instance(value: Any, name: str, kind: type[One]) -> One | None:
     """Return the value if it is None or an instance of the class `kind`, else raise BadValueError."""
-    return None if value is None else instance(value, name, kind)
+    return None if value is None else check_instance(value, name, kind)
 
 
-def positive(value: Any, name: str) -> float:
+def check_positive(value: Any, name: str) -> float:
     """Return any real number above zero as a finite float, else raise BadValueError."""
-    number = number_of(value, name)
+    number = check_number(value, name)
     if not number > 0.0:
-        refuse(name, value, "a number above zero")
+        raise_bad_value(name, value, "a number above zero")
     return number
 
 
-def optional_positive(value: Any, name: str) -> float | None:
+def check_optional_positive(value: Any, name: str) -> float | None:
     """Return None for None, any real number above zero as a finite float, else raise BadValueError."""
-    return None if value is None else positive(value, name)
+    return None if value is None else check_positive(value, name)
 
 
-def numbers(values: Any, name: str) -> list[float]:
+def check_numbers(values: Any, name: str) -> list[float]:
     """Return the finite numbers of a list, array or column as floats; [] for None. Raises BadValueError."""
-    every: list[Any] = [] if values is None else listed(values, name, object, "a list of numbers")
-    return [number_of(value, f"{name}[{k}]") for k, value in enumerate(every)]
+    every: list[Any] = [] if values is None else check_list(values, name, object, "a list of numbers")
+    return [check_number(value, f"{name}[{k}]") for k, value in enumerate(every)]

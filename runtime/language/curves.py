@@ -49,15 +49,15 @@ class Curve:
     over: str = ""  # unit of x in the file; "": SI
     source: str = ""  # file that the points came from
     interpolation: str = SPLINE
-    points: int = 0  # number of points; one piece may have been halved (`even_pieces`)
+    points: int = 0  # number of points; one piece may have been halved (`make_even_pieces`)
 
     @property
-    def repeats(self) -> bool:
+    def is_periodic(self) -> bool:
         """Return whether the curve is periodic."""
         return self.ends == PERIODIC
 
     @property
-    def goes_on(self) -> bool:
+    def is_extrapolated(self) -> bool:
         """Return whether the curve is extrapolated beyond its range (held or straight), which begins at a switching
         point.
         """
@@ -80,21 +80,21 @@ class Curve:
     @property
     def range_text(self) -> str:
         """Return the range of the argument as text, in SI units: "from 0 to 0.5 s"."""
-        from gudgeon.language.units import si_unit
+        from gudgeon.language.units import find_si_unit
 
-        unit = si_unit(self.argument) if self.argument is not None else ""
+        unit = find_si_unit(self.argument) if self.argument is not None else ""
         return f"from {self.x[0]:.6g} to {self.x[-1]:.6g} {unit or '(SI, angles in rad)'}"
 
-    def outside(self, x: float) -> str:
+    def describe_outside(self, x: float) -> str:
         """Return a text for a message: argument x lies outside the range, which is given in SI and in the file's unit.
 
         The numbers have enough digits to differ. The text names keys that extend the curve.
         """
-        from gudgeon.language.plot_units import distinct_texts
+        from gudgeon.language.plot_units import format_distinct
         from gudgeon.language.units import parse_unit
 
         low, high = self.x[0], self.x[-1]
-        value_text, end = distinct_texts(x, high if x > high else low, 6)
+        value_text, end = format_distinct(x, high if x > high else low, 6)
         ends = (f"{low:.6g}", end) if x > high else (end, f"{high:.6g}")
         unit_and_end = parse_unit(self.over) if self.over else None
         size = unit_and_end[0].to_si(Fraction(1)) if unit_and_end else 1.0
@@ -104,32 +104,32 @@ class Curve:
             f" in curves.{self.name} ends: periodic repeats it, extrapolate: hold or line goes on"
         )
 
-    def message(self) -> str:
+    def describe(self) -> str:
         """Return a description of the curve: interpolation, points and their file, ends, range, and what holds
         outside.
         """
         ends = f"{self.ends.replace('_', '-')} ends"
-        after = "repeated" if self.repeats else {STOP: "none", HOLD: "held", LINE: "straight on"}[self.extrapolate]
+        after = "repeated" if self.is_periodic else {STOP: "none", HOLD: "held", LINE: "straight on"}[self.extrapolate]
         points = f"{self.points} points{f' of {self.source}' * bool(self.source)}"
         return (
             f"{_INTERPOLATION_NAMES[self.interpolation]} through {points}, {ends}, {self.range_text}, outside {after}"
         )
 
-    def end(self, order: int) -> float:
+    def compute_end_derivative(self, order: int) -> float:
         """Return the derivative of the given order (0: value) at the last knot."""
         return float(_evaluate_horner(np.array(self.coefficients[-1]), np.float64(self.x[-1] - self.x[-2]), order))
 
-    def within(self, x: Any) -> Any:
+    def is_within(self, x: Any) -> Any:
         """Return whether the curve has a value at x (number or array), with a tolerance of MARGIN times the range.
 
         Periodic and extrapolated curves have one at every finite x.
         """
-        if self.repeats or self.extrapolate != STOP:
+        if self.is_periodic or self.extrapolate != STOP:
             return np.isfinite(x)
         margin = MARGIN * (self.x[-1] - self.x[0])
         return (x >= self.x[0] - margin) & (x <= self.x[-1] + margin)
 
-    def at(self, x: Any, order: int = 0) -> Any:
+    def evaluate(self, x: Any, order: int = 0) -> Any:
         """Return the values or derivatives of the given order (0 to 3) at x, a number or an array, in SI.
 
         Outside its range a curve is continued periodically, held or straight as its options say, else NaN.
@@ -137,8 +137,8 @@ class Curve:
         x = np.asarray(x, dtype=float)
         (knots, pieces), first, last = self._tables, self.x[0], self.x[-1]
         with np.errstate(invalid="ignore"):
-            inside = self.within(x)
-            if self.repeats:
+            inside = self.is_within(x)
+            if self.is_periodic:
                 x = x - (last - first) * np.floor((x - first) / (last - first))
             held = np.clip(x, first, last) if self.extrapolate != STOP else x
             k = np.clip(np.searchsorted(knots, held, side="right") - 1, 0, len(knots) - 2)
@@ -155,7 +155,7 @@ class Curve:
         if self.extrapolate == HOLD and order:
             return np.where((x < self.x[0]) | (x > self.x[-1]), 0.0, value)
         if self.extrapolate == LINE and order < 2:
-            down, up = self.coefficients[0][1], self.end(1)
+            down, up = self.coefficients[0][1], self.compute_end_derivative(1)
             if order == 1:
                 return np.where(x < self.x[0], down, np.where(x > self.x[-1], up, value))
             return value + down * np.minimum(x - self.x[0], 0.0) + up * np.maximum(x - self.x[-1], 0.0)
@@ -168,7 +168,7 @@ class Curve:
 
         Tables of long curves are base64 texts.
         """
-        x, pieces = (packed(table) if self.is_long else table.tolist() for table in self._tables)
+        x, pieces = (encode_table(table) if self.is_long else table.tolist() for table in self._tables)
         return [self.name, x, pieces, self.ends, self.extrapolate, self.unit, self.over]
 
     @staticmethod
@@ -184,19 +184,19 @@ class Curve:
         return Curve(name, x, pieces, ends, extrapolate, unit=unit, over=over[0] if over else "")
 
 
-def packed(values: Any) -> str:
+def encode_table(values: Any) -> str:
     """Return the numbers of an array as base64 of binary64, little-endian, row by row."""
     return base64.b64encode(np.asarray(values, "<f8").tobytes()).decode()
 
 
 @lru_cache(maxsize=8)
 def _decode_tables(x: str, pieces: str) -> tuple[tuple[float, ...], tuple[tuple[float, float, float, float], ...]]:
-    """Return knots and coefficients of the base64 texts that `packed` wrote; the last 8 results are cached."""
+    """Return knots and coefficients of the base64 texts that `encode_table` wrote; the last 8 results are cached."""
     knots, rows = (np.frombuffer(base64.b64decode(text), "<f8") for text in (x, pieces))
     return tuple(knots.tolist()), tuple(map(tuple, rows.reshape(-1, 4).tolist()))
 
 
-def even_pieces(
+def make_even_pieces(
     x: Sequence[float], pieces: Sequence[tuple[float, float, float, float]]
 ) -> tuple[tuple[float, ...], tuple[tuple[float, float, float, float], ...]]:
     """Return knots and coefficients with an even number of pieces; if it is odd, the last piece is halved.
@@ -224,7 +224,7 @@ def _evaluate_horner(c: Any, h: Any, order: int) -> Any:
     return 6.0 * c[3]
 
 
-def spline(
+def compute_spline(
     x: Sequence[float], y: Sequence[float], ends: str, interpolation: str = SPLINE
 ) -> tuple[tuple[float, float, float, float], ...]:
     """Return the coefficients (n, 4) of the cubic spline or monotone cubic through the points (x, y), x increasing.
@@ -236,7 +236,7 @@ def spline(
     h = [b - a for a, b in zip(x, x[1:], strict=False)]
     rises = [(b - a) / step for a, b, step in zip(y, y[1:], h, strict=False)]
     if interpolation == MONOTONE:
-        slopes = monotone_slopes(h, rises, ends == PERIODIC, ends == CLAMPED)
+        slopes = compute_monotone_slopes(h, rises, ends == PERIODIC, ends == CLAMPED)
     else:
         slopes = _compute_periodic_slopes(h, rises) if ends == PERIODIC else _compute_slopes_with_ends(h, rises, ends)
     return tuple(
@@ -299,14 +299,14 @@ def _compute_periodic_slopes(h: Sequence[float], rises: Sequence[float]) -> list
     kept = [list(row) for row in rows]
     kept[0][1] -= shift
     kept[-1][1] -= corner_up * corner_down / shift
-    one = _solve_tridiagonal(kept)
+    correction = _solve_tridiagonal(kept)
     for row in kept:
         row[3] = 0.0
     kept[0][3], kept[-1][3] = shift, corner_down
     other = _solve_tridiagonal(kept)
-    share = corner_up / shift
-    factor = (one[0] + share * one[-1]) / (1.0 + other[0] + share * other[-1])
-    slopes = [a - factor * b for a, b in zip(one, other, strict=True)]
+    fraction = corner_up / shift
+    factor = (correction[0] + fraction * correction[-1]) / (1.0 + other[0] + fraction * other[-1])
+    slopes = [a - factor * b for a, b in zip(correction, other, strict=True)]
     return [*slopes, slopes[0]]
 
 
@@ -324,7 +324,7 @@ def _solve_tridiagonal(rows: Sequence[Sequence[float]]) -> list[float]:
     return right
 
 
-def monotone_slopes(h: Sequence[float], rises: Sequence[float], repeats: bool, flat_ends: bool) -> list[float]:
+def compute_monotone_slopes(h: Sequence[float], rises: Sequence[float], repeats: bool, flat_ends: bool) -> list[float]:
     """Return the slopes at all knots of a monotone cubic: weighted harmonic means of the mean slopes on both sides, 0
     at extrema.
 
@@ -332,10 +332,11 @@ def monotone_slopes(h: Sequence[float], rises: Sequence[float], repeats: bool, f
     """
     if repeats:
         inner = [
-            _compute_harmonic_mean(*of) for of in zip([h[-1], *h[:-1]], h, [rises[-1], *rises[:-1]], rises, strict=True)
+            _compute_harmonic_mean(*neighbours)
+            for neighbours in zip([h[-1], *h[:-1]], h, [rises[-1], *rises[:-1]], rises, strict=True)
         ]
         return [*inner, inner[0]]
-    inner = [_compute_harmonic_mean(*of) for of in zip(h, h[1:], rises, rises[1:], strict=False)]
+    inner = [_compute_harmonic_mean(*neighbours) for neighbours in zip(h, h[1:], rises, rises[1:], strict=False)]
     if flat_ends:
         return [0.0, *inner, 0.0]
     if not inner:

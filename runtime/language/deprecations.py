@@ -28,6 +28,6 @@ STRESS = Deprecation("gudgeon stress", "0.1.0", "2026-11-26", "gudgeon map", "0.
 DEPRECATIONS = (STRESS,)
 
 
-def deprecated(deprecation: Deprecation) -> None:
+def warn_deprecated(deprecation: Deprecation) -> None:
     """Issue a DeprecationWarning that points to the line from which the caller of this function was called."""
     warnings.warn(str(deprecation), DeprecationWarning, stacklevel=3)

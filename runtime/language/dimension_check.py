@@ -15,8 +15,8 @@ import numpy as np
 
 from gudgeon.errors import Location, UnitError
 from gudgeon.language.functions import FUNCTIONS, Units
-from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Number, Unary, evaluate, names
-from gudgeon.language.units import DIMENSIONLESS, Dimension, describe, symbol_dimension, unit
+from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Number, Unary, evaluate, iterate_names
+from gudgeon.language.units import DIMENSIONLESS, Dimension, describe_dimension, find_symbol_dimension, find_unit
 
 _MOST = 24  # largest exponent of a dimension: mechanics needs no larger one
 
@@ -42,27 +42,27 @@ def check_dimension(
     hide units.
     """
     try:
-        found = _Checker(dimension_of, location).of(expr)
-        if expected is not None and isinstance(found, Dimension) and found != expected:
-            message = f"expected {describe(expected)}, got {describe(found)}"
+        dimension = _Checker(dimension_of, location).find_dimension(expr)
+        if expected is not None and isinstance(dimension, Dimension) and dimension != expected:
+            message = f"expected {describe_dimension(expected)}, got {describe_dimension(dimension)}"
             raise UnitError(message, location, _suggest_divisor(expr, expected))
     except UnitError as error:
-        if not (shadowed := dict.fromkeys(names_over_units(expr))):
+        if not (shadowed := dict.fromkeys(find_names_over_units(expr))):
             raise
         are = [f"{name} is a name of this file here: the unit is written {name}^1" for name in shadowed]
         raise UnitError(error.message, error.where, "; ".join([error.hint, *are] if error.hint else are)) from None
-    return expected if isinstance(found, _Flexible) else found
+    return expected if isinstance(dimension, _Flexible) else dimension
 
 
-def names_over_units(expr: Expr) -> Iterator[str]:
+def find_names_over_units(expr: Expr) -> Iterator[str]:
     """Yield names that are also symbols of units and are factors after a number with a unit: `m` in `3 N/m`."""
     match expr:
         case Unary(operand=operand):
-            yield from names_over_units(operand)
+            yield from find_names_over_units(operand)
         case Binary(operator=operator, left=left, right=right):
-            yield from names_over_units(left)
-            yield from names_over_units(right)
-            if operator in ("*", "/") and isinstance(right, Name) and symbol_dimension(right.path) is not None:
+            yield from find_names_over_units(left)
+            yield from find_names_over_units(right)
+            if operator in ("*", "/") and isinstance(right, Name) and find_symbol_dimension(right.path) is not None:
                 while isinstance(left, Unary) or isinstance(left, Binary) and left.operator in ("*", "/"):
                     of_name = isinstance(left, Binary) and isinstance(left.right, Name)
                     left = left.operand if isinstance(left, Unary) else left.left if of_name else left.right
@@ -70,7 +70,7 @@ def names_over_units(expr: Expr) -> Iterator[str]:
                     yield right.path
         case Call(arguments=arguments):
             for argument in arguments:
-                yield from names_over_units(argument)
+                yield from find_names_over_units(argument)
 
 
 def _suggest_divisor(expr: Expr, expected: Dimension) -> str:
@@ -78,8 +78,8 @@ def _suggest_divisor(expr: Expr, expected: Dimension) -> str:
     if not (isinstance(expr, Binary) and expr.operator == "/" and isinstance(expr.right, Number)):
         return ""
     number, _, word = expr.right.text.partition(" ")
-    known = unit(word) if expr.right.has_unit else None
-    if known is None or known.dimension != expected:
+    unit = find_unit(word) if expr.right.has_unit else None
+    if unit is None or unit.dimension != expected:
         return ""
     return f"a unit belongs to the number before it: write 1 {word} * …, or (…)/{number} * 1 {word}"
 
@@ -104,7 +104,7 @@ class _Checker:
     def __init__(self, dimension_of: Callable[[str], Dimension | None], location: Location) -> None:
         self._dimension_of, self._where = dimension_of, location
 
-    def of(self, expr: Expr) -> _DimensionOrFlexible:
+    def find_dimension(self, expr: Expr) -> _DimensionOrFlexible:
         """Return the dimension of an expression, computed from its leaves up, or that it is flexible (fits any
         dimension).
 
@@ -112,12 +112,12 @@ class _Checker:
         """
         match expr:
             case Number(text=text, has_unit=has_unit):
-                known = unit(text.partition(" ")[2]) if has_unit else None
-                return known.dimension if known else _BARE
+                unit = find_unit(text.partition(" ")[2]) if has_unit else None
+                return unit.dimension if unit else _BARE
             case Name(path=path):
                 return self._dimension_of(path) or _ANY
             case Unary(operand=operand):
-                return self.of(operand)
+                return self.find_dimension(operand)
             case CurveCall():
                 return self._check_curve(expr)
             case Call():
@@ -129,7 +129,7 @@ class _Checker:
             return self._check_power(expr)
         return self._check_product(expr)
 
-    def _location(self, expr: Expr) -> Location:
+    def _find_location(self, expr: Expr) -> Location:
         """Return the location where an expression begins; a Binary's own offset is that of its operator."""
         while isinstance(expr, Binary):
             expr = expr.left
@@ -142,14 +142,14 @@ class _Checker:
         """
         result: _DimensionOrFlexible = _BARE
         for part in parts:
-            found = self.of(part)
-            if isinstance(found, _Flexible):
-                result = result if isinstance(result, Dimension) or found.pure else found
-            elif isinstance(result, Dimension) and found != result:
-                message = f"{problem}: {describe(result)} and {describe(found)}"
-                raise UnitError(message, self._location(part), f"expected {describe(result)}")
+            part_dimension = self.find_dimension(part)
+            if isinstance(part_dimension, _Flexible):
+                result = result if isinstance(result, Dimension) or part_dimension.pure else part_dimension
+            elif isinstance(result, Dimension) and part_dimension != result:
+                message = f"{problem}: {describe_dimension(result)} and {describe_dimension(part_dimension)}"
+                raise UnitError(message, self._find_location(part), f"expected {describe_dimension(result)}")
             else:
-                result = found
+                result = part_dimension
         return result
 
     def _check_call(self, call: Call) -> _DimensionOrFlexible:
@@ -164,28 +164,30 @@ class _Checker:
             self._find_common_dimension(unlike, *call.arguments)
             return DIMENSIONLESS
         argument = call.arguments[0]
-        found = self.of(argument)
+        dimension = self.find_dimension(argument)
         if units is Units.ROOT:
-            return found if isinstance(found, _Flexible) else found ** Fraction(1, 2)
-        if isinstance(found, Dimension) and found != DIMENSIONLESS:
-            message = f"{call.function} expected {describe(DIMENSIONLESS)}, got {describe(found)}"
-            raise UnitError(message, self._location(argument))
-        return DIMENSIONLESS if isinstance(found, Dimension) else _BARE  # `0.1 * sin(2*pi*t)` may still be a length
+            return dimension if isinstance(dimension, _Flexible) else dimension ** Fraction(1, 2)
+        if isinstance(dimension, Dimension) and dimension != DIMENSIONLESS:
+            message = (
+                f"{call.function} expected {describe_dimension(DIMENSIONLESS)}, got {describe_dimension(dimension)}"
+            )
+            raise UnitError(message, self._find_location(argument))
+        return DIMENSIONLESS if isinstance(dimension, Dimension) else _BARE  # `0.1 * sin(2*pi*t)` may still be a length
 
     def _check_curve(self, call: CurveCall) -> _DimensionOrFlexible:
         """Return the dimension of a curve's value, after checking that of its argument. Raises UnitError."""
         (argument,), over = call.arguments, call.curve.argument
-        found = self.of(argument)
-        if isinstance(found, Dimension) and over is not None and found != over:
-            message = f"curve {call.function} is over {describe(over)}, got {describe(found)}"
-            raise UnitError(message, self._location(argument))
+        dimension = self.find_dimension(argument)
+        if isinstance(dimension, Dimension) and over is not None and dimension != over:
+            message = f"curve {call.function} is over {describe_dimension(over)}, got {describe_dimension(dimension)}"
+            raise UnitError(message, self._find_location(argument))
         return _ANY if call.curve.value is None else call.curve.value
 
     def _check_product(self, expr: Binary) -> _DimensionOrFlexible:
         """Return the dimension of a product or quotient; it is flexible with a unitless parameter, or for numbers
         times `t`.
         """
-        left, right = self.of(expr.left), self.of(expr.right)
+        left, right = self.find_dimension(expr.left), self.find_dimension(expr.right)
         if _ANY in (left, right):
             return _ANY
         if left == right == _BARE:
@@ -201,24 +203,28 @@ class _Checker:
 
         With a dimensional base the exponent must be constant, rational and at most _MOST.
         """
-        base, exponent = self.of(expr.left), self.of(expr.right)
+        base, exponent = self.find_dimension(expr.left), self.find_dimension(expr.right)
         if isinstance(exponent, Dimension) and exponent != DIMENSIONLESS:
-            message = f"an exponent is a pure number, got {describe(exponent)}"
-            raise UnitError(message, self._location(expr.right))
+            message = f"an exponent is a pure number, got {describe_dimension(exponent)}"
+            raise UnitError(message, self._find_location(expr.right))
         if isinstance(base, _Flexible) or base == DIMENSIONLESS:
             return base
-        value = float("nan") if any(True for _ in names(expr.right)) else float(evaluate(expr.right, lambda _: np.nan))
+        value = (
+            float("nan")
+            if any(True for _ in iterate_names(expr.right))
+            else float(evaluate(expr.right, lambda _: np.nan))
+        )
         if (
             not abs(value) <= _MOST
             or (power := Fraction(value).limit_denominator(12)) != value
             and abs(power - value) > 1e-12
         ):
-            message = f"the exponent of {describe(base)} is a plain number such as 2 or 1/2"
-            raise UnitError(message, self._location(expr.right))
+            message = f"the exponent of {describe_dimension(base)} is a plain number such as 2 or 1/2"
+            raise UnitError(message, self._find_location(expr.right))
         return self._check_bounds(base**power, expr)
 
     def _check_bounds(self, dimension: Dimension, expr: Binary) -> Dimension:
         """Return the dimension unchanged. Raises UnitError at the expression if an exponent exceeds _MOST."""
         if max(abs(dimension.length), abs(dimension.mass), abs(dimension.time)) > _MOST:
-            raise UnitError(f"a unit with an exponent above {_MOST}", self._location(expr))
+            raise UnitError(f"a unit with an exponent above {_MOST}", self._find_location(expr))
         return dimension

@@ -93,7 +93,7 @@ class Function:
     copies: int = 1
     usage: str = ""
 
-    def call(self, *arguments: str) -> str:
+    def format_call(self, *arguments: str) -> str:
         """Return the call of the function with these argument texts as files write it; `where` has a `<` between the
         first two.
         """
@@ -351,11 +351,13 @@ FUNCTIONS: Mapping[str, Function] = {function.name: function for function in _TA
 IN_SYMPY: Mapping[str, Function] = {function.in_sympy: function for function in _TABLE if function.in_sympy}
 
 
-def names_where(predicate: Callable[[Function], bool]) -> frozenset[str]:
+def select_function_names(predicate: Callable[[Function], bool]) -> frozenset[str]:
     """Return the names of the functions in the table for which `predicate` is true."""
     return frozenset(function.name for function in _TABLE if predicate(function))
 
 
-CORNERED = names_where(lambda f: f.jump_order in (0, 1))  # functions whose value or slope jumps: steps end there
-JUMPING = names_where(lambda f: f.jump_order == 0)  # functions whose value jumps
-PIECEWISE = names_where(lambda f: f.jump_order is not None)  # functions with a derivative that jumps
+CORNERED = select_function_names(
+    lambda f: f.jump_order in (0, 1)
+)  # functions whose value or slope jumps: steps end there
+JUMPING = select_function_names(lambda f: f.jump_order == 0)  # functions whose value jumps
+PIECEWISE = select_function_names(lambda f: f.jump_order is not None)  # functions with a derivative that jumps

@@ -47,10 +47,12 @@ def check_name(name: str, kind: str, location: Location | None) -> None:
     if "__" in name:
         reason, alternative = "names that hold '__' are kept for emitted code", re.sub("__+", "_", name)
     if reason:
-        raise BadNameError(f"{name!r} cannot name this {kind}: {reason}", location, another_name(name, alternative))
+        raise BadNameError(
+            f"{name!r} cannot name this {kind}: {reason}", location, suggest_another_name(name, alternative)
+        )
 
 
-def another_name(name: str, alternative: str = "") -> str:
+def suggest_another_name(name: str, alternative: str = "") -> str:
     """Return a hint that proposes `alternative`, or `name` followed by the digit 1 if that is empty."""
     return f"expected another name, such as {alternative or f'{name}1'}"
 
@@ -59,7 +61,7 @@ def check_not_null(name: str, item: str, location: Location | None) -> None:
     """Raise BadNameError if YAML would read `name` as no value; `item` names it in the message, such as "this body"."""
     if name in YAML_NULL:
         reason = "YAML reads it as no value where the name is used"
-        raise BadNameError(f"{str(name)!r} cannot name {item}: {reason}", location, another_name(name))
+        raise BadNameError(f"{str(name)!r} cannot name {item}: {reason}", location, suggest_another_name(name))
 
 
 def check_label(name: str, kind: str, location: Location | None) -> None:
@@ -76,7 +78,7 @@ def check_label(name: str, kind: str, location: Location | None) -> None:
             hint += f", such as {plain}"
         if "=" in name and IDENTIFIER.fullmatch(plain := name.partition("=")[0].strip()):
             hint = f"a value stands behind a colon: {plain}:{name.partition('=')[2].partition('=')[0].rstrip()}"
-        hint = odd_characters(name) + hint
+        hint = describe_lookalike(name) + hint
         raise BadNameError(f"{name[:MAX_LENGTH]!r} cannot name this {kind}: it is no identifier", location, hint)
     check_not_null(name, f"this {kind}", location)
     if len(name) > MAX_LENGTH:
@@ -85,7 +87,7 @@ def check_label(name: str, kind: str, location: Location | None) -> None:
         )
 
 
-def character_text(character: str) -> str:
+def format_character(character: str) -> str:
     """Return a character as a message shows it: "'$'" or "U+00A0 (no-break space)"."""
     if character.isascii() and character.isprintable():
         return repr(character)
@@ -94,7 +96,7 @@ def character_text(character: str) -> str:
     return f"U+{ord(character):04X}" + (f" ({name}{shown})" if name else "")
 
 
-def advice_on(character: str) -> str:
+def advise_on_character(character: str) -> str:
     """Return advice on a character that looks like another one, such as "write '-'"; "" for ASCII and unknown ones."""
     kind = unicodedata.category(character)
     if character.isascii():
@@ -109,15 +111,15 @@ def advice_on(character: str) -> str:
     return f"write {plain!r}" if plain.isascii() and plain.isprintable() and len(plain) == 1 else ""
 
 
-def odd_characters(name: str) -> str:
+def describe_lookalike(name: str) -> str:
     """Return "it contains U+00A0 (no-break space): …; " for the first character of a name that looks like another;
     else "".
     """
-    odd = next((one for one in name if not one.isascii() and advice_on(one)), "")
-    return f"it contains {character_text(odd)}: {advice_on(odd)}; " if odd else ""
+    odd = next((character for character in name if not character.isascii() and advise_on_character(character)), "")
+    return f"it contains {format_character(odd)}: {advise_on_character(odd)}; " if odd else ""
 
 
-def near(name: str, known_names: Iterable[str], max_names: int = 3, cutoff: float = 0.6) -> list[str]:
+def find_near_names(name: str, known_names: Iterable[str], max_names: int = 3, cutoff: float = 0.6) -> list[str]:
     """Return at most `max_names` known names that a mistyped `name` may stand for, the most similar first.
 
     The beginning of a dotted address may be missing. cutoff: least similarity, 0 to 1.
@@ -131,40 +133,42 @@ def near(name: str, known_names: Iterable[str], max_names: int = 3, cutoff: floa
     return list(dict.fromkeys(candidate for end in matches for candidate in names_by_ending[end]))[:max_names]
 
 
-def nearest(name: str, known_names: Iterable[str], cutoff: float = 0.5) -> str | None:
+def find_nearest_name(name: str, known_names: Iterable[str], cutoff: float = 0.5) -> str | None:
     """Return the known name that a mistyped `name` most likely stands for; None below the similarity `cutoff` (0 to
     1).
     """
-    return next(iter(near(name, known_names, 1, cutoff)), None)
+    return next(iter(find_near_names(name, known_names, 1, cutoff)), None)
 
 
-def known_hint(name: str, known_names: Iterable[str], max_names: int = 12) -> str:
+def format_name_hint(name: str, known_names: Iterable[str], max_names: int = 12) -> str:
     """Return a hint on an unknown `name`: "did you mean 'mass'? expected one of: …", with at most `max_names` names."""
     candidates = list(known_names)
-    guess = nearest(name, candidates)
+    guess = find_nearest_name(name, candidates)
     name_list = ", ".join(candidates[:max_names]) + (", …" if len(candidates) > max_names else "")
     expected = f"expected one of: {name_list}" if candidates else "none is defined"
-    odd = odd_characters(name)
+    odd = describe_lookalike(name)
     if candidates == [guess]:
         return f"{odd}did you mean {guess!r}?"
     return f"{odd}did you mean {guess!r}? {expected}" if guess else odd + expected
 
 
-def unknown_name(kind: str, name: str, known_names: Iterable[str], location: Location | None) -> UnknownNameError:
+def make_unknown_name_error(
+    kind: str, name: str, known_names: Iterable[str], location: Location | None
+) -> UnknownNameError:
     """Return the UnknownNameError for a `name` that nothing defines, with the nearest known names as hint.
 
     kind: of the name, such as "body". location: for the error.
     """
-    return UnknownNameError(f"unknown {kind} {str(name)[:200]!r}", location, known_hint(name, known_names))
+    return UnknownNameError(f"unknown {kind} {str(name)[:200]!r}", location, format_name_hint(name, known_names))
 
 
-def unknown(message: str, name: str, known_names: tuple[str, ...]) -> UnknownNameError:
+def make_unknown_error(message: str, name: str, known_names: tuple[str, ...]) -> UnknownNameError:
     """Return an UnknownNameError with this message; the hint has the nearest known names, or all if they are few.
 
     If there are many and none is near, parameters are listed first and addresses (with a dot) as examples.
     """
-    if found := near(name, known_names):
-        return UnknownNameError(message, hint=f"nearest: {', '.join(found)}")
+    if near_names := find_near_names(name, known_names):
+        return UnknownNameError(message, hint=f"nearest: {', '.join(near_names)}")
     if len(known_names) <= 12:
         return UnknownNameError(message, hint=f"there are: {', '.join(known_names)}")
     short, addresses = [n for n in known_names if "." not in n], [n for n in known_names if "." in n]

@@ -24,7 +24,7 @@ _PLAIN = (Fraction(0),) * 4  # exponents of a pure number
 _NAMES = ("N", "J", "N/m", "N*s/m", "Pa", "Pa*s", "W", "m", "m/s", "m/s^2", "rad", "rad/s", "rad/s^2")
 
 
-def unit_of(expression: Expr, unit: Callable[[str], str | None]) -> str:
+def derive_unit(expression: Expr, unit: Callable[[str], str | None]) -> str:
     """Return the SI unit of an expression from the units of its names; "" if it cannot be derived.
 
     unit(name): unit of a name, None if it has none.
@@ -35,7 +35,7 @@ def unit_of(expression: Expr, unit: Callable[[str], str | None]) -> str:
         return ""
 
 
-def parse(unit: str) -> Exponents:
+def parse_exponents(unit: str) -> Exponents:
     """Return the exponents of m, kg, s, rad of an SI unit such as "kg*m^2/s". Raises ValueError for any other text."""
     total = list(_PLAIN)
     sign = 1
@@ -48,7 +48,7 @@ def parse(unit: str) -> Exponents:
         if name in _BASES:
             total[_BASES.index(name)] += exponent
         elif name in _DERIVED:
-            total = [a + exponent * b for a, b in zip(total, parse(_DERIVED[name]), strict=True)]
+            total = [a + exponent * b for a, b in zip(total, parse_exponents(_DERIVED[name]), strict=True)]
         elif name != "1":
             raise ValueError(f"not an SI unit: {unit!r}")
     return total[0], total[1], total[2], total[3]
@@ -64,7 +64,7 @@ def _derive_exponents(expression: Expr, unit: Callable[[str], str | None]) -> Ex
             return None
         case Name(path=path):
             text = unit(path)
-            return None if text is None else parse(text)
+            return None if text is None else parse_exponents(text)
         case Unary(operand=operand):
             return _derive_exponents(operand, unit)
         case Binary(operator="+" | "-", left=left, right=right):
@@ -75,7 +75,7 @@ def _derive_exponents(expression: Expr, unit: Callable[[str], str | None]) -> Ex
             factor = _raise_unit(_derive_exponents(right, unit) or _PLAIN, Fraction(1 if operator == "*" else -1))
             return _multiply_units(_derive_exponents(left, unit) or _PLAIN, factor or _PLAIN)
         case CurveCall(curve=curve):
-            return None if curve.unit is None else parse(curve.unit)
+            return None if curve.unit is None else parse_exponents(curve.unit)
         case Call(function=function, arguments=arguments):
             return _derive_call_exponents(
                 FUNCTIONS[function], [_derive_exponents(argument, unit) for argument in arguments]
@@ -90,7 +90,7 @@ def _derive_call_exponents(function: Function, arguments: list[Exponents | None]
     if function.units in (Units.SAME, Units.CHOICE):
         first, *rest = arguments[2:] if function.units is Units.CHOICE else arguments
         return _select_exponents(first, rest[0] if rest else None)
-    return parse("rad") if function.is_angle else _PLAIN
+    return parse_exponents("rad") if function.is_angle else _PLAIN
 
 
 def _select_exponents(a: Exponents | None, b: Exponents | None) -> Exponents | None:
@@ -116,7 +116,7 @@ def _format_exponents(exponents: Exponents) -> str:
     if any(exponents[:2]):
         exponents = (*exponents[:3], Fraction(0))
     for name in _NAMES:
-        if parse(name) == exponents:
+        if parse_exponents(name) == exponents:
             return name
     powers = [(base, power) for base, power in zip(_BASES, exponents, strict=True) if power]
     above = "*".join(base if power == 1 else f"{base}^{power}" for base, power in powers if power > 0)
@@ -124,22 +124,28 @@ def _format_exponents(exponents: Exponents) -> str:
     return (above or "1") + below if powers else ""
 
 
-def angle_power(expression: Expr) -> int:
+def find_angle_power(expression: Expr) -> int:
     """Return the power of an angle unit in which a file's number is written: 1 for pi/6, 20 deg, 90 rpm; −1 per angle;
     else 0.
     """
     match expression:
         case Number(text=text, has_unit=has_unit):
             above, *below = text.removeprefix("pi").split("/") if has_unit else [""]
-            own = [sum(word in _TURNS for word in re.findall(r"[A-Za-z]+", part)) for part in (above, "/".join(below))]
-            return text.startswith("pi") or own[0] - own[1]
+            powers = [
+                sum(word in _TURNS for word in re.findall(r"[A-Za-z]+", part)) for part in (above, "/".join(below))
+            ]
+            return text.startswith("pi") or powers[0] - powers[1]
         case Unary(operand=operand):
-            return angle_power(operand)
+            return find_angle_power(operand)
         case Binary(operator="*" | "/" as operator, left=left, right=right):
-            return angle_power(left) + (1 if operator == "*" else -1) * angle_power(right)
+            return find_angle_power(left) + (1 if operator == "*" else -1) * find_angle_power(right)
         case Binary(operator="+" | "-", left=left, right=right):
-            return max(angle_power(left), angle_power(right))
+            return max(find_angle_power(left), find_angle_power(right))
         case Call(function=function, arguments=arguments) if not isinstance(expression, CurveCall):
-            known = FUNCTIONS[function]
-            return max(map(angle_power, arguments)) if known.units is Units.SAME else int(known.is_angle)
+            function_info = FUNCTIONS[function]
+            return (
+                max(map(find_angle_power, arguments))
+                if function_info.units is Units.SAME
+                else int(function_info.is_angle)
+            )
     return 0

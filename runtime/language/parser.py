@@ -1,4 +1,4 @@
-"""Expressions of a mechanism file: text to tree, parsed by precedence and never evaluated as Python.
+"""Parse the expressions of a mechanism file into trees by operator precedence; they are never run as Python.
 
     sum     = product {("+" | "-") product}
     product = signed {("*" | "/") signed}
@@ -21,12 +21,12 @@ from gudgeon.errors import ExpressionError, LimitError, Location
 from gudgeon.language.curves import Curve
 from gudgeon.language.dimension_check import check_dimension
 from gudgeon.language.functions import FUNCTIONS
-from gudgeon.language.names import nearest
-from gudgeon.language.tokens import COMPARED, NESTED, Token, Tokenizer, at
+from gudgeon.language.names import find_nearest_name
+from gudgeon.language.tokens import COMPARED, NESTED, Token, Tokenizer, offset_location
 from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Unary
-from gudgeon.language.units import DIMENSIONLESS, unit
+from gudgeon.language.units import DIMENSIONLESS, find_unit
 
-__all__ = ["MAX_DEPTH", "MAX_LENGTH", "MAX_NODES", "at", "check_dimension", "parse"]
+__all__ = ["MAX_DEPTH", "MAX_LENGTH", "MAX_NODES", "offset_location", "check_dimension", "parse"]
 
 MAX_LENGTH = 50_000  # characters
 MAX_DEPTH = 50  # levels of brackets, calls, powers and signs
@@ -49,8 +49,8 @@ def parse(
     if len(text) > MAX_LENGTH:
         raise LimitError(f"an expression of {len(text)} characters", location, f"expected at most {MAX_LENGTH}")
     tokens = Tokenizer(text, location, parameters)
-    first = tokens.next()
-    if first.number is not None and tokens.at_end():
+    first = tokens.read_token()
+    if first.number is not None and tokens.is_at_end():
         return first.number
     return _Parser(tokens, first, curves or {}).parse_all()
 
@@ -66,7 +66,7 @@ class _Parser:
 
     def parse_all(self) -> Expr:
         """Return the tree of the whole text. Raises ExpressionError if anything follows the expression."""
-        expr = self.sum(0)
+        expr = self.parse_sum(0)
         if self.token.kind != "end":
             self.fail(
                 f"unexpected {self.token}",
@@ -86,14 +86,14 @@ class _Parser:
 
     def fail(self, message: str, offset: int, hint: str) -> NoReturn:
         """Raise ExpressionError with a hint at an offset of the text."""
-        raise ExpressionError(message, at(self.where, offset), hint)
+        raise ExpressionError(message, offset_location(self.where, offset), hint)
 
     def advance(self) -> Token:
         """Return the present token and read the next one."""
-        token, self.token = self.token, self.tokens.next()
+        token, self.token = self.token, self.tokens.read_token()
         return token
 
-    def make(self, expr: Expr, *children: Expr) -> Expr:
+    def register_node(self, expr: Expr, *children: Expr) -> Expr:
         """Register a new node with its depth and number of nodes, and return it.
 
         children: its direct operands. Raises LimitError if the tree exceeds the limits.
@@ -105,30 +105,30 @@ class _Parser:
         )
         self.node_counts[id(expr)] = node_count
         self.registered.append(expr)
-        self.bound(depth, expr.offset, MAX_TREE)
+        self.check_depth(depth, expr.offset, MAX_TREE)
         if len(self.registered) > MAX_NODES or node_count > len(self.registered) + MAX_WRITTEN_OUT:
             hint = f"expected at most {MAX_NODES}; smooth steps count six more each, in each other by powers of three"
-            raise LimitError("an expression of too many parts", at(self.where, expr.offset), hint)
+            raise LimitError("an expression of too many parts", offset_location(self.where, expr.offset), hint)
         return expr
 
-    def bound(self, depth: int, offset: int, max_depth: int = MAX_DEPTH) -> None:
+    def check_depth(self, depth: int, offset: int, max_depth: int = MAX_DEPTH) -> None:
         """Raise LimitError at an offset of the text if `depth` exceeds `max_depth` levels."""
         if depth > max_depth:
             hint = f"expected at most {max_depth} levels; name a part of it, as a parameter or in expressions:"
-            raise LimitError("an expression nested too deeply", at(self.where, offset), hint)
+            raise LimitError("an expression nested too deeply", offset_location(self.where, offset), hint)
 
-    def sum(self, level: int) -> Expr:
+    def parse_sum(self, level: int) -> Expr:
         """Return the tree of a sum of products that begins at the present token; `level`: depth of nesting."""
-        return self.chain(("+", "-"), level)
+        return self.parse_chain(("+", "-"), level)
 
-    def chain(self, operators: tuple[str, str], level: int) -> Expr:
+    def parse_chain(self, operators: tuple[str, str], level: int) -> Expr:
         """Return the tree of left-associative operators: sums of products, or products of signed powers.
 
         operators: ("+", "-") or ("*", "/"). level: depth of nesting. Chains that would make the tree too deep are
         balanced.
         """
-        parse_operand = self.signed if operators == ("*", "/") else lambda n: self.chain(("*", "/"), n)
-        self.bound(level, self.token.offset)
+        parse_operand = self.parse_signed if operators == ("*", "/") else lambda n: self.parse_chain(("*", "/"), n)
+        self.check_depth(level, self.token.offset)
         first, operands = parse_operand(level), list[Operand]()
         while self.token.kind == "operator" and self.token.text in operators:
             operator = self.advance()
@@ -138,18 +138,20 @@ class _Parser:
         for *_, operand in operands:
             depth = 1 + max(depth, self.depths[id(operand)])
         if depth <= MAX_DEPTH or len(operands) < 2:
-            return self.joined(first, operands, len(operands))
+            return self.join_operands(first, operands, len(operands))
         if operators == ("+", "-"):
-            return self.joined(first, operands)
-        numerator = self.joined(first, [one for one in operands if one[0] == "*"])
+            return self.join_operands(first, operands)
+        numerator = self.join_operands(
+            first, [signed_operand for signed_operand in operands if signed_operand[0] == "*"]
+        )
         divisors = [("*", offset, operand) for operator, offset, operand in operands if operator == "/"]
         return (
-            self.joined(numerator, [("/", divisors[0][1], self.joined(divisors[0][2], divisors[1:]))])
+            self.join_operands(numerator, [("/", divisors[0][1], self.join_operands(divisors[0][2], divisors[1:]))])
             if divisors
             else numerator
         )
 
-    def joined(self, first: Expr, rest: list[Operand], n_left: int = 1) -> Expr:
+    def join_operands(self, first: Expr, rest: list[Operand], n_left: int = 1) -> Expr:
         """Return the tree that joins operands: up to `n_left` operators from left to right, more as a balanced tree.
 
         first: operand before all operators. rest: operator, offset and operand of each further one. For subtraction
@@ -157,13 +159,15 @@ class _Parser:
         """
         if len(rest) <= n_left:
             for operator, offset, operand in rest:
-                first = self.make(Binary(operator, first, operand, offset), first, operand)
+                first = self.register_node(Binary(operator, first, operand, offset), first, operand)
             return first
         half = len(rest) // 2
         operator, offset, operand = rest[half]
         opposite = {"+": "-", "-": "+"} if operator == "-" else {}  # a - (b + c) for a - b - c
-        after = [(opposite.get(sign, sign), place, term) for sign, place, term in rest[half + 1 :]]
-        return self.joined(self.joined(first, rest[:half]), [(operator, offset, self.joined(operand, after))])
+        after = [(opposite.get(sign, sign), position, term) for sign, position, term in rest[half + 1 :]]
+        return self.join_operands(
+            self.join_operands(first, rest[:half]), [(operator, offset, self.join_operands(operand, after))]
+        )
 
     def refuse_ambiguous_angle(self, operator: Token) -> None:
         """Raise ExpressionError for a division by a number with an angle unit, such as `pi/4 deg`, which means pi/(4
@@ -175,47 +179,47 @@ class _Parser:
         if operator.text != "/" or number is None or not number.has_unit:
             return
         word = number.text.partition(" ")[2]
-        known = unit(word)
-        if word != "rad" and known and known.dimension == DIMENSIONLESS:
+        unit = find_unit(word)
+        if word != "rad" and unit and unit.dimension == DIMENSIONLESS:
             hint = f"a unit belongs to the number before it: write 1 {word} * …, or …/({self.token.text})"
             self.fail(f"a division by {self.token.text} can mean two things", self.token.offset, hint)
 
-    def signed(self, level: int) -> Expr:
+    def parse_signed(self, level: int) -> Expr:
         """Return the tree of an operand with its signs and an optional power, which binds tighter than a sign."""
-        self.bound(level, self.token.offset)
+        self.check_depth(level, self.token.offset)
         if self.token.kind == "operator" and self.token.text in ("-", "+"):
             sign = self.advance()
-            operand = self.signed(level + 1)
-            return self.make(Unary("-", operand, sign.offset), operand) if sign.text == "-" else operand
-        base = self.atom(level)
+            operand = self.parse_signed(level + 1)
+            return self.register_node(Unary("-", operand, sign.offset), operand) if sign.text == "-" else operand
+        base = self.parse_atom(level)
         if self.token.kind == "operator" and self.token.text == "**":
             operator = self.advance()
-            exponent = self.signed(level + 1)
-            return self.make(Binary("**", base, exponent, operator.offset), base, exponent)
+            exponent = self.parse_signed(level + 1)
+            return self.register_node(Binary("**", base, exponent, operator.offset), base, exponent)
         return base
 
-    def atom(self, level: int) -> Expr:
+    def parse_atom(self, level: int) -> Expr:
         """Return the tree of a number, a name, a call or an expression in brackets. Raises ExpressionError for
         anything else.
         """
         token = self.token
         if token.number is not None:
             self.advance()
-            return self.make(token.number)
+            return self.register_node(token.number)
         if token.kind == "name":
             self.advance()
-            return self.name(token, level)
+            return self.parse_name(token, level)
         if token.text != "(":
             what = f"got {token}" if token.text or token.offset else "got nothing"
             self.fail(
                 f"expected a number, a name or '(', {what}", token.offset, "an expression such as 80 mm or 2*pi * t"
             )
         self.advance()
-        inner = self.sum(level + 1)
-        self.close(token.offset)
+        inner = self.parse_sum(level + 1)
+        self.consume_bracket(token.offset)
         return inner
 
-    def close(self, opened: int) -> None:
+    def consume_bracket(self, opened: int) -> None:
         """Consume the ")" that closes the bracket at offset `opened`. Raises ExpressionError if it is missing."""
         if self.token.text != ")":
             hint = f"the '(' at column {self.where.column + opened} is open"
@@ -226,7 +230,7 @@ class _Parser:
         """Return a hint if the present token is a comparison operator, which only `where` allows; else ""."""
         return COMPARED if self.token.text in _COMPARISONS else ""
 
-    def name(self, token: Token, level: int) -> Expr:
+    def parse_name(self, token: Token, level: int) -> Expr:
         """Return the tree of a name, or of the call of a function or curve; `token` is the name.
 
         Raises ExpressionError for an unknown function, or a function without brackets.
@@ -234,45 +238,45 @@ class _Parser:
         is_call, callables = self.token.text == "(", (*self.curves, *FUNCTIONS)
         if token.text not in callables:
             if is_call:
-                guess = nearest(token.text, callables)
+                guess = find_nearest_name(token.text, callables)
                 hint = (f"did you mean {guess!r}? " if guess else "") + f"expected one of: {', '.join(callables)}"
                 self.fail(f"unknown function {token.text!r}", token.offset, hint)
-            return self.make(Name(token.text, token.offset))
+            return self.register_node(Name(token.text, token.offset))
         if not is_call:
             what = "curve" if token.text in self.curves else "function"
             self.fail(f"{token.text!r} is a {what}", token.offset, f"expected {token.text}(…)")
-        arguments = self.arguments(token, level + 1)
+        arguments = self.parse_arguments(token, level + 1)
         call = Call(token.text, arguments, token.offset)
         if token.text in self.curves:
             call = CurveCall(call.function, call.arguments, call.offset, curve=self.curves[token.text])
-        return self.make(call, *arguments)
+        return self.register_node(call, *arguments)
 
-    def arguments(self, function: Token, level: int) -> tuple[Expr, ...]:
+    def parse_arguments(self, function: Token, level: int) -> tuple[Expr, ...]:
         """Return the trees of the arguments in brackets after checking their number.
 
         function: token of the function or curve. The arguments of `where` are ordered as if `<` had been written.
         """
         opened, is_where = self.advance().offset, function.text == "where"
-        left = self.sum(level)
+        left = self.parse_sum(level)
         operator = self.token.text
         others: list[Expr] = []
         if is_where:
             if operator not in _COMPARISONS:
                 self.fail(f"expected a comparison, got {self.token}", self.token.offset, FUNCTIONS["where"].usage)
             self.advance()
-            others.append(self.sum(level))
+            others.append(self.parse_sum(level))
             if self.token.text in _COMPARISONS:
                 self.fail(f"expected ',', got {self.token}", self.token.offset, NESTED)
         while self.token.text == ",":
             self.advance()
-            others.append(self.sum(level))
-        self.close(opened)
-        known = None if function.text in self.curves else FUNCTIONS[function.text]
-        expected = len(known.arguments) if known else 1
+            others.append(self.parse_sum(level))
+        self.consume_bracket(opened)
+        function_info = None if function.text in self.curves else FUNCTIONS[function.text]
+        expected = len(function_info.arguments) if function_info else 1
         if len(others) + 1 != expected:
             expected, got = expected - is_where, len(others) + 1 - is_where
             message = f"{function.text} takes {expected} argument{'s' * (expected > 1)}, got {got}"
-            self.fail(message, function.offset, known.usage if known else "")
+            self.fail(message, function.offset, function_info.usage if function_info else "")
         return _order_arguments(left, operator, *others) if is_where else (left, *others)
 
 

@@ -1,4 +1,4 @@
-"""Format units for readers: with a prefix that brings a number near one, and m/s² for m/s^2."""
+"""Format units for plots: an SI prefix that brings values near 1, and m/s² for `m/s^2`."""
 
 from __future__ import annotations
 
@@ -10,49 +10,49 @@ _PREFIXABLE = re.compile(r"(m|N|J|W|Pa|s|rad|Hz)(?![\w^])")  # kg has its prefix
 _SUPERSCRIPTS = str.maketrans("0123456789-./", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻·ᐟ")
 
 
-def scale(magnitude: float, unit: str) -> tuple[float, str]:
+def choose_prefix(magnitude: float, unit: str) -> tuple[float, str]:
     """Return factor and unit text with an SI prefix such that a number of this size times the factor is easy to read.
 
     Between 0.1 and 3000 the unit stays as it is; also for zero, NaN, infinity and units without prefixes.
     """
     if not math.isfinite(magnitude) or magnitude == 0 or 0.1 <= abs(magnitude) < 3000 or not _PREFIXABLE.match(unit):
-        return 1.0, pretty(unit)
+        return 1.0, format_unit(unit)
     exponent = 3 * math.floor((math.log10(abs(magnitude)) + 1) / 3)
     exponent = min(max(exponent, min(PREFIXES)), max(PREFIXES))
-    return 10.0**-exponent, PREFIXES[exponent] + pretty(unit)
+    return 10.0**-exponent, PREFIXES[exponent] + format_unit(unit)
 
 
-def drawn(magnitude: float, unit: str) -> tuple[float, str]:
-    """Return factor and unit text for a plot as `scale` does, with angles in degrees."""
+def choose_plot_unit(magnitude: float, unit: str) -> tuple[float, str]:
+    """Return factor and unit text for a plot as `choose_prefix` does, with angles in degrees."""
     if unit == "rad" or unit.startswith("rad/"):
-        return 180.0 / math.pi, "°" + pretty(unit.removeprefix("rad"))
-    return scale(magnitude, unit)
+        return 180.0 / math.pi, "°" + format_unit(unit.removeprefix("rad"))
+    return choose_prefix(magnitude, unit)
 
 
-def pretty(unit: str) -> str:
+def format_unit(unit: str) -> str:
     """Return a unit in typographic form: "kg·m²" for "kg*m^2"."""
-    return re.sub(r"\^(-?[\d.]+)", lambda power: raised(power.group(1)), unit).replace("*", "·")
+    return re.sub(r"\^(-?[\d.]+)", lambda power: format_superscript(power.group(1)), unit).replace("*", "·")
 
 
-def raised(power: str) -> str:
+def format_superscript(power: str) -> str:
     """Return a power in superscript digits: "⁻²" for "-2"."""
     return power.translate(_SUPERSCRIPTS)
 
 
-def label(name: str, unit: str) -> str:
+def format_label(name: str, unit: str) -> str:
     """Return an axis label such as "S9.y [mm]"; only the name if the unit is empty."""
     return f"{name} [{unit}]".strip() if unit else name
 
 
-def quantity(value: float, unit: str, digits: int = 4) -> str:
+def format_quantity(value: float, unit: str, digits: int = 4) -> str:
     """Return a number with its unit and a suitable prefix, such as "0.3 mm" or "175 N"; "–" for NaN."""
     if math.isnan(value):
         return "–"
-    factor, text = scale(value, unit)
+    factor, text = choose_prefix(value, unit)
     return f"{value * factor:.{digits}g} {text}".strip()
 
 
-def distinct_texts(value: float, limit: float, digits: int = 4) -> tuple[str, str]:
+def format_distinct(value: float, limit: float, digits: int = 4) -> tuple[str, str]:
     """Return two numbers as texts with at least `digits` digits, and up to 17 so that different numbers have different
     texts.
     """

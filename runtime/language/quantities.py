@@ -7,47 +7,47 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from gudgeon.errors import BadValueError, InputError, Location, UnknownNameError
-from gudgeon.language.names import unknown_name
-from gudgeon.language.parser import at, check_dimension, parse
-from gudgeon.language.tree import evaluate, names
-from gudgeon.language.unit_remedies import unit_remedies
-from gudgeon.language.units import dimension
+from gudgeon.language.names import make_unknown_name_error
+from gudgeon.language.parser import check_dimension, offset_location, parse
+from gudgeon.language.tree import evaluate, iterate_names
+from gudgeon.language.unit_remedies import add_unit_hints
+from gudgeon.language.units import make_dimension
 
 
-def number_of_text(text: str, address: str, exponents: Sequence[float]) -> float:
+def parse_quantity(text: str, address: str, exponents: Sequence[float]) -> float:
     """Return the number (SI) that `text`, such as '0.5 mm' or '2*pi rad/s', specifies for the parameter at `address`.
 
     exponents: of m, kg, s; a bare number fits any. Raises BadValueError for names in the text, otherwise the errors of
     the same text in a file with hints on units, at "value of <address>:1:column".
     """
-    where, expected = Location(f"value of {address}", 1, 1), dimension(*exponents)
+    where, expected = Location(f"value of {address}", 1, 1), make_dimension(*exponents)
 
     def read(value: str) -> float:
         """Return the value of a text without names, after checking its dimension."""
         expr = parse(value, where)
-        name = next(names(expr), None)
+        name = next(iterate_names(expr), None)
         if name is not None:
             hint = "expected a number such as '0.5 mm'; what follows other parameters is written in the file"
-            raise UnknownNameError(f"{text!r} holds the name {name.path!r}", at(where, name.offset), hint)
+            raise UnknownNameError(f"{text!r} holds the name {name.path!r}", offset_location(where, name.offset), hint)
         check_dimension(expr, expected, lambda path: None, where)
         return float(evaluate(expr, lambda path: None))
 
     try:
-        with unit_remedies(text.strip(), where, read, expected):
+        with add_unit_hints(text.strip(), where, read, expected):
             return read(text.strip())
     except UnknownNameError as error:  # a number has no names: it is the value that is wrong
         raise BadValueError(error.message, where, error.hint) from None
 
 
-def holds_names(text: str) -> bool:
+def has_names(text: str) -> bool:
     """Return whether a text is a valid expression that contains names; False if it cannot be parsed."""
     try:
-        return next(names(parse(text.strip(), Location("", 1, 1))), None) is not None
+        return next(iterate_names(parse(text.strip(), Location("", 1, 1))), None) is not None
     except InputError:
         return False
 
 
-def number_of_names(
+def evaluate_expression(
     text: str, item: str, exponents: Sequence[int], known_values: Mapping[str, tuple[float, Sequence[float]]]
 ) -> float:
     """Return the number (SI) of an expression of `known_values` names, such as '2*pi/omega'.
@@ -57,8 +57,8 @@ def number_of_names(
     """
     where = Location(f"value of {item}", 1, 1)
     expr = parse(text.strip(), where, known_values)
-    for name in names(expr):
+    for name in iterate_names(expr):
         if name.path not in known_values:
-            raise unknown_name("name", name.path, known_values, where)
-    check_dimension(expr, dimension(*exponents), lambda path: dimension(*known_values[path][1]), where)
+            raise make_unknown_name_error("name", name.path, known_values, where)
+    check_dimension(expr, make_dimension(*exponents), lambda path: make_dimension(*known_values[path][1]), where)
     return float(evaluate(expr, lambda path: np.float64(known_values[path][0])))

@@ -13,9 +13,9 @@ from typing import NoReturn
 from gudgeon.errors import ExpressionError, InputError, Location, UnitError
 from gudgeon.language.argument_checks import IN_RANGE
 from gudgeon.language.functions import FUNCTIONS
-from gudgeon.language.names import WORDS, advice_on, character_text, nearest
+from gudgeon.language.names import WORDS, advise_on_character, find_nearest_name, format_character
 from gudgeon.language.tree import Number
-from gudgeon.language.units import OTHER_WORDS, UNITS, Unit, factors, parse_unit, symbol_dimension, unit
+from gudgeon.language.units import OTHER_WORDS, UNITS, Unit, find_symbol_dimension, find_unit, list_factors, parse_unit
 
 _MAX_EXPONENT = 400  # decimal: beyond it no number is finite, and exact fractions grow without bound
 _MAX_LENGTH = 1000  # characters of a number: Python reads no integer of more than 4300 digits
@@ -69,7 +69,7 @@ _ADVICE = {
 }
 
 
-def at(location: Location, offset: int) -> Location:
+def offset_location(location: Location, offset: int) -> Location:
     """Return the location `offset` characters after `location` on the same line."""
     return Location(location.file, location.line, location.column + offset)
 
@@ -99,9 +99,9 @@ class Tokenizer:
 
     def fail(self, message: str, offset: int, hint: str = "", kind: type[InputError] = ExpressionError) -> NoReturn:
         """Raise an error of the class `kind` at an offset of the text."""
-        raise kind(message, at(self.where, offset), hint)
+        raise kind(message, offset_location(self.where, offset), hint)
 
-    def next(self) -> Token:
+    def read_token(self) -> Token:
         """Return the next token and advance; at the end a token of kind "end".
 
         A number includes its unit. Raises ExpressionError for characters and words that expressions lack, UnitError
@@ -116,8 +116,8 @@ class Tokenizer:
         match = _TOKEN.match(text, start)
         if match is None:
             character = text[start]
-            hint = _ADVICE.get(character) or advice_on(character)
-            self.fail(f"unexpected character {character_text(character)}", start, hint)
+            hint = _ADVICE.get(character) or advise_on_character(character)
+            self.fail(f"unexpected character {format_character(character)}", start, hint)
         self.position = match.end()
         kind = str(match.lastgroup)
         if kind == "number" or match[0] == "pi":
@@ -126,7 +126,7 @@ class Tokenizer:
             self._check_name(match[0], start)
         return Token(kind, match[0], start)
 
-    def at_end(self) -> bool:
+    def is_at_end(self) -> bool:
         """Return whether no token is left."""
         return not self.text[self.position :].strip(" ")
 
@@ -151,17 +151,17 @@ class Tokenizer:
         units.
         """
         value = Fraction(math.pi) if literal == "pi" else self._parse_literal(literal, start)
-        found, end = self._parse_following_unit(start)
+        unit, end = self._parse_following_unit(start)
         self.position = end
         word = re.sub(r" *([*/]) *", r"\1", self.text[start + len(literal) : end].removeprefix(" "))
-        text = f"{literal} {word}" if found else literal
+        text = f"{literal} {word}" if unit else literal
         try:
-            si = found.to_si(value) if found else float(value)
+            si = unit.to_si(value) if unit else float(value)
         except OverflowError:
             self.fail(f"{text!r} is too large", start, "expected a number below 1.8e308")
         if value and not sys.float_info.min <= abs(si) < math.inf:  # below it digits are lost
             self.fail(f"{text!r} is out of range", start, IN_RANGE)
-        return Token("number", text, start, Number(si, text, found is not None, start))
+        return Token("number", text, start, Number(si, text, unit is not None, start))
 
     def _parse_literal(self, literal: str, start: int) -> Fraction:
         """Return the exact value of a decimal literal at offset `start`.
@@ -183,13 +183,13 @@ class Tokenizer:
         if next_character.isalpha() and not has_unit:
             word = re.match(r"\w*", self.text[self.position :])
             other = OTHER_WORDS.get(word[0]) if word else None
-            guess = nearest(word[0], UNITS, 0.6) if word and word[0] not in self.parameters else None
+            guess = find_nearest_name(word[0], UNITS, 0.6) if word and word[0] not in self.parameters else None
             hint = f"a unit follows its number ({literal} mm), a product is written {literal} * name"
             hint = f"did you mean '{literal} {guess}'? A product is written {literal} * name" if guess else hint
             hint = f"write {literal} {other}" if other else hint
             hint = f"write {literal}*pi" if word and word[0] == "pi" else hint
             if sign := re.match(r"[eE]([^\x00-\x7f])[0-9]", self.text[self.position :]):
-                hint = f"{character_text(sign[1])} is not a sign of an exponent: {advice_on(sign[1])}"
+                hint = f"{format_character(sign[1])} is not a sign of an exponent: {advise_on_character(sign[1])}"
             self.fail(f"{next_character!r} right behind the number {literal}", self.position, hint)
         _, _, exponent = literal.lower().partition("e")
         if exponent and (len(exponent) > 5 or abs(int(exponent)) > _MAX_EXPONENT):
@@ -208,12 +208,12 @@ class Tokenizer:
         self._check_powers(end + has_space)
         if not has_space and not text[end : end + 1].isalpha():
             return None, end
-        found = parse_unit(text, end + has_space, self.parameters)
-        if found:
-            after = found[1]
+        unit = parse_unit(text, end + has_space, self.parameters)
+        if unit:
+            after = unit[1]
             if re.match(r" *\*\*", text[after:]):
                 written, power = text[start:after], re.match(r" *\*\* *(\(-?[1-9]/2\)|-?[0-9.]+)", text[after:])
-                power_text = power[1] if power and unit(f"m^{power[1]}") else "2"
+                power_text = power[1] if power and find_unit(f"m^{power[1]}") else "2"
                 hint = f"a power of the unit is {written}^{power_text}, of the quantity ({written})**{power_text}"
                 self.fail(f"a power behind {written!r} can mean two things", after, hint)
             if start == 0 and (power := _NEGATIVE.fullmatch(text, after)):
@@ -221,38 +221,38 @@ class Tokenizer:
                 hint = f"write {written}^{power[1]} for the power, {written} - {power[1][1:]} for the difference"
                 self.fail(f"{text[: after + 2]!r} can mean two things", after, hint)
             self._refuse_ambiguous_unit(start, end + has_space, after)
-            return found
+            return unit
         spaces = len(text) - end - len(text[end:].lstrip(" "))
         word = re.match(r"[A-Za-z\u00b5\u03bc_][\w*/^.-]*", text[end + spaces :])
         if word and has_space:
-            self._fail_unknown_unit(word[0], end + spaces, spaces)
+            self._raise_unknown_unit(word[0], end + spaces, spaces)
         return None, end
 
     def _check_powers(self, begin: int) -> None:
         """Raise UnitError for a unit in brackets, or a power of a unit that is not a listed number, from offset
         `begin` on.
         """
-        if (bracketed := _BRACKETED.match(self.text, begin)) and unit(bracketed[1]):
+        if (bracketed := _BRACKETED.match(self.text, begin)) and find_unit(bracketed[1]):
             hint = "each unit has its own power: m^2/s^2 for (m/s)^2"
             self.fail(f"brackets around the unit {bracketed[1]}", begin, hint, UnitError)
-        found = _POWER.match(self.text, begin)
-        if not found or not symbol_dimension(found["symbol"]):
+        match = _POWER.match(self.text, begin)
+        if not match or not find_symbol_dimension(match["symbol"]):
             return
-        symbol, power = found["symbol"], found["power"].replace(" ", "")
+        symbol, power = match["symbol"], match["power"].replace(" ", "")
         written = f"{symbol}^{power}"
-        if unit(written) and self.text.startswith(written, found.start("symbol")):
+        if find_unit(written) and self.text.startswith(written, match.start("symbol")):
             return
         hint = f"expected 1 to 9 or -1 to -9, or a half of these: {symbol}^2, {symbol}^(-1/2)"
-        if unit(written):
+        if find_unit(written):
             hint = f"write {written} without spaces"
-        elif unit(power):
+        elif find_unit(power):
             hint = f"a product of units is written {symbol}*{power}, a power {symbol}^2"
         elif re.fullmatch(_HALF, power):
             hint = f"a unit that contains pi has no roots: write rad for {symbol}"
         message = (
             f"{power!r} is not a power of the unit {symbol}" if power else f"the unit {symbol} has ^ without a power"
         )
-        self.fail(message, found.start("symbol"), hint, UnitError)
+        self.fail(message, match.start("symbol"), hint, UnitError)
 
     def _refuse_ambiguous_unit(self, start: int, begin: int, after: int) -> None:
         """Raise ExpressionError for `2m` and `3 N m` if m is a name of the file, since a factor may be meant.
@@ -260,7 +260,7 @@ class Tokenizer:
         start, begin, after: offsets of the number, of its unit, and after both.
         """
         written, spaced = self.text[start:after], self.text[begin - 1] == " "
-        for before, symbol in factors(self.text[begin:after]):
+        for before, symbol in list_factors(self.text[begin:after]):
             doubtful = before == " " if before else not spaced
             if doubtful and symbol in self.parameters:
                 number, word = self.text[start:begin], self.text[begin:after]
@@ -269,17 +269,17 @@ class Tokenizer:
                     hint = f"write '{number} {word}' for the unit, '{number} * {symbol}' for the parameter"
                 self.fail(f"{written!r} can mean two things: {symbol} is a unit, and a parameter here", begin, hint)
 
-    def _fail_unknown_unit(self, word: str, offset: int, spaces: int) -> NoReturn:
+    def _raise_unknown_unit(self, word: str, offset: int, spaces: int) -> NoReturn:
         """Raise UnitError for a word after a number that is not a unit, with the most likely remedy.
 
         offset: of the word. spaces: number of spaces before it.
         """
         if parse_unit(word):
             self.fail(f"{spaces} spaces before the unit {word!r}", offset, "expected exactly one")
-        guess, powers = nearest(word, UNITS, 0.6), re.sub(r"(?<=[A-Za-z])([2-9])(?!\w)", r"^\1", word)
+        guess, powers = find_nearest_name(word, UNITS, 0.6), re.sub(r"(?<=[A-Za-z])([2-9])(?!\w)", r"^\1", word)
         if word == "Hz":
             hint = "write rev/s or 1/s: they differ by 2*pi"
-        elif word in OTHER_WORDS or unit(powers):
+        elif word in OTHER_WORDS or find_unit(powers):
             hint = f"{word} is written {OTHER_WORDS.get(word, powers)} here"
         elif word in ("pi", "t") or word in FUNCTIONS or guess is None:
             hint = f"a product is written with '*'; units are {', '.join(list(UNITS)[:12])}, …"

@@ -102,44 +102,44 @@ def evaluate(expr: Expr, value_of: Callable[[str], Any]) -> Any:
             with np.errstate(all="ignore"):
                 return _OPERATORS[operator](evaluate(left, value_of), evaluate(right, value_of))
         case CurveCall(arguments=(argument,), curve=curve):
-            return curve.at(evaluate(argument, value_of))
+            return curve.evaluate(evaluate(argument, value_of))
         case Call(function=function, arguments=arguments):
             with np.errstate(all="ignore"):
                 return FUNCTIONS[function].evaluate(*(evaluate(a, value_of) for a in arguments))
     raise TypeError(f"not an expression: {expr!r}")
 
 
-def names(expr: Expr) -> Iterator[Name]:
+def iterate_names(expr: Expr) -> Iterator[Name]:
     """Yield every Name in an expression, left to right, with repetitions."""
     match expr:
         case Name():
             yield expr
         case Unary(operand=operand):
-            yield from names(operand)
+            yield from iterate_names(operand)
         case Binary(left=left, right=right):
-            yield from names(left)
-            yield from names(right)
+            yield from iterate_names(left)
+            yield from iterate_names(right)
         case Call(arguments=arguments):
             for argument in arguments:
-                yield from names(argument)
+                yield from iterate_names(argument)
 
 
-def units(expr: Expr) -> Iterator[str]:
+def iterate_units(expr: Expr) -> Iterator[str]:
     """Yield the unit of every number in an expression that has one, as it is written."""
     match expr:
         case Number(text=text, has_unit=True):
             yield text.partition(" ")[2]
         case Unary(operand=operand):
-            yield from units(operand)
+            yield from iterate_units(operand)
         case Binary(left=left, right=right):
-            yield from units(left)
-            yield from units(right)
+            yield from iterate_units(left)
+            yield from iterate_units(right)
         case Call(arguments=arguments):
             for argument in arguments:
-                yield from units(argument)
+                yield from iterate_units(argument)
 
 
-def replaced(expr: Expr, trees: Mapping[str, Expr]) -> Expr:
+def replace_names(expr: Expr, trees: Mapping[str, Expr]) -> Expr:
     """Return a copy of an expression with trees in place of names; `trees` has the tree of each name.
 
     Names without a tree stay. The same object is used wherever a name occurs.
@@ -148,40 +148,40 @@ def replaced(expr: Expr, trees: Mapping[str, Expr]) -> Expr:
         case Name():
             return trees.get(expr.path, expr)
         case Unary(operand=operand):
-            return replace(expr, operand=replaced(operand, trees))
+            return replace(expr, operand=replace_names(operand, trees))
         case Binary(left=left, right=right):
-            return replace(expr, left=replaced(left, trees), right=replaced(right, trees))
+            return replace(expr, left=replace_names(left, trees), right=replace_names(right, trees))
         case Call(arguments=arguments):
-            return replace(expr, arguments=tuple(replaced(argument, trees) for argument in arguments))
+            return replace(expr, arguments=tuple(replace_names(argument, trees) for argument in arguments))
     return expr
 
 
-def calls(expr: Expr, function: str = "") -> Iterator[Call]:
+def iterate_calls(expr: Expr, function: str = "") -> Iterator[Call]:
     """Yield every call in an expression, or only the calls of one function."""
     match expr:
         case Unary(operand=operand):
-            yield from calls(operand, function)
+            yield from iterate_calls(operand, function)
         case Binary(left=left, right=right):
-            yield from calls(left, function)
-            yield from calls(right, function)
+            yield from iterate_calls(left, function)
+            yield from iterate_calls(right, function)
         case Call(arguments=arguments):
             if function in ("", expr.function):
                 yield expr
             for argument in arguments:
-                yield from calls(argument, function)
+                yield from iterate_calls(argument, function)
 
 
-def reached(expr: Expr, function: str, value_of: Callable[[str], Any]) -> Iterator[Call]:
+def iterate_active_calls(expr: Expr, function: str, value_of: Callable[[str], Any]) -> Iterator[Call]:
     """Yield the calls of one function on which the present value of an expression depends.
 
     Only active branches of `where` are searched, both at equality. value_of(path): value of a name.
     """
     match expr:
         case Unary(operand=operand):
-            yield from reached(operand, function, value_of)
+            yield from iterate_active_calls(operand, function, value_of)
         case Binary(left=left, right=right):
-            yield from reached(left, function, value_of)
-            yield from reached(right, function, value_of)
+            yield from iterate_active_calls(left, function, value_of)
+            yield from iterate_active_calls(right, function, value_of)
         case Call(arguments=arguments):
             if function == expr.function:
                 yield expr
@@ -190,26 +190,26 @@ def reached(expr: Expr, function: str, value_of: Callable[[str], Any]) -> Iterat
                 gap = evaluate(left, value_of) - evaluate(right, value_of)
                 arguments = (left, right, *(then,) * bool(gap <= 0.0), *(otherwise,) * bool(gap >= 0.0))
             for argument in arguments:
-                yield from reached(argument, function, value_of)
+                yield from iterate_active_calls(argument, function, value_of)
 
 
-def curve_calls(expr: Expr) -> Iterator[CurveCall]:
+def iterate_curve_calls(expr: Expr) -> Iterator[CurveCall]:
     """Return an iterator over the curve calls in an expression."""
-    return (call for call in calls(expr) if isinstance(call, CurveCall))
+    return (call for call in iterate_calls(expr) if isinstance(call, CurveCall))
 
 
-def functions(expr: Expr) -> set[str]:
+def list_functions(expr: Expr) -> set[str]:
     """Return the set of names of the functions that an expression calls; extrapolated curves call min and max."""
     match expr:
         case Unary(operand=operand):
-            return functions(operand)
+            return list_functions(operand)
         case Binary(left=left, right=right):
-            return functions(left) | functions(right)
+            return list_functions(left) | list_functions(right)
         case CurveCall(arguments=arguments, curve=curve):
-            own = {"min", "max"} if curve.goes_on else set()
-            return own.union(*map(functions, arguments))
+            curve_functions = {"min", "max"} if curve.is_extrapolated else set()
+            return curve_functions.union(*map(list_functions, arguments))
         case Call(function=function, arguments=arguments):
-            return {function}.union(*map(functions, arguments))
+            return {function}.union(*map(list_functions, arguments))
     return set()
 
 

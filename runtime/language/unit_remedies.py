@@ -14,9 +14,17 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
 
-from gudgeon.errors import ExpressionError, InputError, InputErrors, Location, UnitError, UnknownNameError, together
-from gudgeon.language.names import nearest
-from gudgeon.language.units import OTHER_WORDS, UNITS, Dimension, describe, symbol_dimension, unit
+from gudgeon.errors import (
+    ExpressionError,
+    InputError,
+    InputErrors,
+    Location,
+    UnitError,
+    UnknownNameError,
+    combine_errors,
+)
+from gudgeon.language.names import find_nearest_name
+from gudgeon.language.units import OTHER_WORDS, UNITS, Dimension, describe_dimension, find_symbol_dimension, find_unit
 
 _MAX_SHOWN, _MAX_LISTED = 3, 6  # largest numbers of proposals, and of units that fit
 _MAX_ALTERNATIVES = 8  # readings of one unit
@@ -118,7 +126,7 @@ class _Quantity:
 
 
 @contextmanager
-def unit_remedies(
+def add_unit_hints(
     text: str,
     location: Location,
     accept: Callable[[str], object],
@@ -138,7 +146,7 @@ def unit_remedies(
         for error in caught.errors if isinstance(caught, InputErrors) else [caught]:
             hint = _find_remedy(error, text, location, accept, expected, names)
             mended.setdefault(hint or str(error), type(error)(error.message, error.where, hint) if hint else error)
-        raise together(mended.values()) from None
+        raise combine_errors(mended.values()) from None
 
 
 def _find_remedy(
@@ -151,13 +159,17 @@ def _find_remedy(
 ) -> str:
     """Return the hint for one error; "" if there is no unit at its location, or no proposal is accepted.
 
-    Other arguments are those of `unit_remedies`. Without a proposal, the hint may list units that fit the expected
+    Other arguments are those of `add_unit_hints`. Without a proposal, the hint may list units that fit the expected
     dimension.
     """
-    place = error.where
-    if place is None or (place.file, place.line) != (location.file, location.line) or len(text) > _MAX_LENGTH:
+    error_location = error.where
+    if (
+        error_location is None
+        or (error_location.file, error_location.line) != (location.file, location.line)
+        or len(text) > _MAX_LENGTH
+    ):
         return ""
-    found = _find_quantity(text, place.column - location.column, names)
+    found = _find_quantity(text, error_location.column - location.column, names)
     if found is None:
         return ""
 
@@ -165,24 +177,30 @@ def _find_remedy(
         """Return the first `max_count` proposals that are accepted in place of the quantity, without repetitions."""
         before, after = text[: found.begin], text[found.end :]
         divides = before.rstrip().endswith(("/", "**"))
-        bracketed = (f"({one})" if divides and re.search(r"[*(]", one) else one for one in proposals)
-        fitting = (one for one in bracketed if one != written and _is_accepted(accept, before, one, after, location))
+        bracketed = (
+            f"({proposal})" if divides and re.search(r"[*(]", proposal) else proposal for proposal in proposals
+        )
+        fitting = (
+            proposal
+            for proposal in bracketed
+            if proposal != written and _is_accepted(accept, before, proposal, after, location)
+        )
         return list(itertools.islice(dict.fromkeys(fitting), max_count))
 
     written = text[found.begin : found.end]
     for proposals, most in _iterate_proposals(text, found, names, expected):
         if shown := accepted(proposals, most):
-            differ = ": they differ by 2*pi" if any("rev" in one for one in shown) and shown[1:] else ""
+            differ = ": they differ by 2*pi" if any("rev" in proposal for proposal in shown) and shown[1:] else ""
             return f"write {' or '.join(shown)}{differ}"
-    guess = nearest(text[found.unit_at : found.end], UNITS, 0.6) if not found.factors else None
+    guess = find_nearest_name(text[found.unit_at : found.end], UNITS, 0.6) if not found.factors else None
     if guess and accepted([f"{found.number} {guess}"], 1):
         return f"did you mean {guess if text[: found.unit_at].endswith(' ') else f'{found.number} {guess}'!r}?"
     if expected is not None:
-        listed = accepted((f"{found.number} {one}" for one in UNITS), _MAX_LISTED)
-        if units := ", ".join(one.removeprefix(f"{found.number} ") for one in listed):
+        listed = accepted((f"{found.number} {proposal}" for proposal in UNITS), _MAX_LISTED)
+        if units := ", ".join(proposal.removeprefix(f"{found.number} ") for proposal in listed):
             return f"units that fit here: {units}"
     if re.match("did you mean|write|.* is written|a power of", error.hint):  # it was not tried, and does not fit
-        return f"expected {describe(expected)}" if expected else f"units are {', '.join([*UNITS][:12])}, …"
+        return f"expected {describe_dimension(expected)}" if expected else f"units are {', '.join([*UNITS][:12])}, …"
     return ""
 
 
@@ -194,9 +212,9 @@ def _is_accepted(accept: Callable[[str], object], before: str, proposal: str, af
     try:
         accept(before + proposal + after)
     except InputError as error:
-        place, begin = error.where, len(before + proposal)
+        error_location, begin = error.where, len(before + proposal)
         blanked = " " * begin + after
-        later = _find_quantity(blanked, place.column - location.column, ()) if place else None
+        later = _find_quantity(blanked, error_location.column - location.column, ()) if error_location else None
         return later is not None and later.begin > begin and blanked[later.begin - 1] in " (,"
     return True
 
@@ -226,7 +244,7 @@ def _parse_factors(text: str, position: int, divided: bool, names: Container[str
     divided: whether a division precedes the first. names: of the file, which end the unit after an operator. Reading
     stops at the first symbol without a meaning.
     """
-    found, end, below, between = list[_Factor](), position, divided, ""
+    factors, end, below, between = list[_Factor](), position, divided, ""
     while True:
         sign = -1 if divided else 1
         group, factor = _GROUP.match(text, position), _FACTOR.match(text, position)
@@ -234,23 +252,26 @@ def _parse_factors(text: str, position: int, divided: bool, names: Container[str
             inner, inner_end = _parse_factors(group["inside"], 0, False, names)
             power = _parse_power(group["power"])
             if not inner or inner_end != len(group["inside"]) or power is None:
-                return found, end
-            raised = [(one, None if one.power is None else one.power * power * sign) for one in inner]
-            found += [_Factor(one.symbol, new) for one, new in raised]
-        elif factor and not (found and between in ("*", "/") and _is_name(factor[0], names)):
+                return factors, end
+            raised = [
+                (inner_factor, None if inner_factor.power is None else inner_factor.power * power * sign)
+                for inner_factor in inner
+            ]
+            factors += [_Factor(inner_factor.symbol, new) for inner_factor, new in raised]
+        elif factor and not (factors and between in ("*", "/") and _is_name(factor[0], names)):
             power = _parse_power(factor["power"])
             power = None if power is None else sign * power
             if factor["symbol"] in _SPEEDS and power is not None:
-                found += [_Factor("km", power), _Factor("h", -power)]
+                factors += [_Factor("km", power), _Factor("h", -power)]
             elif _list_meanings(factor["symbol"]):
-                found.append(_Factor(factor["symbol"], power, bool(found) and not between and below))
+                factors.append(_Factor(factor["symbol"], power, bool(factors) and not between and below))
             else:
-                return found, end
+                return factors, end
         else:
-            return found, end
+            return factors, end
         end = (group or factor).end()  # type: ignore[union-attr]
         if (operator := _BETWEEN.match(text, end)) is None:
-            return found, end
+            return factors, end
         between = operator[0].strip()
         divided, position = between in ("/", "per"), operator.end()
         below = below or divided
@@ -276,20 +297,25 @@ def _list_meanings(symbol: str) -> list[tuple[Decimal, str]]:
 
     Tried in turn: the list, other unit systems, SI prefixes, and other capitals.
     """
-    if symbol_dimension(symbol):
+    if find_symbol_dimension(symbol):
         return [(Decimal(1), symbol)]
     if symbol in _OTHER_UNITS:
-        return [(Decimal(one.split()[0]), one.split()[1]) for one in _OTHER_UNITS[symbol]]
+        return [(Decimal(candidate.split()[0]), candidate.split()[1]) for candidate in _OTHER_UNITS[symbol]]
     for prefix in ("da", symbol[:1]):
         rest = symbol.removeprefix(prefix)
         if prefix in _PREFIXES and rest != symbol and rest in _PREFIXED:
-            if symbol_dimension(plain := prefix.translate(_PLAIN) + rest):
+            if find_symbol_dimension(plain := prefix.translate(_PLAIN) + rest):
                 return [(Decimal(1), plain)]
-            return [(Decimal(_PREFIXES[prefix]) * number, of) for number, of in _list_meanings(rest)]
-    candidates = [one for one in (*UNITS, *_OTHER_UNITS) if one.lower() == symbol.lower() and len(symbol) > 1]
-    differences = {one: sum(a != b for a, b in zip(one, symbol, strict=True)) for one in candidates}
+            return [(Decimal(_PREFIXES[prefix]) * number, unit) for number, unit in _list_meanings(rest)]
+    candidates = [
+        candidate for candidate in (*UNITS, *_OTHER_UNITS) if candidate.lower() == symbol.lower() and len(symbol) > 1
+    ]
+    differences = {candidate: sum(a != b for a, b in zip(candidate, symbol, strict=True)) for candidate in candidates}
     return [
-        meant for one in candidates if differences[one] == min(differences.values()) for meant in _list_meanings(one)
+        meant
+        for candidate in candidates
+        if differences[candidate] == min(differences.values())
+        for meant in _list_meanings(candidate)
     ]
 
 
@@ -312,7 +338,7 @@ def _iterate_proposals(
     yield iter([difference]), 1
     if word:
         yield iter([product]), 1
-    wrong = [k for k, one in enumerate(quantity.factors) if one.power is None or not _is_power(one.power)]
+    wrong = [k for k, factor in enumerate(quantity.factors) if factor.power is None or not _is_power(factor.power)]
     if expected is not None and len(wrong) == 1:
         yield _iterate_powers(quantity, wrong[0]), 1
 
@@ -322,11 +348,15 @@ def _iterate_listed_units(quantity: _Quantity) -> Iterator[str]:
 
     Nothing is yielded without factors or with an invalid power.
     """
-    if not quantity.factors or any(one.power is None for one in quantity.factors):
+    if not quantity.factors or any(factor.power is None for factor in quantity.factors):
         return
     alternatives = [
-        [(meant, one.power, k) for k in ((1, -1) if one.either else (1,)) for meant in _list_meanings(one.symbol)]
-        for one in quantity.factors
+        [
+            (meant, factor.power, k)
+            for k in ((1, -1) if factor.either else (1,))
+            for meant in _list_meanings(factor.symbol)
+        ]
+        for factor in quantity.factors
     ]
     for choice in itertools.islice(itertools.product(*alternatives), _MAX_ALTERNATIVES):
         yield _format_quantity(quantity.number, [(meant, Fraction(power or 1) * sign) for meant, power, sign in choice])
@@ -356,16 +386,16 @@ def _format_quantity(number: str, factors: Sequence[tuple[tuple[Decimal, str], F
             rest += operator + base + (f"**{_format_power(abs(power))}" if abs(power) != 1 else "")
             continue
         scale *= times
-        for sign, one, own in re.findall(rf"(^|[*/])(?:1/)?({_SYMBOL})(?:\^(\d))?", symbol):
+        for sign, unit, own in re.findall(rf"(^|[*/])(?:1/)?({_SYMBOL})(?:\^(\d))?", symbol):
             exponent = power * int(own or 1) * (-1 if sign == "/" or symbol.startswith("1/") else 1)
             if (
                 not _is_power(exponent)
                 or exponent.denominator == 2
-                and not unit(f"{one}^{_format_power(abs(exponent))}")
+                and not find_unit(f"{unit}^{_format_power(abs(exponent))}")
             ):
-                rest += f" * (1 {one})**{_format_power(exponent)}"
+                rest += f" * (1 {unit})**{_format_power(exponent)}"
             else:
-                raised = one + (f"^{_format_power(abs(exponent))}" if abs(exponent) != 1 else "")
+                raised = unit + (f"^{_format_power(abs(exponent))}" if abs(exponent) != 1 else "")
                 (above if exponent > 0 else below).append(raised)
     value = number
     if scale != 1:

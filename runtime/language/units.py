@@ -1,4 +1,4 @@
-"""Define dimensions and the published list of units, and parse units.
+"""Define physical dimensions and the units that mechanism files may use, and parse units.
 
 The list is closed, so that `t`, `c`, `k` are never tonnes, light or Boltzmann. A test compares every entry with pint.
 Factors are exact fractions (times a power of π), so that `0.3 mm` is the binary64 number nearest to 3e-4. Roots of
@@ -46,28 +46,28 @@ class Dimension:
         return (self**2).is_whole
 
 
-def dimension(length: float = 0, mass: float = 0, time: float = 0) -> Dimension:
+def make_dimension(length: float = 0, mass: float = 0, time: float = 0) -> Dimension:
     """Return the dimension m^length kg^mass s^time."""
     return Dimension(Fraction(length), Fraction(mass), Fraction(time))
 
 
-DIMENSIONLESS = dimension()
-LENGTH = dimension(length=1)
-MASS = dimension(mass=1)
-TIME = dimension(time=1)
-INERTIA = dimension(length=2, mass=1)
-RATE = dimension(time=-1)  # an angular velocity, too
-ANGULAR_ACCELERATION = dimension(time=-2)
-VELOCITY = dimension(length=1, time=-1)
-ACCELERATION = dimension(length=1, time=-2)
-FORCE = dimension(length=1, mass=1, time=-2)
-TORQUE = dimension(length=2, mass=1, time=-2)  # and energy
-POWER = dimension(length=2, mass=1, time=-3)
-STIFFNESS = dimension(mass=1, time=-2)
-DAMPING = dimension(mass=1, time=-1)
-PRESSURE = dimension(length=-1, mass=1, time=-2)
-VISCOSITY = dimension(length=-1, mass=1, time=-1)
-DENSITY = dimension(length=-3, mass=1)
+DIMENSIONLESS = make_dimension()
+LENGTH = make_dimension(length=1)
+MASS = make_dimension(mass=1)
+TIME = make_dimension(time=1)
+INERTIA = make_dimension(length=2, mass=1)
+RATE = make_dimension(time=-1)  # an angular velocity, too
+ANGULAR_ACCELERATION = make_dimension(time=-2)
+VELOCITY = make_dimension(length=1, time=-1)
+ACCELERATION = make_dimension(length=1, time=-2)
+FORCE = make_dimension(length=1, mass=1, time=-2)
+TORQUE = make_dimension(length=2, mass=1, time=-2)  # and energy
+POWER = make_dimension(length=2, mass=1, time=-3)
+STIFFNESS = make_dimension(mass=1, time=-2)
+DAMPING = make_dimension(mass=1, time=-1)
+PRESSURE = make_dimension(length=-1, mass=1, time=-2)
+VISCOSITY = make_dimension(length=-1, mass=1, time=-1)
+DENSITY = make_dimension(length=-3, mass=1)
 
 # description and SI unit of known dimensions
 _WORDS: Mapping[Dimension, tuple[str, str]] = {
@@ -94,7 +94,7 @@ _WORDS: Mapping[Dimension, tuple[str, str]] = {
 }
 
 
-def si_unit(dimension_: Dimension) -> str:
+def find_si_unit(dimension_: Dimension) -> str:
     """Return the SI unit of a dimension as files write it: "m", "kg*m^2", "1/s"; "" for a pure number."""
     if dimension_ == DIMENSIONLESS:
         return ""
@@ -115,15 +115,15 @@ def _format_power(symbol: str, exponent: Fraction) -> str:
     return f"{symbol}^{exponent}" if exponent.denominator == 1 else f"{symbol}^({exponent})"
 
 
-def describe(dimension_: Dimension) -> str:
+def describe_dimension(dimension_: Dimension) -> str:
     """Return a dimension in words with its SI unit: "a length (m)"."""
-    description, unit = _WORDS.get(dimension_, ("a quantity", si_unit(dimension_)))
+    description, unit = _WORDS.get(dimension_, ("a quantity", find_si_unit(dimension_)))
     return f"{description} ({unit})"
 
 
 @dataclass(frozen=True)
 class Unit:
-    """Hold a unit in SI: `factor` · π^`pi_power` of the SI unit of `dimension`."""
+    """Hold a unit in SI: `factor` · π^`pi_power` of the SI unit of `make_dimension`."""
 
     factor: Fraction
     pi_power: int
@@ -240,25 +240,25 @@ def parse_unit(text: str, start: int = 0, names: Container[str] = ()) -> tuple[U
     """
     divide = divided = text.startswith("1/", start)
     position = start + 2 if divide else start
-    total, found, between = Unit(Fraction(1), 0, DIMENSIONLESS), None, ""
+    total, unit, between = Unit(Fraction(1), 0, DIMENSIONLESS), None, ""
     for _ in range(_MOST_FACTORS):
         match = _FACTOR.match(text, position)
-        if not match or match[1] not in _SYMBOLS or found and _CALLED.match(text, match.end()):
+        if not match or match[1] not in _SYMBOLS or unit and _CALLED.match(text, match.end()):
             break
-        is_name = bool(found) and match[0] in names and between in ("*", "/")
+        is_name = bool(unit) and match[0] in names and between in ("*", "/")
         power = Fraction((match["power"] or _RAISED.get(match["raised"]) or "1").strip("()"))
         raised = _raise_unit(_SYMBOLS[match[1]], -power if divide else power)
         if raised is None:
             break
         total = Unit(total.factor * raised.factor, total.pi_power + raised.pi_power, total.dimension * raised.dimension)
-        found = found if is_name else (total, match.end())
+        unit = unit if is_name else (total, match.end())
         operator = _BETWEEN.match(text, match.end())
         between = (operator[0].strip() or " ") if operator else ""
         if operator is None or between == " " and divided:
             break
         divide, position = between == "/", operator.end()
         divided = divided or divide
-    return found
+    return unit
 
 
 def _raise_unit(unit_: Unit, power: Fraction) -> Unit | None:
@@ -272,29 +272,29 @@ def _raise_unit(unit_: Unit, power: Fraction) -> Unit | None:
     return Unit(root, 0, unit_.dimension**power)
 
 
-def factors(token: str) -> list[tuple[str, str]]:
+def list_factors(token: str) -> list[tuple[str, str]]:
     """Return pairs (operator before it, symbol) for the symbols without a power in a unit text; the first has ""."""
     return re.findall(r"([*/ \u00b7\u22c5]|^)(?:1/)?([A-Za-z\u00b5\u03bc]+)(?![\w^])", token)
 
 
-def symbol_dimension(name: str) -> Dimension | None:
+def find_symbol_dimension(name: str) -> Dimension | None:
     """Return the dimension of the unit with the symbol `name`; None if no listed unit has it."""
     return _SYMBOLS[name].dimension if name in _SYMBOLS else None
 
 
 @lru_cache(maxsize=1024)
-def unit(token: str) -> Unit | None:
+def find_unit(token: str) -> Unit | None:
     """Return the unit that the whole of `token` names; None if it is not in the list. Results are cached."""
-    found = parse_unit(token)
-    return found[0] if found and found[1] == len(token) else None
+    unit = parse_unit(token)
+    return unit[0] if unit and unit[1] == len(token) else None
 
 
 def _list_units() -> Iterator[tuple[str, tuple[float, Dimension]]]:
     """Yield each published unit as (text, (factor to SI, dimension))."""
     for token in (*_SYMBOLS, *_COMPOUNDS.split()):
-        known = unit(token)
-        assert known is not None, token
-        yield token, (known.to_si(Fraction(1)), known.dimension)
+        unit = find_unit(token)
+        assert unit is not None, token
+        yield token, (unit.to_si(Fraction(1)), unit.dimension)
 
 
 # The published list: token -> (factor to SI, dimension). Further products of the symbols are units, too.

@@ -1,1 +1,1 @@
-"""From a name or file to C and a library: shipped, cached, compiled."""
+"""Load a mechanism: find or generate its C, compile it or take the library from the cache, and open the library."""

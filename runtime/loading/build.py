@@ -13,13 +13,13 @@ from threading import Lock
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BuildError
 from gudgeon.loading import compiler
-from gudgeon.loading.ahead import BackgroundCompilation, own_command_lines
-from gudgeon.loading.behind import KIND, SOURCE, OptimizedLibrary, is_allowed
-from gudgeon.loading.cache import Cache, Make, default_cache, digest, private_cache, warn_once
-from gudgeon.loading.compiler import begin, finish
-from gudgeon.loading.engine import engine_digest, own_texts
-from gudgeon.loading.library import Library, carried, opened
-from gudgeon.waiting.asking import report_work
+from gudgeon.loading.background_compilation import BackgroundCompilation, build_command_lines
+from gudgeon.loading.cache import Cache, Make, compute_digest, get_default_cache, get_private_cache, warn_once
+from gudgeon.loading.compiler import finish_compiler, start_compiler
+from gudgeon.loading.engine import compute_engine_digest, list_scene_texts
+from gudgeon.loading.library import Library, open_bundled_library, open_library
+from gudgeon.loading.optimized_library import KIND, SOURCE, OptimizedLibrary, may_compile_in_background
+from gudgeon.waiting.cancellation import report_work
 from gudgeon.waiting.programs import Programs
 
 LIBRARY = "kernels.so"  # file name of the library in an entry of the cache
@@ -34,7 +34,7 @@ def compile_kernels(
     portable: bool = False,
     rebuild: bool = False,
     cache: Cache | None = None,
-    ahead: BackgroundCompilation | None = None,
+    background: BackgroundCompilation | None = None,
     quick: bool = False,
 ) -> Library:
     """Return the library of a kernel source, compiled if the cache lacks it; without a compiler, the wheel's.
@@ -43,29 +43,29 @@ def compile_kernels(
     may be under way already. quick: if the cache has none, a quickly compiled library may serve while the optimized one
     is made (behind.py). Raises BuildError if there is no compiler, or if the C does not compile or load.
     """
-    cache = cache or default_cache()
+    cache = cache or get_default_cache()
     try:
         command = compiler.find_compiler()
     except BuildError:
-        if not rebuild and (found := carried(source)):
-            return found
+        if not rebuild and (bundled := open_bundled_library(source)):
+            return bundled
         raise
-    flags = (*compiler.flags(portable, command), *compiler.link_flags())
-    key = library_key(source, command, flags, compiler.identity(command, cache), portable)
+    flags = (*compiler.build_flags(portable, command), *compiler.build_link_flags())
+    key = compute_library_key(source, command, flags, compiler.describe_compiler(command, cache), portable)
     with _lock:
-        known = None if rebuild else _libraries.get(key)
-    if known:
+        loaded = None if rebuild else _libraries.get(key)
+    if loaded:
         if not quick:
-            known.lib.best()
-        return known
+            loaded.lib.wait_for_optimized()
+        return loaded
 
-    def build(folder: Path, quick: bool = False, ahead: BackgroundCompilation | None = ahead) -> None:
+    def build(folder: Path, quick: bool = False, background: BackgroundCompilation | None = background) -> None:
         """Build the library in a folder, and report that this takes a while."""
         with (
             report_work(f"compiling {source.mechanism}, scene {source.scene}"),
             BackgroundCompilation(portable, cache) as none,
         ):
-            _build(source, folder, portable, ahead or none, cache, rebuild, quick)
+            _build(source, folder, portable, background or none, cache, rebuild, quick)
 
     library = _compile_quickly(source, portable, cache, key, build) if quick and not rebuild else None
     if library is None:
@@ -85,12 +85,12 @@ def _compile_quickly(
 
     If the cache has a quick one already, the optimized one is under way or failed; then it is made here, to see why.
     """
-    if not is_allowed(cache) or cache.holds("libraries", key):
+    if not may_compile_in_background(cache) or cache.has_folder("libraries", key):
         return None
     command = compiler.find_compiler()
-    flags = (*compiler.flags(portable, command, quick=True), *compiler.link_flags())
-    own = library_key(source, command, flags, compiler.identity(command, cache), portable)
-    if cache.holds(KIND, own):
+    flags = (*compiler.build_flags(portable, command, quick=True), *compiler.build_link_flags())
+    library_key = compute_library_key(source, command, flags, compiler.describe_compiler(command, cache), portable)
+    if cache.has_folder(KIND, library_key):
         return None
 
     def quickly(folder: Path) -> None:
@@ -100,7 +100,7 @@ def _compile_quickly(
             (folder / name).unlink()
         (folder / SOURCE).write_bytes(source.to_json().encode())
 
-    entry = cache.fetch(KIND, own, quickly)
+    entry = cache.fetch(KIND, library_key, quickly)
     if not entry.is_relative_to(cache.root):
         return None
     behind = OptimizedLibrary(
@@ -110,9 +110,9 @@ def _compile_quickly(
         library = _open_entry(entry, source.cdef)
     except ImportError:  # reported for the optimized one
         return None
-    if not behind.begin(entry, portable):
+    if not behind.start(entry, portable):
         return None
-    library.lib.follow(behind)
+    library.lib.set_pending(behind)
     return library
 
 
@@ -121,19 +121,25 @@ def is_compiled(source: KernelSource, *, portable: bool = False) -> bool:
 
     Raises BuildError without a compiler.
     """
-    cache, command = default_cache(), compiler.find_compiler()
-    flags = (*compiler.flags(portable, command), *compiler.link_flags())
-    key = library_key(source, command, flags, compiler.identity(command, cache), portable)
+    cache, command = get_default_cache(), compiler.find_compiler()
+    flags = (*compiler.build_flags(portable, command), *compiler.build_link_flags())
+    key = compute_library_key(source, command, flags, compiler.describe_compiler(command, cache), portable)
     return key in _libraries or cache.has("libraries", key)
 
 
-def library_key(
+def compute_library_key(
     source: KernelSource, command: tuple[str, ...], flags: tuple[str, ...], identity: str, portable: bool
 ) -> str:
     """Return the cache key: a digest of everything that decides the library's bytes or whether it runs here."""
-    cpu, texts = "" if portable else compiler.cpu(), own_texts(source)
-    own = [source.main, source.cdef, *command, *flags, *(flag for more in compiler.MORE.values() for flag in more)]
-    return digest(["library/6", *own, identity, cpu, engine_digest(), *texts])
+    cpu, texts = "" if portable else compiler.describe_cpu(), list_scene_texts(source)
+    key_parts = [
+        source.main,
+        source.cdef,
+        *command,
+        *flags,
+        *(flag for more in compiler.MORE.values() for flag in more),
+    ]
+    return compute_digest(["library/6", *key_parts, identity, cpu, compute_engine_digest(), *texts])
 
 
 def _open_entry(entry: Path, cdef: str) -> Library:
@@ -141,10 +147,10 @@ def _open_entry(entry: Path, cdef: str) -> Library:
 
     Raise ImportError if it cannot be loaded or lacks its functions.
     """
-    found = opened(entry / LIBRARY, cdef)
-    if not cdef and not hasattr(found.lib, PRESENT):
+    library = open_library(entry / LIBRARY, cdef)
+    if not cdef and not hasattr(library.lib, PRESENT):
         raise ImportError(f"{entry / LIBRARY} has no function {PRESENT}")
-    return found
+    return library
 
 
 def _open_rebuilt_or_copied(key: str, entry: Path, cdef: str, cache: Cache, build: Make, error: ImportError) -> Library:
@@ -152,7 +158,7 @@ def _open_rebuilt_or_copied(key: str, entry: Path, cdef: str, cache: Cache, buil
 
     `error`: the first failure. A file system mounted noexec is recognised. Raises BuildError if nothing helps.
     """
-    private, root = private_cache(), entry.parents[1]
+    private, root = get_private_cache(), entry.parents[1]
     if not _is_noexec(root):  # what the compiler wrote may be broken
         try:
             entry = cache.fetch("libraries", key, build, renew=True)
@@ -161,7 +167,7 @@ def _open_rebuilt_or_copied(key: str, entry: Path, cdef: str, cache: Cache, buil
             error = again
     if not entry.is_relative_to(private.root):
         try:
-            found = _open_entry(private.fetch("libraries", key, lambda folder: _copy_library(entry, folder)), cdef)
+            library = _open_entry(private.fetch("libraries", key, lambda folder: _copy_library(entry, folder)), cdef)
         except ImportError as again:
             error = again
         else:
@@ -169,7 +175,7 @@ def _open_rebuilt_or_copied(key: str, entry: Path, cdef: str, cache: Cache, buil
             copied = f"what is compiled is copied to {private.root} at each start"
             do = "Set GUDGEON_CACHE to a folder whose programs may be run"
             warn_once(f"the cache folder {root} {why}: {copied}. {do}.", f"{root}: run")
-            return found
+            return library
     command = " ".join(compiler.find_compiler())
     message = f"the compiler {command} ended without an error, and made a library that cannot be loaded: {error}"
     hint = "set CC to a compiler that makes programs for this machine, as CC=gcc"
@@ -189,7 +195,7 @@ def _copy_library(entry: Path, folder: Path) -> None:
     (folder / LIBRARY).write_bytes((entry / LIBRARY).read_bytes())
 
 
-def build_into(folder: Path, source: KernelSource, cache: Cache) -> Path:
+def build_portable_library(folder: Path, source: KernelSource, cache: Cache) -> Path:
     """Compile the portable library of a source for the processor that $CC compiles for; return its path in `folder`."""
     with BackgroundCompilation(True, cache) as none:
         _build(source, folder, True, none, cache, False, False)
@@ -212,20 +218,22 @@ def _build(
     """
     for name, text in source.files.items():
         (folder / name).write_text(text, encoding="utf-8")
-    lines = own_command_lines(source, portable, quick)
-    early = {name for name, line in lines.items() if ahead.is_under_way(name, line, source.files)}
+    lines = build_command_lines(source, portable, quick)
+    early = {name for name, line in lines.items() if ahead.is_compiling(name, line, source.files)}
     with Programs() as programs:
-        made = [(begin(programs, line, folder), name) for name, line in lines.items() if name not in early]
-        shared = ahead.shared_objects(source, quick)
+        made = [(start_compiler(programs, line, folder), name) for name, line in lines.items() if name not in early]
+        shared = ahead.list_shared_objects(source, quick)
         for part in shared:
-            ahead.begin_shared(part)
+            ahead.start_shared(part)
         objects = [str(part.fetch(portable, cache, ahead, renew)) for part in shared]
         for name in early:
-            if not ahead.take(folder / name, lines[name], source.files):
-                made.append((begin(programs, lines[name], folder), name))  # here it says what is wrong
-        failed = [finished for process, name in made if (finished := finish(programs, process, folder / name))]
-        link = [*compiler.find_compiler(), *compiler.link_flags(), *lines, *objects, "-o", LIBRARY, "-lm"]
-        if not failed and (finished := finish(programs, begin(programs, link, folder), folder / LIBRARY)):
+            if not ahead.fetch_object(folder / name, lines[name], source.files):
+                made.append((start_compiler(programs, lines[name], folder), name))  # here it says what is wrong
+        failed = [finished for process, name in made if (finished := finish_compiler(programs, process, folder / name))]
+        link = [*compiler.find_compiler(), *compiler.build_link_flags(), *lines, *objects, "-o", LIBRARY, "-lm"]
+        if not failed and (
+            finished := finish_compiler(programs, start_compiler(programs, link, folder), folder / LIBRARY)
+        ):
             failed = [finished]
         if failed:
             raise failed[0]

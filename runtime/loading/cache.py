@@ -23,8 +23,8 @@ from hashlib import sha256
 from pathlib import Path
 
 from gudgeon.errors import LIMITED, BadValueError, CacheError
-from gudgeon.files.trust import Untrusted, check_folder, check_path, read
-from gudgeon.waiting.ctrl_c import CtrlC
+from gudgeon.files.trust import Untrusted, check_folder, check_path, read_trusted
+from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 LIST = "checksums"
 END = "whole"  # begins the last line of the list; without it the list is incomplete
@@ -35,7 +35,7 @@ LOCK_SECONDS = 300.0  # longer than any compilation; a lock held longer means a 
 Make = Callable[[Path], None]  # writes the files of an entry into the empty folder that it is given
 
 
-def digest(parts: Iterable[str | bytes]) -> str:
+def compute_digest(parts: Iterable[str | bytes]) -> str:
     """Return the SHA-256 of the parts in order, with their lengths, so that ("ab", "c") differs from ("a", "bc")."""
     total = sha256()
     for part in parts:
@@ -70,17 +70,17 @@ class Cache:
                 is_limit = getattr(error, "errno", 0) == errno.EFBIG and "ulimit" not in message
                 raise CacheError(f"{message}\n  {LIMITED}" if is_limit else message) from error
             self._warn_unusable(error)
-        return private_cache().fetch(kind, key, make, renew=renew)
+        return get_private_cache().fetch(kind, key, make, renew=renew)
 
     def has(self, kind: str, key: str) -> bool:
         """Return whether a complete entry exists."""
         try:
             self._check_trusted(kind)
-            return is_whole(self.root / kind / key)
+            return is_complete(self.root / kind / key)
         except (OSError, Untrusted):
             return False
 
-    def holds(self, kind: str, key: str) -> bool:
+    def has_folder(self, kind: str, key: str) -> bool:
         """Return whether an entry exists, complete or not; this is faster than `has`."""
         return os.path.exists(self.root / kind / key)  # False too where the system has no such long name
 
@@ -129,12 +129,14 @@ class Cache:
                 return entry
             left: list[Path] = []
             try:
-                with CtrlC() as ctrl_c:  # not between a folder and the note of it, nor where a lock's end swallows it
+                with (
+                    DelayedCtrlC() as ctrl_c
+                ):  # not between a folder and the note of it, nor where a lock's end swallows it
                     self._remove_abandoned_folders(aside, entry.name)
                     work = Path(tempfile.mkdtemp(prefix=f"{entry.name}.", dir=aside))
                     old = work.with_name(work.name + ".old")
                     left += [work, old]
-                ctrl_c.take()
+                ctrl_c.raise_delayed()
                 make(work)
                 _write_checksums(work, entry)
                 if os.path.lexists(entry):  # a damaged one: a rename cannot replace a folder that has files
@@ -179,8 +181,8 @@ def _make_own_folder(path: Path) -> None:
 
 def _is_own_folder(folder: Path) -> bool:
     """Return whether a path is a folder, not a link, that belongs to the user."""
-    found = folder.lstat()
-    return stat.S_ISDIR(found.st_mode) and found.st_uid == os.geteuid()
+    status = folder.lstat()
+    return stat.S_ISDIR(status.st_mode) and status.st_uid == os.geteuid()
 
 
 def warn_once(text: str, about: str = "") -> None:
@@ -196,26 +198,26 @@ _message: set[str] = set()  # warnings that were issued
 def _is_usable(entry: Path) -> bool:
     """Return whether a cache entry is complete; warn, and return False, if another user may have written it."""
     try:
-        return is_whole(entry)
+        return is_complete(entry)
     except Untrusted as error:
         warn_once(f"an entry of the cache is not used, since {error}; it is made anew")
         return False
 
 
-def is_whole(entry: Path) -> bool:
+def is_complete(entry: Path) -> bool:
     """Return whether a cache entry is complete: every listed file has the bytes stored under its kind and key.
 
     Raises Untrusted if another user may have written it.
     """
     try:
         check_folder(entry)
-        lines = read(entry / LIST).decode().splitlines()
+        lines = read_trusted(entry / LIST).decode().splitlines()
         if not lines or lines.pop() != _format_last_line(entry):
             return False
         pairs = [line.split(" ", 1) for line in lines]
         if any(os.path.basename(name) != name for _, name in pairs):
             return False
-        return all(sha256(read(entry / name)).hexdigest() == sum_ for sum_, name in pairs)
+        return all(sha256(read_trusted(entry / name)).hexdigest() == sum_ for sum_, name in pairs)
     except (OSError, ValueError):
         return False
 
@@ -247,7 +249,7 @@ def _remove(path: Path) -> None:
         path.unlink(missing_ok=True)
 
 
-def default_cache() -> Cache:
+def get_default_cache() -> Cache:
     """Return the user's cache: $GUDGEON_CACHE, or the platform's cache folder.
 
     Without a home folder, a private cache is returned with a warning. Raises BadValueError for "~nobody".
@@ -263,7 +265,7 @@ def default_cache() -> Cache:
     if os.path.isabs(folder):
         return Cache(folder)
     warn_once("no home folder is known; what this process compiles is not kept. Set GUDGEON_CACHE to a folder.")
-    return private_cache()
+    return get_private_cache()
 
 
 @cache
@@ -275,7 +277,7 @@ def _find_user_folder() -> str:
 
 
 @cache
-def private_cache() -> Cache:
+def get_private_cache() -> Cache:
     """Return the cache in a temporary folder of this process, created at the first call and removed when the process
     ends.
 

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gudgeon.errors import BadValueError, BuildError
-from gudgeon.loading.cache import Cache, default_cache, digest
-from gudgeon.loading.engine import include_flags
+from gudgeon.loading.cache import Cache, compute_digest, get_default_cache
+from gudgeon.loading.engine import build_include_flags
 from gudgeon.waiting.programs import Programs
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ FULL = {
 }
 
 
-def flags(portable: bool, command: tuple[str, ...] = (), quick: bool = False) -> tuple[str, ...]:
+def build_flags(portable: bool, command: tuple[str, ...] = (), quick: bool = False) -> tuple[str, ...]:
     """Return the compiler's flags for a command; `portable` leaves out those that bind the library to this CPU.
 
     quick: no optimization, which takes a third of the time. Results are the same, since sums keep their order at every
@@ -89,7 +89,8 @@ def flags(portable: bool, command: tuple[str, ...] = (), quick: bool = False) ->
 
 
 def _add_unit_flags(flags: tuple[str, ...], unit: str) -> tuple[str, ...]:
-    """Return `flags` with those added that a unit needs: time loops ("loops"), lanes ("lanes"), a scene's code ("").
+    """Return `build_flags` with those added that a unit needs: time loops ("loops"), lanes ("lanes"), a scene's code
+    ("").
 
     They are added only if the compiler understands GCC's flags.
     """
@@ -101,7 +102,7 @@ def _is_zig(command: tuple[str, ...]) -> bool:
     return bool(command) and Path(command[0]).name == "zig"
 
 
-def link_flags() -> tuple[str, ...]:
+def build_link_flags() -> tuple[str, ...]:
     """Return the flags that make a shared library of object files."""
     return ("-dynamiclib",) if sys.platform == "darwin" else ("-shared",)
 
@@ -122,16 +123,16 @@ def find_compiler() -> tuple[str, ...]:
         hint = "leave it out: numbers that are none would not be seen, and sums be made in another order"
         raise BadValueError(f"$CC has {', '.join(wrong)}", hint=hint)
     for command in [named] if named else [["cc"], ["gcc"], ["clang"]]:
-        if found := shutil.which(command[0]):
-            return (os.path.abspath(found), *command[1:])  # it is run in other folders
+        if program := shutil.which(command[0]):
+            return (os.path.abspath(program), *command[1:])  # it is run in other folders
     if not named:
         with suppress(ImportError):
-            return (str(zig()), "cc", *ZIG)
+            return (str(find_zig()), "cc", *ZIG)
     expected = f"the compiler in $CC, {named[0]!r}, was not found" if named else "no C compiler found (cc, gcc, clang)"
     raise BuildError(f"{expected}\n  {INSTALL_COMPILER}")
 
 
-def is_there() -> bool:
+def has_compiler() -> bool:
     """Return whether there is a compiler."""
     try:
         return bool(find_compiler())
@@ -139,40 +140,42 @@ def is_there() -> bool:
         return False
 
 
-def zig() -> Path:
+def find_zig() -> Path:
     """Return the path of the compiler zig from the package ziglang.
 
     Raise ImportError if it is not installed or executable.
     """
     import ziglang
 
-    found = Path(ziglang.__file__).with_name("zig")
-    if not os.access(found, os.X_OK):
-        raise ImportError(f"{found} is no program")
-    return found
+    program = Path(ziglang.__file__).with_name("zig")
+    if not os.access(program, os.X_OK):
+        raise ImportError(f"{program} is no program")
+    return program
 
 
-def identity(command: tuple[str, ...], cache: Cache) -> str:
+def describe_compiler(command: tuple[str, ...], cache: Cache) -> str:
     """Return compiler, version, machine and C library as text, for the cache keys of libraries.
 
     The version is cached by path, size and time of every program in the command, since asking for it is slow.
     """
     import shutil
 
-    programs = [os.path.realpath(found) for word in command if (found := shutil.which(word))]
+    programs = [os.path.realpath(program_path) for word in command if (program_path := shutil.which(word))]
     stats = [os.stat(program) for program in programs]
-    key = digest([*command, *(f"{p} {s.st_size} {s.st_mtime_ns}" for p, s in zip(programs, stats, strict=True))])
+    key = compute_digest(
+        [*command, *(f"{p} {s.st_size} {s.st_mtime_ns}" for p, s in zip(programs, stats, strict=True))]
+    )
     entry = cache.fetch("compilers", key, lambda folder: _write_version(command, folder))
     return "\n".join([*command, (entry / "version").read_text(), *_describe_machine()])
 
 
-def version() -> str:
+def read_version() -> str:
     """Return the first line of the compiler's version; without a compiler, a text that the library came with
     gudgeon.
     """
     try:
         command = find_compiler()
-        return identity(command, default_cache()).split("\n")[len(command)]
+        return describe_compiler(command, get_default_cache()).split("\n")[len(command)]
     except BuildError:
         return "none: the library came with gudgeon"
 
@@ -181,7 +184,7 @@ def _write_version(command: tuple[str, ...], folder: Path) -> None:
     """Run the compiler and write its version into `folder`, as a cache entry. Raise BuildError if it cannot be run."""
     try:
         with Programs() as programs:
-            answer, _ = programs.wait(programs.begin([*command, "--version"], None, plain()))
+            answer, _ = programs.wait(programs.start([*command, "--version"], None, build_environment()))
     except OSError as error:
         raise BuildError(f"the compiler {' '.join(command)} cannot be run: {error}\n  {INSTALL_COMPILER}") from error
     (folder / "version").write_text(answer or "unknown")
@@ -194,7 +197,7 @@ def _describe_machine() -> tuple[str, ...]:
 
 
 @remember
-def cpu() -> str:
+def describe_cpu() -> str:
     """Return model and instruction sets of this machine's CPU as text, for keys of libraries that are not portable;
     cached.
     """
@@ -213,34 +216,36 @@ def cpu() -> str:
     return "\n".join(lines)
 
 
-def plain() -> dict[str, str]:
+def build_environment() -> dict[str, str]:
     """Return the environment for the compiler: English messages, which are parsed, and zig's cache folder."""
-    return {"ZIG_GLOBAL_CACHE_DIR": str(default_cache().root / "zig"), **os.environ, "LC_ALL": "C"}
+    return {"ZIG_GLOBAL_CACHE_DIR": str(get_default_cache().root / "zig"), **os.environ, "LC_ALL": "C"}
 
 
-def unit_line(portable: bool, files: Sequence[str], made: str, quick: bool = False, unit: str = "") -> tuple[str, ...]:
+def build_unit_command(
+    portable: bool, files: Sequence[str], made: str, quick: bool = False, unit: str = ""
+) -> tuple[str, ...]:
     """Return the command line that compiles `files` to the object file `made`, with hidden symbols.
 
     `unit` adds flags as in of_unit; `quick`: without optimization.
     """
     command = find_compiler()
-    options = _add_unit_flags(flags(portable, command, quick), unit)
-    return (*command, *options, "-fvisibility=hidden", *include_flags(), "-c", *files, "-o", made)
+    options = _add_unit_flags(build_flags(portable, command, quick), unit)
+    return (*command, *options, "-fvisibility=hidden", *build_include_flags(), "-c", *files, "-o", made)
 
 
-def begin(programs: Programs, line: Sequence[str], folder: Path) -> subprocess.Popen[str]:
+def start_compiler(programs: Programs, line: Sequence[str], folder: Path) -> subprocess.Popen[str]:
     """Start a compiler in a folder, which also gets its temporary files; return the process.
 
     Raise BuildError if it cannot run.
     """
-    environment = {**plain(), "TMPDIR": str(folder)}  # what it writes in between belongs to the entry too
+    environment = {**build_environment(), "TMPDIR": str(folder)}  # what it writes in between belongs to the entry too
     try:
-        return programs.begin([*line], folder, environment)
+        return programs.start([*line], folder, environment)
     except OSError as error:
         raise BuildError(f"the compiler {line[0]} cannot be run: {error}\n  {INSTALL_COMPILER}") from error
 
 
-def finish(programs: Programs, process: subprocess.Popen[str], made: Path) -> Exception | None:
+def finish_compiler(programs: Programs, process: subprocess.Popen[str], made: Path) -> Exception | None:
     """Wait for a compiler; return None if it made the file `made`, else the error.
 
     The error is an OSError for a full disk or file-size limit, so that another folder is tried; else BuildError with

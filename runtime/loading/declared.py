@@ -2,7 +2,7 @@
 
 from _cffi_backend import FFI
 
-OF = "185a3959e840334102e85656e8876b599a8ff55cee98ca614aabfe89aebb16b4"  # SHA-256 of these declarations
+OF = "f1a0694cd9a35dc3589941ee11b52cf7c0f58551864fc3ab54e61167f6c05827"  # SHA-256 of these declarations
 ffi = FFI(
     "gudgeon",
     _version=0x2601,

@@ -1,6 +1,6 @@
 """Provide the engine's C files, which all scenes share (engine/), and the declarations of its functions.
 
-The sizes in a scene's model.h decide which functions it has. `contents` reads a folder quickly, because each start
+The sizes in a scene's model.h decide which functions it has. `read_files` reads a folder quickly, because each start
 checks whether a file of the engine changed.
 """
 
@@ -13,7 +13,7 @@ from functools import cache
 from pathlib import Path
 
 from gudgeon.contract.kernel_source import HEADER, KernelSource
-from gudgeon.loading.cache import digest
+from gudgeon.loading.cache import compute_digest
 from gudgeon.loading.shipped import PACKAGE
 
 ENGINE = PACKAGE / "engine"
@@ -22,34 +22,34 @@ CALLS, LANE_CALLS = ENGINE / "scene" / "calls.h", ENGINE / "batch" / "lane_calls
 _SIZE = re.compile(r"^#define (\w+) (\d+)\b", re.MULTILINE)
 
 
-def engine_files() -> dict[str, str]:
+def read_engine_files() -> dict[str, str]:
     """Return the engine's texts by their paths relative to the parent folder, sorted."""
-    return {f"{ENGINE.name}/{name}": text.decode() for name, text in contents(ENGINE, ".c", ".h")}
+    return {f"{ENGINE.name}/{name}": text.decode() for name, text in read_files(ENGINE, ".c", ".h")}
 
 
-def engine_readme() -> tuple[str, str]:
+def read_engine_readme() -> tuple[str, str]:
     """Return path and text of the engine's README."""
     path = ENGINE / "README.md"
     return path.relative_to(ENGINE.parent).as_posix(), path.read_text(encoding="utf-8")
 
 
 @cache
-def engine_digest() -> str:
+def compute_engine_digest() -> str:
     """Return the digest of all texts of the engine."""
-    return digest([part for item in engine_files().items() for part in item])
+    return compute_digest([part for item in read_engine_files().items() for part in item])
 
 
-def own_texts(source: KernelSource) -> list[str]:
+def list_scene_texts(source: KernelSource) -> list[str]:
     """Return names and texts of a scene's own files, alternating and sorted by name, for cache keys."""
     return [part for name in sorted(source.files) for part in (name, source.files[name])]
 
 
-def include_flags() -> tuple[str, ...]:
+def build_include_flags() -> tuple[str, ...]:
     """Return the compiler's flags for including "model.h" and "engine/..."."""
     return ("-I.", f"-I{ENGINE.parent}")
 
 
-def declarations(source: KernelSource) -> str:
+def select_declarations(source: KernelSource) -> str:
     """Return the declarations of the functions of a source's library, as cffi reads them.
 
     They are those of the source (lanes), or those of the engine that its model.h selects.
@@ -62,18 +62,18 @@ def _select_engine_declarations(header: str) -> str:
     return _select_lines(CALLS.read_text(encoding="utf-8"), _parse_sizes(header))
 
 
-def all_declarations() -> str:
+def list_all_declarations() -> str:
     """Return the declarations of all scenes and of libraries of lanes; absent functions fail when called."""
     lines = CALLS.read_text(encoding="utf-8").splitlines()
-    return "".join(f"{line}\n" for line in lines if not line.startswith("#")) + lane_declarations()
+    return "".join(f"{line}\n" for line in lines if not line.startswith("#")) + list_lane_declarations()
 
 
-def lane_declarations() -> str:
+def list_lane_declarations() -> str:
     """Return the declarations of a library of lanes."""
     return _select_lines(LANE_CALLS.read_text(encoding="utf-8"), {})
 
 
-def sizes(source: KernelSource) -> dict[str, int]:
+def parse_sizes(source: KernelSource) -> dict[str, int]:
     """Return the integers of a scene's model.h, by name."""
     return _parse_sizes(source.files[HEADER])
 
@@ -100,19 +100,19 @@ def _select_lines(text: str, values: dict[str, int]) -> str:
     return "\n".join(kept) + "\n"
 
 
-def contents(folder: Path, *suffixes: str) -> Iterator[tuple[str, bytes]]:
+def read_files(folder: Path, *suffixes: str) -> Iterator[tuple[str, bytes]]:
     """Yield (path relative to `folder`, bytes) of all files below it with these suffixes, sorted by the parts of the
     paths.
     """
-    found, left = list[tuple[list[str], str]](), [(list[str](), str(folder))]
+    entries_by_parts, left = list[tuple[list[str], str]](), [(list[str](), str(folder))]
     while left:
-        parts, place = left.pop()
-        with os.scandir(place) as entries:
+        parts, entry_path = left.pop()
+        with os.scandir(entry_path) as entries:
             for entry in entries:
                 if entry.name.endswith(suffixes):
-                    found.append(([*parts, entry.name], entry.path))
+                    entries_by_parts.append(([*parts, entry.name], entry.path))
                 elif entry.name != "__pycache__" and entry.is_dir():
                     left.append(([*parts, entry.name], entry.path))
-    for parts, place in sorted(found):
-        with open(place, "rb", buffering=0) as file:
+    for parts, entry_path in sorted(entries_by_parts):
+        with open(entry_path, "rb", buffering=0) as file:
             yield "/".join(parts), file.read()

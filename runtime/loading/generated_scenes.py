@@ -1,4 +1,4 @@
-"""Read and write `generated/<mechanism>/`: the kernel sources of a mechanism's scenes, each text stored once.
+"""Read and write `generated/<mechanism>/`, the generated C of a mechanism's scenes; equal texts are stored once.
 
 Texts for readers are files, `<scene>/<name>`. All other texts, and the rest of each KernelSource, are in one compressed
 archive. Scenes with the same text refer to the file of the first one.
@@ -35,7 +35,7 @@ def write_scenes(folder: Path, sources: Iterable[KernelSource], readable: Collec
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_bytes(text.encode())
     archive = {"scenes": scenes, "texts": packed}
-    if unpacked(folder) != archive:
+    if read_archive(folder) != archive:
         import lzma
 
         folder.mkdir(parents=True, exist_ok=True)
@@ -54,7 +54,7 @@ def _remove_others(folder: Path, kept: Collection[str]) -> None:
 
 def read_scene(folder: Path, scene: str) -> KernelSource | None:
     """Return the kernel source of a scene that `write_scenes` wrote; None if it is absent or cannot be read."""
-    archive = unpacked(folder)
+    archive = read_archive(folder)
     try:
         stored, packed = archive["scenes"][scene], archive["texts"]
         files = {
@@ -68,11 +68,11 @@ def read_scene(folder: Path, scene: str) -> KernelSource | None:
 
 def read_scenes(folder: Path) -> list[KernelSource]:
     """Return all readable scenes of a mechanism."""
-    found = (read_scene(folder, scene) for scene in unpacked(folder).get("scenes", ()))
-    return [source for source in found if source is not None]
+    scenes = (read_scene(folder, scene) for scene in read_archive(folder).get("scenes", ()))
+    return [source for source in scenes if source is not None]
 
 
-def unpacked(folder: Path) -> dict[str, Any]:
+def read_archive(folder: Path) -> dict[str, Any]:
     """Return the contents of the archive: "scenes" with the path of each text, and "texts" by path; {} if damaged."""
     try:
         import lzma  # some builds of Python have none: then scenes are derived

@@ -3,7 +3,8 @@
 cffi's parser takes a tenth of a second to import. Its result for the engine's declarations is stored in declared.py,
 which `make generated` writes. Other declarations are parsed here.
 
-A wheel contains libraries of shipped mechanisms for machines without a compiler (`carried`), made by `tools/wheels.py`
+A wheel contains libraries of shipped mechanisms for machines without a compiler (`build_convection_matrix`), made by
+`tools/wheels.py`
 with portable instructions. They are identified by the texts that they were compiled from, so that an edited file or
 another engine never uses them.
 """
@@ -21,10 +22,15 @@ from _cffi_backend import FFI
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.loading import declared
-from gudgeon.loading.cache import digest
-from gudgeon.loading.engine import all_declarations, engine_digest, lane_declarations, own_texts
+from gudgeon.loading.cache import compute_digest
+from gudgeon.loading.engine import (
+    compute_engine_digest,
+    list_all_declarations,
+    list_lane_declarations,
+    list_scene_texts,
+)
 from gudgeon.loading.shipped import PACKAGE
-from gudgeon.waiting.imports import CFFI, whole
+from gudgeon.waiting.imports import CFFI, import_completely
 
 HASTE = "its optimized library was still being compiled when the run began: it takes less time from now on"
 CARRIED = PACKAGE / "carried"  # folder of the bundled libraries
@@ -39,20 +45,20 @@ class Library:
     lib: Functions
 
 
-class Better(Protocol):
-    """Provide an optimized library that is being made (behind.py); both methods pass it to `become`."""
+class PendingLibrary(Protocol):
+    """Provide an optimized library that is being made (behind.py); both methods pass it to `switch_to`."""
 
-    def look(self, functions: Functions) -> bool:
+    def switch_if_ready(self, functions: Functions) -> bool:
         """Use the library if it exists; return whether it is still to come."""
 
-    def wait(self, functions: Functions) -> None:
+    def wait_and_switch(self, functions: Functions) -> None:
         """Wait for the library and use it."""
 
 
 class Functions:
     """Call the functions of a library by name; calls release the GIL. Missing ones raise AttributeError."""
 
-    _behind: Better | None = None
+    _behind: PendingLibrary | None = None
 
     def __init__(self, library: Any) -> None:
         self._libraries = [library]  # the last one is called; others stay open, for a call may be in one
@@ -66,35 +72,35 @@ class Functions:
             raise AttributeError(name)
         library = self._libraries[-1]
         try:
-            found = getattr(library, name)
+            function = getattr(library, name)
         except FFI.error as error:
             raise AttributeError(str(error)) from None
-        setattr(self, name, found)
-        if library is not self._libraries[-1]:  # another thread has called `become`
+        setattr(self, name, function)
+        if library is not self._libraries[-1]:  # another thread has called `switch_to`
             vars(self).pop(name, None)
-        return found
+        return function
 
     @property
-    def haste(self) -> str:
+    def optimization_note(self) -> str:
         """Return a note for measured times while an optimized library is being made; else ""."""
         return HASTE if self._behind else ""
 
-    def follow(self, behind: Better) -> None:
+    def set_pending(self, behind: PendingLibrary) -> None:
         """Register an optimized library of the same texts that is being made."""
         self._behind = behind
 
-    def newest(self) -> None:
+    def switch_if_ready(self) -> None:
         """Switch to the optimized library if it exists by now; called often during runs. Do nothing without one."""
-        if (behind := self._behind) and not behind.look(self):
+        if (behind := self._behind) and not behind.switch_if_ready(self):
             self._behind = None
 
-    def best(self) -> None:
+    def wait_for_optimized(self) -> None:
         """Wait for the optimized library, if one is being made, and switch to it, before long computations."""
         if behind := self._behind:
-            behind.wait(self)
+            behind.wait_and_switch(self)
             self._behind = None
 
-    def become(self, other: Functions) -> None:
+    def switch_to(self, other: Functions) -> None:
         """Use the functions of another library of the same texts from the next call on, even during a run.
 
         Structs have the same layout, and tables of the library in which a run began stay in memory.
@@ -104,12 +110,12 @@ class Functions:
             vars(self).pop(name, None)
 
 
-def opened(file: Path, cdef: str = "") -> Library:
+def open_library(file: Path, cdef: str = "") -> Library:
     """Open the library in a file: one with the engine, or one with given declarations.
 
     Raise ImportError if that fails.
     """
-    ffi = _get_engine_interface() if cdef in ("", lane_declarations()) else _parse_declarations(cdef)
+    ffi = _get_engine_interface() if cdef in ("", list_lane_declarations()) else _parse_declarations(cdef)
     try:
         return Library(file, ffi, Functions(ffi.dlopen(str(file))))
     except (OSError, UnicodeEncodeError) as error:  # cffi takes a path as UTF-8
@@ -121,13 +127,13 @@ def _get_engine_interface() -> Any:
     """Return cffi's interface to the engine's declarations, cached; the stored one, unless the declarations have
     changed.
     """
-    text = all_declarations()
-    return declared.ffi if digest([text]) == declared.OF else _parse_declarations(text)
+    text = list_all_declarations()
+    return declared.ffi if compute_digest([text]) == declared.OF else _parse_declarations(text)
 
 
 def _parse_declarations(text: str) -> Any:
     """Return cffi's interface to declarations that are parsed now."""
-    whole(*CFFI)
+    import_completely(*CFFI)
     from cffi import FFI
 
     ffi = FFI()
@@ -135,25 +141,28 @@ def _parse_declarations(text: str) -> Any:
     return ffi
 
 
-def carried(source: KernelSource) -> Library | None:
+def open_bundled_library(source: KernelSource) -> Library | None:
     """Return the library of a source that is bundled with gudgeon; None if there is none or it cannot be opened.
 
     The user's $CC switches bundled libraries off.
     """
     if os.environ.get("CC"):
         return None
-    path = CARRIED / platform(sys.platform, os.uname().machine) / file_name(source)
+    path = CARRIED / format_platform(sys.platform, os.uname().machine) / compute_file_name(source)
     try:
-        return opened(path, source.cdef) if path.is_file() else None
+        return open_library(path, source.cdef) if path.is_file() else None
     except ImportError:  # of another C library, as musl
         return None
 
 
-def platform(system: str, machine: str) -> str:
+def format_platform(system: str, machine: str) -> str:
     """Return the name of the folder for a kind of machine."""
     return f"{system}-{machine}"
 
 
-def file_name(source: KernelSource) -> str:
+def compute_file_name(source: KernelSource) -> str:
     """Return the name of a bundled library: a digest of everything that it is compiled from."""
-    return digest(["carried/1", source.main, source.cdef, engine_digest(), *own_texts(source)])[:32] + ".so"
+    return (
+        compute_digest(["carried/1", source.main, source.cdef, compute_engine_digest(), *list_scene_texts(source)])[:32]
+        + ".so"
+    )

@@ -1,4 +1,4 @@
-"""Find the mechanisms, studies and generated kernels that come with gudgeon.
+"""Find the mechanisms, studies and generated C that come with gudgeon.
 
 `generated/<mechanism>/` holds the KernelSource of each scene (generated_scenes.py), so that unmodified mechanisms need
 no derivation. Files in `mechanisms/gallery/` are found by name too, but their C is not stored.
@@ -20,40 +20,40 @@ GENERATED = PACKAGE / "generated"
 STUDY = b"format: gudgeon-study/"  # text that marks the file of a study
 
 
-def shipped() -> tuple[str, ...]:
+def list_shipped() -> tuple[str, ...]:
     """Return the names of the mechanisms that come with gudgeon, sorted."""
     return tuple(sorted(path.stem for folder in (MECHANISMS, GALLERY) for path in folder.glob("*.yaml")))
 
 
-def generated() -> tuple[str, ...]:
+def list_generated() -> tuple[str, ...]:
     """Return the names of the mechanisms whose C comes with gudgeon too, sorted."""
     return tuple(sorted(path.stem for path in MECHANISMS.glob("*.yaml")))
 
 
 def _list_shipped_studies() -> dict[str, Path]:
     """Return the files of the studies that come with gudgeon, by name."""
-    found = sorted(STUDIES.glob("*.yaml"))
-    return {path.stem: path.resolve() for path in found if STUDY in path.read_bytes()}
+    paths = sorted(STUDIES.glob("*.yaml"))
+    return {path.stem: path.resolve() for path in paths if STUDY in path.read_bytes()}
 
 
-def shipped_file(name: str) -> Path:
+def find_shipped_file(name: str) -> Path:
     """Return the path of a shipped mechanism's YAML file, by name, with links resolved.
 
     Raises UnknownNameError with the nearest name, or InputError if none are installed.
     """
-    names = shipped()
+    names = list_shipped()
     if name in names:
         file = next(path for folder in (MECHANISMS, GALLERY) if (path := folder / f"{name}.yaml").exists())
         return file.resolve()  # in a clone the package has links: show the real file
     raise _build_unknown_name_error("mechanism", name, names)
 
 
-def shipped_study(name: str) -> Path:
-    """Return the file of a shipped study. Raise UnknownNameError or InputError as `shipped_file`."""
-    found = _list_shipped_studies()
-    if name in found:
-        return found[name]
-    raise _build_unknown_name_error("study", name, tuple(found))
+def find_shipped_study(name: str) -> Path:
+    """Return the file of a shipped study. Raise UnknownNameError or InputError as `find_shipped_file`."""
+    paths = _list_shipped_studies()
+    if name in paths:
+        return paths[name]
+    raise _build_unknown_name_error("study", name, tuple(paths))
 
 
 def _build_unknown_name_error(what: str, name: str, names: tuple[str, ...]) -> InputError:
@@ -64,16 +64,16 @@ def _build_unknown_name_error(what: str, name: str, names: tuple[str, ...]) -> I
     if not names:
         message = f"this installation of gudgeon is not whole: it has no {what.replace('y', 'ie')}s"
         return InputError(message, hint="install it anew; in a clone `make run` or `sh tools/setup all,web` does it")
-    from gudgeon.language.names import nearest
+    from gudgeon.language.names import find_nearest_name
 
-    guess = nearest(name, names)
+    guess = find_nearest_name(name, names)
     return UnknownNameError(
         f"no {what} {name!r} comes with gudgeon" + (f"; did you mean {guess!r}?" if guess else ""),
         hint=f"there are: {', '.join(names)}; a file of your own needs a '/' or '.yaml' in its name",
     )
 
 
-def committed_header(mechanism: str, scene: str) -> str:
+def read_committed_header(mechanism: str, scene: str) -> str:
     """Return the committed model.h of a scene, whatever version of its YAML; "" if there is none or a name is
     invalid.
     """
@@ -85,7 +85,7 @@ def committed_header(mechanism: str, scene: str) -> str:
         return ""
 
 
-def committed(mechanism: str, scene: str, sha256: str) -> KernelSource | None:
+def read_committed_source(mechanism: str, scene: str, sha256: str) -> KernelSource | None:
     """Return the committed kernel source of a shipped scene; None unless it was made from a YAML file with this
     SHA-256.
     """

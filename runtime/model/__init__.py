@@ -1,1 +1,1 @@
-"""One compiled scene before it runs: arrays for C, numbers, default step."""
+"""Prepare a compiled scene for runs: arrays for C, parameter values, default step."""

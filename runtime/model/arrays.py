@@ -1,7 +1,7 @@
 """Convert arrays to the form that C reads, and pass their memory to C; all arrays enter C through this module.
 
 `as_c_array` converts a list, a table column or any NumPy array to an aligned, C-contiguous array of native byte order,
-of the required shape and type. No number changes. `pointer` gives C the memory of such an array and of no other.
+of the required shape and type. No number changes. `make_pointer` gives C the memory of such an array and of no other.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ Shape = tuple[int | None, ...]  # required lengths; None for any length
 MOST = 2**32  # largest number of entries that are copied
 
 
-def pointer(ffi: Any, array: NDArray[Any], kind: str = "double *", written: bool = False) -> Any:
+def make_pointer(ffi: Any, array: NDArray[Any], kind: str = "double *", written: bool = False) -> Any:
     """Return a C pointer to an array's memory, which keeps the array alive; `written`: C writes there.
 
     `kind` is the pointer's type in C, a key of _KINDS. Raises ArrayError for an array that C would read wrongly: of
@@ -56,8 +56,8 @@ def as_c_array(
     *,
     dtype: np.dtype[Any] = FLOAT,
     finite: bool = False,
-    own: bool = False,
-    most: int = MOST,
+    always_copy: bool = False,
+    max_entries: int = MOST,
 ) -> NDArray[Any]:
     """Return `values` as C reads them: aligned, C-contiguous, native byte order, `dtype`; unchanged if they are so.
 
@@ -65,12 +65,17 @@ def as_c_array(
     always copy, so that later changes of `values` have no effect. Raises ArrayError, which names the array and the
     entry, for masked entries, text, booleans in place of numbers, complex numbers, other objects, or another shape.
     """
-    if type(values) is np.ndarray and values.dtype is dtype and not own and values.flags.carray:
+    if type(values) is np.ndarray and values.dtype is dtype and not always_copy and values.flags.carray:
         array: NDArray[Any] = values
-    elif type(values) is np.ndarray and values.dtype is dtype and values.size <= most and not values.flags.c_contiguous:
+    elif (
+        type(values) is np.ndarray
+        and values.dtype is dtype
+        and values.size <= max_entries
+        and not values.flags.c_contiguous
+    ):
         array = np.array(values, order="C")  # rows or columns of another one
     else:
-        array = _convert_to_c_array(values, name, shape, dtype, own, most)
+        array = _convert_to_c_array(values, name, shape, dtype, always_copy, max_entries)
     if shape is not None and array.shape != shape and not _has_shape(array.shape, shape):
         _check_shape(array, name, shape)
     if finite and not np.isfinite(array).all():
@@ -79,12 +84,12 @@ def as_c_array(
     return array
 
 
-def address(ffi: Any, array: NDArray[Any], kind: str = "void *") -> int:
+def find_address(ffi: Any, array: NDArray[Any], kind: str = "void *") -> int:
     """Return the memory address of an array as an integer, for a library of another cffi.
 
-    The caller keeps the array alive, which must be writable. Raises ArrayError as `pointer`.
+    The caller keeps the array alive, which must be writable. Raises ArrayError as `make_pointer`.
     """
-    return int(ffi.cast("uintptr_t", pointer(ffi, array, kind, True)))
+    return int(ffi.cast("uintptr_t", make_pointer(ffi, array, kind, True)))
 
 
 def _has_shape(array_shape: tuple[int, ...], shape: Shape) -> bool:

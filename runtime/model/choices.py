@@ -14,26 +14,28 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
 from gudgeon.errors import BadValueError
-from gudgeon.language.argument_checks import message
-from gudgeon.language.names import unknown_name
-from gudgeon.language.tree import from_json, names
+from gudgeon.language.argument_checks import shorten_value
+from gudgeon.language.names import make_unknown_name_error
+from gudgeon.language.tree import from_json, iterate_names
 
 Array: TypeAlias = NDArray[Any]
 
-OTHERWISE = "the scene's is"  # phrase in notes on choices
+SCENE_CHOICE = "the scene's is"  # phrase in notes on choices
 
 
-def index_of_word(value: Any, parameter: Slot) -> float:
+def find_word_index(value: Any, parameter: RuntimeParameter) -> float:
     """Return the value of a parameter that has words: the index of a word, without spaces around it, as a float.
 
     Raises UnknownNameError for another word, BadValueError for a value that is not a text.
     """
     if not isinstance(value, str):
-        raise BadValueError(f"{parameter.address} is {message(value)}: expected one of: {', '.join(parameter.words)}")
+        raise BadValueError(
+            f"{parameter.address} is {shorten_value(value)}: expected one of: {', '.join(parameter.words)}"
+        )
     if value.strip() not in parameter.words:
-        raise unknown_name(f"choice of {parameter.address}", value.strip(), parameter.words, None)
+        raise make_unknown_name_error(f"choice of {parameter.address}", value.strip(), parameter.words, None)
     return float(parameter.words.index(value.strip()))
 
 
@@ -42,13 +44,13 @@ def explain_law_choice(source: KernelSource, address: str) -> tuple[str, str]:
 
     ("", "") for others.
     """
-    from gudgeon.generator.kinds.laws.law import called  # imports no SymPy
+    from gudgeon.generator.kinds.laws.law import find_laws_of_role  # imports no SymPy
 
     section_name, name, role, key = [*address.split("."), "", "", "", ""][:4]
     contact = f"{section_name}.{name}."
     if section_name != "contacts" or not any(parameter.address.startswith(contact) for parameter in source.slots):
         return "", ""
-    if key not in ("law", *(option.name for law in called(role).values() for option in law.options)):
+    if key not in ("law", *(option.name for law in find_laws_of_role(role).values() for option in law.options)):
         return "", ""
     return f"{address} is a choice that C is made of, and no number that can be set", (
         f"write a second contact, other: {{extends: {name}, {role}: {{{key}: …}}}}, and a scene with it, or a study's"
@@ -65,7 +67,7 @@ def explain_named_expression(source: KernelSource, address: str) -> tuple[str, s
     expression = next((expression for expression in source.expressions if expression.address == full_address), None)
     if expression is None:
         return "", ""
-    names_in_expression = dict.fromkeys(name.path for name in names(from_json(json.loads(expression.tree))))
+    names_in_expression = dict.fromkeys(name.path for name in iterate_names(from_json(json.loads(expression.tree))))
     parameter_addresses = {parameter.address for parameter in source.slots}
     parameters_in_expression = ", ".join(
         name for name in names_in_expression if f"parameters.{name}" in parameter_addresses
@@ -76,7 +78,7 @@ def explain_named_expression(source: KernelSource, address: str) -> tuple[str, s
     )
 
 
-def specified(parameter: Slot, value: float) -> float | str:
+def format_parameter(parameter: RuntimeParameter, value: float) -> float | str:
     """Return a parameter's value as users see it: its word, or the number. Raises ValueError for an invalid index."""
     if not parameter.words:
         return float(value)
@@ -85,22 +87,24 @@ def specified(parameter: Slot, value: float) -> float | str:
     return parameter.words[int(value)]
 
 
-def of_runs(parameter: Slot, values: Array) -> Any:
+def format_values_of_runs(parameter: RuntimeParameter, values: Array) -> Any:
     """Return the values (n,) of a parameter in n runs as users see them.
 
     They are a copy of the numbers, or an array of words for a choice.
     """
     return (
-        np.array([specified(parameter, x) for x in values.tolist()], dtype=object) if parameter.words else values.copy()
+        np.array([format_parameter(parameter, x) for x in values.tolist()], dtype=object)
+        if parameter.words
+        else values.copy()
     )
 
 
-def choices(source: KernelSource) -> tuple[int, ...]:
+def find_choices(source: KernelSource) -> tuple[int, ...]:
     """Return the indices of the parameters that are choices: those with words."""
     return tuple(k for k, parameter in enumerate(source.slots) if parameter.words)
 
 
-def filled_in(
+def fill_in_chosen_values(
     source: KernelSource, selected: Iterable[int], given_values: Array, is_given: Array, p: Array
 ) -> tuple[Any, Any]:
     """Return copies of values and mask (n_slots,) in which the values that depend on the `selected` choices are set.
@@ -110,7 +114,7 @@ def filled_in(
     index_by_address = {parameter.address: k for k, parameter in enumerate(source.slots)}
     values, mask = given_values.copy(), is_given.copy()
     for k in selected:
-        material, prefix = specified(source.slots[k], float(given_values[k])), f"{source.slots[k].address}."
+        material, prefix = format_parameter(source.slots[k], float(given_values[k])), f"{source.slots[k].address}."
         for address, k_own in index_by_address.items():
             if address.startswith(prefix) and not is_given[k_own]:
                 values[k_own], mask[k_own] = (
@@ -120,7 +124,7 @@ def filled_in(
     return values, mask
 
 
-def choice_notes(source: KernelSource, given_values: Array, is_given: Array) -> tuple[str, ...]:
+def make_choice_notes(source: KernelSource, given_values: Array, is_given: Array) -> tuple[str, ...]:
     """Return a note for each choice of a run that differs from its scene's.
 
     given_values, is_given: values and mask (n_slots,).
@@ -129,11 +133,14 @@ def choice_notes(source: KernelSource, given_values: Array, is_given: Array) -> 
     for k in np.flatnonzero(is_given).tolist():
         parameter = source.slots[k]
         if parameter.words and given_values[k] != parameter.default:
-            word, scene_word = specified(parameter, float(given_values[k])), specified(parameter, parameter.default)
-            notes.append(f"{parameter.address} is {word} ({OTHERWISE} {scene_word})")
+            word, scene_word = (
+                format_parameter(parameter, float(given_values[k])),
+                format_parameter(parameter, parameter.default),
+            )
+            notes.append(f"{parameter.address} is {word} ({SCENE_CHOICE} {scene_word})")
     return tuple(notes)
 
 
 def is_choice_note(text: str) -> bool:
-    """Return whether a note is one of `choice_notes`."""
-    return f" ({OTHERWISE} " in text
+    """Return whether a note is one of `make_choice_notes`."""
+    return f" ({SCENE_CHOICE} " in text

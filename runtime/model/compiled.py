@@ -17,19 +17,21 @@ from numpy.typing import ArrayLike, NDArray
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import SingularError
-from gudgeon.language.argument_checks import number_of, time
-from gudgeon.model.arrays import FLAG, as_c_array, pointer
-from gudgeon.model.choices import choices, filled_in
-from gudgeon.model.evaluation import PARTS, Evaluation, evaluate, nothing
+from gudgeon.language.argument_checks import check_number, check_time
+from gudgeon.model.arrays import FLAG, as_c_array, make_pointer
+from gudgeon.model.choices import fill_in_chosen_values, find_choices
+from gudgeon.model.evaluation import PARTS, Evaluation, evaluate, make_empty_fields
 
 if TYPE_CHECKING:
     from gudgeon.loading.library import Library
 
 Array: TypeAlias = NDArray[np.float64]
 
-AT_ONCE = 1024  # runs whose parameter values are computed in one call, so that they stay in the processor's cache
-MOST_APART = 1e14  # largest ratio of two masses: in doubles, a sum of both still contains the lighter one
-MAX_RATIO_OF_POINTS = 1e12  # the same if an inertia is 0: the body's rotation then has the inertia m l² alone
+RUNS_PER_CALL = 1024  # runs whose parameter values are computed in one call, so that they stay in the processor's cache
+MAX_MASS_RATIO = 1e14  # largest ratio of two masses: in doubles, a sum of both still contains the lighter one
+MAX_MASS_RATIO_WITH_POINT_MASS = (
+    1e12  # the same if an inertia is 0: the body's rotation then has the inertia m l² alone
+)
 
 
 class CompiledModel:
@@ -43,7 +45,7 @@ class CompiledModel:
         self.n_memory = source.n_memory
         self._free = np.full(max(self.n_memory, 1), np.nan)
         self._free.flags.writeable = False
-        self._choices = choices(source)
+        self._choices = find_choices(source)
         closed = [row.name for row in source.start_rows]
         self._kept = np.array([closed.index(row.name) for row in source.rows], dtype=int)
 
@@ -60,32 +62,32 @@ class CompiledModel:
     @cached_property
     def compiler(self) -> str:
         """Return the first line of the C compiler's version; the compiler is asked at the first use."""
-        from gudgeon.loading.compiler import version
+        from gudgeon.loading.compiler import read_version
 
-        return version()
+        return read_version()
 
     @cached_property
-    def beyond(self) -> bool:
+    def has_mod_in_drives(self) -> bool:
         """Return whether a drive uses `mod`: rounding then decides on which side of a switching point a time is."""
-        from gudgeon.language.tree import functions
-        from gudgeon.model.written import trees
+        from gudgeon.language.tree import list_functions
+        from gudgeon.model.written import read_expression_trees
 
-        return any("mod" in functions(tree) for _, tree in trees(self.source, ("drives",)))
+        return any("mod" in list_functions(tree) for _, tree in read_expression_trees(self.source, ("drives",)))
 
     @cached_property
     def may_switch(self) -> bool:
         """Return whether an acceleration that a drive prescribes may jump."""
-        from gudgeon.model.left_limit import may_switch
+        from gudgeon.model.left_limit import may_acceleration_jump
 
-        return may_switch(self)
+        return may_acceleration_jump(self)
 
     @cached_property
-    def none(self) -> tuple[tuple[str, Array], ...]:
+    def empty_fields(self) -> tuple[tuple[str, Array], ...]:
         """Return an Evaluation of no samples, as pairs of names and empty arrays.
 
         The shapes of the arrays after the first axis are those of the fields.
         """
-        return nothing(self)
+        return make_empty_fields(self)
 
     @property
     def _library(self) -> Library:
@@ -107,7 +109,7 @@ class CompiledModel:
 
         Raises ArrayError for an array of another type than `kind`, or another layout.
         """
-        return pointer(self.ffi, array, kind, written)
+        return make_pointer(self.ffi, array, kind, written)
 
     def prepare(self, given: ArrayLike, is_given: ArrayLike) -> Array:
         """Return all values of a run, (n_slots + n_derived,), from given parameters (n_slots,) and a mask.
@@ -120,9 +122,11 @@ class CompiledModel:
         p, given_choices = np.full(self.n_p, np.nan), [k for k in self._choices if mask[k]]
         for is_last_call in (False, True) if given_choices else (True,):  # what is chosen has numbers of this run
             self.lib.gudgeon_prepare(
-                self.pointer(values), self.pointer(mask, "unsigned char *"), self._output_pointer(p)
+                self.pointer(values), self.pointer(mask, "unsigned char *"), self._get_output_pointer(p)
             )
-            values, mask = (values, mask) if is_last_call else filled_in(self.source, given_choices, values, mask, p)
+            values, mask = (
+                (values, mask) if is_last_call else fill_in_chosen_values(self.source, given_choices, values, mask, p)
+            )
         return p
 
     def prepare_each(self, given: Array, is_given: NDArray[np.generic], zero: Sequence[int] = ()) -> Array:
@@ -132,21 +136,21 @@ class CompiledModel:
         """
         n_slots, p = len(self.source.slots), np.empty((len(given), self.n_p))
         has_choices = is_given[:, list(self._choices)].any()
-        for rows in (slice(k, k + AT_ONCE) for k in range(0, len(p), AT_ONCE)):
+        for rows in (slice(k, k + RUNS_PER_CALL) for k in range(0, len(p), RUNS_PER_CALL)):
             values = np.array(as_c_array(given[rows], "given", (None, n_slots)))
             mask = np.array(as_c_array(is_given[rows], "is_given", (None, n_slots), dtype=FLAG))
             values[:, zero], mask[:, zero] = 0.0, True
             if has_choices:
                 p[rows] = [self.prepare(*pair) for pair in zip(values, mask, strict=True)]
                 continue
-            arguments = self.pointer(values), self.pointer(mask, "unsigned char *"), self._output_pointer(p[rows])
+            arguments = self.pointer(values), self.pointer(mask, "unsigned char *"), self._get_output_pointer(p[rows])
             self.lib.gudgeon_prepare_runs(len(values), n_slots, *arguments)
         return p
 
     def mass(self, p: ArrayLike) -> Array:
         """Return the diagonal of the mass matrix M, (n,)."""
         out = np.full(self.n, np.nan)
-        self.lib.gudgeon_mass(self._parameter_pointer(p), self._output_pointer(out))
+        self.lib.gudgeon_mass(self._get_parameter_pointer(p), self._get_output_pointer(out))
         return out
 
     def closed_phi(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
@@ -156,7 +160,9 @@ class CompiledModel:
     def closed_phi_q(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
         """Return the Jacobian Φ_q of the closed linkage, (rows, n)."""
         out = np.empty((len(self.source.start_rows), self.n))
-        self.lib.gudgeon_phi_q(time(t), self._state(q, "q"), self._parameter_pointer(p), self._output_pointer(out))
+        self.lib.gudgeon_phi_q(
+            check_time(t), self._state(q, "q"), self._get_parameter_pointer(p), self._get_output_pointer(out)
+        )
         return out
 
     def closed_nu(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
@@ -192,19 +198,19 @@ class CompiledModel:
         sizes = len(s.start_guess), len(s.start_set) + n_held_open, len(s.start_rates) + n_held_open
         guess_values, set_values, rate_values = (np.zeros(max(size, 1)) for size in sizes)
         self.lib.gudgeon_start_values(
-            self._parameter_pointer(p),
-            *(self._output_pointer(array) for array in (guess_values, set_values, rate_values)),
+            self._get_parameter_pointer(p),
+            *(self._get_output_pointer(array) for array in (guess_values, set_values, rate_values)),
         )
         return guess_values[: sizes[0]], set_values[: sizes[1]], rate_values[: sizes[2]]
 
-    def close(self, t: float, p: ArrayLike, size: float) -> tuple[Array, Array, float] | None:
+    def close_linkage(self, t: float, p: ArrayLike, size: float) -> tuple[Array, Array, float] | None:
         """Return the start's q and q̇ (n,) and max |Φ| by Newton's method in C; None if it does not converge.
 
         `size` of the mechanism (m) scales lengths against angles. runtime/assembly/start.py treats the other cases.
         """
         q, v, residual = np.empty(self.n), np.empty(self.n), np.empty(1)
-        arguments = time(t), self._parameter_pointer(p), number_of(size, "size")
-        status = self.lib.gudgeon_start(*arguments, *(self._output_pointer(array) for array in (q, v, residual)))
+        arguments = check_time(t), self._get_parameter_pointer(p), check_number(size, "size")
+        status = self.lib.gudgeon_start(*arguments, *(self._get_output_pointer(array) for array in (q, v, residual)))
         return None if status else (q, v, float(residual[0]))
 
     def rhs(self, t: float, y: ArrayLike, p: ArrayLike, memory: ArrayLike | None = None) -> Array:
@@ -214,7 +220,9 @@ class CompiledModel:
         modes of frictions. Raises ArrayError for another length.
         """
         out = np.empty(2 * self.n + N_WORK)
-        status = self.lib.gudgeon_rhs(time(t), *self._make_state_pointers(y, memory, p), self._output_pointer(out))
+        status = self.lib.gudgeon_rhs(
+            check_time(t), *self._make_state_pointers(y, memory, p), self._get_output_pointer(out)
+        )
         self.check_pivot(status, t, p=p)
         return out
 
@@ -226,14 +234,17 @@ class CompiledModel:
         branches of switching functions and modes of friction are those of this state. Raises SingularError where
         constraint equations depend on each other, ValueError where nothing is integrated.
         """
-        if reason := self.source.no_slopes:
+        if reason := self.source.reason_without_jacobian:
             raise ValueError(f"this scene has no Jacobian: {reason}")
         size = 2 * self.n + N_WORK + len(self.source.states)
         J, f_t = np.empty((size, size)), np.empty(size)
         status = self.lib.gudgeon_jacobian(
-            time(t), *self._make_state_pointers(y, memory, p), self._output_pointer(J), self._output_pointer(f_t)
+            check_time(t),
+            *self._make_state_pointers(y, memory, p),
+            self._get_output_pointer(J),
+            self._get_output_pointer(f_t),
         )
-        self.check_node(status, t)
+        self.check_linearization(status, t)
         return J, f_t
 
     def newton(
@@ -244,17 +255,26 @@ class CompiledModel:
         J and f_t are those of `jacobian` at t, y; eta (s) is the step times the method's coefficient. Raises ValueError
         for a scene without a Jacobian, SingularError for a singular matrix.
         """
-        if reason := self.source.no_slopes:
+        if reason := self.source.reason_without_jacobian:
             raise ValueError(f"this scene has no Jacobian: {reason}")
         u = np.empty(2 * self.n + N_WORK + len(self.source.states))
-        right_hand_side, eta, s = self.pointer(as_c_array(r, "r", u.shape)), number_of(eta, "eta"), number_of(s, "s")
-        status = self.lib.gudgeon_newton(
-            time(t), *self._make_state_pointers(y, memory, p), eta, s, right_hand_side, self._output_pointer(u)
+        right_hand_side, eta, s = (
+            self.pointer(as_c_array(r, "r", u.shape)),
+            check_number(eta, "eta"),
+            check_number(s, "s"),
         )
-        self.check_node(status, t)
+        status = self.lib.gudgeon_newton(
+            check_time(t),
+            *self._make_state_pointers(y, memory, p),
+            eta,
+            s,
+            right_hand_side,
+            self._get_output_pointer(u),
+        )
+        self.check_linearization(status, t)
         return u
 
-    def check_node(self, status: int, t: float) -> None:
+    def check_linearization(self, status: int, t: float) -> None:
         """Raise SingularError for a nonzero status of a linearization; return for status 0.
 
         −k names the k-th of coordinates, constraint equations, frictions and inner states; a positive status is that of
@@ -283,7 +303,7 @@ class CompiledModel:
         """
         return evaluate(self, t, q, v, memory, p, take, parts)
 
-    def memory_array(self, memory: ArrayLike | None) -> Array:
+    def as_discrete_states(self, memory: ArrayLike | None) -> Array:
         """Return the discrete states (n_memory,): δ̇⁻ per joint with play, mode per friction. Do not write to it.
 
         None: all joints free, modes unknown. In a scene without discrete states, an array of one number is accepted.
@@ -306,7 +326,7 @@ class CompiledModel:
             row = (pivots or self.source.pivots)[status - 1]
             fault = f"constraint row {row} vanished" if row not in self.source.coordinates else f"{row} is too small"
             message = f"singular or non-finite at t = {t:.9g} s: the pivot of {fault}\n"
-            if p is not None and (masses := mass_ratio_message(self.source, self.mass(p))):
+            if p is not None and (masses := describe_mass_ratio(self.source, self.mass(p))):
                 raise SingularError(f"{message}  {masses}", t, row)
             raise SingularError(
                 f"{message}  the mechanism is at a singular position (dead centre), constraints are redundant,"
@@ -322,7 +342,9 @@ class CompiledModel:
         """
         out = np.full(len(self.source.start_rows), np.nan)
         pointers = [self._state(state, name) for name, state in zip("qv", states, strict=False)]
-        getattr(self.lib, function)(time(t), *pointers, self._parameter_pointer(p), self._output_pointer(out))
+        getattr(self.lib, function)(
+            check_time(t), *pointers, self._get_parameter_pointer(p), self._get_output_pointer(out)
+        )
         return out
 
     def _make_state_pointers(self, y: ArrayLike, memory: ArrayLike | None, p: ArrayLike) -> tuple[Any, Any, Any]:
@@ -333,9 +355,9 @@ class CompiledModel:
         state = as_c_array(y, "y")
         if state.shape not in ((2 * self.n,), (2 * self.n + N_WORK,)):
             as_c_array(state, "y", (2 * self.n,))  # says so
-        return self.pointer(state), self.pointer(self.memory_array(memory)), self._parameter_pointer(p)
+        return self.pointer(state), self.pointer(self.as_discrete_states(memory)), self._get_parameter_pointer(p)
 
-    def _parameter_pointer(self, p: ArrayLike) -> Any:
+    def _get_parameter_pointer(self, p: ArrayLike) -> Any:
         """Return a pointer to the parameter values."""
         return self.pointer(as_c_array(p, "p", (self.n_p,)))
 
@@ -343,12 +365,12 @@ class CompiledModel:
         """Return a pointer to q or v."""
         return self.pointer(as_c_array(values, name, (self.n,)))
 
-    def _output_pointer(self, array: Array) -> Any:
+    def _get_output_pointer(self, array: Array) -> Any:
         """Return a pointer to an array that C fills."""
         return self.pointer(array, written=True)
 
 
-def _index(source: KernelSource, row: str) -> int:
+def _find_row_index(source: KernelSource, row: str) -> int:
     """Return the index of a constraint equation, by its name, in source.start_rows.
 
     Raises StopIteration for another name.
@@ -356,7 +378,7 @@ def _index(source: KernelSource, row: str) -> int:
     return next(k for k, info in enumerate(source.start_rows) if info.name == row)
 
 
-def mass_ratio_message(source: KernelSource, mass: NDArray[Any]) -> str:
+def describe_mass_ratio(source: KernelSource, mass: NDArray[Any]) -> str:
     """Return a text on masses or inertias whose ratio is too large for doubles; "" if there are none.
 
     mass (n,): the diagonal of M in kg and kg·m². Inertias of 0 are allowed and not compared; the limit of masses is
@@ -364,8 +386,8 @@ def mass_ratio_message(source: KernelSource, mass: NDArray[Any]) -> str:
     """
     has_zero_inertia = any(mass[body.index + 2] == 0.0 for body in source.bodies)
     for quantity, unit, row, limit in (
-        ("masses", "kg", 0, MAX_RATIO_OF_POINTS if has_zero_inertia else MOST_APART),
-        ("inertias", "kg*m^2", 2, MOST_APART),
+        ("masses", "kg", 0, MAX_MASS_RATIO_WITH_POINT_MASS if has_zero_inertia else MAX_MASS_RATIO),
+        ("inertias", "kg*m^2", 2, MAX_MASS_RATIO),
     ):
         values = {body.name: float(x) for body in source.bodies if (x := mass[body.index + row]) > 0.0}
         if not values:
@@ -374,6 +396,6 @@ def mass_ratio_message(source: KernelSource, mass: NDArray[Any]) -> str:
         if values[heaviest] >= limit * values[lightest]:
             message = f"the {quantity} of {heaviest} ({values[heaviest]:g} {unit})"
             message += f" and {lightest} ({values[lightest]:g} {unit}) are too far apart"
-            condition = " where a body has an inertia of 0" if limit < MOST_APART else ""
+            condition = " where a body has an inertia of 0" if limit < MAX_MASS_RATIO else ""
             return f"{message} for doubles\n  expected none {limit:g} times another one{condition}; check their units"
     return ""

@@ -1,6 +1,4 @@
-"""Describe the shapes of bearings and guides: contour depths by joint and angle, and corners of a slider in its
-guide.
-"""
+"""Describe bearings that are not circular, and the corners of a slider in its guide."""
 
 from __future__ import annotations
 
@@ -14,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, SingularError, UnknownNameError
-from gudgeon.language.argument_checks import mapping, message
+from gudgeon.language.argument_checks import check_mapping, shorten_value
 from gudgeon.model.arrays import as_c_array
 from gudgeon.model.evaluation import CLEARANCE_COLUMNS
 
@@ -35,14 +33,14 @@ def read_contours(source: KernelSource, contour: Any, runs: bool = False) -> dic
     not finite, BadValueError for different numbers of runs.
     """
     contours_by_joint, depths_by_joint = {info.joint: info for info in source.contours}, dict[str, Array]()
-    for joint, depths in mapping(contour, "contour", _WANTED).items():
+    for joint, depths in check_mapping(contour, "contour", _WANTED).items():
         if joint not in contours_by_joint:
             hint = (
                 f"joints with a contour: {', '.join(contours_by_joint)}"
                 if contours_by_joint
                 else "contour: 128 in the play of a joint"
             )
-            raise UnknownNameError(f"contour: no contour at {message(joint)}", hint=hint)
+            raise UnknownNameError(f"contour: no contour at {shorten_value(joint)}", hint=hint)
         is_for_each_run = runs and np.ndim(depths) == 2
         shape = (None, contours_by_joint[joint].count) if is_for_each_run else (contours_by_joint[joint].count,)
         depths_by_joint[joint] = as_c_array(depths, f"contour[{joint!r}]", shape, finite=True)
@@ -55,12 +53,12 @@ def read_contours(source: KernelSource, contour: Any, runs: bool = False) -> dic
     return depths_by_joint
 
 
-def of_run(contours: Mapping[str, Array], i: int) -> dict[str, Array]:
+def select_contours_of_run(contours: Mapping[str, Array], i: int) -> dict[str, Array]:
     """Return the contours (n,) of run i by joint; a contour for all runs is returned as it is."""
     return {joint: depths[i] if depths.ndim == 2 else depths for joint, depths in contours.items()}
 
 
-def put(source: KernelSource, contour: Mapping[str, Array], values: Array, is_given: NDArray[Any]) -> None:
+def set_contours(source: KernelSource, contour: Mapping[str, Array], values: Array, is_given: NDArray[Any]) -> None:
     """Write the depths (n,) by joint into values and mask (n_slots,), which are changed.
 
     Raises BadValueError for depths given twice.
@@ -75,7 +73,7 @@ def put(source: KernelSource, contour: Mapping[str, Array], values: Array, is_gi
             values[slots_of_contour], is_given[slots_of_contour] = contour[info.joint], True
 
 
-def contour_of(source: KernelSource, p: Array, joint: str) -> Array | None:
+def find_contour(source: KernelSource, p: Array, joint: str) -> Array | None:
     """Return the depths (..., n) of a joint from p (..., n_slots + n_derived); None if its bearing is a circle."""
     for info in source.contours:
         if info.joint == joint:
@@ -83,15 +81,15 @@ def contour_of(source: KernelSource, p: Array, joint: str) -> Array | None:
     return None
 
 
-def widest(source: KernelSource, p: Array, joint: ClearanceInfo) -> float:
+def compute_max_clearance(source: KernelSource, p: Array, joint: ClearanceInfo) -> float:
     """Return the radial clearance (m) of a joint with play, at the deepest point of its contour. p: (n_slots +
     n_derived,).
     """
-    depths, c = contour_of(source, p, joint.name), float(p[joint.clearance])
+    depths, c = find_contour(source, p, joint.name), float(p[joint.clearance])
     return c if depths is None else c + float(depths.max())
 
 
-def depth_at(depths: ArrayLike, angle: ArrayLike, order: int = 0) -> Any:
+def interpolate_depth(depths: ArrayLike, angle: ArrayLike, order: int = 0) -> Any:
     """Return the contour depth (m) or its derivative of the given order (1 or 2) at angles (rad) in the bearing's
     frame.
 
@@ -113,7 +111,7 @@ def depth_at(depths: ArrayLike, angle: ArrayLike, order: int = 0) -> Any:
     return per_angle**2 * (curvature + s * difference * (9.0 + s * (20.0 * s - 30.0)))
 
 
-def narrowest_clearances(source: KernelSource, p: Array) -> Array:
+def compute_min_clearances(source: KernelSource, p: Array) -> Array:
     """Return the radial clearances (m), at the shallowest point of contours: (..., n_clearances) of p."""
     clearances = p[..., [joint.clearance for joint in source.clearances]]
     for info in source.contours:
@@ -122,12 +120,12 @@ def narrowest_clearances(source: KernelSource, p: Array) -> Array:
     return clearances
 
 
-def contour_parameters(source: KernelSource) -> frozenset[int]:
+def find_contour_parameters(source: KernelSource) -> frozenset[int]:
     """Return the indices of the parameters that are contour depths; a run sets them together."""
     return frozenset(k for info in source.contours for k in range(info.first, info.first + info.count))
 
 
-def corner_gap(
+def compute_corner_gap(
     compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, clearance_index: int
 ) -> tuple[float, float]:
     """Return penetration δ (m) and δ̇ (m/s) of the slider corner that is joint `clearance_index`, at q, v (n,).
@@ -143,26 +141,28 @@ def corner_gap(
     return float(columns[_DEPTH]), float(columns[_RATE])
 
 
-def corner_approach(source: KernelSource, p: Array, joint: ClearanceInfo, offset: Number, tilt: Number) -> Number:
+def compute_corner_approach(
+    source: KernelSource, p: Array, joint: ClearanceInfo, offset: Number, tilt: Number
+) -> Number:
     """Return how much nearer to its wall a corner is than in the middle of the guide, m; for one or many positions.
 
     With the slider's offset o across the guide (m), its tilt φ (rad), half length a, half height b and corner radius r
     it is ±(o ± (a − r) sin φ) + (b − r) (cos φ − 1). The signs follow from the corner's name: upper, front.
     """
-    _, a, b, radius = slider_of(source, p, joint)
+    _, a, b, radius = find_slider_dimensions(source, p, joint)
     front_sign, upper_sign = (1.0 if word in joint.name.rpartition(".")[2] else -1.0 for word in ("front", "upper"))
     offset_of_corner = offset + front_sign * (a - radius) * np.sin(tilt)
     return upper_sign * offset_of_corner + (b - radius) * (np.cos(tilt) - 1.0)
 
 
-def slider_of(source: KernelSource, p: Array, joint: ClearanceInfo) -> tuple[str, float, float, float]:
+def find_slider_dimensions(source: KernelSource, p: Array, joint: ClearanceInfo) -> tuple[str, float, float, float]:
     """Return a guide's address, half length and half height of the slider, and the radius of its corners, m.
 
     Values that the file does not give are 0.
     """
     guide = source.slots[joint.clearance].address.rpartition(".")[0]
     a, b, radius = (
-        float(p[source.place[address]]) if (address := f"{guide}.{key}") in source.place else 0.0
+        float(p[source.slot_index[address]]) if (address := f"{guide}.{key}") in source.slot_index else 0.0
         for key in ("half_length", "half_height", "corner_radius")
     )
     return guide, a, b, radius

@@ -15,8 +15,8 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError
 from gudgeon.language.tree import evaluate, from_json
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.parameters import prepare
-from gudgeon.model.sizes import metric
+from gudgeon.model.parameters import prepare_values
+from gudgeon.model.sizes import compute_norm_weights
 
 T_END = 1.0  # s, end of a scene's run by default
 SMOOTH = 2e-4  # of the run's length: largest step
@@ -25,7 +25,7 @@ CONTACT = 1.0 / 50.0  # of the duration of a contact: largest step
 IMPACT_SPEED = 0.1  # m/s, assumed for the duration of a contact
 
 
-def scene_number(source: KernelSource, name: str, p: Array, default: float) -> float:
+def evaluate_scene_number(source: KernelSource, name: str, p: Array, default: float) -> float:
     """Return the scene's t_end, output or step for the parameter values p; `default` if it gives none.
 
     An expression of parameters is evaluated; a number is returned as the file has it. Raises BadValueError, with the
@@ -44,35 +44,35 @@ def scene_number(source: KernelSource, name: str, p: Array, default: float) -> f
     return value
 
 
-def scene_end(source: KernelSource, p: Array) -> float:
+def evaluate_scene_end(source: KernelSource, p: Array) -> float:
     """Return the end (s) of a scene's run with parameter values p: as the file says, or T_END. Raises BadValueError."""
-    return scene_number(source, "t_end", p, T_END)
+    return evaluate_scene_number(source, "t_end", p, T_END)
 
 
-def plain_end(compiled: CompiledModel, parameters: Mapping[str, float | str] | None) -> float:
+def evaluate_end(compiled: CompiledModel, parameters: Mapping[str, float | str] | None) -> float:
     """Return the end (s) of a scene's run with these parameters, given as in `simulate`.
 
     Raises an InputError for wrong ones.
     """
-    return scene_end(compiled.source, prepare(compiled, parameters)[0])
+    return evaluate_scene_end(compiled.source, prepare_values(compiled, parameters)[0])
 
 
-def scene_step(compiled: CompiledModel, p: Array, duration: float) -> float:
+def evaluate_scene_step(compiled: CompiledModel, p: Array, duration: float) -> float:
     """Return the step (s) of a scene's run with rk4: the file's, or the default. Raises BadValueError.
 
     duration: of the run (s); 0 or less stands for T_END.
     """
-    step = scene_number(compiled.source, "step", p, 0.0)
-    return step or default_step(compiled, p, duration if duration > 0.0 else T_END)
+    step = evaluate_scene_number(compiled.source, "step", p, 0.0)
+    return step or estimate_default_step(compiled, p, duration if duration > 0.0 else T_END)
 
 
-def default_step(compiled: CompiledModel, p: Array, t_end: float) -> float:
+def estimate_default_step(compiled: CompiledModel, p: Array, t_end: float) -> float:
     """Return the largest step (s) that all three time scales allow: of the motion, of films and of dry contacts.
 
     t_end: length of the run (s). It is at most 1e-3 s.
     """
     bounds = [SMOOTH * t_end, 1e-3]
-    mass = metric(compiled.source, p, compiled.mass(p))
+    mass = compute_norm_weights(compiled.source, p, compiled.mass(p))
     for joint in compiled.source.clearances:
         bodies = [compiled.source.bodies[b].index for b in (joint.first, joint.second) if b >= 0]
         inverse_mass = sum(1.0 / mass[k] + 0.25 * _find_longest_arm(compiled, p, k) ** 2 / mass[k + 2] for k in bodies)

@@ -1,4 +1,4 @@
-"""Evaluate all quantities of a run's samples in C, and estimate the memory that samples take."""
+"""Evaluate all quantities of a run at its sample times in C, and estimate the memory that the samples take."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ if TYPE_CHECKING:
 Array: TypeAlias = NDArray[np.float64]
 
 CLEARANCE_COLUMNS = CLEARANCE_COLUMN_NAMES
-MANY = 10_000  # samples from which on the memory is checked before an evaluation
+MIN_CHECKED_SAMPLES = 10_000  # samples from which on the memory is checked before an evaluation
 FIRST, SOON = 256, 5e-3  # samples of the first call of C, and the time (s) of a call, so that Ctrl-C is handled soon
 # quantities that one C function of the scene computes together
 OUTPUTS = frozenset({"reactions", "torques", "series", "energy"})
-OF_A_RUN = 1000  # bytes, about: lists and counts of a run
+BYTES_PER_RUN = 1000  # bytes, about: lists and counts of a run
 
 
 @dataclass(frozen=True)
@@ -71,8 +71,8 @@ def evaluate(
     other shapes, MemoryError if the result does not fit, SingularError for a sample without accelerations.
     """
     time = as_c_array(t, "t", (None,))
-    if compiled.beyond:  # velocities are those after a switching point; rounding hides the side of t
-        time = np.asarray(time + around(time))
+    if compiled.has_mod_in_drives:  # velocities are those after a switching point; rounding hides the side of t
+        time = np.asarray(time + find_rounding_distance(time))
     N = len(time)
     discrete_states = _check_matrix(memory, "memory", N, None)
     if (
@@ -122,7 +122,7 @@ def evaluate_runs(
     The samples of the runs follow each other: t (N,), q and v (N, n), memory (N, n_memory), N = sum(counts). `parts`:
     the requested fields. Raises ArrayError, SingularError.
     """
-    N, time = sum(counts), t + around(t) if compiled.beyond else t
+    N, time = sum(counts), t + find_rounding_distance(t) if compiled.has_mod_in_drives else t
     shapes = (("t", time, (N,)), ("q", q, (N, compiled.n)), ("v", v, (N, compiled.n)))
     input_pointers = [compiled.pointer(as_c_array(values, name, shape)) for name, values, shape in shapes]
     input_pointers.append(compiled.pointer(as_c_array(memory, "memory", (N, compiled.n_memory))))
@@ -140,7 +140,7 @@ def evaluate_runs(
     return evaluation
 
 
-def around(t: Array) -> Array:
+def find_rounding_distance(t: Array) -> Array:
     """Return the distance (s) from times t within which rounding may hide on which side of a switching point t is.
 
     It is 32 roundings of t, at least 1e-100 s.
@@ -148,10 +148,12 @@ def around(t: Array) -> Array:
     return np.asarray(np.maximum(32.0 * np.finfo(float).eps * np.abs(t), 1e-100))
 
 
-def evaluated_bytes(compiled: CompiledModel, parts: Collection[str] | None = None) -> int:
+def compute_evaluation_bytes(compiled: CompiledModel, parts: Collection[str] | None = None) -> int:
     """Return the bytes of an evaluation per sample; `parts`: the requested fields, None for all."""
     return 8 * sum(
-        math.prod(empty_array.shape[1:]) for name, empty_array in compiled.none if parts is None or name in parts
+        math.prod(empty_array.shape[1:])
+        for name, empty_array in compiled.empty_fields
+        if parts is None or name in parts
     )
 
 
@@ -161,13 +163,15 @@ def _allocate_evaluation(compiled: CompiledModel, N: int, parts: Collection[str]
     Fields that C computes together are allocated together. Raises MemoryError for many samples without enough memory.
     """
     requested_fields = {*parts, *OUTPUTS} if not OUTPUTS.isdisjoint(parts) else parts
-    if N > MANY:
-        check_memory(float(N) * evaluated_bytes(compiled, requested_fields), f"what follows from {N} samples")
-    shapes = [(N if name in requested_fields else 0, *empty_array.shape[1:]) for name, empty_array in compiled.none]
+    if N > MIN_CHECKED_SAMPLES:
+        check_memory(float(N) * compute_evaluation_bytes(compiled, requested_fields), f"what follows from {N} samples")
+    shapes = [
+        (N if name in requested_fields else 0, *empty_array.shape[1:]) for name, empty_array in compiled.empty_fields
+    ]
     return Evaluation(*(np.full(shape, np.nan) for shape in shapes))
 
 
-def nothing(compiled: CompiledModel) -> tuple[tuple[str, Array], ...]:
+def make_empty_fields(compiled: CompiledModel) -> tuple[tuple[str, Array], ...]:
     """Return the names of all fields of an Evaluation in their order, each with an empty array (0, …) of its shape."""
     s = compiled.source
     widths: dict[str, tuple[int, ...]] = {
@@ -214,7 +218,7 @@ def _check_matrix(values: ArrayLike, name: str, rows: int, columns: int | None) 
     return values if len(values) == rows else as_c_array(values, name, (rows, columns))
 
 
-def sample_bytes(compiled: CompiledModel) -> int:
+def compute_sample_bytes(compiled: CompiledModel) -> int:
     """Return the bytes of a sample as methods store it: time, motion, works, discrete states and codes.
 
     Accelerations are stored for linkages without degrees of freedom only.
@@ -224,24 +228,28 @@ def sample_bytes(compiled: CompiledModel) -> int:
     return 8 * n_doubles + max(len(compiled.source.clearances), 1)
 
 
-def check_room(
+def check_sample_memory(
     compiled: CompiledModel,
     samples: float,
     runs: int = 1,
     stored_series: Collection[str] | None = None,
     parts: Collection[str] = (),
-    at_once: int = 1,
+    runs_at_once: int = 1,
 ) -> None:
     """Raise MemoryError if the samples of so many runs do not fit into memory.
 
     samples: of each run; stored_series: names of series that are stored in place of the states, None for the states.
-    The states then exist for `at_once` runs at a time, with the `parts` that the series need.
+    The states then exist for `runs_at_once` runs at a time, with the `parts` that the series need.
     """
     if stored_series is None:
-        n_bytes = float(samples) * sample_bytes(compiled) * runs
+        n_bytes = float(samples) * compute_sample_bytes(compiled) * runs
     else:
-        n_bytes = float(samples) * (sample_bytes(compiled) + evaluated_bytes(compiled, parts)) * min(runs, at_once)
+        n_bytes = (
+            float(samples)
+            * (compute_sample_bytes(compiled) + compute_evaluation_bytes(compiled, parts))
+            * min(runs, runs_at_once)
+        )
         n_bytes += float(samples) * 8 * (len(stored_series) + 1) * runs
-    n_bytes += runs * (OF_A_RUN + 16 * compiled.n_p) if runs > 1 else 0
+    n_bytes += runs * (BYTES_PER_RUN + 16 * compiled.n_p) if runs > 1 else 0
     text_of_samples = f"{runs} runs of {samples:.0f} samples each" if runs > 1 else f"{samples:.0f} samples"
     check_memory(n_bytes, text_of_samples)

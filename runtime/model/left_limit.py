@@ -1,4 +1,4 @@
-"""Choose the evaluation times of samples: accelerations at the last instant of a run are left limits.
+"""Choose the times at which samples are evaluated: accelerations at the end of a run are limits from the left.
 
 A drive's acceleration may switch exactly at the end (extrapolated curve, `where`, `ramp`). The last sample is then
 evaluated just before. A jump of the rate is an impulse that the last velocities already contain. There, the side after
@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.language.functions import PIECEWISE
-from gudgeon.language.tree import CurveCall, calls
-from gudgeon.model.evaluation import around
-from gudgeon.model.written import trees
+from gudgeon.language.tree import CurveCall, iterate_calls
+from gudgeon.model.evaluation import find_rounding_distance
+from gudgeon.model.written import read_expression_trees
 
 if TYPE_CHECKING:
     from gudgeon.model.compiled import Array, CompiledModel
@@ -25,19 +25,21 @@ JUMP_TOL = 1e-6  # relative difference of the values on both sides from which on
 STEEPEST = 1e3  # a smooth change of ν between both sides may be so many times as fast as the accelerations
 
 
-def may_switch(compiled: CompiledModel) -> bool:
+def may_acceleration_jump(compiled: CompiledModel) -> bool:
     """Return whether the acceleration that a drive prescribes may jump at some time.
 
     That is so if any drive's expression contains a piecewise function or a curve.
     """
     return any(
         call.function in PIECEWISE or isinstance(call, CurveCall)
-        for _, tree in trees(compiled.source, ("drives",))
-        for call in calls(tree)
+        for _, tree in read_expression_trees(compiled.source, ("drives",))
+        for call in iterate_calls(tree)
     )
 
 
-def evaluation_times(compiled: CompiledModel, t: Array, q: Array, v: Array, p: Array, begin: float = np.inf) -> Array:
+def find_evaluation_times(
+    compiled: CompiledModel, t: Array, q: Array, v: Array, p: Array, begin: float = np.inf
+) -> Array:
     """Return the times (N,) at which the samples of one run are evaluated; the last may be just before t[-1].
 
     That is so if the accelerations of drives jump at t[-1] and their rates do not. `begin` (s): the start of the run,
@@ -46,7 +48,7 @@ def evaluation_times(compiled: CompiledModel, t: Array, q: Array, v: Array, p: A
     previous_time = float(t[-2]) if len(t) > 1 else begin
     if not len(t) or not previous_time < t[-1] or not compiled.may_switch:
         return t
-    before, after = (float(t[-1] + sign * around(t[-1])) for sign in (-2.0, 2.0))
+    before, after = (float(t[-1] + sign * find_rounding_distance(t[-1])) for sign in (-2.0, 2.0))
     gamma = [compiled.closed_gamma(time, q[-1], v[-1], p) for time in (before, after)]
     nu = [compiled.closed_nu(time, q[-1], p) for time in (before, after)]
     max_smooth_change = STEEPEST * float(np.abs(gamma).max(initial=0.0)) * (after - before)
@@ -56,10 +58,10 @@ def evaluation_times(compiled: CompiledModel, t: Array, q: Array, v: Array, p: A
     return np.append(t[:-1], before) if is_switching_point and before > previous_time else t
 
 
-def evaluation_times_of(run: Result, compiled: CompiledModel) -> Array:
-    """Return the times (N,) at which the samples of a result are evaluated, as `evaluation_times`."""
+def find_evaluation_times_of_result(run: Result, compiled: CompiledModel) -> Array:
+    """Return the times (N,) at which the samples of a result are evaluated, as `find_evaluation_times`."""
     begin = np.inf if run.start_row is None else float(run.start_row.t[0])
-    return evaluation_times(compiled, run.t, run.q, run.v, run.p, begin)
+    return find_evaluation_times(compiled, run.t, run.q, run.v, run.p, begin)
 
 
 def _has_jump(before: Array, after: Array) -> NDArray[np.bool_]:

@@ -11,14 +11,21 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
 from gudgeon.errors import BadValueError, InputError
-from gudgeon.language.argument_checks import mapping, message
+from gudgeon.language.argument_checks import check_mapping, shorten_value
 from gudgeon.model.arrays import as_c_array
-from gudgeon.model.compiled import AT_ONCE, Array, CompiledModel
-from gudgeon.model.parameters import RELATIONS, check, conditions, given_slots, number, without_baumgarte
-from gudgeon.model.sizes import unresolved_clearances
-from gudgeon.model.written import undefined_rows
+from gudgeon.model.compiled import RUNS_PER_CALL, Array, CompiledModel
+from gudgeon.model.parameters import (
+    RELATIONS,
+    check_parameter_values,
+    list_conditions,
+    prepare_without_baumgarte,
+    read_given_parameters,
+    read_parameter_value,
+)
+from gudgeon.model.sizes import find_unresolved_clearances
+from gudgeon.model.written import find_undefined_runs
 
 FLOATS = (float, np.floating)  # types that may hold NaN
 Values: TypeAlias = float | str
@@ -27,13 +34,13 @@ Mask: TypeAlias = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
-class Same:
+class ConstantColumn:
     """Hold a column of parameters with one value for all runs."""
 
     value: Any
 
 
-Column: TypeAlias = Array | list[Any] | Same
+Column: TypeAlias = Array | list[Any] | ConstantColumn
 
 
 class Columns(Sequence[Mapping[str, Any]]):
@@ -41,7 +48,7 @@ class Columns(Sequence[Mapping[str, Any]]):
 
     def __init__(self, columns: Mapping[str, Column], n: int) -> None:
         self.columns, self.n = columns, n
-        self.left_out: dict[int, list[str]] = {}  # names that are left out, by run
+        self.omitted_names: dict[int, list[str]] = {}  # names that are left out, by run
 
     def __len__(self) -> int:
         """Return the number of runs."""
@@ -52,14 +59,14 @@ class Columns(Sequence[Mapping[str, Any]]):
         run_index = range(self.n)[key]
         if isinstance(run_index, range):
             return [self[i] for i in run_index]
-        omitted_names = self.left_out.get(run_index, ())
+        omitted_names = self.omitted_names.get(run_index, ())
         return {
             name: _get_value_of_run(column, run_index)
             for name, column in self.columns.items()
             if name not in omitted_names
         }
 
-    def leave_out(self) -> dict[int, BadValueError]:
+    def omit_nonfinite(self) -> dict[int, BadValueError]:
         """Leave out values that are NaN or infinite.
 
         Return an error for each run that has any, by index in rising order. Their names are stored in `left_out`.
@@ -67,21 +74,21 @@ class Columns(Sequence[Mapping[str, Any]]):
         errors: dict[int, BadValueError] = {}
         for name, column in self.columns.items():
             for i in _find_nonfinite_runs(column, self.n):
-                self.left_out.setdefault(i, []).append(name)
+                self.omitted_names.setdefault(i, []).append(name)
                 errors.setdefault(i, BadValueError(f"{name}: {_get_value_of_run(column, i)} is not a finite number"))
         return dict(sorted(errors.items()))
 
 
 def _get_value_of_run(column: Column, i: int) -> Any:
     """Return the value of a column for run i; a NumPy number becomes a Python number."""
-    if isinstance(column, Same):
+    if isinstance(column, ConstantColumn):
         return column.value
     return column.item(i) if isinstance(column, np.ndarray) else column[i]
 
 
 def _find_nonfinite_runs(column: Column, n: int) -> Iterable[int]:
     """Return the indices of the runs, of n, whose value in a column is NaN or infinite."""
-    if isinstance(column, Same):
+    if isinstance(column, ConstantColumn):
         return range(n if _is_not_finite(column.value) else 0)
     if isinstance(column, np.ndarray):
         return list[int](np.flatnonzero(~np.isfinite(column)).tolist())
@@ -93,7 +100,7 @@ def _is_not_finite(x: Any) -> bool:
     return isinstance(x, FLOATS) and not math.isfinite(x)
 
 
-def rows_of(parameters: ParameterSets) -> tuple[Sequence[Mapping[str, Any]], dict[int, BadValueError]]:
+def read_parameter_rows(parameters: ParameterSets) -> tuple[Sequence[Mapping[str, Any]], dict[int, BadValueError]]:
     """Return a parameter mapping for each run, and errors of runs with NaN or infinite values, by index.
 
     `parameters`: a mapping for every run; or {address: one value, or one for every run}, also as a structured array or
@@ -104,7 +111,7 @@ def rows_of(parameters: ParameterSets) -> tuple[Sequence[Mapping[str, Any]], dic
     if not rows:
         raise BadValueError("parameters: no run is asked for", hint="a mapping for every run, or {address: values}")
     if isinstance(rows, Columns):
-        errors = rows.leave_out()
+        errors = rows.omit_nonfinite()
     elif len(rows) > 1:
         floats = [x for row in rows for x in row.values() if isinstance(x, FLOATS)]
         for i, row in enumerate(() if all(map(math.isfinite, floats)) else rows):
@@ -116,13 +123,15 @@ def rows_of(parameters: ParameterSets) -> tuple[Sequence[Mapping[str, Any]], dic
     return rows, errors
 
 
-def given_each(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple[Array, Mask]:
-    """Return values and mask (n_runs, n_slots) of the given parameters; raises as `given_slots`.
+def read_given_parameters_of_runs(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple[Array, Mask]:
+    """Return values and mask (n_runs, n_slots) of the given parameters; raises as `read_given_parameters`.
 
     Runs that give the same parameters as floats are read at once.
     """
     uniform = read_uniform_rows(source, rows)
-    result: tuple[Array, Mask] = each_of(rows, lambda _, row: given_slots(source, row)) if uniform is None else uniform
+    result: tuple[Array, Mask] = (
+        read_each_run(rows, lambda _, row: read_given_parameters(source, row)) if uniform is None else uniform
+    )
     return result
 
 
@@ -132,7 +141,7 @@ def read_uniform_rows(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -
     This is fast: it avoids reading each run by itself. A column with one value for all runs may hold any text of a
     number. None also for choices, unknown names and parameters given twice.
     """
-    names_of_first_run, index_by_address = rows[0].keys(), source.place
+    names_of_first_run, index_by_address = rows[0].keys(), source.slot_index
     if not isinstance(rows, Columns):
         if not all(row.keys() == names_of_first_run for row in rows):
             return None
@@ -155,20 +164,20 @@ def read_uniform_rows(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -
         if numbers is None:
             return None
         given_values[:, k], mask[:, k] = numbers, True
-    for i, names in rows.left_out.items():
+    for i, names in rows.omitted_names.items():
         omitted_indices = [k for k, name in zip(slot_indices, rows.columns, strict=True) if name in names]
         given_values[i, omitted_indices], mask[i, omitted_indices] = 0.0, False
     return (given_values, mask) if np.isfinite(given_values[:, slot_indices]).all() else None
 
 
-def _read_floats(column: Column, parameter: Slot) -> Array | float | None:
+def _read_floats(column: Column, parameter: RuntimeParameter) -> Array | float | None:
     """Return the numbers of a column, including NaN; None if they must be read one by one.
 
     That is so for other types than floats and for subnormal numbers. A column with one value gives one float.
     """
-    if isinstance(column, Same):
+    if isinstance(column, ConstantColumn):
         try:
-            return number(column.value, parameter)
+            return read_parameter_value(column.value, parameter)
         except InputError:
             return None
     if isinstance(column, list) and not {*map(type, column)} <= {float, np.float64}:
@@ -178,7 +187,7 @@ def _read_floats(column: Column, parameter: Slot) -> Array | float | None:
     return None if ((magnitudes > 0.0) & (magnitudes < sys.float_info.min)).any() else numbers
 
 
-def each_of(
+def read_each_run(
     rows: Sequence[Mapping[str, Any]], read_run: Callable[[int, Mapping[str, Any]], tuple[Array, Array]]
 ) -> Any:
     """Return values and mask (n_runs, n_slots) by calling `read_run`(i, mapping of run i) for each run.
@@ -197,8 +206,8 @@ def each_of(
 def _read_parameter_sets(parameters: ParameterSets) -> list[Mapping[str, Any]] | Columns:
     """Return the parameters as a list of mappings or as Columns.
 
-    Accepted are those of `rows_of`. Columns of a single run become a list. Raises BadValueError for other types and for
-    columns of different lengths.
+    Accepted are those of `read_parameter_rows`. Columns of a single run become a list. Raises BadValueError for other
+    types and for columns of different lengths.
     """
     if isinstance(parameters, np.ndarray) and parameters.dtype.names is not None:
         table: NDArray[Any] = np.atleast_1d(parameters)
@@ -211,9 +220,9 @@ def _read_parameter_sets(parameters: ParameterSets) -> list[Mapping[str, Any]] |
         if not all(issubclass(kind, Mapping) for kind in {*map(type, rows)}):
             raise BadValueError("parameters: expected a mapping for every run, or one of columns: {address: values}")
         return rows
-    parameters = mapping(parameters, "parameters", "a mapping for every run, or {address: values}")
+    parameters = check_mapping(parameters, "parameters", "a mapping for every run, or {address: values}")
     columns = {name: _read_column(f"parameters: {name}", values) for name, values in parameters.items()}
-    lengths = {name: len(column) for name, column in columns.items() if not isinstance(column, Same)}
+    lengths = {name: len(column) for name, column in columns.items() if not isinstance(column, ConstantColumn)}
     if len(set(lengths.values())) > 1:
         message = ", ".join(f"{name} has {length}" for name, length in lengths.items())
         raise BadValueError(
@@ -223,7 +232,7 @@ def _read_parameter_sets(parameters: ParameterSets) -> list[Mapping[str, Any]] |
     return list(columns_of_runs) if len(columns_of_runs) == 1 else columns_of_runs
 
 
-def column(name: str, values: Any) -> list[Any] | None:
+def read_column(name: str, values: Any) -> list[Any] | None:
     """Return the values of every run as a list, or None if one holds for all.
 
     Raises BadValueError, which begins with `name`.
@@ -231,7 +240,7 @@ def column(name: str, values: Any) -> list[Any] | None:
     read_values = _read_column(name, values)
     return (
         None
-        if isinstance(read_values, Same)
+        if isinstance(read_values, ConstantColumn)
         else read_values.tolist()
         if isinstance(read_values, np.ndarray)
         else read_values
@@ -246,9 +255,9 @@ def _read_column(name: str, values: Any) -> Column:
     try:
         shape = () if isinstance(values, (str, bytes, Mapping, type)) else np.shape(values)
     except ValueError:  # rows of different lengths
-        raise BadValueError(f"{name} is {message(values)}: expected one value for every run") from None
+        raise BadValueError(f"{name} is {shorten_value(values)}: expected one value for every run") from None
     if not shape:
-        return Same(values)
+        return ConstantColumn(values)
     if len(shape) != 1:
         raise BadValueError(f"{name} has shape {shape}, expected one value for every run")
     if isinstance(values, np.ndarray):
@@ -256,37 +265,38 @@ def _read_column(name: str, values: Any) -> Column:
     return list(values) if hasattr(values, "__iter__") else _read_column(name, np.asarray(values))  # by __array__ alone
 
 
-def prepare_sets(
+def prepare_values_of_runs(
     compiled: CompiledModel, given_values: Array, is_given: Mask, free: bool
 ) -> tuple[Array, Array, dict[int, BadValueError]]:
     """Return the values of all runs, those for the motion, and the errors of invalid runs by index.
 
     Both arrays are (n_runs, n_slots + n_derived). With `free`, the values for the motion have no Baumgarte gains; else
-    they are the same array. Runs are invalid if their parameters violate a condition of `parameters.check`.
+    they are the same array. Runs are invalid if their parameters violate a condition of
+    `parameters.check_parameter_values`.
     """
     p = compiled.prepare_each(given_values, is_given)
-    motion_values = without_baumgarte(compiled, given_values, is_given) if free else p
+    motion_values = prepare_without_baumgarte(compiled, given_values, is_given) if free else p
     errors = {}
-    parts = [slice(k, k + AT_ONCE) for k in range(0, len(p), AT_ONCE)]
-    valid = [_satisfies_conditions(compiled.source, p[part], is_given[part]) for part in parts]
+    parts = [slice(k, k + RUNS_PER_CALL) for k in range(0, len(p), RUNS_PER_CALL)]
+    valid = [_find_valid_runs(compiled.source, p[part], is_given[part]) for part in parts]
     for i in np.flatnonzero(~np.concatenate(valid)).tolist():
         try:
-            check(compiled.source, p[i], is_given[i])
+            check_parameter_values(compiled.source, p[i], is_given[i])
         except BadValueError as error:
             errors[i] = error
     return p, motion_values, errors
 
 
-def _satisfies_conditions(source: KernelSource, p: Array, is_given: Mask) -> Mask:
+def _find_valid_runs(source: KernelSource, p: Array, is_given: Mask) -> Mask:
     """Return a mask (n_runs,) of the runs that satisfy the conditions of parameters.check.
 
     p: (n_runs, n_slots + n_derived); is_given: (n_runs, n_slots). Runs with undefined expressions may be marked
-    wrongly; `check` decides.
+    wrongly; `check_parameter_values` decides.
     """
-    index_by_address = source.place
+    index_by_address = source.slot_index
     valid = np.asarray(np.isfinite(p).all(axis=1))
-    for condition in conditions(source):
+    for condition in list_conditions(source):
         bound_indices = [index_by_address[address] for address in condition.addresses]
         bound = p[:, bound_indices].sum(axis=1) if bound_indices else float(condition.bound)
         valid &= RELATIONS[condition.relation](p[:, index_by_address[condition.address]], bound)
-    return valid & ~unresolved_clearances(source, p).any(axis=1) & ~undefined_rows(source, p, is_given)
+    return valid & ~find_unresolved_clearances(source, p).any(axis=1) & ~find_undefined_runs(source, p, is_given)

@@ -1,4 +1,4 @@
-"""Read run-time parameters: addresses, units, and the conditions that every value must satisfy."""
+"""Read run-time parameters: paths such as `joints.A.clearance`, units, and conditions that values must satisfy."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.contract.kernel_source import Condition, KernelSource, Slot
+from gudgeon.contract.kernel_source import Condition, KernelSource, RuntimeParameter
 from gudgeon.errors import BadValueError, UnitError, UnknownNameError
-from gudgeon.language.argument_checks import mapping, number_of, whole_digits
-from gudgeon.language.names import near
-from gudgeon.language.tree import from_json, names
-from gudgeon.model.choices import explain_law_choice, explain_named_expression, index_of_word
+from gudgeon.language.argument_checks import check_mapping, check_not_subnormal, check_number
+from gudgeon.language.names import find_near_names
+from gudgeon.language.tree import from_json, iterate_names
+from gudgeon.model.choices import explain_law_choice, explain_named_expression, find_word_index
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.sizes import unresolved_clearance_message, zero_inertia_message
-from gudgeon.model.written import undefined_number
+from gudgeon.model.sizes import describe_unresolved_clearance, describe_zero_inertia
+from gudgeon.model.written import describe_undefined_number
 
 # a number as files have it, in ASCII digits without '_'; float() accepts more
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
@@ -30,15 +30,15 @@ _PLAIN = re.compile(rf"[-+]?(?!0[0-9])(?P<mantissa>{_MANTISSA})(?:{_EXPONENT})?"
 # a number and a unit without the space that the file format wants between them: nothing else can be meant
 _GLUED = re.compile(rf"({_NUMBER})\s*(?![eE][-+]?[0-9])([A-Za-zµμ°].*)")
 GAINS = ("baumgarte.alpha", "baumgarte.beta")  # Baumgarte's gains, which only rk4 in the full formulation uses
-TOGETHER = {"gains": GAINS}  # one name for several parameters
+PARAMETER_GROUPS = {"gains": GAINS}  # one name for several parameters
 ZERO = "0.0"  # a literal zero of the file, as JSON
-MOST_GAIN = 1e150  # 1/s: its square is still a double
+MAX_GAIN = 1e150  # 1/s: its square is still a double
 # powers of ten from 1 beyond which a value makes others overflow; and how many such values are listed
 FAR, MAX_REPORTED = 60.0, 3
 RELATIONS = {">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le}
 
 
-def given_slots(
+def read_given_parameters(
     source: KernelSource, parameters: Mapping[str, float | str] | None, what: str = "parameters"
 ) -> tuple[Array, Array]:
     """Return values and mask (n_slots,) from {address or parameter name: float or '0.5 mm'}.
@@ -46,8 +46,8 @@ def given_slots(
     None is an empty mapping; a pandas Series is accepted. A name of a group (`gains`) sets all its parameters. `what`
     names the mapping in messages. Raises UnknownNameError, and BadValueError for a parameter given twice.
     """
-    parameters = mapping(parameters, what, "{address or parameter name: a float in SI, or '0.5 mm'}")
-    index_by_address = source.place
+    parameters = check_mapping(parameters, what, "{address or parameter name: a float in SI, or '0.5 mm'}")
+    index_by_address = source.slot_index
     values, mask, spellings = (
         np.zeros(len(index_by_address)),
         np.zeros(len(index_by_address), dtype=bool),
@@ -55,7 +55,7 @@ def given_slots(
     )
     for name, value in parameters.items():
         address = name if name in index_by_address else f"parameters.{name}"
-        addresses = TOGETHER.get(name, ()) if address not in index_by_address else (address,)
+        addresses = PARAMETER_GROUPS.get(name, ()) if address not in index_by_address else (address,)
         if not addresses or addresses[0] not in index_by_address:
             raise _make_unknown_parameter_error(name, source)
         for address_of_parameter in addresses:
@@ -64,22 +64,22 @@ def given_slots(
                 raise BadValueError(
                     f"{address_of_parameter} is given twice: as {spellings[k]!r} and as {name!r}", hint="give it once"
                 )
-            values[k], mask[k], spellings[k] = number(value, source.slots[k]), True, name
+            values[k], mask[k], spellings[k] = read_parameter_value(value, source.slots[k]), True, name
     return values, mask
 
 
-def addresses(source: KernelSource) -> list[str]:
+def list_addresses(source: KernelSource) -> list[str]:
     """Return all names of run-time parameters: addresses, short names of parameters, and names of groups."""
     full_addresses = [parameter.address for parameter in source.slots]
     group_names = [
         name
-        for name, members in TOGETHER.items()
+        for name, members in PARAMETER_GROUPS.items()
         if members[0] in full_addresses and f"parameters.{name}" not in full_addresses
     ]
     return [address.removeprefix("parameters.") for address in full_addresses] + full_addresses + group_names
 
 
-def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
+def explain_address(source: KernelSource, address: str) -> tuple[str, str]:
     """Return (message, hint) that explain why an address of the file cannot be set in a run.
 
     ("", "") for other addresses. Explained are options of a run, expressions of t or motion, literal zeros,
@@ -167,7 +167,9 @@ def _describe_driving_parameters(source: KernelSource, body: str) -> str:
             continue
         address = f"drives.{part.name}.value"
         values = [from_json(json.loads(info.tree)) for info in source.written if info.address == address]
-        parameter_names = dict.fromkeys(name.path for tree in values for name in names(tree) if name.path != "t")
+        parameter_names = dict.fromkeys(
+            name.path for tree in values for name in iterate_names(tree) if name.path != "t"
+        )
         moved = body or "the linkage, which has no freedom left"
         sentences.append(f"{part.name} drives {moved}: how it moves is in {address}")
         sentences[-1] += (
@@ -181,7 +183,7 @@ def _describe_driving_parameters(source: KernelSource, body: str) -> str:
 def _explain_eccentricity(source: KernelSource, address: str) -> tuple[str, str]:
     """Return (message, hint) for an eccentricity at the start that the file does not give; ("", "") for others."""
     section, subsection, joint, *component = [*address.split("."), "", "", ""][:4]
-    is_slider_by_joint = {clearance.joint: clearance.at_wall for clearance in source.clearances}
+    is_slider_by_joint = {clearance.joint: clearance.is_corner for clearance in source.clearances}
     has_start = any(parameter.address.startswith(f"start.play.{joint}.") for parameter in source.slots)
     if (section, subsection) != ("start", "play") or joint not in is_slider_by_joint or has_start:
         return "", ""
@@ -200,33 +202,33 @@ def _explain_material(source: KernelSource, address: str) -> tuple[str, str]:
     return message, "write a second one among its materials; their numbers can be set, materials.<name>.E"
 
 
-def number(value: float | str, parameter: Slot) -> float:
+def read_parameter_value(value: float | str, parameter: RuntimeParameter) -> float:
     """Return a value in SI from a float, or a text as in files ('0.5 mm', '1e-9'); of a choice, its index.
 
     Raises BadValueError for values that are not numbers, UnitError for another dimension, UnknownNameError for an
     unknown word of a choice.
     """
     if parameter.words:
-        return index_of_word(value, parameter)
+        return find_word_index(value, parameter)
     if type(value) is float and sys.float_info.min <= abs(value) < math.inf:
         return value
     if isinstance(value, str):
-        parsed_number = plain_number(value)
+        parsed_number = parse_plain_number(value)
         if parsed_number is not None:
             return parsed_number
-        from gudgeon.language.quantities import number_of_text
+        from gudgeon.language.quantities import parse_quantity
 
         try:
-            value = number_of_text(spaced(value), parameter.address, parameter.dimension)
+            value = parse_quantity(insert_space_before_unit(value), parameter.address, parameter.dimension)
         except UnitError as error:
             if not any(parameter.dimension) and parameter.address.startswith("parameters.") and not error.hint:
                 hint = f"the file has no unit for {parameter.address}: write one there, or leave it out here, too"
                 raise UnitError(error.message, error.where, hint) from None
             raise
-    return whole_digits(number_of(value, parameter.address), parameter.address)
+    return check_not_subnormal(check_number(value, parameter.address), parameter.address)
 
 
-def plain_number(text: str) -> float | None:
+def parse_plain_number(text: str) -> float | None:
     """Return the number that a text without a unit writes; None for other texts, or if it is out of range.
 
     Spaces around it are ignored.
@@ -241,7 +243,7 @@ def plain_number(text: str) -> float | None:
     return value if is_in_range else None
 
 
-def spaced(text: str) -> str:
+def insert_space_before_unit(text: str) -> str:
     """Return the text with a space before the unit of a number: "0.5mm" becomes "0.5 mm".
 
     Other texts without spaces around.
@@ -250,27 +252,27 @@ def spaced(text: str) -> str:
     return f"{match[1]} {match[2]}" if match else text.strip()
 
 
-def prepare(compiled: CompiledModel, parameters: Mapping[str, float | str] | None) -> tuple[Array, Array, Array]:
+def prepare_values(compiled: CompiledModel, parameters: Mapping[str, float | str] | None) -> tuple[Array, Array, Array]:
     """Return (p, given, is_given), checked: see CompiledModel.prepare.
 
-    parameters: as `given_slots` accepts them. Raises BadValueError, UnknownNameError.
+    parameters: as `read_given_parameters` accepts them. Raises BadValueError, UnknownNameError.
     """
-    given_values, is_given = given_slots(compiled.source, parameters)
-    return prepare_slots(compiled, given_values, is_given), given_values, is_given
+    given_values, is_given = read_given_parameters(compiled.source, parameters)
+    return prepare_given_values(compiled, given_values, is_given), given_values, is_given
 
 
-def prepare_slots(compiled: CompiledModel, given_values: Array, is_given: Array) -> Array:
+def prepare_given_values(compiled: CompiledModel, given_values: Array, is_given: Array) -> Array:
     """Return the checked values p of given parameters and mask, (n_slots,) each. Raises BadValueError."""
-    check(compiled.source, p := compiled.prepare(given_values, is_given), is_given)
+    check_parameter_values(compiled.source, p := compiled.prepare(given_values, is_given), is_given)
     return p
 
 
-def without_baumgarte(compiled: CompiledModel, given_values: Array, is_given: NDArray[np.generic]) -> Array:
+def prepare_without_baumgarte(compiled: CompiledModel, given_values: Array, is_given: NDArray[np.generic]) -> Array:
     """Return the values p of one or n runs with both Baumgarte gains zero, for methods that project.
 
     given_values, is_given: (n_slots,) or (n, n_slots); they are not changed.
     """
-    index_by_address = compiled.source.place
+    index_by_address = compiled.source.slot_index
     gain_indices = [index_by_address[name] for name in GAINS if name in index_by_address]
     if given_values.ndim == 2:
         return compiled.prepare_each(given_values, is_given, gain_indices)
@@ -279,14 +281,14 @@ def without_baumgarte(compiled: CompiledModel, given_values: Array, is_given: ND
     return compiled.prepare(values, mask)
 
 
-def check(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> None:
+def check_parameter_values(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> None:
     """Raise BadValueError if the values p of a run violate a condition or are not finite.
 
     Conditions are tested first, then parameters, derived values, undefined expressions and clearances. `is_given`: a
     mask of the parameters that are given, so that they do not follow others.
     """
     value_by_address = {parameter.address: float(p[k]) for k, parameter in enumerate(source.slots)}
-    for condition in conditions(source):  # first: sides that make no triangle leave a point that is NaN
+    for condition in list_conditions(source):  # first: sides that make no triangle leave a point that is NaN
         bound = (
             sum(value_by_address[address] for address in condition.addresses)
             if condition.addresses
@@ -299,7 +301,7 @@ def check(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> None
                 f"{condition.address} is {_format_value(value_by_address[condition.address], unit)}"
                 f"{_format_changed_parameters(source, condition, value_by_address)}: {condition.message}"
                 + (f" ({condition.bound} is {_format_value(bound, unit)})" if isinstance(condition.bound, str) else "")
-                + f"; expected {expected(source, condition.address)}"
+                + f"; expected {format_conditions(source, condition.address)}"
             )
     for parameter in source.slots:
         if not math.isfinite(value_by_address[parameter.address]):
@@ -309,14 +311,14 @@ def check(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> None
     for k, derived_value in enumerate(p[len(source.slots) :].tolist()):
         if not math.isfinite(derived_value):
             raise BadValueError(
-                zero_inertia_message(value_by_address, source.derived[k])
-                or _overflow_message(source, value_by_address, k, derived_value)
+                describe_zero_inertia(value_by_address, source.derived[k])
+                or _format_overflow_message(source, value_by_address, k, derived_value)
             )
-    if message := undefined_number(source, p, is_given) or unresolved_clearance_message(source, p):
+    if message := describe_undefined_number(source, p, is_given) or describe_unresolved_clearance(source, p):
         raise BadValueError(message)
 
 
-def _overflow_message(source: KernelSource, value: Mapping[str, float], k: int, number: float) -> str:
+def _format_overflow_message(source: KernelSource, value: Mapping[str, float], k: int, number: float) -> str:
     """Return a message on derived value k that overflows, with the parameters that cause it.
 
     value: parameters by address; number: the derived value, infinite or NaN.
@@ -344,13 +346,13 @@ def _overflow_message(source: KernelSource, value: Mapping[str, float], k: int, 
     return f"{sentence} is {number}"
 
 
-def conditions(source: KernelSource) -> tuple[Condition, ...]:
+def list_conditions(source: KernelSource) -> tuple[Condition, ...]:
     """Return the conditions of the file, those of Baumgarte's gains, and those of velocity floors.
 
     A velocity floor must be positive, also where the file has no condition for it.
     """
     gains = [parameter.address for parameter in source.slots if parameter.address.startswith("baumgarte.")]
-    gain_limits = ((">=", 0.0, "a negative gain drives rows apart"), ("<=", MOST_GAIN, "its square is no number"))
+    gain_limits = ((">=", 0.0, "a negative gain drives rows apart"), ("<=", MAX_GAIN, "its square is no number"))
     floor_addresses = {parameter.address for parameter in source.slots if parameter.address.endswith(".velocity_floor")}
     unconditioned_floors = sorted(floor_addresses - {condition.address for condition in source.conditions})
     floor_conditions = (
@@ -386,10 +388,10 @@ def _format_changed_parameters(
     return f" with {', '.join(changed)}" if changed else ""
 
 
-def expected(source: KernelSource, address: str) -> str:
+def format_conditions(source: KernelSource, address: str) -> str:
     """Return the conditions on a parameter as text: "> 0 and <= 1"; "" if there are none."""
     relations_and_bounds = [
-        (condition.relation, condition.bound) for condition in conditions(source) if condition.address == address
+        (condition.relation, condition.bound) for condition in list_conditions(source) if condition.address == address
     ]
     return " and ".join(
         f"{relation} {bound if isinstance(bound, str) else f'{bound:g}'}" for relation, bound in relations_and_bounds
@@ -411,14 +413,14 @@ def _make_unknown_parameter_error(name: str, source: KernelSource) -> UnknownNam
 
     The hint explains why it cannot be set, or names similar addresses.
     """
-    message, hint = as_parameter(source, name)
+    message, hint = explain_address(source, name)
     if message:
         return UnknownNameError(message, None, hint)
     section, _, coordinate = name.partition(".")[2].partition(".")
     if section in ("guess", "set", "rates") and name.startswith("start.") and coordinate.count(".") == 1:
         hint = f"expected one that the file's start has; gudgeon.load(..., overrides={{{name!r}: ...}}) brings it in"
         return UnknownNameError(f"start.{section} of the file does not have {coordinate}", None, hint)
-    similar_addresses = near(name, addresses(source))
+    similar_addresses = find_near_names(name, list_addresses(source))
     hint = (
         f"did you mean {', '.join(similar_addresses)}?"
         if similar_addresses
@@ -428,7 +430,7 @@ def _make_unknown_parameter_error(name: str, source: KernelSource) -> UnknownNam
     return UnknownNameError(f"no run-time number has the address {name!r} in this scene", None, hint)
 
 
-def value(text: str) -> float | str:
+def parse_typed_number(text: str) -> float | str:
     """Return a typed number: a float in SI, or text with a space before its unit ("0.5 mm" for "0.5mm")."""
-    number = plain_number(text)
-    return spaced(text) if number is None else number
+    number = parse_plain_number(text)
+    return insert_space_before_unit(text) if number is None else number

@@ -1,4 +1,4 @@
-"""Compare a compiled library with values that the NumPy target computed when the scene was derived.
+"""Check a compiled library against values of the same functions that NumPy computed when the C was generated.
 
 The values are stored with the emitted C (generator/targets/numpy/reference.py). C and NumPy are printed from the same
 statements by different printers. Thus a wrong line of C, a wrong compilation or an outdated library is found before
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.contract.kernel_source import given_parameters
+from gudgeon.contract.kernel_source import make_given_parameters
 from gudgeon.errors import AuditError
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def check_reference(compiled: CompiledModel) -> None:
         _compare_parameter_values(
             compiled,
             stored_values,
-            _compute_parameter_values(compiled, given_parameters(compiled.source.slots, parity)),
+            _compute_parameter_values(compiled, make_given_parameters(compiled.source.slots, parity)),
         )
     for state in reference["states"]:
         values = state["values"]

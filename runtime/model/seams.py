@@ -1,4 +1,4 @@
-"""Check drives that repeat a curve by `mod`: whether the curve's end continues in its beginning."""
+"""Check drives that repeat a curve periodically by `mod`: whether the curve's end continues in its beginning."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.language.curves import Curve
-from gudgeon.language.tree import Call, CurveCall, curve_calls, from_json, names
+from gudgeon.language.tree import Call, CurveCall, from_json, iterate_curve_calls, iterate_names
 from gudgeon.model.compiled import Array
-from gudgeon.model.written import values_of_time
+from gudgeon.model.written import evaluate_at_times
 
 SAMPLES = 1025  # times at which the run is tested for passing the end of a period
 SAME = 1e-9  # relative difference up to which derivatives count as equal
@@ -20,7 +20,7 @@ _ORDERS = ("value", "slope", "second derivative")
 _SO = ("it", "its rate", "its acceleration")  # quantities of the drive
 
 
-def curve_seam_notes(source: KernelSource, p: Array, t0: float = 0.0, t1: float = math.inf) -> Iterator[str]:
+def iterate_seam_notes(source: KernelSource, p: Array, t0: float = 0.0, t1: float = math.inf) -> Iterator[str]:
     """Yield a note on each drive whose value, rate or acceleration jumps where `mod` restarts in t0 < t < t1.
 
     p: parameter values of the run; t0, t1: begin and end of the run (s). The period must not depend on time.
@@ -28,10 +28,10 @@ def curve_seam_notes(source: KernelSource, p: Array, t0: float = 0.0, t1: float 
     for info in source.written:
         if not (info.address.startswith("drives.") and '"curve"' in info.tree and '"mod"' in info.tree):
             continue
-        for call in curve_calls(from_json(json.loads(info.tree))):
+        for call in iterate_curve_calls(from_json(json.loads(info.tree))):
             mod_call = call.arguments[0]
             if isinstance(mod_call, Call) and mod_call.function == "mod" and _has_restart(source, p, mod_call, t0, t1):
-                period = float(values_of_time(source, p, mod_call.arguments[1], np.array([t0]))[0])
+                period = float(evaluate_at_times(source, p, mod_call.arguments[1], np.array([t0]))[0])
                 yield from _describe_jump(call, period, info.address.split(".")[1])
 
 
@@ -41,11 +41,13 @@ def _has_restart(source: KernelSource, p: Array, mod_call: Call, t0: float, t1: 
     Without an end (t1 = ∞) it is assumed to restart. The run is sampled at SAMPLES times.
     """
     dividend, period = mod_call.arguments
-    if any(name.path == "t" for name in names(period)):
+    if any(name.path == "t" for name in iterate_names(period)):
         return False
     with np.errstate(all="ignore"):
         times = np.linspace(t0, t1, SAMPLES)[1:-1] if math.isfinite(t1) else np.zeros(0)
-        quotients = np.floor(values_of_time(source, p, dividend, times) / values_of_time(source, p, period, times))
+        quotients = np.floor(
+            evaluate_at_times(source, p, dividend, times) / evaluate_at_times(source, p, period, times)
+        )
     return not math.isfinite(t1) or bool(np.ptp(quotients) != 0.0)
 
 
@@ -56,8 +58,8 @@ def _describe_jump(call: CurveCall, period: float, drive: str) -> Iterator[str]:
     """
     curve: Curve = call.curve
     for order, (derivative_name, drive_quantity) in enumerate(zip(_ORDERS, _SO, strict=True)):
-        end, begin = float(curve.at(period, order)), float(curve.at(0.0, order))
-        largest_value = float(np.abs(curve.at(np.array(curve.x), order)).max())
+        end, begin = float(curve.evaluate(period, order)), float(curve.evaluate(0.0, order))
+        largest_value = float(np.abs(curve.evaluate(np.array(curve.x), order)).max())
         if not abs(end - begin) <= SAME * largest_value and math.isfinite(end + begin):
             yield (
                 f"drive {drive}: where mod begins curve {curve.name} anew its {derivative_name} jumps from {end:.4g} to"

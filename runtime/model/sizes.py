@@ -1,4 +1,4 @@
-"""Measure the size of a mechanism, and find clearances too small for doubles at that size."""
+"""Measure the size of a mechanism, and find clearances that double precision cannot resolve at that size."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.compiled import Array
-from gudgeon.model.contours import contour_of, narrowest_clearances
+from gudgeon.model.contours import compute_min_clearances, find_contour
 
 _LENGTH = (1, 0, 0)  # exponents of m, kg, s
 SMALL_INERTIA = 1e-9  # of m size²: smaller moments of inertia are replaced by it in norms
-LEAST_CLEARANCE = 64 * sys.float_info.epsilon  # of the size: from ten roundings down contacts are detected twice
+MIN_RELATIVE_CLEARANCE = 64 * sys.float_info.epsilon  # of the size: from ten roundings down contacts are detected twice
 
 
-def mechanism_sizes(source: KernelSource, p: Array) -> Array:
+def compute_mechanism_sizes(source: KernelSource, p: Array) -> Array:
     """Return the size (m) of the mechanism: the largest distance of a point from its body's origin; 1 if it is 0.
 
     The origin is the centre of mass, or that of the ground; lengths of joints count too. The size scales lengths
@@ -30,22 +30,23 @@ def mechanism_sizes(source: KernelSource, p: Array) -> Array:
     return np.where(size > 0.0, size, 1.0)
 
 
-def metric(source: KernelSource, p: Array, mass: Array) -> Array:
+def compute_norm_weights(source: KernelSource, p: Array, mass: Array) -> Array:
     """Return the norm's weights of coordinates, (n,): the diagonal `mass` of M, with a lower limit for inertias.
 
     A point mass on a link has no moment of inertia. Its motion is regular, but M alone is not a norm for it. `mass` is
     not changed.
     """
     weights = np.array(mass)
-    lower_limit = SMALL_INERTIA * weights[1::3] * mechanism_sizes(source, p) ** 2
+    lower_limit = SMALL_INERTIA * weights[1::3] * compute_mechanism_sizes(source, p) ** 2
     weights[2::3] = np.maximum(weights[2::3], lower_limit)
     return weights
 
 
-def size_places(source: KernelSource) -> list[tuple[int, int]]:
-    """Return the indices into p of x and y of the points, and of joint lengths as x; −1 stands for 0.
+def find_size_indices(source: KernelSource) -> list[tuple[int, int]]:
+    """Return a pair (larger index, smaller index) into p for the coordinates of each point and for each joint length.
 
-    Points without any coordinate in p are left out.
+    A pair of a point is in this order whichever of x and y comes first. −1 stands for a coordinate that is 0; joint
+    lengths are (index, −1). Points without any coordinate in p are left out.
     """
     index_pairs = [(max(point.x, point.y), min(point.x, point.y)) for point in source.points]
     lengths = [parameter.dimension == _LENGTH and parameter.address.startswith("joints.") for parameter in source.slots]
@@ -54,41 +55,44 @@ def size_places(source: KernelSource) -> list[tuple[int, int]]:
 
 
 def _get_size_indices(source: KernelSource) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
-    """Return arrays of the indices of `size_places`, with x for a missing y, and 1 or 0 for whether there is a y.
+    """Return arrays of the indices of `find_size_indices`, with x for a missing y, and 1 or 0 for whether there is a y.
 
     They are cached in the source.
     """
     cache: dict[str, tuple[NDArray[np.intp], NDArray[np.intp], Array]] = source.__dict__  # as cached properties
     if "size_columns" not in cache:
-        x, y = np.array(size_places(source), dtype=np.intp).reshape(-1, 2).T.copy()
+        x, y = np.array(find_size_indices(source), dtype=np.intp).reshape(-1, 2).T.copy()
         cache["size_columns"] = x, np.where(y < 0, x, y), np.where(y < 0, 0.0, 1.0)
     return cache["size_columns"]
 
 
-def unresolved_clearances(source: KernelSource, p: Array) -> Array:
+def find_unresolved_clearances(source: KernelSource, p: Array) -> Array:
     """Return a mask (..., n_clearances) of clearances too small for doubles, from p (..., n_slots + n_derived).
 
     The eccentricity is a difference of coordinates, each of which is rounded to 2^-52 of its value.
     """
-    return np.asarray(narrowest_clearances(source, p) < LEAST_CLEARANCE * mechanism_sizes(source, p)[..., np.newaxis])
+    return np.asarray(
+        compute_min_clearances(source, p) < MIN_RELATIVE_CLEARANCE * compute_mechanism_sizes(source, p)[..., np.newaxis]
+    )
 
 
-def unresolved_clearance_message(source: KernelSource, p: Array) -> str:
+def describe_unresolved_clearance(source: KernelSource, p: Array) -> str:
     """Return a message on the first clearance too small for doubles in one run; "" if there is none. p: (n_p,)."""
-    for joint, is_unresolved in zip(source.clearances, unresolved_clearances(source, p).tolist(), strict=True):
+    for joint, is_unresolved in zip(source.clearances, find_unresolved_clearances(source, p).tolist(), strict=True):
         if is_unresolved:
-            size, depths = float(mechanism_sizes(source, p)), contour_of(source, p, joint.name)
+            size, depths = float(compute_mechanism_sizes(source, p)), find_contour(source, p, joint.name)
             c = float(p[joint.clearance]) + (0.0 if depths is None else float(depths.min()))
             phrase = " at its contour" * (depths is not None)
             return (
                 f"the clearance of {joint.name} is {c:g} m{phrase}, below what doubles tell apart at the"
-                f" mechanism's size ({size:.3g} m)\n  expected {LEAST_CLEARANCE * size:.2g} m at least; leave the joint"
+                f" mechanism's size ({size:.3g} m)\n  expected {MIN_RELATIVE_CLEARANCE * size:.2g} m at "
+                "least; leave the joint"
                 " out of the scene's play for none"
             )
     return ""
 
 
-def zero_inertia_message(values: Mapping[str, float], derived: str) -> str:
+def describe_zero_inertia(values: Mapping[str, float], derived: str) -> str:
     """Return a message on the derived value named `derived`, which is not finite because a moment of inertia is 0.
 
     "" if no inertia is 0. values: parameter values by address.

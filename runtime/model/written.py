@@ -1,10 +1,7 @@
-"""Explain why a file's expression is not a number at a state, by walking its tree again after C found the failure.
+"""Explain why an expression of the file is NaN at a state of a run: find the part of it that is undefined.
 
-- Why an expression is not a number: its smallest part that is not, and the names in it.
-- Which force has no finite slope at a state, and which drive has no bounded second rate at a time. Methods that use
-  the Jacobian cannot continue at a force without a slope.
-- Numbers that are undefined as the file writes them, where simplified formulas have a value: C has d for
-  cos(acos(d)). The file's own values were checked when it was read; here those of a run are.
+It finds the smallest undefined part of an expression, forces without a finite slope (which methods with a Jacobian
+need) and drives without a bounded second rate. Numbers of a run are also checked as the file writes them: C simplifies.
 """
 
 from __future__ import annotations
@@ -20,7 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource, WrittenInfo
-from gudgeon.language.defined import find_undefined_part, is_total_expression, may_be_undefined
 from gudgeon.language.tree import (
     Binary,
     Call,
@@ -28,20 +24,21 @@ from gudgeon.language.tree import (
     Expr,
     Number,
     Unary,
-    calls,
     evaluate,
     from_json,
-    names,
-    reached,
-    replaced,
+    iterate_active_calls,
+    iterate_calls,
+    iterate_names,
+    replace_names,
 )
+from gudgeon.language.undefined_parts import find_undefined_part, is_total_expression, may_be_undefined
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
 
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
 
 _REACH = tuple(10.0**k for k in range(-13, -8))  # s, or of the time: how far after a state a reason is searched
-MOST_CORNERS = 64  # largest number of switching points of a where that are examined
+MAX_SWITCHING_POINTS = 64  # largest number of switching points of a where that are examined
 Values = Callable[[str], float]  # function that returns the value of a name
 _SHORT = (1e-8, 1e-10, 1e-12)  # distances over which a rise is measured, for a size of 1
 _STEEPER, _ROUNDING = 3.0, 1e-13  # smallest growth of the slope per shorter distance; largest rise that is rounding
@@ -49,7 +46,7 @@ _JUMP = 0.9  # of the rise over the longest distance: if the shortest has more, 
 REMEDY = "expected finite numbers: is there a division by zero, or a root of a negative number?"
 
 
-def values_at(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> Values:
+def make_value_function(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> Values:
     """Return a function from names to values at a state: t, parameters, coordinates and velocities (SI).
 
     q, v: (n,). The function accepts the names of expressions in a file, such as "L1.head.vx" and "ground.O.x".
@@ -84,26 +81,28 @@ def values_at(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> V
     return value
 
 
-def values_of_time(source: KernelSource, p: Array, tree: Expr, t: Array) -> Array:
+def evaluate_at_times(source: KernelSource, p: Array, tree: Expr, t: Array) -> Array:
     """Return the values (N,) of an expression of t and parameters at times t (N,). p: parameter values."""
     slots = {parameter.address: float(p[k]) for k, parameter in enumerate(source.slots)}
     return np.broadcast_to(evaluate(tree, lambda path: t if path == "t" else slots[f"parameters.{path}"]), t.shape)
 
 
-def trees(source: KernelSource, kinds: Iterable[str]) -> list[tuple[WrittenInfo, Expr]]:
+def read_expression_trees(source: KernelSource, kinds: Iterable[str]) -> list[tuple[WrittenInfo, Expr]]:
     """Return the file's expressions of t and motion in some sections (drives, forces, events), with their trees."""
     return [(info, from_json(json.loads(info.tree))) for info in source.written if info.address.split(".")[0] in kinds]
 
 
-def reason(source: KernelSource, p: Array, t: float, q: Array, v: Array, duration: float = 0.0) -> str:
+def explain_undefined_ahead(source: KernelSource, p: Array, t: float, q: Array, v: Array, duration: float = 0.0) -> str:
     """Return why a drive or force is not a number at a state, or within `duration` s after it; "" if all are numbers.
 
     States after it are extrapolated by the velocity. If q or v is not finite, only expressions of t and parameters are
     examined.
     """
-    expressions = trees(source, ("drives", "forces"))
+    expressions = read_expression_trees(source, ("drives", "forces"))
     if not (np.isfinite(q).all() and np.isfinite(v).all()):
-        expressions = [(info, tree) for info, tree in expressions if all("." not in name.path for name in names(tree))]
+        expressions = [
+            (info, tree) for info, tree in expressions if all("." not in name.path for name in iterate_names(tree))
+        ]
     scale = max(1.0, abs(t))
     times_after = (*(scale * dt for dt in _REACH), *(duration * fraction for fraction in (0.01, 0.1, 0.5, 1.0)))
     for h in (0.0, *times_after):
@@ -114,64 +113,63 @@ def reason(source: KernelSource, p: Array, t: float, q: Array, v: Array, duratio
     return ""
 
 
-def undefined_here(source: KernelSource, p: Array, t: float, q: Array, v: Array, duration: float = 0.0) -> str:
+def explain_undefined_near(source: KernelSource, p: Array, t: float, q: Array, v: Array, duration: float = 0.0) -> str:
     """Return why a drive or force is not a number at a state, or in a where-branch near it; else "".
 
     A step that ends or begins at a switching point evaluates both branches. Switching points are searched within
     `duration` s, at least a millionth of the time.
     """
-    expressions = trees(source, ("drives", "forces"))
+    expressions = read_expression_trees(source, ("drives", "forces"))
     for h in (0.0, float(np.spacing(t))):
         if message := _explain_undefined_at(source, expressions, p, t + h, q, v):
             return message
     search_range = max(duration, 1e-6 * max(1.0, abs(t)))
     for info, tree in expressions:
-        for call in calls(tree, "where"):
+        for call in iterate_calls(tree, "where"):
             left, right = call.arguments[:2]
             difference = Binary("-", left, right)
 
             def is_first_branch_active(h: float, difference: Expr = difference) -> bool:
                 """Return whether the compared difference is negative h s after the state."""
-                return bool(evaluate(difference, values_at(source, p, t + h, q + h * v, v)) < 0.0)
+                return bool(evaluate(difference, make_value_function(source, p, t + h, q + h * v, v)) < 0.0)
 
             for low, high in pairwise(np.linspace(-search_range, search_range, 33).tolist()):
                 if is_first_branch_active(low) != is_first_branch_active(high):
-                    ends = _bracket_change(is_first_branch_active, low, high)
+                    ends = _find_change(is_first_branch_active, low, high)
                     messages = (_explain_undefined_branch(source, p, info, call, t + h, q + h * v, v) for h in ends)
                     if message := next(filter(None, messages), ""):
                         return message
     return ""
 
 
-def undefined_at_a_corner(
+def find_undefined_at_switch(
     source: KernelSource, p: Array, info: WrittenInfo, tree: Expr, t: Array
 ) -> tuple[str, float] | None:
     """Return (message, time) for a drive that is not a number where one of its wheres switches.
 
-    None if it always is one. t (N,): rising times between which signs of the compared differences are tested. The
-    earliest such time is returned.
+    None if it always is one. t (N,): rising times between which the earliest such time is searched.
     """
     empty = np.zeros(0)
     messages_and_times = []
-    for call in calls(tree, "where"):
+    for call in iterate_calls(tree, "where"):
         left, right = call.arguments[:2]
         difference = Binary("-", left, right)
 
         def is_first_branch_active(time: float, difference: Expr = difference) -> bool:
             """Return whether the compared difference is negative at a time."""
-            return bool(values_of_time(source, p, difference, np.array([time]))[0] < 0.0)
+            return bool(evaluate_at_times(source, p, difference, np.array([time]))[0] < 0.0)
 
-        is_negative = values_of_time(source, p, difference, t) < 0.0
-        for k in np.flatnonzero(is_negative[1:] != is_negative[:-1])[:MOST_CORNERS].tolist():
-            for switch_time in _bracket_change(is_first_branch_active, float(t[k]), float(t[k + 1])):
-                values = values_at(source, p, switch_time, empty, empty)
-                if any(other is call for other in reached(tree, "where", values)):
+        is_negative = evaluate_at_times(source, p, difference, t) < 0.0
+        for k in np.flatnonzero(is_negative[1:] != is_negative[:-1])[:MAX_SWITCHING_POINTS].tolist():
+            for switch_time in _find_change(is_first_branch_active, float(t[k]), float(t[k + 1])):
+                values = make_value_function(source, p, switch_time, empty, empty)
+                if any(other is call for other in iterate_active_calls(tree, "where", values)):
                     message = _explain_undefined_branch(source, p, info, call, switch_time, empty, empty)
                     messages_and_times += [(message, switch_time)] if message else []
     return min(messages_and_times, key=lambda message_and_time: message_and_time[1], default=None)
 
 
-def _bracket_change(predicate: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:
+def _find_change(predicate: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:
     """Return two adjacent numbers between `low` and `high` between which the answer changes, by bisection.
 
     predicate: a function with different values at `low` and `high`. The search stops at a distance of 1e-18.
@@ -189,7 +187,7 @@ def _explain_undefined_branch(
 
     call: the where in the expression `info`. Both branches count where the compared values are equal.
     """
-    values = values_at(source, p, t, q, v)
+    values = make_value_function(source, p, t, q, v)
     left, right, first_branch, second_branch = (evaluate(part, values) for part in call.arguments)
     for k, (value, is_active) in enumerate(((first_branch, left <= right), (second_branch, left >= right))):
         if is_active and not math.isfinite(value):
@@ -200,22 +198,22 @@ def _explain_undefined_branch(
     return ""
 
 
-def reason_between(source: KernelSource, p: Array, t0: float, t1: float) -> tuple[str, float]:
+def explain_undefined_between(source: KernelSource, p: Array, t0: float, t1: float) -> tuple[str, float]:
     """Return why a drive ceases to be a number between t0 and t1 (s), and when; ("", t1) if none does.
 
     The time is located by bisection between samples; of several drives the earliest is returned.
     """
     empty, first_time, message = np.zeros(0), t1, ""
-    for info, tree in trees(source, ("drives",)):
+    for info, tree in read_expression_trees(source, ("drives",)):
         times = np.append(np.linspace(t0, t1, 4001), t1 + 1e-9 * max(1.0, abs(t1)))  # and just after the end
-        invalid_samples = np.flatnonzero(~np.isfinite(values_of_time(source, p, tree, times)))
+        invalid_samples = np.flatnonzero(~np.isfinite(evaluate_at_times(source, p, tree, times)))
         if not len(invalid_samples):
             continue
         high = float(times[invalid_samples[0]])
         low = float(times[max(invalid_samples[0] - 1, 0)])
         for _ in range(60):
             middle = 0.5 * (low + high)
-            if np.isfinite(values_of_time(source, p, tree, np.array([middle])))[0]:
+            if np.isfinite(evaluate_at_times(source, p, tree, np.array([middle])))[0]:
                 low = middle
             else:
                 high = middle
@@ -224,7 +222,7 @@ def reason_between(source: KernelSource, p: Array, t0: float, t1: float) -> tupl
     return message, first_time
 
 
-def rate_reason(compiled: CompiledModel, p: Array, times: Array, q: Array) -> tuple[str, float]:
+def explain_undefined_rate(compiled: CompiledModel, p: Array, times: Array, q: Array) -> tuple[str, float]:
     """Return which drive's rate or second rate is not a number first, and when; ("", last time) if all are numbers.
 
     times: rising times (s) that are examined; q (n,): a position at which the constraint equations are evaluated.
@@ -240,7 +238,7 @@ def rate_reason(compiled: CompiledModel, p: Array, times: Array, q: Array) -> tu
     return "", float(times[-1])
 
 
-def with_notes_on_undefined(run: Result, evaluation: Evaluation) -> Result:
+def add_notes_on_undefined(run: Result, evaluation: Evaluation) -> Result:
     """Return the run with notes on outputs that are not numbers although all their inputs are.
 
     The run itself without any. Drives and forces by a `where` that compares values that are not numbers are noted too:
@@ -253,10 +251,10 @@ def with_notes_on_undefined(run: Result, evaluation: Evaluation) -> Result:
     probe.__dict__["evaluation"] = evaluation
     expressions = {f"output {name}": from_json(tree) for name, tree in run.source.outputs.items() if name in probe}
     for address, tree in comparing_expressions.items():
-        if all(used.path in probe.parameters or used.path in probe for used in names(tree)):
+        if all(used.path in probe.parameters or used.path in probe for used in iterate_names(tree)):
             expressions[address] = tree
-    found = (_explain_undefined_samples(probe, name, tree) for name, tree in expressions.items())
-    messages = [message for message in found if message]
+    explanations = (_explain_undefined_samples(probe, name, tree) for name, tree in expressions.items())
+    messages = [message for message in explanations if message]
     notes = (*run.diagnostics.notes, *messages)
     return replace(run, diagnostics=replace(run.diagnostics, notes=notes)) if messages else run
 
@@ -265,11 +263,13 @@ def _find_comparing_expressions(source: KernelSource) -> dict[str, Expr]:
     """Return the drives and forces with a `where` that may compare undefined values, by address; cache them."""
     cache = vars(source)
     if "compared" not in cache:
-        found = {info.address: tree for info, tree in trees(source, ("drives", "forces"))}
+        trees = {info.address: tree for info, tree in read_expression_trees(source, ("drives", "forces"))}
         cache["compared"] = {
             address: tree
-            for address, tree in found.items()
-            if not all(is_total_expression(operand) for call in calls(tree, "where") for operand in call.arguments[:2])
+            for address, tree in trees.items()
+            if not all(
+                is_total_expression(operand) for call in iterate_calls(tree, "where") for operand in call.arguments[:2]
+            )
         }
     return dict(cache["compared"])
 
@@ -280,7 +280,7 @@ def _explain_undefined_samples(run: Result, name: str, tree: Expr) -> str:
     "" if it always is one, or only where its inputs are not finite. name: that of the expression, for the message. The
     expression is evaluated at all samples of the run.
     """
-    input_values = {used.path: np.broadcast_to(run.value_of(used.path), run.t.shape) for used in names(tree)}
+    input_values = {used.path: np.broadcast_to(run.value_of(used.path), run.t.shape) for used in iterate_names(tree)}
     values = np.broadcast_to(evaluate(tree, input_values.__getitem__), run.t.shape)
     is_undefined = ~np.isfinite(values)
     for values_of_input in input_values.values() if is_undefined.any() else ():
@@ -297,7 +297,7 @@ def _explain_undefined_at(
     source: KernelSource, expressions: Iterable[tuple[WrittenInfo, Expr]], p: Array, t: float, q: Array, v: Array
 ) -> str:
     """Return a message on the first of some expressions that is not a number at a state; "" if all are numbers."""
-    values = values_at(source, p, t, q, v)
+    values = make_value_function(source, p, t, q, v)
     for info, tree in expressions:
         value = float(evaluate(tree, values))
         if not math.isfinite(value):
@@ -327,8 +327,8 @@ def _expand_named_expressions(source: KernelSource) -> list[tuple[WrittenInfo, E
     def expand(name: str) -> Expr:
         """Return the tree of a named expression with all others put in."""
         if name not in expanded_trees:
-            used = {used.path for used in names(trees_by_name[name])} & trees_by_name.keys()
-            expanded_trees[name] = replaced(trees_by_name[name], {other: expand(other) for other in used})
+            used = {used.path for used in iterate_names(trees_by_name[name])} & trees_by_name.keys()
+            expanded_trees[name] = replace_names(trees_by_name[name], {other: expand(other) for other in used})
         return expanded_trees[name]
 
     return [(info, expand(name)) for name, info in zip(trees_by_name, source.expressions, strict=True)]
@@ -368,13 +368,13 @@ def _describe_part(tree: Expr, values: Values) -> str:
         case Binary(operator=operator):
             return f"{texts[0]} {operator} {texts[1]}"
         case CurveCall(function=function, curve=curve):
-            return f"curve {function} {curve.outside(part_values[0])}"
+            return f"curve {function} {curve.describe_outside(part_values[0])}"
         case Call(function=function):
             return f"{function} of {', '.join(texts)}"
     return "a number that is not finite"
 
 
-def unbounded_drive(compiled: CompiledModel, p: Array, t: float) -> str:
+def find_unbounded_drive(compiled: CompiledModel, p: Array, t: float) -> str:
     """Return the drive whose second rate is more than 100 times as large at a time as near it; "" if there is none."""
     zero = np.zeros(compiled.n)
     distance = 1e-4 * max(abs(t), 1e-9)
@@ -388,11 +388,11 @@ def unbounded_drive(compiled: CompiledModel, p: Array, t: float) -> str:
     return rows[max(drives, key=lambda k: at_t[k])].owner if drives else ""
 
 
-def steep_force(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> str:
+def find_steep_force(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> str:
     """Return which force has an unbounded slope by a name of motion or t, or is not a number; "" if none has."""
-    values, addresses = values_at(source, p, t, q, v), {parameter.address for parameter in source.slots}
-    for info, tree in trees(source, ("forces",)):
-        for path in sorted({name.path for name in names(tree)}):
+    values, addresses = make_value_function(source, p, t, q, v), {parameter.address for parameter in source.slots}
+    for info, tree in read_expression_trees(source, ("forces",)):
+        for path in sorted({name.path for name in iterate_names(tree)}):
             value = float(values(path))
             if f"parameters.{path}" not in addresses and _is_steep(_make_function_of_name(tree, path, values), value):
                 location = f"{info.address} (line {info.line}, column {info.column})"
@@ -424,7 +424,7 @@ def _is_steep(function: Callable[[float], float], point: float) -> bool:
 
 
 @dataclass(frozen=True)
-class Partial:
+class PartialExpression:
     """Hold an expression that may be undefined: its own parameter index (−1: none) and those of its names."""
 
     address: str
@@ -433,7 +433,7 @@ class Partial:
     slots: Mapping[str, int]
 
 
-def undefined_rows(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> NDArray[np.bool_]:
+def find_undefined_runs(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> NDArray[np.bool_]:
     """Return a mask (n,) of runs with p (n, n_slots + n_derived) that may have an undefined value.
 
     Values that are given, by the mask is_given (n, n_slots), do not count. undefined_number decides exactly.
@@ -446,7 +446,7 @@ def undefined_rows(source: KernelSource, p: Array, is_given: NDArray[np.generic]
     return has_undefined
 
 
-def undefined_number(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> str:
+def describe_undefined_number(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> str:
     """Return a message on the first undefined value of a run, p (n_p,) and is_given (n_slots,); "" if there is none."""
     for partial in _find_affected_partials(source, p[np.newaxis]):
         values_by_name = {name: float(p[k]) for name, k in partial.slots.items()}
@@ -458,11 +458,13 @@ def undefined_number(source: KernelSource, p: Array, is_given: NDArray[np.generi
     return ""
 
 
-def _find_affected_partials(source: KernelSource, p: Array) -> list[Partial]:
+def _find_affected_partials(source: KernelSource, p: Array) -> list[PartialExpression]:
     """Return the expressions with a parameter that differs from the file's in a run of p (n, n_p); cache its index."""
     cache = vars(source)
     if "partial_slots" not in cache:
-        cache["partial_slots"] = sorted({k for partial in partials(source) for k in partial.slots.values()})
+        cache["partial_slots"] = sorted(
+            {k for partial in find_partial_expressions(source) for k in partial.slots.values()}
+        )
         cache["partial_defaults"] = np.array([source.slots[k].default for k in cache["partial_slots"]])
     slot_indices = cache["partial_slots"]
     if not slot_indices:
@@ -471,26 +473,28 @@ def _find_affected_partials(source: KernelSource, p: Array) -> list[Partial]:
     if not is_changed.any():
         return []
     changed_slots = {slot_indices[k] for k in np.flatnonzero(is_changed).tolist()}
-    return [partial for partial in partials(source) if not changed_slots.isdisjoint(partial.slots.values())]
+    return [
+        partial for partial in find_partial_expressions(source) if not changed_slots.isdisjoint(partial.slots.values())
+    ]
 
 
-def partials(source: KernelSource) -> list[Partial]:
+def find_partial_expressions(source: KernelSource) -> list[PartialExpression]:
     """Return the expressions of parameters, drives and forces that may be undefined; read once for each source."""
     cache = vars(source)
     if "partials" not in cache:
         cache["partials"] = _read_partials(source)
-    result: list[Partial] = cache["partials"]
+    result: list[PartialExpression] = cache["partials"]
     return result
 
 
-def _read_partials(source: KernelSource) -> list[Partial]:
+def _read_partials(source: KernelSource) -> list[PartialExpression]:
     """Return the expressions of parameters, drives and forces that may be undefined, from the source's JSON trees."""
-    place, result = source.place, []
+    parameter_index, result = source.slot_index, []
     trees = [(parameter.address, parameter.tree, k) for k, parameter in enumerate(source.slots) if parameter.tree]
     for address, tree, k in [*trees, *((info.address, info.tree, -1) for info in source.written)]:
         expr = from_json(json.loads(tree))
-        paths = dict.fromkeys(name.path for name in names(expr))
-        slots = {name: place.get(f"parameters.{name}", place.get(name, -1)) for name in paths}
+        paths = dict.fromkeys(name.path for name in iterate_names(expr))
+        slots = {name: parameter_index.get(f"parameters.{name}", parameter_index.get(name, -1)) for name in paths}
         if not is_total_expression(expr):
-            result.append(Partial(address, expr, k, {name: i for name, i in slots.items() if i >= 0}))
+            result.append(PartialExpression(address, expr, k, {name: i for name, i in slots.items() if i >= 0}))
     return result

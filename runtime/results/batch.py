@@ -21,14 +21,14 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
 from gudgeon.integrators.threads import available_threads
 from gudgeon.language import tree
-from gudgeon.language.argument_checks import is_whole, message, refuse
-from gudgeon.language.argument_checks import names as plain_names
-from gudgeon.language.shown import counted
-from gudgeon.model.choices import of_runs as chosen_of_runs
+from gudgeon.language.argument_checks import check_names as plain_names
+from gudgeon.language.argument_checks import is_integer, raise_bad_value, shorten_value
+from gudgeon.language.text_output import format_count
+from gudgeon.model.choices import format_values_of_runs as chosen_of_runs
 from gudgeon.results.diagnostics import Extremes
-from gudgeon.results.peaks import BatchPeaks, batch_extremes
-from gudgeon.results.results import Result, blank
-from gudgeon.results.series import catalogue
+from gudgeon.results.peaks import BatchPeaks, find_batch_extremes
+from gudgeon.results.results import Result, make_empty_result
+from gudgeon.results.series import get_catalogue
 from gudgeon.results.state import Array
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ class ResultOf(Protocol):
     def notes(self) -> Mapping[int, tuple[str, ...]]:
         """Return the notes of the runs by run number."""
 
-    def bare(self, i: int, parts: frozenset[str], /) -> Result | None:
+    def evaluate_samples(self, i: int, parts: frozenset[str], /) -> Result | None:
         """Return the samples of run i as a Result without diagnostics, or None for a run without samples.
 
         Only `parts` of an Evaluation can be computed from it.
@@ -136,7 +136,7 @@ class Batch:
     def __repr__(self) -> str:
         """Return mechanism, scene, and the numbers of runs, samples and failures in one line."""
         failed = f", {len(self.failures)} failed" if self.failures else ""
-        samples = f"{counted(len(self), 'run')} of {counted(self.t.shape[-1], 'sample')}"
+        samples = f"{format_count(len(self), 'run')} of {format_count(self.t.shape[-1], 'sample')}"
         stored_text = (
             "" if self.states else f", {', '.join(name for name in self.kept if name != 't') or 'no series kept'}"
         )
@@ -174,7 +174,7 @@ class Batch:
         Raises GudgeonError if only series were stored.
         """
         if self.states is None:
-            raise GudgeonError(f"the states of these runs were not kept: {stored_series_text(self)}")
+            raise GudgeonError(f"the states of these runs were not kept: {describe_stored_series(self)}")
         return self.states
 
     @overload
@@ -184,11 +184,11 @@ class Batch:
     def __getitem__(self, key: int | str) -> Result | Array:
         """Return a series of all runs, (n, N), for a name, or the full Result of a run for its number."""
         if isinstance(key, str):
-            return series(self, [key])[key]
-        if not is_whole(key):
-            refuse("a run of a batch", key, "its number, or the name of a series")
+            return collect_series(self, [key])[key]
+        if not is_integer(key):
+            raise_bad_value("a run of a batch", key, "its number, or the name of a series")
         if not -len(self) <= key < len(self):
-            raise IndexError(f"run {message(key)}: there are {len(self)}")
+            raise IndexError(f"run {shorten_value(key)}: there are {len(self)}")
         _ = self._states
         return self.result(int(key) % len(self))
 
@@ -206,8 +206,8 @@ class Batch:
         states.
         """
         _ = self._states
-        if not is_whole(i):
-            refuse("a run of a batch", i, "its number")
+        if not is_integer(i):
+            raise_bad_value("a run of a batch", i, "its number")
         try:
             return self[i]
         except GudgeonError as error:
@@ -217,20 +217,21 @@ class Batch:
     def at_events(self, name: str) -> tuple[AtEvents | None, ...]:
         """Return for each run the states at the times of an event; None for a run that did not begin.
 
-        `name` is an event of the file; see Result.at_events. Raises GudgeonError for a batch without states.
+        A run that failed gives its states up to the failure, as `partial` returns them. `name` is an event of the
+        file; see Result.at_events. Raises GudgeonError for a batch without states.
         """
         runs = map(self.partial, range(len(self)))
         return tuple(None if run is None else run.at_events(name) for run in runs)
 
     def peak(self, name: str) -> BatchPeaks:
         """Return the largest and smallest value of a series over all steps, (n,) each: see Result.peak."""
-        return batch_extremes(self.source, self.extremes, name, False, lambda: self._read_samples(name))
+        return find_batch_extremes(self.source, self.extremes, name, False, lambda: self._read_samples(name))
 
     def peak_error(self, name: str) -> BatchPeaks:
         """Return the extremes of the difference between a series and that of another scene, (n,) each: see
         Result.peak_error.
         """
-        return batch_extremes(self.source, self.extremes, name, True, lambda: self._read_samples(name))
+        return find_batch_extremes(self.source, self.extremes, name, True, lambda: self._read_samples(name))
 
     def _read_samples(self, name: str) -> tuple[Array, Array]:
         """Return sample times and values of a series, (n, N) each, or arrays (n, 0) if the series is not available.
@@ -244,7 +245,7 @@ class Batch:
 
     def to_xarray(self, names: Iterable[str] | str = (), part: str = "series") -> xarray.Dataset:
         """Return an xarray Dataset over `run` and `time` with every series by its name in a Result, and those of
-        `names`.
+        `check_names`.
 
         Runs with output times of their own have them as `t` over both; `time` is then a counter. Variables over `run`
         alone: samples, ends, failures, diagnostics, parameters and, as "A.peak.F", the peaks; those over all steps as
@@ -254,7 +255,7 @@ class Batch:
         """
         from gudgeon.results.files import netcdf_batch
 
-        return netcdf_batch.dataset(self, names, part)
+        return netcdf_batch.build_batch_dataset(self, names, part)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write everything to one NetCDF file: every series of every run, or those that were stored.
@@ -276,30 +277,30 @@ class Batch:
 
     def to_dataframe(self, names: Iterable[str] | None = None) -> pandas.DataFrame:
         """Return a long pandas table with a row for each reached sample: run, given parameters, t, and the series
-        `names`, or all for None.
+        `check_names`, or all for None.
 
         SI, units in `attrs["units"]`.
         """
         from gudgeon.results.files import export
 
-        return export.batch_dataframe(self, names)
+        return export.build_batch_dataframe(self, names)
 
     def to_csv(self, path: str | os.PathLike[str], names: Iterable[str] | None = None) -> None:
         """Write the table of `to_dataframe` as CSV, run by run, with all digits of each number."""
         from gudgeon.results.files import export
 
-        export.batch_csv(self, path, names)
+        export.write_batch_csv(self, path, names)
 
     def to_mat(self, path: str | os.PathLike[str], names: Iterable[str] | None = None) -> None:
-        """Write a MATLAB file: `t` and the series `names`, or all, n × N each, and given parameters n × 1; see
+        """Write a MATLAB file: `t` and the series `check_names`, or all, n × N each, and given parameters n × 1; see
         Result.to_mat.
         """
         from gudgeon.results.files import export
 
-        export.batch_mat(self, path, names)
+        export.write_batch_mat(self, path, names)
 
 
-def given_values(source: KernelSource, p: Array, is_given: NDArray[np.bool_]) -> dict[str, Array]:
+def collect_given_values(source: KernelSource, p: Array, is_given: NDArray[np.bool_]) -> dict[str, Array]:
     """Return the values (n,) of the parameters that any run was given, by address; choices as names.
 
     `p` (n, n_slots + n_derived) has the parameters of all runs, `is_given` (n, n_slots) which of them were given.
@@ -308,7 +309,7 @@ def given_values(source: KernelSource, p: Array, is_given: NDArray[np.bool_]) ->
     return {parameter.address: chosen_of_runs(parameter, values) for parameter, values in given_parameters}
 
 
-def as_failures(errors: Mapping[int, GudgeonError]) -> tuple[Failure, ...]:
+def make_failures(errors: Mapping[int, GudgeonError]) -> tuple[Failure, ...]:
     """Return errors by run number as Failures, sorted by run number."""
     return tuple(Failure(i, errors[i]) for i in sorted(errors))
 
@@ -316,21 +317,21 @@ def as_failures(errors: Mapping[int, GudgeonError]) -> tuple[Failure, ...]:
 def check_series_names(source: KernelSource, names: str | Iterable[str], argument_name: str = "names") -> list[str]:
     """Return the names of series as a list without repetitions, in their order.
 
-    `names` is one name or several; `argument_name` names the argument in errors. Raises UnknownNameError with the
+    `check_names` is one name or several; `argument_name` names the argument in errors. Raises UnknownNameError with the
     nearest name.
     """
     unique_names, empty_result = (
         list(dict.fromkeys(plain_names(names, argument_name, "a list of names of series"))),
-        blank(source),
+        make_empty_result(source),
     )
     for name in unique_names:
         empty_result.unit(name)
     return unique_names
 
 
-def evaluation_parts_of(source: KernelSource, names: Iterable[str]) -> frozenset[str]:
-    """Return the parts of an Evaluation that the series `names` need; "t" needs none."""
-    all_series = catalogue(source)
+def find_evaluation_parts(source: KernelSource, names: Iterable[str]) -> frozenset[str]:
+    """Return the parts of an Evaluation that the series `check_names` need; "t" needs none."""
+    all_series = get_catalogue(source)
     return frozenset(part for name in names if name != "t" for part in all_series[name].parts)
 
 
@@ -339,46 +340,48 @@ def depends_on_works(source: KernelSource, name: str) -> bool:
 
     An output depends on works if a series in its expression does.
     """
-    series_entry = catalogue(source)[name]
+    series_entry = get_catalogue(source)[name]
     if name in source.outputs:
-        used_names = tree.names(tree.from_json(source.outputs[name]))
+        used_names = tree.iterate_names(tree.from_json(source.outputs[name]))
         return any(
-            depends_on_works(source, used_name.path) for used_name in used_names if used_name.path in catalogue(source)
+            depends_on_works(source, used_name.path)
+            for used_name in used_names
+            if used_name.path in get_catalogue(source)
         )
     return name == "energy.residual" or (series_entry.stored is not None and series_entry.stored[0] == "work")
 
 
 def check_stored(batch: Batch, names: Iterable[str]) -> None:
-    """Raise GudgeonError for the first of `names` that a batch without states did not store.
+    """Raise GudgeonError for the first of `check_names` that a batch without states did not store.
 
     A batch with states can evaluate every series, so that nothing is raised.
     """
     if batch.states is None and (missing_names := [name for name in names if name not in batch.kept]):
-        raise GudgeonError(f"{missing_names[0]!r} was not kept in this batch: {stored_series_text(batch)}")
+        raise GudgeonError(f"{missing_names[0]!r} was not kept in this batch: {describe_stored_series(batch)}")
 
 
-def stored_series_text(batch: Batch) -> str:
+def describe_stored_series(batch: Batch) -> str:
     """Return a text for errors of a batch without states: the stored series, and how to store others."""
     names = [name for name in batch.kept if name != "t"]
     hint = 'simulate_many(…, keep=[…]) names what is kept; keep="states" keeps everything'
     return f"it has {', '.join(names) or 'no series'}\n  {hint}"
 
 
-def series_column(name: str) -> str:
+def name_series_column(name: str) -> str:
     """Return the column of a series in tables of a batch, in which `run` is the number of the run."""
     return f"output.{name}" if name == "run" else name
 
 
-def given_columns(batch: Batch) -> dict[str, Array]:
+def collect_given_columns(batch: Batch) -> dict[str, Array]:
     """Return the values (n,) of the parameters that runs were given, by column of a table.
 
     The column is the address, or "given.ADDRESS" if a series has the same name.
     """
-    all_series = catalogue(batch.source)
+    all_series = get_catalogue(batch.source)
     return {f"given.{name}" if name in all_series else name: values for name, values in batch.parameters.items()}
 
 
-def series(batch: Batch, names: Sequence[str]) -> dict[str, Array]:
+def collect_series(batch: Batch, names: Sequence[str]) -> dict[str, Array]:
     """Return the named series of all runs, (n, N) each, by name; NaN where a run has no sample.
 
     Stored columns are copied, other series are evaluated in threads. Raises UnknownNameError, GudgeonError for a series
@@ -404,7 +407,7 @@ def _copy_stored_series(batch: Batch, name: str) -> Array | None:
     """
     if name in batch.kept:
         return batch.kept[name].copy()
-    array_and_column = None if name == "t" else catalogue(batch.source)[name].stored
+    array_and_column = None if name == "t" else get_catalogue(batch.source)[name].stored
     if array_and_column is None or array_and_column[0] not in ("q", "v", "work", "state"):
         return None
     array, column = array_and_column
@@ -422,7 +425,7 @@ def iterate_rows(batch: Batch, names: Sequence[str]) -> Iterator[Row]:
     """
     check_stored(batch, names)
     make_row = _read_stored_row if batch.states is None else _evaluate_row
-    parts = evaluation_parts_of(batch.source, names)
+    parts = find_evaluation_parts(batch.source, names)
 
     def make_block(first_run: int) -> list[Row]:
         """Return the rows of BLOCK runs from `first_run` on."""
@@ -456,7 +459,7 @@ def _evaluate_row(batch: Batch, i: int, names: Sequence[str], parts: frozenset[s
     """Return run number, sample times and {name: values} of run i, evaluated from its states; None if it has no
     samples.
     """
-    run: Result | None = batch.result.bare(i, parts)
+    run: Result | None = batch.result.evaluate_samples(i, parts)
     return None if run is None else (i, run.t, {name: run[name] for name in names})
 
 

@@ -1,4 +1,4 @@
-"""Independent check of the contacts of a run: `run.check()`.
+"""Check the contacts of a run, `run.check()`, by computations that are independent of the integrator.
 
 The penetration of every joint with play is computed in NumPy from positions of the bodies alone, at the samples of a
 run. Nothing of the engine that locates contacts is used. A joint must not penetrate outside a contact of
@@ -19,8 +19,8 @@ from gudgeon.contract.boundary import SHALLOW
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.errors import SolverError
 from gudgeon.model.compiled import Array
-from gudgeon.model.contours import contour_of, corner_approach, depth_at
-from gudgeon.results.series import point_motion
+from gudgeon.model.contours import compute_corner_approach, find_contour, interpolate_depth
+from gudgeon.results.series import compute_point_motion
 
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
@@ -82,14 +82,14 @@ class ContactCheck:
             raise SolverError(str(self), self.faults[0].t)
 
 
-def penetrations(run: Result) -> Array:
+def compute_penetrations(run: Result) -> Array:
     """Return the penetration of each joint with play at all samples, (N, n_clearances), in m, from positions of the
     bodies.
 
     Negative values mean that the surfaces are apart. Nothing of the engine is used.
     """
     columns = [
-        _wall_penetration(run, joint) if joint.at_wall else _bearing_penetration(run, joint)
+        _compute_wall_penetration(run, joint) if joint.is_corner else _compute_bearing_penetration(run, joint)
         for joint in run.source.clearances
     ]
     return np.stack(columns, axis=1) if columns else np.zeros((len(run.t), 0))
@@ -102,7 +102,7 @@ def check_samples(run: Result, run_with_peaks: Result | None = None) -> ContactC
     only are skipped. Forces are checked only if they can be evaluated.
     """
     faults: list[Fault] = []
-    penetration = penetrations(run)
+    penetration = compute_penetrations(run)
     for k, joint in enumerate(run.source.clearances):
         if not joint.dry:
             continue
@@ -164,7 +164,7 @@ def _find_peak_faults(run: Result, k: int, joint: ClearanceInfo, touching_force:
     Joints with a film and rigid guides are skipped. `touching_force` (N) is the largest force of samples that only
     touch.
     """
-    if joint.film or (joint.at_wall and joint.joint in run.source.rigid):
+    if joint.film or (joint.is_corner and joint.joint in run.source.rigid):
         return
     impacts = run.impacts[run.impacts["joint"] == k]
     if joint.name in run.source.rigid:  # those without a duration have impulses
@@ -183,43 +183,43 @@ def _find_peak_faults(run: Result, k: int, joint: ClearanceInfo, touching_force:
             yield Fault("peak", joint.name, t, float("nan"), force)
 
 
-def _bearing_penetration(run: Result, joint: ClearanceInfo) -> Array:
+def _compute_bearing_penetration(run: Result, joint: ClearanceInfo) -> Array:
     """Return the penetration of a journal at all samples, (N,), m: ‖e‖ − c, less the contour's depth in the direction
     of e.
     """
-    first, second = _end_points(run, joint)
-    ex, ey = (_point_positions(run, second) - _point_positions(run, first)).T
+    first, second = _compute_end_points(run, joint)
+    ex, ey = (_compute_point_positions(run, second) - _compute_point_positions(run, first)).T
     delta = np.hypot(ex, ey) - float(run.p[joint.clearance])
-    if (depths := contour_of(run.source, run.p, joint.name)) is not None:
-        delta -= depth_at(depths, np.arctan2(ey, ex) - _body_angle(run, joint.first))
+    if (depths := find_contour(run.source, run.p, joint.name)) is not None:
+        delta -= interpolate_depth(depths, np.arctan2(ey, ex) - _get_body_angle(run, joint.first))
     return delta
 
 
-def _wall_penetration(run: Result, joint: ClearanceInfo) -> Array:
+def _compute_wall_penetration(run: Result, joint: ClearanceInfo) -> Array:
     """Return the penetration of a slider's corner into its wall at all samples, (N,), in m.
 
     It is the displacement of the corner towards its wall from the middle of the guide, less the gap. The mounting angle
     is `angle` of the joint, or else the direction of `axis`.
     """
-    first, second = _end_points(run, joint)
-    parameter_indices = run.source.place
+    first, second = _compute_end_points(run, joint)
+    parameter_indices = run.source.slot_index
     values = {
         key: float(run.p[parameter_indices[address]])
         if (address := f"joints.{joint.joint}.{key}") in parameter_indices
         else 0.0
         for key in ("axis.x", "axis.y", "angle")
     }
-    direction = np.arctan2(values["axis.y"], values["axis.x"]) + _body_angle(run, joint.first)
+    direction = np.arctan2(values["axis.y"], values["axis.x"]) + _get_body_angle(run, joint.first)
     specified_angle = (
         values["angle"]
         if f"joints.{joint.joint}.angle" in parameter_indices or _has_mounting_angle(run, joint)
         else None
     )
     mounting_angle = np.arctan2(values["axis.y"], values["axis.x"]) if specified_angle is None else specified_angle
-    tilt = _body_angle(run, joint.second) - _body_angle(run, joint.first) - mounting_angle
-    distance = _point_positions(run, second) - _point_positions(run, first)
+    tilt = _get_body_angle(run, joint.second) - _get_body_angle(run, joint.first) - mounting_angle
+    distance = _compute_point_positions(run, second) - _compute_point_positions(run, first)
     offset = distance[:, 1] * np.cos(direction) - distance[:, 0] * np.sin(direction)
-    return np.asarray(corner_approach(run.source, run.p, joint, offset, tilt) - float(run.p[joint.clearance]))
+    return np.asarray(compute_corner_approach(run.source, run.p, joint, offset, tilt) - float(run.p[joint.clearance]))
 
 
 def _has_mounting_angle(run: Result, joint: ClearanceInfo) -> bool:
@@ -227,7 +227,7 @@ def _has_mounting_angle(run: Result, joint: ClearanceInfo) -> bool:
     return any(entry.address == f"joints.{joint.joint}.angle" for entry in run.source.written)
 
 
-def _end_points(run: Result, joint: ClearanceInfo) -> tuple[str, str]:
+def _compute_end_points(run: Result, joint: ClearanceInfo) -> tuple[str, str]:
     """Return the names of the two points that a joint with play connects: that of the bearing, then that of the
     journal.
     """
@@ -237,14 +237,14 @@ def _end_points(run: Result, joint: ClearanceInfo) -> tuple[str, str]:
     return joint_part.ends[0], joint_part.ends[1]
 
 
-def _body_angle(run: Result, body: int) -> Array:
+def _get_body_angle(run: Result, body: int) -> Array:
     """Return the angle of a body at all samples, (N,), rad; 0 for the ground (body < 0)."""
     return run.q[:, run.source.bodies[body].index + 2] if body >= 0 else np.zeros(len(run.t))
 
 
-def _point_positions(run: Result, name: str) -> Array:
+def _compute_point_positions(run: Result, name: str) -> Array:
     """Return the positions of a point at all samples in ground axes, (N, 2), in m; the origin for an unknown name."""
     point = next((candidate for candidate in run.source.points if candidate.name == name), None)
     if point is None:
         return np.zeros((len(run.t), 2))
-    return np.stack([point_motion(run, point, axis, 0) for axis in (0, 1)], axis=1)
+    return np.stack([compute_point_motion(run, point, axis, 0) for axis in (0, 1)], axis=1)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from gudgeon.contract.audit import Finding
 from gudgeon.errors import UnknownNameError
-from gudgeon.language.argument_checks import message
+from gudgeon.language.argument_checks import shorten_value
 from gudgeon.results.wear import SlidingLoads
 
 if TYPE_CHECKING:
@@ -163,7 +163,7 @@ class Diagnostics:
                 return peak
         joint_names = ", ".join(peak.joint for peak in self.peaks) or "none"
         raise UnknownNameError(
-            f"no peak of {message(joint)}: expected a joint with play", hint=f"there are: {joint_names}"
+            f"no peak of {shorten_value(joint)}: expected a joint with play", hint=f"there are: {joint_names}"
         )
 
     def to_json(self) -> str:
@@ -176,7 +176,7 @@ class Diagnostics:
         for name in ("extremes", "examined", "audit", "rubbed"):
             if not data[name]:
                 del data[name]
-        return json.dumps(_to_json_values(data), ensure_ascii=False, allow_nan=False)
+        return json.dumps(_convert_to_json_values(data), ensure_ascii=False, allow_nan=False)
 
     @staticmethod
     def from_json(text: str) -> Diagnostics:
@@ -186,12 +186,14 @@ class Diagnostics:
         """
         data = json.loads(text)
         data.pop("grazes", None)  # in older files, whose rk4 evaluated contacts at the ends of steps only
-        data["peaks"] = tuple(Peak(**_to_floats(peak, Peak)) for peak in data["peaks"])
-        data["extremes"] = tuple(Extremes(**_to_floats(fields, Extremes)) for fields in data.get("extremes", ()))
-        data["audit"] = tuple(Finding(**_to_floats(fields, Finding)) for fields in data.get("audit", ()))
+        data["peaks"] = tuple(Peak(**_convert_to_floats(peak, Peak)) for peak in data["peaks"])
+        data["extremes"] = tuple(
+            Extremes(**_convert_to_floats(fields, Extremes)) for fields in data.get("extremes", ())
+        )
+        data["audit"] = tuple(Finding(**_convert_to_floats(fields, Finding)) for fields in data.get("audit", ()))
         data["notes"] = tuple(data["notes"])
-        data["examined"] = _examined_from_json(data["examined"]) if data.get("examined") else None
-        return Diagnostics(**_to_floats(data, Diagnostics))
+        data["examined"] = _read_examined_json(data["examined"]) if data.get("examined") else None
+        return Diagnostics(**_convert_to_floats(data, Diagnostics))
 
     def __str__(self) -> str:
         """Return the diagnostics as aligned lines, one for each quantity, peak, series and note."""
@@ -212,23 +214,27 @@ class Diagnostics:
 def extremes_to_json(extremes: tuple[Extremes, ...]) -> str:
     """Return the extremes of one run as JSON, in the form of `Diagnostics.to_json`."""
     return json.dumps(
-        _to_json_values([asdict(series_extremes) for series_extremes in extremes]), ensure_ascii=False, allow_nan=False
+        _convert_to_json_values([asdict(series_extremes) for series_extremes in extremes]),
+        ensure_ascii=False,
+        allow_nan=False,
     )
 
 
 def extremes_from_json(text: str) -> tuple[Extremes, ...]:
     """Return the extremes from the text that `extremes_to_json` wrote, bit for bit."""
-    return tuple(Extremes(**_to_floats(fields, Extremes)) for fields in json.loads(text))
+    return tuple(Extremes(**_convert_to_floats(fields, Extremes)) for fields in json.loads(text))
 
 
-def _examined_from_json(data: dict[str, Any]) -> Examined:
+def _read_examined_json(data: dict[str, Any]) -> Examined:
     """Return the Examined from its part of the parsed JSON of `Diagnostics.to_json`, with words converted to floats."""
     classes = {"joints": JointExamined, "ideal": IdealForce, "differences": Difference}
-    records = {name: tuple(cls(**_to_floats(fields, cls)) for fields in data[name]) for name, cls in classes.items()}
+    records = {
+        name: tuple(cls(**_convert_to_floats(fields, cls)) for fields in data[name]) for name, cls in classes.items()
+    }
     return Examined(**data | records | {"notes": tuple(data["notes"])})
 
 
-def _to_json_values(value: Any) -> Any:
+def _convert_to_json_values(value: Any) -> Any:
     """Return a value with NaN and infinities replaced by words, at any depth of lists and dicts.
 
     Tuples become lists, NumPy scalars Python numbers; other values are returned as they are.
@@ -236,14 +242,14 @@ def _to_json_values(value: Any) -> Any:
     if isinstance(value, float) and not math.isfinite(value):
         return repr(value)
     if isinstance(value, dict):
-        return {key: _to_json_values(item) for key, item in value.items()}
+        return {key: _convert_to_json_values(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_to_json_values(item) for item in value]
+        return [_convert_to_json_values(item) for item in value]
     return value.item() if hasattr(value, "item") else value  # a NumPy scalar
 
 
-def _to_floats(data: dict[str, Any], cls: type) -> dict[str, Any]:
-    """Return the fields of a dataclass with the words of `_to_json_values` converted back to floats.
+def _convert_to_floats(data: dict[str, Any], cls: type) -> dict[str, Any]:
+    """Return the fields of a dataclass with the words of `_convert_to_json_values` converted back to floats.
 
     Only fields that `cls` declares as float are converted.
     """
@@ -261,10 +267,12 @@ def provenance_of(compiled: CompiledModel) -> dict[str, str]:
 
     system = platform.uname()
     platform_text = f"{system.system} {system.release} {system.machine}, Python {platform.python_version()}"
-    return dict(zip(PROVENANCE, (__version__, platform_text, compiled.compiler, _date(), compiled.text), strict=True))
+    return dict(
+        zip(PROVENANCE, (__version__, platform_text, compiled.compiler, _format_date(), compiled.text), strict=True)
+    )
 
 
-def _date() -> str:
+def _format_date() -> str:
     """Return the current date and time in UTC to the second in ISO format, or that of SOURCE_DATE_EPOCH."""
     epoch_text = os.environ.get("SOURCE_DATE_EPOCH", "")
     now = datetime.fromtimestamp(int(epoch_text), UTC) if epoch_text.isdecimal() else datetime.now(UTC)

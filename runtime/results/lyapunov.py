@@ -1,5 +1,4 @@
-"""Own `Lyapunov`, the result of an estimate of the largest exponent: growth by intervals, uncertainty, returns to a
-section.
+"""Own `Lyapunov`, an estimate of the largest Lyapunov exponent with its uncertainty, and Poincaré section points.
 
 The measured rate is that at which neighbouring motions separate, λ = lim ln(d(t)/d(0))/t (G. Benettin, L. Galgani, A.
 Giorgilli, J.-M. Strelcyn, Meccanica 15:9, 1980). The exponent per return, 1/return, is λ times the mean time between
@@ -16,8 +15,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gudgeon.errors import BadValueError
-from gudgeon.language.argument_checks import positive
-from gudgeon.results.motion import Motion, classify
+from gudgeon.language.argument_checks import check_positive
+from gudgeon.results.motion import Motion, classify_motion
 
 if TYPE_CHECKING:
     from gudgeon.results.state import Array, State
@@ -63,7 +62,7 @@ class Lyapunov:
         It is NaN during the first tenth of the time, while the difference turns to the direction of largest growth.
         """
         exponents = np.full(len(self.growth), np.nan)
-        exponents[self._first :] = _slopes(self.t[self._first :], self._logs[self._first :])
+        exponents[self._first :] = _compute_slopes(self.t[self._first :], self._logs[self._first :])
         return exponents
 
     @property
@@ -76,14 +75,14 @@ class Lyapunov:
     @cached_property
     def uncertainty(self) -> float:
         """One standard error of the exponent, 1/s; NaN for too few intervals."""
-        error = _standard_error(self.t[self._first :], self._logs[self._first :])
+        error = _compute_standard_error(self.t[self._first :], self._logs[self._first :])
         return math.hypot(error, self.unresolved)
 
     @property
     def per_return(self) -> float:
         """Exponent per return to the section; NaN without a section, or with fewer than two returns."""
         logs = self._returns[1]
-        return float(_slopes(np.arange(len(logs)), logs)[-1]) if len(logs) > 1 else math.nan
+        return float(_compute_slopes(np.arange(len(logs)), logs)[-1]) if len(logs) > 1 else math.nan
 
     @cached_property
     def per_return_uncertainty(self) -> float:
@@ -92,7 +91,7 @@ class Lyapunov:
         if len(times) < 2:
             return math.nan
         mean_time = (times[-1] - times[0]) / (len(times) - 1)
-        return math.hypot(_standard_error(np.arange(len(logs)), logs), self.unresolved * mean_time)
+        return math.hypot(_compute_standard_error(np.arange(len(logs)), logs), self.unresolved * mean_time)
 
     @property
     def sign(self) -> int:
@@ -107,7 +106,7 @@ class Lyapunov:
         horizon=True)` repeats a run instead: its horizon is that of one run and depends on its first contacts; this one
         is a mean over all runs.
         """
-        error, apart = positive(error, "error"), positive(apart, "apart")
+        error, apart = check_positive(error, "error"), check_positive(apart, "apart")
         if error >= apart:
             raise BadValueError(f"error {error:g} is not below {apart:g}, where runs are apart")
         if not math.isfinite(self.exponent):
@@ -124,7 +123,7 @@ class Lyapunov:
             raise BadValueError("no section was asked for", hint='lyapunov(..., section="an event", or a period in s)')
         is_settled = self.section.t >= self.t[self._first]
         points = self.section.points[is_settled]
-        return classify(points, self.section.extent, self.per_return, self.per_return_uncertainty)
+        return classify_motion(points, self.section.extent, self.per_return, self.per_return_uncertainty)
 
     @property
     def _first(self) -> int:
@@ -156,7 +155,7 @@ class Lyapunov:
         return f"<Lyapunov {text}, by the {self.by}, {self.t[0]:g} … {self.t[-1]:g} s>"
 
 
-def _slopes(x: Array, logs: Array) -> Array:
+def _compute_slopes(x: Array, logs: Array) -> Array:
     """Return the slopes (k,) of the least-squares lines through the first 2, 3, … k + 1 of the points (x, logs).
 
     Each point is weighted by the interval before it. Where x hardly spreads, the slope is that from the first point to
@@ -179,7 +178,7 @@ def _slopes(x: Array, logs: Array) -> Array:
         )
 
 
-def _standard_error(x: Array, logs: Array) -> float:
+def _compute_standard_error(x: Array, logs: Array) -> float:
     """Return the standard error of the slope of `logs` over x, from the slopes in BLOCKS blocks of equal length.
 
     Returns NaN with fewer than three intervals a block.
@@ -191,5 +190,5 @@ def _standard_error(x: Array, logs: Array) -> float:
     for begin, end in zip(edges, edges[1:], strict=False):
         inside = x[(x > begin) & (x < end)]
         block_x = np.concatenate([[begin], inside, [end]])
-        slopes.append(_slopes(block_x, np.interp(block_x, x, logs))[-1])
+        slopes.append(_compute_slopes(block_x, np.interp(block_x, x, logs))[-1])
     return float(np.std(slopes, ddof=1) / math.sqrt(BLOCKS))

@@ -1,4 +1,4 @@
-"""Classify the motion that returns to a section: periodic, quasi-periodic or chaotic, with the numbers that support it.
+"""Classify a motion by its points on a Poincaré section: periodic, quasi-periodic or chaotic, with evidence.
 
 Three properties of the points, in the order of time, are used: recurrence, the smallest n for which each point lies
 near the one n returns earlier; the sign of the exponent per return, with its uncertainty; and the 0-1 test.
@@ -60,7 +60,7 @@ class Motion:
         )
 
 
-def classify(
+def classify_motion(
     points: Array,
     extent: float,
     per_return: float = math.nan,
@@ -73,14 +73,18 @@ def classify(
     fraction of it. `per_return` ± `exponent_error` is the exponent per return. With few points or too little support
     the kind is "undecided".
     """
-    period, fraction, distance = _recurrence(points, tolerance * extent)
-    chaos_measure = zero_one(_principal_coordinate(points)) if _max_deviation(points) > tolerance * extent else math.nan
-    growing_support, neutral_support = _growth_supports(per_return, exponent_error, len(points))
+    period, fraction, distance = _find_recurrence(points, tolerance * extent)
+    chaos_measure = (
+        compute_zero_one_test(_compute_principal_coordinates(points))
+        if _compute_max_deviation(points) > tolerance * extent
+        else math.nan
+    )
+    growing_support, neutral_support = _compute_growth_supports(per_return, exponent_error, len(points))
     regular_measure = 1.0 - abs(chaos_measure) if math.isfinite(chaos_measure) else math.nan
     supports = {
-        PERIODIC: _min_support(fraction, 1.0 - growing_support),
-        QUASI: _min_support(1.0 - fraction, neutral_support, regular_measure),
-        CHAOTIC: _min_support(1.0 - fraction, growing_support, chaos_measure),
+        PERIODIC: _find_min_support(fraction, 1.0 - growing_support),
+        QUASI: _find_min_support(1.0 - fraction, neutral_support, regular_measure),
+        CHAOTIC: _find_min_support(1.0 - fraction, growing_support, chaos_measure),
     }
     kind = max(supports, key=lambda name: supports[name])
     if len(points) < FEWEST or supports[kind] < ENOUGH:
@@ -101,13 +105,13 @@ def classify(
     )
 
 
-def _min_support(*supports: float) -> float:
+def _find_min_support(*supports: float) -> float:
     """Return the smallest of the supports that are not NaN, at least 0; 0 if there is none."""
     finite_supports = [support for support in supports if math.isfinite(support)]
     return max(min(finite_supports), 0.0) if finite_supports else 0.0
 
 
-def _recurrence(points: Array, tolerance: float) -> tuple[int, float, float]:
+def _find_recurrence(points: Array, tolerance: float) -> tuple[int, float, float]:
     """Return the smallest n after which the largest fraction of points recurs, that fraction, and the median distance.
 
     A point recurs if the point n returns later lies within `tolerance`. n is at most MOST_PERIOD; (0, 0, inf) for too
@@ -122,18 +126,18 @@ def _recurrence(points: Array, tolerance: float) -> tuple[int, float, float]:
     return best
 
 
-def _max_deviation(points: Array) -> float:
+def _compute_max_deviation(points: Array) -> float:
     """Return the largest distance of a point (k, d) from the mean."""
     return float(np.linalg.norm(points - points.mean(axis=0), axis=1).max(initial=0.0)) if len(points) else 0.0
 
 
-def _principal_coordinate(points: Array) -> Array:
+def _compute_principal_coordinates(points: Array) -> Array:
     """Return the coordinates (k,) of the points along the direction of their largest spread."""
     centred = points - points.mean(axis=0)
     return np.asarray(centred @ np.linalg.svd(centred, full_matrices=False)[2][0])
 
 
-def _growth_supports(exponent: float, exponent_error: float, n_returns: int) -> tuple[float, float]:
+def _compute_growth_supports(exponent: float, exponent_error: float, n_returns: int) -> tuple[float, float]:
     """Return the probabilities that differences grow exponentially, and that they neither grow nor decay.
 
     Both are NaN without an exponent or with fewer than two returns. In regular motion differences grow by powers of
@@ -144,16 +148,16 @@ def _growth_supports(exponent: float, exponent_error: float, n_returns: int) -> 
         return math.nan, math.nan
     max_regular_rate = POWERS / n_returns
 
-    def probability_above(bound: float) -> float:
+    def compute_probability_above(bound: float) -> float:
         """Return the probability that the rate exceeds `bound`, from a normal distribution."""
         return 0.5 * math.erfc((bound - exponent) / (math.sqrt(2.0) * max(exponent_error, 1e-300)))
 
-    return probability_above(max_regular_rate), probability_above(-max_regular_rate) - probability_above(
-        max_regular_rate
-    )
+    return compute_probability_above(max_regular_rate), compute_probability_above(
+        -max_regular_rate
+    ) - compute_probability_above(max_regular_rate)
 
 
-def zero_one(values: Array, seed: int = 1) -> float:
+def compute_zero_one_test(values: Array, seed: int = 1) -> float:
     """Return K of the 0-1 test for chaos of a series (k,): near 1 in chaos, near 0 in regular motion.
 
     K is the median over random frequencies of the correlation of lag n and displacement D(n), n up to k/10. Returns NaN

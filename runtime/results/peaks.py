@@ -1,4 +1,4 @@
-"""Own peaks of series: over all steps of a run where they were requested, `run.peak("S9.ay")`, and over its samples.
+"""Find extremes of series: `run.peak("S9.ay")` over all steps, if requested before the run; others over samples.
 
 Also peaks as rows of a table, and the largest forces in joints with play of many runs. An impact of rigid surfaces is a
 record of a run's impacts with zero duration, whose F_peak is an impulse.
@@ -41,7 +41,7 @@ class Extreme:
     t: float
 
 
-def sample_extreme(name: str, unit: str, t: Array, values: Array) -> Extreme:
+def find_sample_extreme(name: str, unit: str, t: Array, values: Array) -> Extreme:
     """Return smallest value, largest value, and value and time of the largest magnitude of a series over its samples
     (N,).
 
@@ -55,7 +55,7 @@ def sample_extreme(name: str, unit: str, t: Array, values: Array) -> Extreme:
     )
 
 
-def over_all_steps(run: Result, name: str, is_error: bool) -> Extremes:
+def find_extremes_over_steps(run: Result, name: str, is_error: bool) -> Extremes:
     """Return the extremes of a series of a run over all steps, or with `is_error` those of its error against another
     scene.
 
@@ -67,7 +67,7 @@ def over_all_steps(run: Result, name: str, is_error: bool) -> Extremes:
     for extremes in run.diagnostics.extremes:
         if extremes.name == name and bool(extremes.against) == is_error:
             return extremes if is_error else _extend_by_samples(extremes, run)
-    raise _peak_not_requested_error(name, is_error)
+    raise _make_peak_not_requested_error(name, is_error)
 
 
 def _extend_by_samples(extremes: Extremes, run: Result) -> Extremes:
@@ -111,7 +111,7 @@ def _extend_extremes(
     )
 
 
-def _peak_not_requested_error(name: str, is_error: bool) -> BadValueError:
+def _make_peak_not_requested_error(name: str, is_error: bool) -> BadValueError:
     """Return the error for a peak that was not requested, with the call that requests it.
 
     `is_error` selects the text for the error of a series against another scene.
@@ -125,7 +125,7 @@ def _peak_not_requested_error(name: str, is_error: bool) -> BadValueError:
     return BadValueError(message, hint=f'simulate(…, peaks=["{name}"]), or peaks: [{name}] in the scene of the file')
 
 
-def table_rows(
+def build_extreme_rows(
     scenes: Sequence[Sequence[Extremes]], formatters: Sequence[Callable[[float, str, float], str]], of_errors: bool
 ) -> list[tuple[str, list[str]]]:
     """Return rows (name, one cell a scene) of a table of extremes; a scene without the series has the cell "–".
@@ -140,7 +140,8 @@ def table_rows(
     for name in dict.fromkeys(name for by_name in extremes_by_scene for name in by_name):
         for end_name in ("",) if of_errors else ("max", "min"):
             cell_arguments = [
-                _extreme_cell(by_name[name], end_name) if name in by_name else None for by_name in extremes_by_scene
+                _format_extreme_cell(by_name[name], end_name) if name in by_name else None
+                for by_name in extremes_by_scene
             ]
             cell_texts = [
                 formatter(*arguments) if arguments else "–"
@@ -150,7 +151,7 @@ def table_rows(
     return rows
 
 
-def _extreme_cell(extremes: Extremes, end_name: str) -> tuple[float, str, float]:
+def _format_extreme_cell(extremes: Extremes, end_name: str) -> tuple[float, str, float]:
     """Return value, unit and time of an extreme: "max", "min", or "" for the one of the larger magnitude."""
     end_name = end_name or ("min" if -extremes.min > extremes.max else "max")
     return (
@@ -183,7 +184,7 @@ class BatchPeaks:
         return np.where(-self.min > self.max, self.t_min, self.t_max)
 
 
-def batch_extremes(
+def find_batch_extremes(
     source: KernelSource,
     runs: Sequence[Sequence[Extremes]],
     name: str,
@@ -205,7 +206,7 @@ def batch_extremes(
     ]
     first_known = next(filter(None, extremes_by_run), None)
     if first_known is None:
-        raise _peak_not_requested_error(name, is_error)
+        raise _make_peak_not_requested_error(name, is_error)
     values = {
         key: np.array([getattr(extremes, key) if extremes else np.nan for extremes in extremes_by_run]) for key in ENDS
     }
@@ -218,7 +219,7 @@ def batch_extremes(
     return BatchPeaks(name, first_known.unit, **values, against=first_known.against)
 
 
-def run_columns(runs: Sequence[Sequence[Extremes]]) -> Iterator[tuple[str, str, Array]]:
+def build_extreme_columns(runs: Sequence[Sequence[Extremes]]) -> Iterator[tuple[str, str, Array]]:
     """Yield column name, unit and values (n,) of each extreme of n runs for tables; NaN for a run without it.
 
     Columns are "S9.ay.peak.max", "S9.ay.peak.t_max", "S9.ay.error.min" and so on.
@@ -246,7 +247,7 @@ def run_columns(runs: Sequence[Sequence[Extremes]]) -> Iterator[tuple[str, str, 
             )
 
 
-def peaks_of(stored_peaks: Array, impacts: NDArray[Any], n_impacts: NDArray[np.int_]) -> NDArray[Any]:
+def build_peak_records(stored_peaks: Array, impacts: NDArray[Any], n_impacts: NDArray[np.int_]) -> NDArray[Any]:
     """Return the peak forces of all runs as PEAK_DTYPE (n, n_clearances), NaN where there is none.
 
     `stored_peaks` (n, n_clearances, N_PEAK) holds F, t and e_max. `impacts` are those of all runs one after the other,
@@ -273,7 +274,7 @@ def is_rigid_impact(impacts: NDArray[Any]) -> NDArray[np.bool_]:
     return is_instantaneous
 
 
-def first_contact_force(impacts: NDArray[Any]) -> float:
+def find_first_contact_force(impacts: NDArray[Any]) -> float:
     """Return the largest force of a joint's first contact, N; NaN for an impact of rigid surfaces, which has an impulse
     instead.
     """

@@ -18,21 +18,21 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, SolverError, UnknownNameError
-from gudgeon.integrators.trajectory import IMPACT_DTYPE, no_events
-from gudgeon.language.argument_checks import text
-from gudgeon.language.shown import counted
-from gudgeon.model.choices import specified
+from gudgeon.integrators.trajectory import IMPACT_DTYPE, make_empty_events
+from gudgeon.language.argument_checks import check_text
+from gudgeon.language.text_output import format_count
+from gudgeon.model.choices import format_parameter
 from gudgeon.model.evaluation import PARTS, Evaluation
-from gudgeon.model.left_limit import evaluation_times_of
+from gudgeon.model.left_limit import find_evaluation_times_of_result
 from gudgeon.results.diagnostics import Diagnostics, Extremes
-from gudgeon.results.shown import Shown
+from gudgeon.results.notebook_display import NotebookDisplay
 from gudgeon.results.state import Array, State
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
-    from gudgeon.integrators.trajectory import Progress, Trace
+    from gudgeon.integrators.trajectory import Envelope, Progress
     from gudgeon.model.compiled import CompiledModel
     from gudgeon.results.contact_check import ContactCheck
     from gudgeon.results.figures.animation import Animation
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(eq=False)
-class Result(Shown):
+class Result(NotebookDisplay):
     """Result of one run with N samples: `run["S9.y"]` is the (N,) series of that name (see `gudgeon.series`).
 
     A Result can be pickled: stored and computed series go with it, the scene's library computes the others after
@@ -64,9 +64,11 @@ class Result(Shown):
     work: Array  # (N, 3) J: drives, applied forces, joints with play
     impacts: Array  # IMPACT_DTYPE, a record for each onset
     diagnostics: Diagnostics
-    events: Array = field(default_factory=no_events)  # EVENT_DTYPE, by time: zero crossings of the file's `events`
+    events: Array = field(
+        default_factory=make_empty_events
+    )  # EVENT_DTYPE, by time: zero crossings of the file's `events`
     event_states: Array | None = None  # event_dtype, the same with the states there; None: see samples.py
-    trace: Trace | None = None  # envelope of forces and paths over the steps; None: there are only samples
+    trace: Envelope | None = None  # envelope of forces and paths over the steps; None: there are only samples
     stored: dict[str, Array] = field(default_factory=dict, repr=False)  # series computed or read so far
     provenance: dict[str, str] = field(default_factory=dict, repr=False)  # version, platform, compiler, date, mechanism
     start_row: Result | None = field(default=None, repr=False)  # the start (N = 1), where it was not requested
@@ -95,7 +97,7 @@ class Result(Shown):
     def __repr__(self) -> str:
         """Return mechanism, scene, number of samples and time span in one line."""
         span = f"{self.t[0]:g} … {self.t[-1]:g} s" if len(self.t) else "empty"
-        return f"<Result {self.source.mechanism}/{self.source.scene}: {counted(len(self.t), 'sample')}, {span}>"
+        return f"<Result {self.source.mechanism}/{self.source.scene}: {format_count(len(self.t), 'sample')}, {span}>"
 
     @cached_property
     def names(self) -> Mapping[str, str]:
@@ -107,14 +109,14 @@ class Result(Shown):
 
         Raises UnknownNameError with the nearest name.
         """
-        return "s" if text(name, "the name of a series") == "t" else self._series(name).unit
+        return "s" if check_text(name, "the name of a series") == "t" else self._series(name).unit
 
     def meaning(self, name: str) -> str:
         """Return the meaning of a series in one line.
 
         Raises UnknownNameError with the nearest name.
         """
-        return "time" if text(name, "the name of a series") == "t" else self._series(name).meaning
+        return "time" if check_text(name, "the name of a series") == "t" else self._series(name).meaning
 
     @cached_property
     def parameters(self) -> Mapping[str, Any]:
@@ -123,7 +125,7 @@ class Result(Shown):
         Entries of `parameters` of the file are also there by their short name.
         """
         values_by_address = {
-            parameter.address: specified(parameter, float(number))
+            parameter.address: format_parameter(parameter, float(number))
             for parameter, number in zip(self.source.slots, self.p, strict=False)
         }
         short_names = {
@@ -150,10 +152,10 @@ class Result(Shown):
         Raises UnknownNameError with the nearest event.
         """
         names = [event.name for event in self.source.events]
-        if text(name, "the name of an event") not in names:
-            from gudgeon.language.names import nearest
+        if check_text(name, "the name of an event") not in names:
+            from gudgeon.language.names import find_nearest_name
 
-            nearest_name = nearest(name, names)
+            nearest_name = find_nearest_name(name, names)
             hint = f"did you mean {nearest_name!r}?" if nearest_name else f"its events: {', '.join(names) or 'none'}"
             raise UnknownNameError(f"the scene {self.source.scene!r} has no event named {name!r}", hint=hint)
         times: Array = self.events["t"][self.events["event"] == names.index(name)]
@@ -161,9 +163,9 @@ class Result(Shown):
 
     def at_events(self, name: str) -> AtEvents:
         """Return the states at the located times of an event: `run.at_events("top")["S9.ay"]` is (k,); see AtEvents."""
-        from gudgeon.results.samples import at_events
+        from gudgeon.results.samples import select_event_states
 
-        return at_events(self, name)
+        return select_event_states(self, name)
 
     def peak(self, name: str) -> Extremes:
         """Return the largest and smallest value of a series over all steps of this run, with their times (s); SI.
@@ -171,24 +173,24 @@ class Result(Shown):
         The series must be requested by `simulate(peaks=["S9.ay"])` or `peaks:` of the scene. A run that restarts from
         another one has the peaks of its own part. Raises UnknownNameError, BadValueError.
         """
-        from gudgeon.results.peaks import over_all_steps
+        from gudgeon.results.peaks import find_extremes_over_steps
 
-        return over_all_steps(self, name, False)
+        return find_extremes_over_steps(self, name, False)
 
     def peak_error(self, name: str) -> Extremes:
         """Return the extremes of a series less that of another scene at the same times: `simulate(peaks=…,
         against=ideal)`.
         """
-        from gudgeon.results.peaks import over_all_steps
+        from gudgeon.results.peaks import find_extremes_over_steps
 
-        return over_all_steps(self, name, True)
+        return find_extremes_over_steps(self, name, True)
 
     @cached_property
     def states_at_events(self) -> Result:
         """The result whose samples are the start and then all events, by time."""
-        from gudgeon.results.samples import result_at_events
+        from gudgeon.results.samples import make_result_at_events
 
-        return result_at_events(self)
+        return make_result_at_events(self)
 
     @property
     def final(self) -> State:
@@ -198,7 +200,9 @@ class Result(Shown):
         """
         source, given_slots = self.source, zip(self.source.slots, self.given, self.is_given, strict=True)
         overridden = {
-            parameter.address: specified(parameter, float(x)) for parameter, x, is_given in given_slots if is_given
+            parameter.address: format_parameter(parameter, float(x))
+            for parameter, x, is_given in given_slots
+            if is_given
         }
         q, v, state, memory = (array[-1].copy() for array in (self.q, self.v, self.state, self.memory))
         return State(
@@ -213,7 +217,7 @@ class Result(Shown):
             source.whole_sha256,
             source.overrides,
             source.formulation,
-            source.beside,
+            source.external_files,
         )
 
     def __getstate__(self) -> dict[str, Any]:
@@ -251,7 +255,9 @@ class Result(Shown):
         """
         if self.compiled is None:
             raise GudgeonError("this result was read from a file that lacks the series; run the scene again")
-        return self.compiled.evaluate(evaluation_times_of(self, self.compiled), self.q, self.v, self.memory, self.p)
+        return self.compiled.evaluate(
+            find_evaluation_times_of_result(self, self.compiled), self.q, self.v, self.memory, self.p
+        )
 
     @property
     def plot(self) -> Plot:
@@ -284,7 +290,7 @@ class Result(Shown):
         from gudgeon.results.figures import animation
 
         options = animation.check_animation_options(self, seconds, rate, points, velocities, forces, progress)
-        return animation.animate(self, path, options)
+        return animation.write_animation(self, path, options)
 
     def report(self) -> RunReport:
         """Return a report on forces in joints with play, energies and accuracy: `print`, `.to_html()`, `.to_dict()`."""
@@ -310,7 +316,7 @@ class Result(Shown):
 
         A parameter takes precedence over an output of the same name. Raises UnknownNameError.
         """
-        if text(name, "a name of a result") in self.parameters:
+        if check_text(name, "a name of a result") in self.parameters:
             return self.parameters[name]
         if name in self:
             return self[name]
@@ -324,7 +330,7 @@ class Result(Shown):
         """
         from gudgeon.results.files import netcdf
 
-        return netcdf.dataset(self, part)
+        return netcdf.build_dataset(self, part)
 
     def to_dataframe(self, names: Iterable[str] | None = None) -> pandas.DataFrame:
         """Return series as columns of a pandas table over t (s): `names`, or all for None; SI, units in
@@ -332,7 +338,7 @@ class Result(Shown):
         """
         from gudgeon.results.files import export
 
-        return export.dataframe(self, names)
+        return export.build_dataframe(self, names)
 
     def to_csv(self, path: str | os.PathLike[str], names: Iterable[str] | None = None) -> None:
         """Write t and the series `names`, or all, as CSV in SI: a line of names, then a line for each sample with all
@@ -340,7 +346,7 @@ class Result(Shown):
         """
         from gudgeon.results.files import export
 
-        export.csv(self, path, names)
+        export.write_csv(self, path, names)
 
     def to_mat(self, path: str | os.PathLike[str], names: Iterable[str] | None = None) -> None:
         """Write t and the series `names`, or all, for MATLAB: "S9.y" as S9_y; cells `variables`, `names` and
@@ -348,7 +354,7 @@ class Result(Shown):
         """
         from gudgeon.results.files import export
 
-        export.mat(self, path, names)
+        export.write_mat(self, path, names)
 
     def save(self, path: str | os.PathLike[str], attributes: Mapping[str, str] = MappingProxyType({})) -> None:
         """Write everything to a NetCDF file, with more attributes {name: text}.
@@ -368,9 +374,9 @@ class Result(Shown):
     @cached_property
     def _catalogue(self) -> Mapping[str, Series]:
         """All series of the scene by name."""
-        from gudgeon.results.series import catalogue
+        from gudgeon.results.series import get_catalogue
 
-        return catalogue(self.source)
+        return get_catalogue(self.source)
 
     def _series(self, name: str) -> Series:
         """Return the catalogue's entry of the series `name`.
@@ -384,9 +390,9 @@ class Result(Shown):
 
     def unknown(self, name: str) -> UnknownNameError:
         """Return, without raising it, the error for a name that this result does not have, with the nearest name."""
-        from gudgeon.results.series import parameter_names, unknown_series
+        from gudgeon.results.series import list_parameter_names, make_unknown_series_error
 
-        return unknown_series(self.source, self._catalogue, name, parameter_names(self.source))
+        return make_unknown_series_error(self.source, self._catalogue, name, list_parameter_names(self.source))
 
 
 def read(path: str | os.PathLike[str]) -> Result:
@@ -410,11 +416,11 @@ class EvaluatedSamples(Result):
         """
         if self.compiled is None:
             raise GudgeonError("there is no library to evaluate samples with")
-        times = evaluation_times_of(self, self.compiled)
+        times = find_evaluation_times_of_result(self, self.compiled)
         return self.compiled.evaluate(times, self.q, self.v, self.memory, self.p, parts=self.parts)
 
 
-def bare(
+def make_evaluated_samples(
     source: KernelSource,
     compiled: CompiledModel | None,
     p: Array,
@@ -450,7 +456,7 @@ def bare(
     )
 
 
-def blank(source: KernelSource) -> EvaluatedSamples:
+def make_empty_result(source: KernelSource) -> EvaluatedSamples:
     """Return a result without samples, which has the names and units of a scene's series.
 
     It checks names and units before there are results.
@@ -458,4 +464,6 @@ def blank(source: KernelSource) -> EvaluatedSamples:
     n, n_clearances = len(source.coordinates), len(source.clearances)
     p = np.full(len(source.slots) + len(source.derived), np.nan)
     empty_arrays = np.zeros((0, n)), np.zeros((0, n)), np.zeros((0, 3)), np.zeros((0, source.n_memory))
-    return bare(source, None, p, np.zeros(0), *empty_arrays, np.zeros((0, n_clearances), np.int8), PARTS)
+    return make_evaluated_samples(
+        source, None, p, np.zeros(0), *empty_arrays, np.zeros((0, n_clearances), np.int8), PARTS
+    )

@@ -30,7 +30,7 @@ FEW = 6  # times that repr shows
 OLDER = "the file was written before states at events were kept: run the scene again"
 
 
-def without_start(run: Run) -> Run:
+def split_off_start(run: Run) -> Run:
     """Return the run without its first sample, which becomes the `start_row` of the new run.
 
     A run with fewer than two samples is returned as it is. Called if the start was not a requested output time.
@@ -43,7 +43,7 @@ def without_start(run: Run) -> Run:
     return run_without_start
 
 
-def with_start(run: Run) -> Run:
+def join_start(run: Run) -> Run:
     """Return the run with its start as the first sample; the run itself if its samples include the start.
 
     Series computed so far are kept if they are known for the start too.
@@ -129,13 +129,13 @@ class AtEvents:
         return self.all.unit(name)
 
 
-def result_at_events(run: Result) -> Result:
+def make_result_at_events(run: Result) -> Result:
     """Return a result whose samples are the start of the run and then all its events, by time.
 
     Stored states are used; the motion of a kinematically driven scene is computed again. Raises GudgeonError if neither
     is possible.
     """
-    run, event_states, n = with_start(run), run.event_states, run.q.shape[1]
+    run, event_states, n = join_start(run), run.event_states, run.q.shape[1]
     if event_states is None:
         repeated_motion = _recompute_motion(run)
         sample_indices = np.searchsorted(repeated_motion.t, run.events["t"])
@@ -166,10 +166,10 @@ def result_at_events(run: Result) -> Result:
             for run_array, event_array in zip(start_arrays, event_arrays, strict=True)
         ]
     q, v, work, memory, state = arrays
-    return result_of_rows(run, run.events["t"], q, v, work, memory, state)
+    return make_result_of_samples(run, run.events["t"], q, v, work, memory, state)
 
 
-def result_of_rows(run: Result, t: Array, *parts: Array) -> Result:
+def make_result_of_samples(run: Result, t: Array, *parts: Array) -> Result:
     """Return a copy of a result with other samples: the start, then one for each of the times t.
 
     `parts` are q, v, works, memory and contact state at these samples, start included. Accelerations, envelope and
@@ -206,7 +206,7 @@ def _recompute_motion(run: Result) -> Trajectory:
         raise GudgeonError(f"method {run.diagnostics.method!r} keeps no states at events")
     times = np.union1d(run.t, run.events["t"])
     problem = Problem(run.compiled, run.p, times, run.q[0], run.v[0], np.zeros(0), np.inf, stop=False)
-    trajectory = kinematic.run(problem)
+    trajectory = kinematic.integrate_kinematic(problem)
     if trajectory.interrupted:
         raise KeyboardInterrupt
     if trajectory.stopped is not None and trajectory.t[-1] < times[-1]:
@@ -214,7 +214,7 @@ def _recompute_motion(run: Result) -> Trajectory:
     return trajectory
 
 
-def at_events(run: Result, name: str) -> AtEvents:
+def select_event_states(run: Result, name: str) -> AtEvents:
     """Return the states at the event `name` of a run, by time; see Result.at_events.
 
     Raises UnknownNameError for a name that is not an event of the file.

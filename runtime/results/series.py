@@ -30,9 +30,9 @@ from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import JointInfo, KernelSource, PointInfo
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language import tree as expression_tree
-from gudgeon.language.argument_checks import message, refuse, text, whole
-from gudgeon.language.names import near
-from gudgeon.language.output_units import unit_of
+from gudgeon.language.argument_checks import check_integer, check_text, raise_bad_value, shorten_value
+from gudgeon.language.names import find_near_names
+from gudgeon.language.output_units import derive_unit
 from gudgeon.results.state import Array
 
 if TYPE_CHECKING:
@@ -93,7 +93,7 @@ class Series:
 _catalogues: dict[int, tuple[Any, Mapping[str, Series]]] = {}  # by the id of a source; a callback would lose a Ctrl-C
 
 
-def catalogue(source: KernelSource) -> Mapping[str, Series]:
+def get_catalogue(source: KernelSource) -> Mapping[str, Series]:
     """Return all series of a scene by name, read-only, in the order of lists and files; cached for each source."""
     if (entry := _catalogues.get(id(source))) is None or entry[0]() is not source:
         for stale_key in [key for key, (reference, _) in list(_catalogues.items()) if reference() is None]:
@@ -107,34 +107,34 @@ def _build_catalogue(source: KernelSource) -> dict[str, Series]:
     that need masses are left out if a body has none, and outputs if a name in their expression is missing.
     """
     series_by_name: dict[str, Series] = {}
-    for series_of in (_body_series, _point_series, *(_MOTION_ALONE if source.massless else _PARTS)):
+    for series_of in (_iterate_body_series, _iterate_point_series, *(_MOTION_ALONE if source.massless else _PARTS)):
         series_by_name.update(series_of(source))
     for name, expression_json in source.outputs.items():
-        if not missing_names(source, expression_json, series_by_name):
-            series_by_name[name] = _output_series(source, name, expression_json, series_by_name)
+        if not find_missing_names(source, expression_json, series_by_name):
+            series_by_name[name] = _make_output_series(source, name, expression_json, series_by_name)
     return series_by_name
 
 
 MASSLESS_HINT = "give every body mass: and inertia:, or a shape: with a density"
 
 
-def without_masses(source: KernelSource) -> str:
+def explain_missing_masses(source: KernelSource) -> str:
     """Return why quantities that depend on masses are unknown ("S9 has no mass or no inertia"); "" if all are known."""
     if not source.massless:
         return ""
     return f"{', '.join(source.massless)} {'has' if len(source.massless) == 1 else 'have'} no mass or no inertia"
 
 
-def missing_names(source: KernelSource, expression_json: Any, available: Container[str]) -> list[str]:
+def find_missing_names(source: KernelSource, expression_json: Any, available: Container[str]) -> list[str]:
     """Return the names in an output's expression that this scene does not have, such as A.Fn where A has no play.
     `available` contains the names of series; parameters and t are always available.
     """
     parameter_names = {parameter.address.removeprefix("parameters.") for parameter in source.slots} | {"t"}
-    used_names = [name.path for name in expression_tree.names(expression_tree.from_json(expression_json))]
+    used_names = [name.path for name in expression_tree.iterate_names(expression_tree.from_json(expression_json))]
     return [path for path in dict.fromkeys(used_names) if path not in available and path not in parameter_names]
 
 
-def rates(name: str) -> tuple[str, str]:
+def find_rate_names(name: str) -> tuple[str, str]:
     """Return velocity and acceleration of a position by name: "S9.y" → ("S9.vy", "S9.ay"); ("", "") for others."""
     prefix, _, quantity = name.rpartition(".")
     for position, velocity, acceleration in MOTION:
@@ -143,50 +143,49 @@ def rates(name: str) -> tuple[str, str]:
     return "", ""
 
 
-def _body_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _iterate_body_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     """Yield (name, series) of positions, velocities and accelerations of each body's centre of mass."""
     for body in source.bodies:
         for axis in range(3):
             for order, array in enumerate(("q", "v", "a")):
                 meaning = f"{body.name}, {MOTION_WORDS[order]}{_AXES[axis]} of the centre of mass"
-                series = _stored_series(MOTION_UNITS[axis][order], meaning, array, body.index + axis)
+                series = _make_stored_series(MOTION_UNITS[axis][order], meaning, array, body.index + axis)
                 yield f"{body.name}.{MOTION[axis][order]}", series
 
 
 _AXES = ("x", "y", "angle")
 
 
-def _stored_series(unit: str, meaning: str, array: str, column: int) -> Series:
+def _make_stored_series(unit: str, meaning: str, array: str, column: int) -> Series:
     """Return the series that is a column of a stored or, for accelerations, evaluated array, such as q or a."""
     parts = frozenset({"a"} if array == "a" else ())
-    return Series(unit, meaning, partial(_stored_column, array=array, column=column), parts, (array, column))
+    return Series(unit, meaning, partial(_get_stored_column, array=array, column=column), parts, (array, column))
 
 
-def _evaluated_series(unit: str, meaning: str, part: str, *index: int) -> Series:
+def _make_evaluated_series(unit: str, meaning: str, part: str, *index: int) -> Series:
     """Return the series that is a column of a part of the Evaluation; `index` follows the index of the sample."""
-    return Series(
-        unit, meaning, partial(_evaluated_column, part=part, index=index), frozenset({part}), None, (part, index)
-    )
+    compute = partial(_get_evaluated_column, part=part, index=index)
+    return Series(unit, meaning, compute, frozenset({part}), None, (part, index))
 
 
-def _stored_column(run: Result, array: str, column: int) -> Array:
+def _get_stored_column(run: Result, array: str, column: int) -> Array:
     """Return a column (N,) of a stored array of the run."""
     values: Array = getattr(run, array)
     return values[:, column]
 
 
-def _point_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _iterate_point_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     """Yield (name, series) of positions and, except on the ground, velocities and accelerations of each named point."""
     for point in source.points:
         for order in range(3 if point.body >= 0 else 1):  # a point of the ground rests
             for axis in range(2):
                 meaning = f"point {point.name}, {MOTION_WORDS[order]}{_AXES[axis]} in ground axes"
-                compute = partial(point_motion, point=point, axis=axis, order=order)
+                compute = partial(compute_point_motion, point=point, axis=axis, order=order)
                 parts = frozenset({"a"} if order == 2 else ())
                 yield f"{point.name}.{MOTION[axis][order]}", Series(MOTION_UNITS[axis][order], meaning, compute, parts)
 
 
-def point_motion(run: Result, point: PointInfo, axis: int, order: int) -> Array:
+def compute_point_motion(run: Result, point: PointInfo, axis: int, order: int) -> Array:
     """Return a coordinate of a point, or its first or second time derivative (order 0, 1, 2), (N,), SI. r_P = r + A(θ)
     s with s = (x, y) in the body's frame; axis 0 is x, 1 is y in ground axes. A point of the ground is constant.
     """
@@ -205,76 +204,76 @@ def point_motion(run: Result, point: PointInfo, axis: int, order: int) -> Array:
     return run.a[:, index + axis] + run.a[:, index + 2] * arm_derivative - run.v[:, index + 2] ** 2 * lever[axis]
 
 
-def _joint_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _iterate_joint_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     """Yield (name, series) of the reactions Fx, Fy, M and F at joints without play."""
     for k, joint in enumerate(source.joints):
         is_own_point = joint.point.startswith(f"{source.bodies[joint.second].name if joint.second >= 0 else 'ground'}.")
-        location = f"{_body_name(source, joint.second)} at {'its point' if is_own_point else 'the pin'}"
-        yield from _reaction_series(joint.name, k, "reaction", f"joint {joint.name}, on {location}, ground axes")
+        location = f"{_get_body_name(source, joint.second)} at {'its point' if is_own_point else 'the pin'}"
+        location_text = f"joint {joint.name}, on {location}, ground axes"
+        yield from _iterate_reaction_series(joint.name, k, "reaction", location_text)
 
 
-def _guide_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _iterate_guide_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     """Yield (name, series) of the summed corner forces of each guide with play, named like an ideal reaction."""
-    second_body = {joint.joint: _body_name(source, joint.second) for joint in source.clearances}
+    second_body = {joint.joint: _get_body_name(source, joint.second) for joint in source.clearances}
     for k, name in enumerate(source.guides, len(source.joints)):
-        yield from _reaction_series(
+        yield from _iterate_reaction_series(
             name, k, "contact", f"all corners of {name}, on {second_body[name]} at its point, ground axes"
         )
 
 
-def _reaction_series(name: str, row: int, kind: str, location: str) -> Iterator[tuple[str, Series]]:
+def _iterate_reaction_series(name: str, row: int, kind: str, location: str) -> Iterator[tuple[str, Series]]:
     """Yield (name, series) Fx, Fy, M and F of a joint or guide, from a row of Evaluation.reactions."""
     for column, (component, unit, quantity) in enumerate(REACTION):
-        yield f"{name}.{component}", _evaluated_series(unit, f"{kind} {quantity}: {location}", "reactions", row, column)
-    compute_magnitude = partial(_magnitude, name=name)
+        series = _make_evaluated_series(unit, f"{kind} {quantity}: {location}", "reactions", row, column)
+        yield f"{name}.{component}", series
+    compute_magnitude = partial(_compute_magnitude, name=name)
     yield f"{name}.F", Series("N", f"{kind} force, magnitude: {location}", compute_magnitude, frozenset({"reactions"}))
 
 
-def _body_name(source: KernelSource, body: int) -> str:
+def _get_body_name(source: KernelSource, body: int) -> str:
     """Return the name of a body; "the ground" for −1."""
     return source.bodies[body].name if body >= 0 else "the ground"
 
 
-def _evaluated_column(run: Result, part: str, index: tuple[int, ...]) -> Array:
+def _get_evaluated_column(run: Result, part: str, index: tuple[int, ...]) -> Array:
     """Return a column (N,) of a part of the run's Evaluation."""
     values: Array = getattr(run.evaluation, part)[(slice(None), *index)]
     return values
 
 
-def _magnitude(run: Result, name: str) -> Array:
+def _compute_magnitude(run: Result, name: str) -> Array:
     """Return the magnitude (N,) of the series name.Fx, name.Fy."""
     return np.hypot(run[f"{name}.Fx"], run[f"{name}.Fy"])
 
 
-def _clearance_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _iterate_clearance_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     """Yield (name, series) of each joint with play or slider's corner: forces, eccentricity, contact state."""
     for k, joint in enumerate(source.clearances):
-        suffix, parts = f": {'corner' if joint.at_wall else 'joint'} {joint.name} with play", frozenset({"clearance"})
+        suffix, parts = f": {'corner' if joint.is_corner else 'joint'} {joint.name} with play", frozenset({"clearance"})
         meanings = (
-            AT_WALL if joint.at_wall else {"F": "force on the journal, magnitude", "eps": "eccentricity ratio e/c"}
+            AT_WALL if joint.is_corner else {"F": "force on the journal, magnitude", "eps": "eccentricity ratio e/c"}
         )
         for name, (column, unit, meaning) in CLEARANCE.items():
-            yield (
-                f"{joint.name}.{name}",
-                _evaluated_series(unit, meanings.get(name, meaning) + suffix, "clearance", k, column),
-            )
-        yield f"{joint.name}.F", Series("N", meanings["F"] + suffix, partial(_magnitude, name=joint.name), parts)
-        yield (
-            f"{joint.name}.eps",
-            Series("", meanings["eps"] + suffix, partial(_eccentricity_ratio, joint=joint), parts),
-        )
+            series = _make_evaluated_series(unit, meanings.get(name, meaning) + suffix, "clearance", k, column)
+            yield f"{joint.name}.{name}", series
+        compute_magnitude = partial(_compute_magnitude, name=joint.name)
+        yield f"{joint.name}.F", Series("N", meanings["F"] + suffix, compute_magnitude, parts)
+        compute_ratio = partial(_eccentricity_ratio, joint=joint)
+        yield f"{joint.name}.eps", Series("", meanings["eps"] + suffix, compute_ratio, parts)
         states = "0 free, 1 impact (until the penetration first stops growing), 2 contact"
-        yield f"{joint.name}.state", _stored_series("", f"{states}{suffix}", "state", k)
-        approach_speed = _stored_series("m/s", f"rate of penetration at the last onset{suffix}", "memory", k)
+        yield f"{joint.name}.state", _make_stored_series("", f"{states}{suffix}", "state", k)
+        approach_speed = _make_stored_series("m/s", f"rate of penetration at the last onset{suffix}", "memory", k)
         yield f"{joint.name}.deltadot_minus", approach_speed
 
 
-def _state_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _iterate_state_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     """Yield (name, series) of state variables of friction laws, such as bristle deflections, without unnamed ones."""
     first_index = len(source.clearances) + len(source.frictions)
     for k, name in enumerate(source.states):
         if name:
-            yield name, _stored_series("m", "inner state of the joint's law of friction", "memory", first_index + k)
+            meaning = "inner state of the joint's law of friction"
+            yield name, _make_stored_series("m", meaning, "memory", first_index + k)
 
 
 def _eccentricity_ratio(run: Result, joint: ClearanceInfo) -> Array:
@@ -282,93 +281,95 @@ def _eccentricity_ratio(run: Result, joint: ClearanceInfo) -> Array:
     return run[f"{joint.name}.e"] / run.p[joint.clearance]
 
 
-def _drive_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _iterate_drive_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     """Yield (name, series) of the torque of each rotational drive, and of the force of each other drive."""
     for k, drive in enumerate(source.drives):
         is_rotational = drive.unit == "rad"
         name, unit = ("torque", "N*m") if is_rotational else ("force", "N")
-        yield f"{drive.name}.{name}", _evaluated_series(unit, f"{name} of drive {drive.name}", "torques", k)
+        yield f"{drive.name}.{name}", _make_evaluated_series(unit, f"{name} of drive {drive.name}", "torques", k)
 
 
-def drive_series(source: KernelSource) -> list[str]:
+def list_drive_series(source: KernelSource) -> list[str]:
     """Return the names of the series of the drives' torques and forces."""
-    return [name for name, _ in _drive_series(source)]
+    return [name for name, _ in _iterate_drive_series(source)]
 
 
-def _friction_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _iterate_friction_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     """Yield (name, series) of each set-valued friction element: force F, slip v and mode."""
     first_index = len(source.clearances)
     for k, name in enumerate(source.frictions):
-        yield f"{name}.F", _evaluated_series("N", "friction on the second body", "friction", k, 0)
-        yield f"{name}.v", _evaluated_series("m/s", "slip", "friction", k, 1)
+        yield f"{name}.F", _make_evaluated_series("N", "friction on the second body", "friction", k, 0)
+        yield f"{name}.v", _make_evaluated_series("m/s", "slip", "friction", k, 1)
         modes = "0 stick, 2 at rest by other rows, else the sign of the slip"
-        yield f"{name}.mode", _stored_series("", modes, "memory", first_index + k)
+        yield f"{name}.mode", _make_stored_series("", modes, "memory", first_index + k)
 
 
-def _element_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _iterate_element_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     """Yield the series of results of force elements."""
     for k, series in enumerate(source.series):
-        yield series.name, _evaluated_series(series.unit, "result of a force element", "series", k)
+        yield series.name, _make_evaluated_series(series.unit, "result of a force element", "series", k)
 
 
-def _multiplier_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _iterate_multiplier_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     """Yield (name, series) of the Lagrange multiplier of each constraint equation: "lambda.NAME"."""
     for k, row in enumerate(source.rows):
         unit = "N" if row.unit == "m" else "N*m"
         yield (
             f"lambda.{row.name}",
-            _evaluated_series(unit, f"multiplier of the constraint {row.name}", "multipliers", k),
+            _make_evaluated_series(unit, f"multiplier of the constraint {row.name}", "multipliers", k),
         )
 
 
-def _energy_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _iterate_energy_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     """Yield (name, series) of kinetic and potential energy, the energy residual and the works."""
     for k, name in enumerate(("kinetic", "potential")):
-        yield f"energy.{name}", _evaluated_series("J", f"{name} energy", "energy", k)
+        yield f"energy.{name}", _make_evaluated_series("J", f"{name} energy", "energy", k)
     meaning_of_residual = "kinetic + potential energy less their start less all work"
-    yield "energy.residual", Series("J", meaning_of_residual, _energy_residual, frozenset({"energy"}))
+    yield "energy.residual", Series("J", meaning_of_residual, _compute_energy_residual, frozenset({"energy"}))
     for k, name in enumerate(("drives", "forces", "clearances")):
         meaning = f"work done so far by the {'joints with play' if name == 'clearances' else name}"
-        yield f"work.{name}", _stored_series("J", meaning, "work", k)
+        yield f"work.{name}", _make_stored_series("J", meaning, "work", k)
 
 
 DRIFT = ("Phi.max", "Phi_dot.max")
 
 
-def _drift_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _iterate_drift_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     """Yield (name, series) of the constraint drift, the largest |Φ| and |Φ̇|; lengths and angles count as numbers."""
     units = ("|Φ|: m of rows of lengths, rad of rows of angles", "|Φ̇|: m/s of rows of lengths, rad/s of rows of angles")
     for k, name in enumerate(DRIFT):
-        yield name, _evaluated_series("", f"drift, the largest {units[k]}", "drift", k)
+        yield name, _make_evaluated_series("", f"drift, the largest {units[k]}", "drift", k)
 
 
 # series in addition to motion, with masses and without
 _PARTS = (
-    _joint_series,
-    _clearance_series,
-    _guide_series,
-    _state_series,
-    _drive_series,
-    _element_series,
-    _friction_series,
-    _multiplier_series,
-    _energy_series,
-    _drift_series,
+    _iterate_joint_series,
+    _iterate_clearance_series,
+    _iterate_guide_series,
+    _iterate_state_series,
+    _iterate_drive_series,
+    _iterate_element_series,
+    _iterate_friction_series,
+    _iterate_multiplier_series,
+    _iterate_energy_series,
+    _iterate_drift_series,
 )
-_MOTION_ALONE = (_element_series, _drift_series)
+_MOTION_ALONE = (_iterate_element_series, _iterate_drift_series)
 
 
-def _energy_residual(run: Result) -> Array:
+def _compute_energy_residual(run: Result) -> Array:
     """Return the energy residual (N,), J: kinetic plus potential energy, less their start, less all work."""
     energy, initial = (x["energy.kinetic"] + x["energy.potential"] for x in (run, run.start_row or run))
     return energy - initial[0] - (run["work.drives"] + run["work.forces"] + run["work.clearances"])
 
 
-def _output_series(source: KernelSource, name: str, expression_json: Any, known: Mapping[str, Series]) -> Series:
+def _make_output_series(
+    source: KernelSource, name: str, expression_json: Any, series_by_name: Mapping[str, Series]
+) -> Series:
     """Return the series of an output of the mechanism file, from its expression and the series `known` before it."""
     expression = expression_tree.from_json(expression_json)
-    used_names = {name_node.path for name_node in expression_tree.names(expression)}
-    units = {"t": "s"} | {path: known[path].unit for path in used_names if path in known}
+    used_names = {name_node.path for name_node in expression_tree.iterate_names(expression)}
+    units = {"t": "s"} | {path: series_by_name[path].unit for path in used_names if path in series_by_name}
     units |= {parameter.address.removeprefix("parameters."): parameter.unit for parameter in source.slots}
     units |= {parameter.address: parameter.unit for parameter in source.slots}
 
@@ -377,70 +378,70 @@ def _output_series(source: KernelSource, name: str, expression_json: Any, known:
         values = expression_tree.evaluate(expression, run.value_of)
         return np.array(np.broadcast_to(values, run.t.shape), dtype=float)
 
-    parts = frozenset(part for path in used_names if path in known for part in known[path].parts)
-    return Series(unit_of(expression, units.get), f"output {name}", compute, parts)
+    parts = frozenset(part for path in used_names if path in series_by_name for part in series_by_name[path].parts)
+    return Series(derive_unit(expression, units.get), f"output {name}", compute, parts)
 
 
-def unknown_series(
+def make_unknown_series_error(
     source: KernelSource, available: Mapping[str, Series], name: Any, parameters: Iterable[str]
 ) -> UnknownNameError:
     """Return, without raising it, the error for a name that is not in `available`, with nearest names and the reason.
     The reason may be: not a text, a parameter, an output that needs other names, a body without masses.
     """
     if not isinstance(name, str):
-        return UnknownNameError(f"nothing is named {message(name)}", hint="a name is a text: run.names lists all")
+        return UnknownNameError(f"nothing is named {shorten_value(name)}", hint="a name is a text: run.names lists all")
     if name in parameters:
         similar_series = ", ".join(path for path in available if path.rpartition(".")[2] == name)
         hint = f'its value is run.parameters["{name}"]' + (f"; series: {similar_series}" if similar_series else "")
         return UnknownNameError(f"{name!r} is a parameter, no series", hint=hint)
     if name in source.outputs:
-        missing = ", ".join(missing_names(source, source.outputs[name], available))
+        missing = ", ".join(find_missing_names(source, source.outputs[name], available))
         hint = "a joint's play, contact and reaction have results only in the scenes that have them"
         hint = MASSLESS_HINT if source.massless else hint
         return UnknownNameError(f"output {name!r} needs {missing}, which scene {source.scene!r} lacks", hint=hint)
-    if (reason := without_masses(source)) and name in catalogue(replace(source, massless=())):
+    if (reason := explain_missing_masses(source)) and name in get_catalogue(replace(source, massless=())):
         return UnknownNameError(f"{name!r} is not known: {reason}", hint=MASSLESS_HINT)
-    nearest_names = near(name, available)
+    nearest_names = find_near_names(name, available)
     hint = f"nearest: {', '.join(nearest_names)}" if nearest_names else "run.names lists all names"
     return UnknownNameError(f"the scene {source.scene!r} has nothing named {name!r}", hint=hint)
 
 
 def check_series(source: KernelSource, names: Iterable[Any]) -> tuple[str, ...]:
     """Return names of series as a tuple, each once. Raises UnknownNameError for a name that the scene lacks."""
-    available, name_list = catalogue(source), list(names)
+    available, name_list = get_catalogue(source), list(names)
     for name in name_list:
         if not isinstance(name, str) or name not in available:
-            raise unknown_series(source, available, name, parameter_names(source))
+            raise make_unknown_series_error(source, available, name, list_parameter_names(source))
     return tuple(dict.fromkeys(name_list))
 
 
-def parameter_names(source: KernelSource) -> set[str]:
+def list_parameter_names(source: KernelSource) -> set[str]:
     """Return the addresses of a scene's run-time parameters, and the short names of its `parameters`."""
     addresses = {parameter.address for parameter in source.slots}
     return addresses | {address.removeprefix("parameters.") for address in addresses}
 
 
-def default_watch(reference: Result) -> tuple[str, ...]:
+def choose_watched_series(reference: Result) -> tuple[str, ...]:
     """Return the names of the series to show by default. For each slider on the ground it is the coordinate x or y that
     moves further in `reference`. Without sliders they are the outputs, or else the angle of the last body.
     """
     slider_series, source = [], reference.source
-    guided_bodies = [joint.second for joint in source.clearances if joint.at_wall and joint.first < 0]
-    for k in [joint.second for joint in rigid_guides(source) if joint.first < 0] + guided_bodies:
+    guided_bodies = [joint.second for joint in source.clearances if joint.is_corner and joint.first < 0]
+    for k in [joint.second for joint in find_rigid_guides(source) if joint.first < 0] + guided_bodies:
         body = source.bodies[k].name
         slider_series.append(max((f"{body}.x", f"{body}.y"), key=lambda name: float(np.ptp(reference[name]))))
     last_body = reference.source.bodies[-1].name
     return tuple(dict.fromkeys(slider_series)) or tuple(reference.source.outputs) or (f"{last_body}.theta",)
 
 
-def rigid_guides(source: KernelSource) -> list[JointInfo]:
+def find_rigid_guides(source: KernelSource) -> list[JointInfo]:
     """Return the joints without play of the kind whose play is that of a guide. The kind is named here, since a warm
     run does not import the generator, which has the joints' declarations.
     """
     return [joint for joint in source.joints if joint.kind == "translational"]
 
 
-def rate_of(t: Array) -> float:
+def compute_sampling_rate(t: Array) -> float:
     """Return the sampling rate, Hz, of times (N,). Raises BadValueError for fewer than nine or uneven times."""
     intervals = np.diff(t)
     if len(intervals) < 8 or not np.all(np.abs(intervals - intervals.mean()) <= EVEN * intervals.mean()):
@@ -451,16 +452,16 @@ def rate_of(t: Array) -> float:
     return float(1.0 / intervals.mean())
 
 
-def spectrum(t: Array, values: Array, window: str = "hann") -> tuple[Array, Array]:
+def compute_spectrum(t: Array, values: Array, window: str = "hann") -> tuple[Array, Array]:
     """Return frequencies (Hz) and amplitudes (M,) of a series; a sine of amplitude A on a line has the amplitude A. The
     spectrum is one-sided, of the values less their mean, under a window of scipy.signal.windows divided by its mean.
     Raises BadValueError for another window, uneven times or values that are not finite.
     """
     from scipy.signal import get_window
 
-    if text(window, "window") not in WINDOWS:
-        refuse("window", window, f"one of {', '.join(WINDOWS)}")
-    sampling_rate, window_values = rate_of(t), get_window(window, len(t))
+    if check_text(window, "window") not in WINDOWS:
+        raise_bad_value("window", window, f"one of {', '.join(WINDOWS)}")
+    sampling_rate, window_values = compute_sampling_rate(t), get_window(window, len(t))
     check_finite(values)
     amplitudes = np.abs(np.fft.rfft((values - values.mean()) * window_values)) / window_values.sum()
     amplitudes[1 : (len(t) + 1) // 2] *= 2.0  # what is at −f, but for that at half the rate
@@ -475,7 +476,7 @@ def low_pass(t: Array, values: Array, cutoff: float, order: int = 2, causal: boo
     """
     from scipy.signal import butter, sosfilt, sosfilt_zi, sosfiltfilt
 
-    sampling_rate, order = rate_of(t), whole(order, "order", 1, MOST_ORDER)
+    sampling_rate, order = compute_sampling_rate(t), check_integer(order, "order", 1, MOST_ORDER)
     check_finite(values)
     if not 0.0 < cutoff < 0.499 * sampling_rate:
         message = f"cutoff: {cutoff:g} Hz with {sampling_rate:g} samples a second: expected one below half of that"

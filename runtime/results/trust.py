@@ -1,3 +1,3 @@
-"""Former name of reports/run_report.py, kept because the reference named it."""
+"""Keep the former name of reports/run_report.py, so that older programs can still import it."""
 
 from gudgeon.results.reports.run_report import RunReport  # noqa: F401

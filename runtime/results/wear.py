@@ -1,4 +1,4 @@
-"""Own the wear of a joint with play: Archard's or Reye's volume, as depth over both circumferences.
+"""Own the computed wear of a joint with play: volume by Archard's or Reye's law, and depth along both surfaces.
 
 J. F. Archard, J. Appl. Phys. 24 (1953) 981: V = k F_n s/H, with the normal force F_n, the sliding distance s, the
 hardness H and a pure number k. T. Reye, Der Civilingenieur 4 (1860) 235: a volume proportional to the work of friction,
@@ -87,7 +87,7 @@ class Surface:
     @property
     def deepest_angle(self) -> float:
         """Angle of the middle of the deepest cell, rad, within 0 and 2π; NaN without wear."""
-        return float(cell_angles(len(self.depth))[self.depth.argmax()]) if self.deepest > 0.0 else np.nan
+        return float(compute_cell_angles(len(self.depth))[self.depth.argmax()]) if self.deepest > 0.0 else np.nan
 
     @property
     def depth_per_hour(self) -> Array:
@@ -105,7 +105,7 @@ class Surface:
 
         Returns NaN without wear.
         """
-        return arc(self.depth, share)
+        return compute_shortest_arc(self.depth, share)
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,7 +162,7 @@ class Wear:
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write angle (rad) and both depths (m) as CSV, with a line for each cell and all digits."""
         from gudgeon.files.writing import write_bytes
-        from gudgeon.language.argument_checks import path as named
+        from gudgeon.language.argument_checks import check_path as named
 
         rows = zip(self.angle.tolist(), self.bearing.depth.tolist(), self.journal.depth.tolist(), strict=True)
         text = "".join(f"{angle!r},{bearing!r},{journal!r}\n" for angle, bearing, journal in rows)
@@ -248,24 +248,24 @@ class Worn:
             "peak": (dimensions, np.stack([joint.peak for joint in joints]), {"units": "N"}),
         }
         n_cells = joints[0].depth.shape[2]
-        coordinates = {"joint": names, "angle": ("angle", cell_angles(n_cells), {"units": "rad"})}
+        coordinates = {"joint": names, "angle": ("angle", compute_cell_angles(n_cells), {"units": "rad"})}
         attributes = {"law": self.law, "rate": self.rate, "scale": self.scale, "title": self.title}
         return xarray.Dataset(columns, coordinates, attributes)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the Dataset of `to_xarray` as one complete NetCDF file, which `xarray.open_dataset` reads."""
         from gudgeon.files.writing import write_bytes
-        from gudgeon.language.argument_checks import path as named
+        from gudgeon.language.argument_checks import check_path as named
 
         write_bytes(named(path, "path"), bytes(self.to_xarray().to_netcdf(engine="h5netcdf")))
 
 
-def cell_angles(points: int) -> Array:
+def compute_cell_angles(points: int) -> Array:
     """Return the angles of the middles of `points` equal cells of a circumference, (points,), rad."""
     return (np.arange(points) + 0.5) * (2.0 * np.pi / points)
 
 
-def arc(depths: Array, share: float = SHARE) -> float:
+def compute_shortest_arc(depths: Array, share: float = SHARE) -> float:
     """Return the length in rad of the shortest arc of whole cells that contains the fraction `share` of the sum of
     `depths` (points,).
 
@@ -280,7 +280,7 @@ def arc(depths: Array, share: float = SHARE) -> float:
     return float((end_cells - np.arange(n_cells)).min()) * 2.0 * np.pi / n_cells
 
 
-def bearing_of(source: KernelSource, joint: str) -> tuple[int, int, int]:
+def find_bearing_parameters(source: KernelSource, joint: str) -> tuple[int, int, int]:
     """Return the indices in p of the radii of bearing and journal, and of the pin's length, for a joint with play."""
     clearance = next(joint_info for joint_info in source.clearances if joint_info.name == joint)
     radius = clearance.constants["R_i"]
@@ -289,7 +289,7 @@ def bearing_of(source: KernelSource, joint: str) -> tuple[int, int, int]:
     return radius, clearance.constants["R_j"], length
 
 
-def spread(points: int, low: Array, high: Array, loads: Array, half: Array | None = None) -> Array:
+def distribute_loads(points: int, low: Array, high: Array, loads: Array, half: Array | None = None) -> Array:
     """Return loads (r, K) distributed evenly over arcs from `low` to `high` (K,), rad, as sums by cell, (r, points).
 
     With `half` (K,), rad, the load of each point of an arc is a parabola that vanishes at that distance on both sides.
@@ -304,7 +304,7 @@ def spread(points: int, low: Array, high: Array, loads: Array, half: Array | Non
     arc_indices = np.repeat(np.arange(len(begin)), n_cells)
     cell = first_cells[arc_indices] + np.arange(len(arc_indices)) - np.repeat(np.cumsum(n_cells) - n_cells, n_cells)
     fraction_left, fraction_right = (
-        _fraction_below(
+        _compute_fraction_below(
             edge, begin[arc_indices], end[arc_indices], None if half is None else half_width_cells[arc_indices]
         )
         for edge in (cell, cell + 1)
@@ -317,7 +317,7 @@ def spread(points: int, low: Array, high: Array, loads: Array, half: Array | Non
     )
 
 
-def _fraction_below(x: Array, begin: Array, end: Array, half_width: Array | None) -> Array:
+def _compute_fraction_below(x: Array, begin: Array, end: Array, half_width: Array | None) -> Array:
     """Return the fraction of the load of an arc from `begin` to `end` that lies below x, element by element.
 
     With `half_width`, each point of the arc carries a parabola of that half width instead of a point load.
@@ -326,13 +326,13 @@ def _fraction_below(x: Array, begin: Array, end: Array, half_width: Array | None
         return np.asarray(np.clip((x - begin) / (end - begin), 0.0, 1.0))
     half_width = np.maximum(half_width, 1e-9)
     return np.asarray(
-        (_parabola_integral((x - begin) / half_width) - _parabola_integral((x - end) / half_width))
+        (_integrate_parabola((x - begin) / half_width) - _integrate_parabola((x - end) / half_width))
         * half_width
         / (end - begin)
     )
 
 
-def _parabola_integral(s: Array) -> Array:
+def _integrate_parabola(s: Array) -> Array:
     """Return twice the integral of 3/4 (1 − s²) from −1 to s; the parabola has unit area within ±1."""
     inside = np.clip(s, -1.0, 1.0)
     return np.asarray((0.75 + inside * (2.0 + inside * (1.5 - 0.25 * inside**2))) / 4.0 + np.maximum(s - 1.0, 0.0))

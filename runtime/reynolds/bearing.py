@@ -1,4 +1,4 @@
-"""Define a bearing with its oil, checks of arguments, and the solved film in SI units and the frame of the caller."""
+"""Define a journal bearing with its oil, and its solved film in SI units and in the axes of the caller."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError
-from gudgeon.language.argument_checks import is_whole, message, positive
+from gudgeon.language.argument_checks import check_positive, is_integer, shorten_value
 from gudgeon.model.arrays import as_c_array
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ class Bearing:
     def __post_init__(self) -> None:
         """Convert all values to floats and raise BadValueError for values outside the ranges of the class."""
         for field in fields(self):
-            object.__setattr__(self, field.name, positive(getattr(self, field.name), field.name))
+            object.__setattr__(self, field.name, check_positive(getattr(self, field.name), field.name))
         if self.clearance >= 0.1 * self.radius:
             given = f"clearance is {self.clearance:g} m, radius {self.radius:g} m"
             raise BadValueError(f"{given}: expected a clearance below a tenth of the radius")
@@ -59,7 +59,7 @@ class Bearing:
         return 12.0 * self.viscosity * (self.radius / self.clearance) ** 2
 
 
-def pair(vector: ArrayLike, name: str) -> tuple[float, float]:
+def check_vector(vector: ArrayLike, name: str) -> tuple[float, float]:
     """Return two finite components (x, y) of an array-like argument. Raises BadValueError with its `name`."""
     x, y = as_c_array(vector, name, (2,), finite=True)
     return float(x), float(y)
@@ -72,28 +72,28 @@ def check_eccentricity(ratio: float) -> None:
         raise BadValueError(given, hint="beyond it there is no film")
 
 
-def choice(value: object, name: str, allowed: Sequence[str]) -> str:
+def check_choice(value: object, name: str, allowed: Sequence[str]) -> str:
     """Return the value if it is one of the allowed texts, else raise BadValueError with the `name` of the argument."""
     if not isinstance(value, str) or value not in allowed:
-        raise BadValueError(f"{name} is {message(value)}: expected {', '.join(allowed[:-1])} or {allowed[-1]}")
+        raise BadValueError(f"{name} is {shorten_value(value)}: expected {', '.join(allowed[:-1])} or {allowed[-1]}")
     return value
 
 
-def cells_of(cells: object, sealed: bool) -> tuple[int, int]:
+def check_cells(cells: object, sealed: bool) -> tuple[int, int]:
     """Return the numbers of cells around the bearing and from the middle to an end; the second is 0 if it is sealed.
 
     Raises BadValueError unless `cells` has two integers that are large enough, multiples of 4, and at most MAX_CELLS
     together. They can then be halved for the estimate of the error.
     """
-    if not isinstance(cells, Sequence) or len(cells) != 2 or not all(map(is_whole, cells)):
+    if not isinstance(cells, Sequence) or len(cells) != 2 or not all(map(is_integer, cells)):
         raise BadValueError(
-            f"cells is {message(cells)}: expected two whole numbers, around and from the middle to an end"
+            f"cells is {shorten_value(cells)}: expected two whole numbers, around and from the middle to an end"
         )
-    around, along = map(int, cells)
-    if around < 32 or along < 4 or around % 4 or along % 4 or around * along > MAX_CELLS:
+    around, axial = map(int, cells)
+    if around < 32 or axial < 4 or around % 4 or axial % 4 or around * axial > MAX_CELLS:
         expected = f"expected multiples of 4, at least (32, 4), of {MAX_CELLS} cells at most"
-        raise BadValueError(f"cells is ({around}, {along}): {expected}")
-    return around, (0 if sealed else along)
+        raise BadValueError(f"cells is ({around}, {axial}): {expected}")
+    return around, (0 if sealed else axial)
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,9 +164,9 @@ class Film:
         """Return a figure of the pressure over the unrolled bearing, and around the journal in the middle plane; needs
         matplotlib.
         """
-        from gudgeon.reynolds.plot import picture
+        from gudgeon.reynolds.plot import draw_film
 
-        return picture(self)
+        return draw_film(self)
 
 
 def check_finite(*arrays: Array) -> None:

@@ -22,7 +22,7 @@ from scipy.sparse.linalg import splu
 
 from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.reynolds.equation import Array, Equation
-from gudgeon.waiting.asking import apart
+from gudgeon.waiting.cancellation import run_interruptible
 
 Flags = NDArray[np.bool_]
 MAX_MONOTONE_STEPS = 1000  # iterations of a monotone active set: at most one cell each; from a coarser grid a few
@@ -62,7 +62,7 @@ def solve_pressure(kind: str, equation: Equation, motion: Motion, free: Flags, s
     start: unknowns near the solution, from a coarser grid; only their signs are used. Without it, elrod_adams starts
     from the solution of reynolds. Raises BadValueError, GudgeonError if the active set does not converge.
     """
-    closing = equation.closing(motion.w_n, motion.w_t)
+    closing = equation.compute_squeeze_flow(motion.w_n, motion.w_t)
     if kind == "half_sommerfeld":
         p = _solve_subsystem(equation.matrix, closing, free)
         return Pressure(p, np.ones_like(p), equation.matrix @ p - closing)
@@ -99,7 +99,7 @@ def _factorize(matrix: sparse.csr_matrix, **options: Any) -> Any:
     try:
         if columns.shape[0] < MIN_THREADED_UNKNOWNS:
             return splu(columns, **options)
-        return apart(lambda: splu(columns, **options))
+        return run_interruptible(lambda: splu(columns, **options))
     except RuntimeError as error:  # SuperLU raises it for a pivot of 0
         message = "reynolds: the gap is too thin for doubles: less eccentricity may do, or other cells"
         raise GudgeonError(message) from error
@@ -125,7 +125,7 @@ def _solve_elrod_adams(equation: Equation, motion: Motion, free: Flags, full: Fl
     full: first guess of the full nodes; if it fails, the iteration starts from no full nodes. Raises BadValueError if
     the gap closes faster than oil is convected, GudgeonError if the active set does not converge.
     """
-    matrix, convection = equation.matrix, equation.carried(motion.half_speed, motion.w_n)
+    matrix, convection = equation.matrix, equation.build_convection_matrix(motion.half_speed, motion.w_n)
     if (convection.diagonal() <= 0.0).any():
         raise BadValueError(
             "elrod_adams: the gap closes faster than oil is carried along",

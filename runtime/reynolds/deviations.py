@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError, MissingKeyError, UnknownKeyError
-from gudgeon.language.argument_checks import number_of, positive, text
-from gudgeon.language.names import unknown_name
+from gudgeon.language.argument_checks import check_number, check_positive, check_text
+from gudgeon.language.names import make_unknown_name_error
 from gudgeon.model.arrays import as_c_array
 from gudgeon.reynolds.bearing import Bearing, check_finite
 from gudgeon.reynolds.equation import Array
@@ -66,9 +66,9 @@ class Deviation:
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the deviation in percent as a map on `ax`, None for new axes, and return the axes; needs matplotlib."""
-        from gudgeon.reynolds.plot import deviation_map
+        from gudgeon.reynolds.plot import draw_deviation_map
 
-        return deviation_map(self, ax)
+        return draw_deviation_map(self, ax)
 
 
 def deviation(
@@ -89,7 +89,7 @@ def deviation(
     `table` takes them. keys: the law's other keys, numbers in SI; the viscosity is given. Raises BadValueError and the
     errors of `table` and of the law.
     """
-    ratio = positive(l_over_d, "l_over_d")
+    ratio = check_positive(l_over_d, "l_over_d")
     bearing = _make_bearing(ratio)
     ratios, alpha = as_c_array(eps, "eps", (None,), finite=True), as_c_array(motion, "motion", (None,), finite=True)
     if not ratios.size or not alpha.size or ratios.min() <= 0.0 or ratios.max() >= 1.0:
@@ -142,32 +142,38 @@ def law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str | bool
     name: of a film law. keys: its keys, in SI; the viscosity is that of the bearing. Raises UnknownNameError,
     UnknownKeyError, MissingKeyError or BadValueError for a wrong name, key or value.
     """
-    from gudgeon.generator.kinds.laws.built import PAIR, alone
-    from gudgeon.generator.kinds.laws.law import called
+    from gudgeon.generator.kinds.laws.built import PAIR, make_law_function
+    from gudgeon.generator.kinds.laws.law import find_laws_of_role
 
-    laws, name = called("film"), text(name, "law")
+    laws, name = find_laws_of_role("film"), check_text(name, "law")
     if name not in laws:
-        raise unknown_name("film law", name, laws, None)
+        raise make_unknown_name_error("film law", name, laws, None)
     law, values = laws[name], {"viscosity": bearing.viscosity, **keys}
-    if unknown_keys := set(values) - {own.name for own in law.fields} - {"viscosity"}:
+    if unknown_keys := set(values) - {option.name for option in law.fields} - {"viscosity"}:
         raise UnknownKeyError(f"film law {name}: no key {sorted(unknown_keys)[0]!r}")
-    field_values = {own.name: values.get(own.name, own.default) for own in law.fields}
-    if missing := [own.name for own in law.fields if own.required and field_values[own.name] is None]:
+    field_values = {option.name: values.get(option.name, option.default) for option in law.fields}
+    if missing := [option.name for option in law.fields if option.required and field_values[option.name] is None]:
         raise MissingKeyError(f"film law {name}: {missing[0]} is missing")
-    numbers = {own.name: number_of(x, own.name) for own in law.parameters if (x := field_values[own.name]) is not None}
+    numbers = {
+        option.name: check_number(x, option.name)
+        for option in law.parameters
+        if (x := field_values[option.name]) is not None
+    }
     law.check(numbers)
-    selected: dict[str, Any] = {own.name: field_values[own.name] for own in law.options} | dict(law.also.get(name, {}))
-    for own in law.options:
-        if not isinstance(selected[own.name], (str, bool)) or selected[own.name] not in own.values:
-            expected = " or ".join(map(str, own.values))
-            raise BadValueError(f"film law {name}: {own.name} is {selected[own.name]!r}: expected {expected}")
+    selected: dict[str, Any] = {option.name: field_values[option.name] for option in law.options} | dict(
+        law.also.get(name, {})
+    )
+    for option in law.options:
+        if not isinstance(selected[option.name], (str, bool)) or selected[option.name] not in option.values:
+            expected = " or ".join(map(str, option.values))
+            raise BadValueError(f"film law {name}: {option.name} is {selected[option.name]!r}: expected {expected}")
     r, c = bearing.radius, bearing.clearance
     dimensions = dict(zip(PAIR, (r + c, r, c, bearing.length, 1e11, 0.3, 1e11, 0.3), strict=True))
-    function = alone(law, numbers, selected, dimensions)
+    function = make_law_function(law, numbers, selected, dimensions)
 
     def force(eps: Array, w_n: Array, w_t: Array) -> Array:
         """Return F_r and F_t (…, 2) in N at eccentricity ratio ε and effective velocities w_n, w_t over c (1/s)."""
-        found = function(eps, w_n, w_t)
-        return np.stack([found["F_r"], found["F_t"]], axis=-1)
+        forces = function(eps, w_n, w_t)
+        return np.stack([forces["F_r"], forces["F_t"]], axis=-1)
 
     return force

@@ -36,7 +36,8 @@ class Equation:
 
     @property
     def rows(self) -> int:
-        """Return the number of unknowns at one angle: nodes along the half bearing and, for an open end, its outflow.
+        """Return the number of unknowns at one angle: nodes along the half bearing and, for an open end, its
+        outflow.
         """
         return len(self.grid.height)
 
@@ -76,7 +77,7 @@ class Equation:
             flows + sparse.coo_matrix((-inner_conductances, (inner_nodes, inner_nodes + 1)), shape=(m + 1, m + 1))
         )
 
-    def closing(self, w_n: float, w_t: float) -> Array:
+    def compute_squeeze_flow(self, w_n: float, w_t: float) -> Array:
         """Return −∫ ∂h/∂t over each cell, (n·rows,): the flow that the closing gap displaces.
 
         w_n, w_t: effective squeeze velocities over c along and across the line of centres, 1/s.
@@ -85,7 +86,7 @@ class Equation:
         squeeze = w_n * (np.sin(grid.right) - np.sin(grid.left)) - w_t * (np.cos(grid.right) - np.cos(grid.left))
         return np.asarray(-np.outer(squeeze, grid.height).ravel())
 
-    def carried(self, half_speed: float, w_n: float) -> sparse.csr_matrix:
+    def build_convection_matrix(self, half_speed: float, w_n: float) -> sparse.csr_matrix:
         """Return the matrix of outflows by the filled fraction θ of each cell.
 
         Oil is convected from upstream, ½ω_s θ h, and stored by the rate ε̇ = w_n of the gap, θ ∂h/∂t. With θ = 1

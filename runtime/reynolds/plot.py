@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gudgeon.language.plot_units import scale
+from gudgeon.language.plot_units import choose_prefix
 from gudgeon.results.figures.plots import COLOURS, IDEAL, STYLE
 from gudgeon.reynolds.bearing import Film
 
@@ -20,13 +20,14 @@ if TYPE_CHECKING:
 GAP, TALL = 0.25, 0.8  # clearance and largest pressure as drawn, over the radius of the bearing
 
 
-def picture(film: Film) -> Figure:
-    """Return a figure: left p(φ, z), right the middle plane with journal, pressure and force; the gap is not to scale.
+def draw_film(film: Film) -> Figure:
+    """Return a figure: left p(φ, z), right the middle plane with journal, pressure and force; the gap is not to
+    scale.
     """
     import matplotlib
     from matplotlib.figure import Figure
 
-    factor, unit = scale(float(film.pressure.max(initial=0.0)), "Pa")
+    factor, unit = choose_prefix(float(film.pressure.max(initial=0.0)), "Pa")
     with matplotlib.rc_context(STYLE):
         figure = Figure(figsize=(10, 4.2), dpi=120, layout="constrained")
         left, right = figure.subplots(1, 2, width_ratios=(1.7, 1.0))
@@ -54,7 +55,7 @@ def _draw_map(ax: Axes, film: Film, factor: float, unit: str) -> None:
     p = np.concatenate([film.pressure, film.pressure[:1]]) * factor
     from matplotlib.ticker import MaxNLocator, MultipleLocator
 
-    millimetres, name = scale(film.bearing.length, "m")
+    millimetres, name = choose_prefix(film.bearing.length, "m")
     z = film.z * millimetres
     if p.any():
         drawn = ax.contourf(angle, z, p.T, np.linspace(0.0, p.max(), 21), cmap="viridis")
@@ -82,7 +83,8 @@ def _mark_thinnest_film(ax: Axes, film: Film, first_angle: float) -> None:
 
 
 def _draw_middle_plane(ax: Axes, film: Film) -> None:
-    """Draw bearing, journal, pressure around the bearing, and force on the journal in the middle plane, not to scale.
+    """Draw bearing, journal, pressure around the bearing, and force on the journal in the middle plane, not to
+    scale.
     """
     turn = np.linspace(0.0, 2.0 * math.pi, 361)
     ax.plot(np.cos(turn), np.sin(turn), color="#777777", lw=1.2)
@@ -107,7 +109,7 @@ def _draw_middle_plane(ax: Axes, film: Film) -> None:
     ax.grid(False)
 
 
-def deviation_map(deviation: Deviation, ax: Axes | None) -> Axes:
+def draw_deviation_map(deviation: Deviation, ax: Axes | None) -> Axes:
     """Draw a map of the deviation in percent over ε and the direction of motion on `ax`, None for new axes; return the
     axes.
 

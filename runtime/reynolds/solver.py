@@ -10,17 +10,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError
-from gudgeon.language.argument_checks import instance, number_of
+from gudgeon.language.argument_checks import check_instance, check_number
 from gudgeon.reynolds.bearing import (
     CAVITATIONS,
     ENDS,
     Bearing,
     Film,
-    cells_of,
+    check_cells,
+    check_choice,
     check_eccentricity,
     check_finite,
-    choice,
-    pair,
+    check_vector,
 )
 from gudgeon.reynolds.cavitation import Flags, Motion, Pressure, solve_pressure
 from gudgeon.reynolds.equation import TURN, Array, Equation, Grid, make_grid
@@ -59,12 +59,12 @@ def solve(
 
     Raises BadValueError for invalid arguments, GudgeonError if an active set does not converge.
     """
-    instance(bearing, "bearing", Bearing)
-    choice(cavitation, "cavitation", CAVITATIONS)
-    sealed = choice(ends, "ends", ENDS) == "sealed"
-    around, along = cells_of(cells, sealed)
-    e, v = np.array(pair(eccentricity, "eccentricity")), np.array(pair(rate, "rate"))
-    speeds = number_of(omega_journal, "omega_journal"), number_of(omega_bearing, "omega_bearing")
+    check_instance(bearing, "bearing", Bearing)
+    check_choice(cavitation, "cavitation", CAVITATIONS)
+    sealed = check_choice(ends, "ends", ENDS) == "sealed"
+    around, axial = check_cells(cells, sealed)
+    e, v = np.array(check_vector(eccentricity, "eccentricity")), np.array(check_vector(rate, "rate"))
+    speeds = check_number(omega_journal, "omega_journal"), check_number(omega_bearing, "omega_bearing")
     distance = math.hypot(*e)
     check_eccentricity(distance / bearing.clearance)
     n = _find_centre_direction(e, v)
@@ -75,7 +75,7 @@ def solve(
     groove_angle = _find_groove_angle(groove, n, sealed, cavitation)
     problem = Problem(eps, bearing.l_over_d, sealed, cavitation, groove_angle, motion)
     with np.errstate(over="ignore", invalid="ignore"):
-        coarse, fine = solve_refined(problem, around, along)
+        coarse, fine = solve_refined(problem, around, axial)
         film = _build_film(bearing, ends, e, n, omega_s, speeds[0] - speeds[1], fine, coarse)
     check_finite(film.force, film.pressure)
     return film
@@ -98,9 +98,9 @@ def _find_groove_angle(groove: Groove, direction: Array, sealed: bool, cavitatio
     if groove is None:
         return 0.0 if sealed or cavitation == "elrod_adams" else None
     if isinstance(groove, str):
-        choice(groove, "groove", ("a direction in rad", WIDEST))
+        check_choice(groove, "groove", ("a direction in rad", WIDEST))
         return 0.0
-    phi = number_of(groove, "groove") - math.atan2(-direction[1], -direction[0])
+    phi = check_number(groove, "groove") - math.atan2(-direction[1], -direction[0])
     return math.remainder(phi, TURN)
 
 
@@ -140,18 +140,18 @@ class Solution:
     @cached_property
     def p(self) -> Array:
         """Return the pressure at the nodes (n, m), without the end; with half_sommerfeld it may be negative."""
-        return self._as_grid(self.pressure.unknown)[:, : len(self.grid.zeta)]
+        return self._reshape_to_grid(self.pressure.unknown)[:, : len(self.grid.zeta)]
 
     @cached_property
-    def over_the_end(self) -> Array:
+    def end_flow(self) -> Array:
         """Return the flow over one end at each angle (n,), positive outwards; 0 for a sealed bearing."""
-        unknowns = self._as_grid(self.pressure.unknown)
+        unknowns = self._reshape_to_grid(self.pressure.unknown)
         return np.zeros(len(unknowns)) if self.grid.sealed else unknowns[:, -1]
 
     @cached_property
     def filled(self) -> Array:
         """Return the filled fraction θ of the gap at the nodes (n, rows)."""
-        return self._as_grid(self.pressure.filled)
+        return self._reshape_to_grid(self.pressure.filled)
 
     @cached_property
     def force(self) -> Array:
@@ -176,10 +176,10 @@ class Solution:
         A sealed bearing has no leakage. The supply is the gain of the groove and of nodes with p = 0, and the inflow
         over the ends.
         """
-        end_flow, gain = self.over_the_end, self._as_grid(self.pressure.gain)
+        end_flow, gain = self.end_flow, self._reshape_to_grid(self.pressure.gain)
         outflow, inflow = float(end_flow[end_flow > 0.0].sum()), -float(end_flow[end_flow < 0.0].sum())
         grid = self.grid
-        closing = self.equation.closing(self.problem.motion.w_n, 0.0).reshape(gain.shape)
+        closing = self.equation.compute_squeeze_flow(self.problem.motion.w_n, 0.0).reshape(gain.shape)
         stored = -float((closing * self.filled).sum()) if self.problem.cavitation == "elrod_adams" else 0.0
         has_source = self.pressure.unknown.reshape(gain.shape) == 0.0  # where the equation holds the gain is rounding
         if self.problem.cavitation == "elrod_adams":
@@ -190,7 +190,7 @@ class Solution:
             return 0.0, 2.0 * source, 2.0 * stored
         return 2.0 * outflow, 2.0 * (source + inflow), 2.0 * stored
 
-    def _as_grid(self, values: Array) -> Array:
+    def _reshape_to_grid(self, values: Array) -> Array:
         """Return values at all unknowns, (n·rows,), as an array (n, rows)."""
         return values.reshape(len(self.grid.phi), self.equation.rows)
 
@@ -217,12 +217,12 @@ def solve_refined(
         if problem.groove is not None:
             free[0] = False
         start = _interpolate_unknowns(solutions[-1]) if solutions else None
-        pressure = solve_pressure(problem.cavitation, equation, problem.motion, _as_vector(free), start)
+        pressure = solve_pressure(problem.cavitation, equation, problem.motion, _flatten_to_vector(free), start)
         solutions.append(Solution(equation, problem, pressure))
     return solutions[-2:]
 
 
-def _as_vector(flags: Flags) -> Flags:
+def _flatten_to_vector(flags: Flags) -> Flags:
     """Return a flag for each unknown, (n·rows,), from an array (n, rows)."""
     return np.asarray(flags.ravel())
 

@@ -9,9 +9,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError
-from gudgeon.language.argument_checks import instance
+from gudgeon.language.argument_checks import check_instance
 from gudgeon.model.arrays import as_c_array
-from gudgeon.reynolds.bearing import CAVITATIONS, ENDS, Bearing, cells_of, check_eccentricity, check_finite, choice
+from gudgeon.reynolds.bearing import (
+    CAVITATIONS,
+    ENDS,
+    Bearing,
+    check_cells,
+    check_choice,
+    check_eccentricity,
+    check_finite,
+)
 from gudgeon.reynolds.cavitation import Motion
 from gudgeon.reynolds.equation import Array, Equation
 from gudgeon.reynolds.solver import CELLS, WIDEST, Problem, solve_refined
@@ -54,12 +62,12 @@ def table(
     The three arrays are broadcast together. Other arguments are those of `solve`; groove is None or "widest". States of
     equal ε share their grid, and equal states are solved once. Raises as `solve`.
     """
-    instance(bearing, "bearing", Bearing)
-    choice(cavitation, "cavitation", CAVITATIONS)
-    sealed = choice(ends, "ends", ENDS) == "sealed"
-    around, along = cells_of(cells, sealed)
+    check_instance(bearing, "bearing", Bearing)
+    check_choice(cavitation, "cavitation", CAVITATIONS)
+    sealed = check_choice(ends, "ends", ENDS) == "sealed"
+    around, axial = check_cells(cells, sealed)
     if groove is not None:
-        choice(groove, "groove", ("None", WIDEST))
+        check_choice(groove, "groove", ("None", WIDEST))
     states = _broadcast_states(eps, eps_rate, omega_s)
     groove_angle = 0.0 if sealed or groove or cavitation == "elrod_adams" else None
     unique_states, inverse = np.unique(np.stack([x.ravel() for x in states], axis=1), axis=0, return_inverse=True)
@@ -71,7 +79,7 @@ def table(
             cached = cached if cached[0] == e else (e, {})
             motion = Motion(closing, -0.5 * e * speed, 0.5 * speed)
             problem = Problem(e, bearing.l_over_d, sealed, cavitation, groove_angle, motion)
-            coarse, fine = solve_refined(problem, around, along, cached[1])
+            coarse, fine = solve_refined(problem, around, axial, cached[1])
             force[k], error[k] = unit * fine.force, unit * np.hypot(*(fine.force - coarse.force))
     check_finite(force)
     e_all, closing_all, speed_all = (x.copy() for x in states)
@@ -84,7 +92,7 @@ def _broadcast_states(eps: ArrayLike, eps_rate: ArrayLike, omega_s: ArrayLike) -
     Raises BadValueError for shapes that do not fit, more than MAX_STATES states, or ε outside [0, 1).
     """
     arguments = ((eps, "eps"), (eps_rate, "eps_rate"), (omega_s, "omega_s"))
-    arrays = [as_c_array(x, name, finite=True, most=MAX_STATES) for x, name in arguments]
+    arrays = [as_c_array(x, name, finite=True, max_entries=MAX_STATES) for x, name in arguments]
     try:
         count = math.prod(np.broadcast_shapes(*(x.shape for x in arrays)))
     except ValueError:

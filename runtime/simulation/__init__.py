@@ -1,1 +1,1 @@
-"""A loaded scene: one run, many runs, going on, how far to trust them."""
+"""Simulate a loaded scene: one run, many runs, restarts, audits, predictability, Lyapunov exponents, wear."""

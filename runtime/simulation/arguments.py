@@ -7,66 +7,69 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
 from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, KINEMATIC, SMOOTH, STAGED, STAGES
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.files.free_space import check_memory
 from gudgeon.integrators import batch, kinematic
-from gudgeon.integrators.batch import Drive
+from gudgeon.integrators.batch import PythonLoop
 from gudgeon.integrators.peers import driver
 from gudgeon.integrators.trajectory import Problem, Trajectory
-from gudgeon.language.argument_checks import is_whole, message
+from gudgeon.language.argument_checks import is_integer, shorten_value
 from gudgeon.model.arrays import as_c_array
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.default_step import scene_end, scene_number, scene_step
-from gudgeon.model.parameters import number, spaced
+from gudgeon.model.default_step import evaluate_scene_end, evaluate_scene_number, evaluate_scene_step
+from gudgeon.model.parameters import insert_space_before_unit, read_parameter_value
 
 # methods whose time loop runs in Python, with the function that runs them
-DRIVES: dict[str, Drive] = {KINEMATIC: kinematic.run, **dict.fromkeys(driver.NAMES, driver.run)}
-METHODS = ("rk4", *CHOOSING, *SMOOTH, ADAPTIVE, *DRIVES)
+PYTHON_TIME_LOOPS: dict[str, PythonLoop] = {
+    KINEMATIC: kinematic.integrate_kinematic,
+    **dict.fromkeys(driver.NAMES, driver.integrate_by_reference_solver),
+}
+METHODS = ("rk4", *CHOOSING, *SMOOTH, ADAPTIVE, *PYTHON_TIME_LOOPS)
 MAX_STEPS = 10**12  # largest number of fixed steps of a run
-DEFAULT_OUTPUT, MOST_OUTPUT = 1000, 10**8  # numbers of intervals: the default, and the largest that is allowed
-OUTPUT = f"a whole number of intervals, 1 to {MOST_OUTPUT:.0e}, or times (s)"
+DEFAULT_OUTPUT, MAX_OUTPUT = 1000, 10**8  # numbers of intervals: the default, and the largest that is allowed
+OUTPUT = f"a whole number of intervals, 1 to {MAX_OUTPUT:.0e}, or times (s)"
 MAX_CHECKED_ITEMS = 10**4  # largest number of list entries that are searched for True and False
 # shortest run in roundings of its times, the same in s, and latest end of a run in s
 MIN_ROUNDINGS, MIN_DURATION_S, MAX_END_TIME_S = 1024, 1e-290, 1e18
 
 
-def integrate(problem: Problem) -> Trajectory:
+def integrate_run(problem: Problem) -> Trajectory:
     """Integrate one run by its method, in C or Python, and return its trajectory.
 
     Raise KeyboardInterrupt if it has no sample.
     """
-    return batch.integrate(problem, DRIVES.get(problem.method))
+    return batch.integrate_problem(problem, PYTHON_TIME_LOOPS.get(problem.method))
 
 
-def seconds(name: str, value: float | str) -> float:
+def parse_seconds(name: str, value: float | str) -> float:
     """Parse a time argument and return it in s: a number, or a text such as '5 ms' or '1e-3'. `name` is for messages.
 
     Raises InputError for anything else.
     """
-    return number(value, Slot(name, "s", 0.0, False, (0, 0, 1)))
+    return read_parameter_value(value, RuntimeParameter(name, "s", 0.0, False, (0, 0, 1)))
 
 
-def end_of(source: KernelSource, t_end: float | str | None, p: Array) -> float | str | None:
+def evaluate_end_time(source: KernelSource, t_end: float | str | None, p: Array) -> float | str | None:
     """Evaluate t_end (s) with the parameter values p if it is an expression with names such as '2*pi/omega'.
 
     Numbers, plain texts and None are returned unchanged. Raises InputError for unknown names or a wrong dimension.
     """
     if not isinstance(t_end, str):
         return t_end
-    from gudgeon.language.quantities import holds_names, number_of_names
+    from gudgeon.language.quantities import evaluate_expression, has_names
 
-    if not holds_names(spaced(t_end)):
+    if not has_names(insert_space_before_unit(t_end)):
         return t_end
-    known = {
+    values_by_name = {
         slot.address.removeprefix("parameters."): (float(number), slot.dimension)
         for slot, number in zip(source.slots, p, strict=False)
     }
-    return number_of_names(spaced(t_end), "t_end", (0, 0, 1), known)
+    return evaluate_expression(insert_space_before_unit(t_end), "t_end", (0, 0, 1), values_by_name)
 
 
-def output_times(
+def compute_output_times(
     source: KernelSource, p: Array, t0: float, t_end: float | str | None, output: int | ArrayLike | None
 ) -> tuple[Array, bool]:
     """Return the increasing sample times (s) of a run from t0, and whether t0 itself is a requested sample.
@@ -77,19 +80,23 @@ def output_times(
     if isinstance(output, np.ndarray) and not output.ndim:
         output = output[()]
     if isinstance(output, (float, np.floating)):
-        raise BadValueError(f"output is {message(output)}: expected {OUTPUT}", hint="a list for times: output=[0.5]")
-    if output is not None and not isinstance(output, bool) and not is_whole(output):
+        raise BadValueError(
+            f"output is {shorten_value(output)}: expected {OUTPUT}", hint="a list for times: output=[0.5]"
+        )
+    if output is not None and not isinstance(output, bool) and not is_integer(output):
         times, requested = _check_output_times(t0, output)
         kind = np.asarray(output).dtype
         rounding = float(np.finfo(kind).eps) if kind.kind == "f" else 0.0
-        _check_t_end_matches_output(None if t_end is None else seconds("t_end", t_end), float(times[-1]), rounding)
+        _check_t_end_matches_output(
+            None if t_end is None else parse_seconds("t_end", t_end), float(times[-1]), rounding
+        )
         return times, requested
-    end = seconds("t_end", scene_end(source, p) if t_end is None else t_end)
+    end = parse_seconds("t_end", evaluate_scene_end(source, p) if t_end is None else t_end)
     if not end > t0:
         raise BadValueError(f"t_end is {end:g} s: expected a time after the start at {t0:g} s")
-    intervals = scene_number(source, "output", p, DEFAULT_OUTPUT) if output is None else output
-    if isinstance(intervals, bool) or not 1 <= intervals <= MOST_OUTPUT:
-        raise BadValueError(f"output is {message(intervals)}: expected {OUTPUT}")
+    intervals = evaluate_scene_number(source, "output", p, DEFAULT_OUTPUT) if output is None else output
+    if isinstance(intervals, bool) or not 1 <= intervals <= MAX_OUTPUT:
+        raise BadValueError(f"output is {shorten_value(intervals)}: expected {OUTPUT}")
     _check_duration("t_end is", t0, end, 4 * int(intervals))
     check_memory(2 * 8 * float(intervals), f"the times of {intervals} samples")
     return np.linspace(t0, end, int(intervals) + 1), True
@@ -100,7 +107,7 @@ def _check_output_times(t0: float, output: ArrayLike) -> tuple[Array, bool]:
 
     Raises BadValueError for booleans, no times, times that do not increase, and times before t0.
     """
-    times = as_c_array(output, "output", (None,), finite=True, own=True, most=MOST_OUTPUT)
+    times = as_c_array(output, "output", (None,), finite=True, always_copy=True, max_entries=MAX_OUTPUT)
     if not isinstance(output, np.ndarray) or output.dtype.kind == "b":
         for k, value in enumerate(np.asarray(output, object)[:MAX_CHECKED_ITEMS]):
             if isinstance(value, (bool, np.bool_)):
@@ -147,14 +154,14 @@ def _check_duration(message_begin: str, t0: float, end: float, min_roundings: in
         )
 
 
-def derived_for(source: KernelSource, method: str) -> str:
+def find_required_variant(source: KernelSource, method: str) -> str:
     """Return the name of the variant that a scene must be derived as for a method; "" if its library suffices."""
     if method in STAGED:
-        return "" if source.stages or source.no_slopes else STAGES
+        return "" if source.stages or source.reason_without_jacobian else STAGES
     return method if method in SMOOTH and not source.taylor else ""
 
 
-def method_of(source: KernelSource, method: str, has_step: bool) -> str:
+def select_method(source: KernelSource, method: str, has_step: bool) -> str:
     """Return the name of the method that integrates the scene for the argument `method`, which may be "auto".
 
     "auto" gives rk4 if a step is given (`has_step`), kinematic analysis without degrees of freedom, else "adaptive".
@@ -167,7 +174,7 @@ def method_of(source: KernelSource, method: str, has_step: bool) -> str:
             "  remove a drive or a joint; `gudgeon check -v` lists the rows"
         )
     fitting_methods = source.methods
-    if KINEMATIC not in fitting_methods and not source.explicit:
+    if KINEMATIC not in fitting_methods and not source.is_explicit:
         fitting_methods = (
             *fitting_methods,
             ADAPTIVE,
@@ -177,7 +184,11 @@ def method_of(source: KernelSource, method: str, has_step: bool) -> str:
         fitting_methods = (*fitting_methods, *SMOOTH)
     if method == "auto":
         return (
-            fitting_methods[0] if len(fitting_methods) == 1 or has_step else EXPLICIT if source.explicit else ADAPTIVE
+            fitting_methods[0]
+            if len(fitting_methods) == 1 or has_step
+            else EXPLICIT
+            if source.is_explicit
+            else ADAPTIVE
         )
     if method not in METHODS:
         offered = ", ".join(name for name in METHODS if name != ADAPTIVE)  # a name of ours for what auto runs
@@ -185,7 +196,7 @@ def method_of(source: KernelSource, method: str, has_step: bool) -> str:
     if method not in fitting_methods:
         reason = f"this scene has {dof} degree{'' if dof == 1 else 's'} of freedom"
         if source.rigid:
-            reason = source.no_slopes
+            reason = source.reason_without_jacobian
         elif source.states:
             reason = f"a law has an inner state ({next(filter(None, source.states))}), which peers do not integrate"
         *others, last = source.methods
@@ -194,7 +205,7 @@ def method_of(source: KernelSource, method: str, has_step: bool) -> str:
     return method
 
 
-def step_of(compiled: CompiledModel, step: float | str | None, method: str, p: Array, duration: float) -> float:
+def evaluate_step(compiled: CompiledModel, step: float | str | None, method: str, p: Array, duration: float) -> float:
     """Return the fixed step (s) of a run of `duration` (s); infinity where the method controls its step.
 
     Without the argument `step`, rk4 takes the step of the file or a default. Raises BadValueError unless it is
@@ -203,8 +214,8 @@ def step_of(compiled: CompiledModel, step: float | str | None, method: str, p: A
     if method == "kinematic" or (step is None and method != "rk4"):
         return math.inf
     if step is None:
-        return scene_step(compiled, p, duration)
-    h = seconds("step", step)
+        return evaluate_scene_step(compiled, p, duration)
+    h = parse_seconds("step", step)
     if not h > 0:
         raise BadValueError(f"step is {h:g} s: expected a positive time")
     return h

@@ -1,4 +1,4 @@
-"""Audit the samples of a run: check reported results with equations that did not produce them.
+"""Audit the samples of a run: check the reported results by other equations than those that produced them.
 
 The audit of the steps is in C (engine/run/audit.c). Here, accelerations, torques and forces are compared with the
 rate of change of energy, sampled forces with the list of contacts, and works with the energy of the motion.
@@ -16,11 +16,11 @@ from gudgeon.contract.boundary import AUDIT_FAILS as FAILS
 from gudgeon.contract.boundary import PEAK_F, SHALLOW, CLEARANCE_delta, CLEARANCE_Fx, CLEARANCE_Fy, PEAK_t
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.trajectory import Problem, Trajectory
-from gudgeon.language.argument_checks import message
+from gudgeon.language.argument_checks import shorten_value
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.model.evaluation import Evaluation
-from gudgeon.model.sizes import mechanism_sizes
-from gudgeon.simulation.newton_euler import newton_euler
+from gudgeon.model.sizes import compute_mechanism_sizes
+from gudgeon.simulation.newton_euler import compute_newton_euler_residuals
 
 SAMPLE_POSITIONS = np.sort(
     np.random.default_rng(1).random(8)
@@ -42,14 +42,16 @@ START, START_RATES = 1e-9, 1e-6
 PEAK = 1e-2  # of the largest force of its contacts: allowed excess of a joint's peak force
 
 
-def audit_level(audit: bool | str) -> int:
+def parse_audit_level(audit: bool | str) -> int:
     """Return the level of the audit for C (0 for False) from the argument `audit`: True, False or "full".
 
     Raises BadValueError for anything else.
     """
     if isinstance(audit, (bool, np.bool_, str)) and audit in LEVELS:
         return LEVELS[audit]
-    raise BadValueError(f"audit is {message(audit)}: expected True, False or 'full'", hint="audit=True is the default")
+    raise BadValueError(
+        f"audit is {shorten_value(audit)}: expected True, False or 'full'", hint="audit=True is the default"
+    )
 
 
 def audit_samples(
@@ -65,10 +67,13 @@ def audit_samples(
     """
     if not problem.audit or not len(trajectory.t):
         return ()
-    source, size = compiled.source, max(float(mechanism_sizes(compiled.source, problem.p)), 1e-300)
-    found = [*_check_first_sample(problem, trajectory, size), *_check_contact_forces(compiled, trajectory, evaluation)]
+    source, size = compiled.source, max(float(compute_mechanism_sizes(compiled.source, problem.p)), 1e-300)
+    findings = [
+        *_check_first_sample(problem, trajectory, size),
+        *_check_contact_forces(compiled, trajectory, evaluation),
+    ]
     if not source.massless and not source.indeterminate:
-        found += [
+        findings += [
             *_check_energy(compiled, problem, trajectory, evaluation, balance, size),
             *_check_finite(compiled, trajectory, evaluation),
         ]
@@ -80,18 +85,18 @@ def audit_samples(
     if problem.method == "rk4" and source.formulation == "full":  # its rows drift
         left_out |= {"rows", "rates", "power", "body"}
     return (
-        *found,
+        *findings,
         *(
-            one
-            for one in _check_random_samples(compiled, problem, trajectory, size, evaluation)
-            if one.check not in left_out
+            finding
+            for finding in _check_random_samples(compiled, problem, trajectory, size, evaluation)
+            if finding.check not in left_out
         ),
     )
 
 
-def failed(findings: tuple[Finding, ...]) -> bool:
+def has_failed_finding(findings: tuple[Finding, ...]) -> bool:
     """Return whether any finding exceeds the value at which the run ends with an error; NaN counts as such."""
-    return any(not one.worst <= FAILS for one in findings)
+    return any(not finding.worst <= FAILS for finding in findings)
 
 
 def _check_first_sample(problem: Problem, trajectory: Trajectory, size: float) -> Iterator[Finding]:
@@ -119,7 +124,7 @@ def _compute_distance_from_given_start(problem: Problem, size: float) -> float:
     """
     source, off = problem.compiled.source, 0.0
     for k, name in enumerate(source.coordinates):
-        given = source.place.get(f"start.set.{name}") if name in source.start_set else None
+        given = source.slot_index.get(f"start.set.{name}") if name in source.start_set else None
         if given is not None:
             miss = abs(float(problem.q[k] - problem.p[given]))
             turns = round(miss / math.tau) * math.tau if k % 3 == 2 else 0.0
@@ -148,10 +153,10 @@ def _check_energy(
     most = 0.5 * float(compiled.mass(problem.p)[::3].sum()) * crossing * crossing
     if not turned > max(MIN_WORK_J, AT_REST**2 * most):
         return
-    share = max(ENERGY * problem.rtol * math.sqrt(trajectory.counts.steps + 1.0), MIN_ENERGY_TOL)
+    tolerance = max(ENERGY * problem.rtol * math.sqrt(trajectory.counts.steps + 1.0), MIN_ENERGY_TOL)
     if not trajectory.v[0].any():  # tolerances of a motion that begins at rest are those of one by its size in the time
         turned += most
-    yield Finding("energy", residual / (share * turned), float(trajectory.t[-1]), "")
+    yield Finding("energy", residual / (tolerance * turned), float(trajectory.t[-1]), "")
 
 
 def _check_finite(compiled: CompiledModel, trajectory: Trajectory, evaluation: Evaluation) -> Iterator[Finding]:
@@ -180,16 +185,16 @@ def _check_contact_forces(compiled: CompiledModel, trajectory: Trajectory, evalu
         if joint.film or joint.name in compiled.source.rigid:
             continue
         force = np.hypot(evaluation.clearance[:, k, CLEARANCE_Fx], evaluation.clearance[:, k, CLEARANCE_Fy])
-        peak, own = float(trajectory.peaks[k, PEAK_F]), trajectory.impacts[trajectory.impacts["joint"] == k]
+        peak, contacts = float(trajectory.peaks[k, PEAK_F]), trajectory.impacts[trajectory.impacts["joint"] == k]
         free = np.isnan(trajectory.memory[:, k])
         touches = free & (np.abs(evaluation.clearance[:, k, CLEARANCE_delta]) <= SHALLOW)
         outside = np.where(free & ~touches, force, 0.0)
         worst = int(outside.argmax())
         scale = max(FORCE * max(peak, float(force.max())), 1e-300)
         yield Finding("sample", float(outside[worst]) / scale, float(trajectory.t[worst]), joint.name)
-        listed = float(own["F_peak"].max(initial=0.0))
+        listed = float(contacts["F_peak"].max(initial=0.0))
         begins_free = bool(np.isnan(trajectory.memory[0, k]))  # a contact that a run resumes has had a peak before
-        if peak > float(force[touches].max(initial=0.0)) and begins_free and np.isfinite(own["t_off"]).all():
+        if peak > float(force[touches].max(initial=0.0)) and begins_free and np.isfinite(contacts["t_off"]).all():
             over = (max(peak, float(force.max())) - listed) / (PEAK * max(listed, 1e-300))
             yield Finding("peak", max(over, 0.0), float(trajectory.peaks[k, PEAK_t]), joint.name)
 
@@ -221,7 +226,7 @@ def _check_random_samples(
     compiled.lib.gudgeon_audit_samples(len(samples), *given, size, compiled.pointer(errors, written=True))
     limits, body = LIMITS, ""
     if problem.audit > 1 or trajectory.counts.right_hand_sides > MIN_CALLS_OF_LONG_RUN:
-        residuals = newton_euler(compiled, problem.p, trajectory.q, evaluation, samples)
+        residuals = compute_newton_euler_residuals(compiled, problem.p, trajectory.q, evaluation, samples)
         errors, limits = np.column_stack([errors, residuals.max(axis=1)]), LIMITS | BODY
         body = compiled.source.bodies[int(residuals.max(axis=0).argmax())].name
     errors[~np.isfinite(errors)] = 0.0  # those are of another check

@@ -1,4 +1,4 @@
-"""Examine a run by further runs, for its report: `examine(simulation, run, ideal)`.
+"""Estimate the accuracy of a run for its report, by a repetition, by a finer run and by the ideal scene.
 
 The same run is repeated bit for bit and sampled at Gauss points within its contacts. This gives the works of each
 joint with play and the speeds at separation. A second run with half the step or a tighter tolerance estimates the
@@ -20,13 +20,18 @@ from numpy.polynomial.legendre import leggauss
 
 from gudgeon.contract.methods import ADAPTIVE, CHOOSING
 from gudgeon.errors import GudgeonError
-from gudgeon.language.argument_checks import whole as whole_number
-from gudgeon.model.contours import contour_of, depth_at
+from gudgeon.language.argument_checks import check_integer as whole_number
+from gudgeon.model.contours import find_contour, interpolate_depth
 from gudgeon.results.contact_check import ContactCheck, check_samples
 from gudgeon.results.diagnostics import Difference, Examined, IdealForce, JointExamined
-from gudgeon.results.samples import with_start
-from gudgeon.results.series import MOTION, default_watch, rates
-from gudgeon.simulation.horizon import check_simulation_of_run, repeat_settings, repeated, start_of_run
+from gudgeon.results.samples import join_start
+from gudgeon.results.series import MOTION, choose_watched_series, find_rate_names
+from gudgeon.simulation.predictability_horizon import (
+    build_repeat_settings,
+    build_start_state,
+    check_simulation_of_run,
+    repeat_run,
+)
 
 if TYPE_CHECKING:
     from gudgeon.contract.clearance_info import ClearanceInfo
@@ -55,7 +60,7 @@ def examine(
     """
     check_simulation_of_run(simulation, run, "examine")
     notes: list[str] = []
-    run_with_start = with_start(run)
+    run_with_start = join_start(run)
     joints = _examine_joints(simulation, run_with_start, notes, progress)
     differences, description = _estimate_errors(simulation, run_with_start, notes, progress)
     examined = Examined(joints, _compute_ideal_forces(run, ideal, notes), differences, description, tuple(notes))
@@ -77,11 +82,11 @@ def _repeat_run(
     Repetitions that fail or end early are skipped. `t_beyond` (s): end of the repetition if an event or an error ended
     the run at the last of the times; NaN if nothing did. Raises KeyboardInterrupt if Ctrl-C ends one.
     """
-    own_start, has_end = start_of_run(run), math.isfinite(t_beyond)
+    own_start, has_end = build_start_state(run), math.isfinite(t_beyond)
     times = np.append(t, t_beyond) if has_end else t
     for start in (None, own_start) if own_start.t == 0.0 and run.begun is None else (own_start,):
         try:
-            repetition = repeated(simulation, times, start, settings, progress, peaks, has_end)
+            repetition = repeat_run(simulation, times, start, settings, progress, peaks, has_end)
         except GudgeonError:  # a start that does not close any more
             continue
         if repetition is not None and repetition.diagnostics.interrupted:
@@ -110,24 +115,24 @@ def _examine_joints(
     indices, joints = np.searchsorted(repetition.t, t), run.source.clearances
     dry_repetition = repetition  # the same states, and of its joints' forces what the surfaces bear that touch
     if any(joint.dry and joint.film for joint in joints) and not run.source.laws:
-        dry_repetition = replace(repetition, p=without_oil(simulation.compiled, repetition.p))
-    found = tuple(
+        dry_repetition = replace(repetition, p=clear_oil_viscosities(simulation.compiled, repetition.p))
+    examined_joints = tuple(
         _examine_joint(run, repetition, dry_repetition, k, joint, indices, weights) for k, joint in enumerate(joints)
     )
     if [joint.film for joint in joints].count(True) != 1 or run.source.laws or run.source.rigid:
-        return found
+        return examined_joints
     remainder = -float(
         weights @ repetition.evaluation.power[indices, 2]
     )  # its film took, the torque of its shear too, all the rest
     remainder -= sum(
         x
-        for joint_examined in found
+        for joint_examined in examined_joints
         for x in (joint_examined.used - joint_examined.returned, joint_examined.friction)
         if math.isfinite(x)
     )
     return tuple(
         replace(joint_examined, film=remainder) if math.isfinite(joint_examined.film) else joint_examined
-        for joint_examined in found
+        for joint_examined in examined_joints
     )
 
 
@@ -139,7 +144,10 @@ def repeat_exactly(
     peaks: tuple[str | SlidingRequest, ...] = (),
 ) -> Result | None:
     """Return the run repeated bit for bit at times t (s), which include its own; None if no repetition is identical."""
-    settings, t_beyond = repeat_settings(run)[0], math.nan if run.diagnostics.interrupted else run.diagnostics.t_end
+    settings, t_beyond = (
+        build_repeat_settings(run)[0],
+        math.nan if run.diagnostics.interrupted else run.diagnostics.t_end,
+    )
     for repetition in (
         x
         for exact_settings in _list_exact_settings(settings)
@@ -200,11 +208,11 @@ def _examine_joint(
     products = ((dry_repetition[f"{name}.F{axis}"] * repetition[f"{name}.e{axis}"])[indices] for axis in "xy")
     with np.errstate(invalid="ignore", divide="ignore"):
         radial_force = sum(products) / e
-        if (depths := contour_of(run.source, run.p, name)) is not None:  # of the force, what acts by the penetration
+        if (depths := find_contour(run.source, run.p, name)) is not None:  # of the force, what acts by the penetration
             bearing = run.source.bodies[joint.first].name if joint.first >= 0 else None
             theta = repetition[f"{bearing}.theta"][indices] if bearing else 0.0
             angle = np.arctan2(repetition[f"{name}.ey"][indices], repetition[f"{name}.ex"][indices]) - theta
-            radial_force = -repetition[f"{name}.Fn"][indices] / np.hypot(1.0, depth_at(depths, angle, 1) / e)
+            radial_force = -repetition[f"{name}.Fn"][indices] / np.hypot(1.0, interpolate_depth(depths, angle, 1) / e)
         normal = np.where(e > 0.0, radial_force, 0.0) * repetition[f"{name}.deltadot"][indices]  # W, by the forces
     rigid = name in run.source.rigid  # closed at δ = 0, where its force does no work along the normal
     touching = (repetition.state[indices, k] > 0) if rigid else joint.dry & (repetition[f"{name}.delta"][indices] > 0.0)
@@ -243,7 +251,7 @@ def has_known_contact_force(source: KernelSource, joint: ClearanceInfo) -> bool:
     return joint.dry and not (joint.film and source.laws)
 
 
-def without_oil(compiled: CompiledModel, p: Array) -> Array:
+def clear_oil_viscosities(compiled: CompiledModel, p: Array) -> Array:
     """Return the parameter values (n_p,) of a run with the viscosities of all films set to zero, so that films carry no
     load.
 
@@ -322,8 +330,8 @@ def _compute_ideal_forces(run: Result, ideal: Simulation | Result | None, notes:
     if ideal is None or run.source.massless or not run.source.clearances:
         return ()
     if hasattr(ideal, "simulate"):
-        known = {slot.address for slot in ideal.source.slots}
-        values = {slot.address: run.parameters[slot.address] for slot in run.source.slots if slot.address in known}
+        addresses = {slot.address for slot in ideal.source.slots}
+        values = {slot.address: run.parameters[slot.address] for slot in run.source.slots if slot.address in addresses}
         try:
             ideal = ideal.simulate(output=run.t, parameters=values, stop=False, peaks=())
         except GudgeonError as error:
@@ -334,9 +342,9 @@ def _compute_ideal_forces(run: Result, ideal: Simulation | Result | None, notes:
     for name in (joint for joint in joints_with_play if f"{joint}.F" in ideal.names):
         force = ideal[f"{name}.F"]
         if np.isfinite(force).all():
-            at = int(force.argmax())
+            peak_index = int(force.argmax())
             rms = _compute_mean_square(ideal.t, force) ** 0.5
-            forces.append(IdealForce(name, float(force[at]), float(ideal.t[at]), rms))
+            forces.append(IdealForce(name, float(force[peak_index]), float(ideal.t[peak_index]), rms))
     return tuple(forces)
 
 
@@ -358,7 +366,7 @@ def _estimate_errors(
     """
     if simulation.source.degrees_of_freedom == 0 and not run.source.clearances or len(run.t) < 2:
         return (), ""  # Newton's method at each sample, without steps
-    settings_of_run, tighter = repeat_settings(run)
+    settings_of_run, tighter = build_repeat_settings(run)
     fixed = "step" in settings_of_run
     description = "steps half as long" if fixed else f"tolerance {tighter['rtol']:.3g} a step"
     settings = settings_of_run | {"step": settings_of_run["step"] / 2.0} if fixed else tighter
@@ -369,7 +377,7 @@ def _estimate_errors(
     horizon = run.diagnostics.horizon
     until = min(horizon, float(run.t[-1])) if math.isfinite(horizon) else float(run.t[-1])
     is_compared = run.t <= until
-    names = [name for watched in default_watch(run) for name in (watched, *rates(watched)) if name]
+    names = [name for watched in choose_watched_series(run) for name in (watched, *find_rate_names(watched)) if name]
     results = []
     for name in dict.fromkeys([*names, *(f"{joint.name}.F" for joint in run.source.clearances)]):
         differences = np.abs(accurate_run[name] - run[name])[is_compared]
@@ -388,7 +396,7 @@ def check_contacts(run: Result, samples: int, progress: Progress | None = None) 
     from gudgeon.simulation.simulation import Simulation
 
     samples = whole_number(samples, "samples", MIN_SAMPLES, MAX_SAMPLES)
-    run = with_start(run)
+    run = join_start(run)
     if not run.source.clearances or len(run.t) < MIN_SAMPLES:
         return check_samples(run)
     dense_run = run

@@ -7,14 +7,21 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from gudgeon.language.argument_checks import flag, text
-from gudgeon.loading.ahead import BackgroundCompilation
-from gudgeon.loading.behind import is_allowed
+from gudgeon.language.argument_checks import check_flag, check_text
+from gudgeon.loading.background_compilation import BackgroundCompilation
 from gudgeon.loading.build import compile_kernels
-from gudgeon.loading.cache import default_cache
-from gudgeon.loading.find import Loading, Overrides, find_mechanism, kernel_source, override_values, read_bytes
+from gudgeon.loading.cache import get_default_cache
+from gudgeon.loading.kernel_sources import (
+    Loading,
+    Overrides,
+    check_overrides,
+    find_kernel_source,
+    find_mechanism,
+    read_bytes,
+)
+from gudgeon.loading.optimized_library import may_compile_in_background
 from gudgeon.waiting.ctrl_c import EndingSignals
-from gudgeon.waiting.imports import RUNTIME, whole
+from gudgeon.waiting.imports import RUNTIME, import_completely
 
 if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
@@ -43,11 +50,11 @@ def load(
     Raises InputError if the file is wrong, BuildError if its C cannot be compiled.
     """
     start = perf_counter()
-    file, overrides = find_mechanism(mechanism), override_values(overrides)
-    scene = None if scene is None else text(scene, "scene", "the name of a scene")
-    formulation = text(formulation, "formulation")
-    portable, regenerate = flag(portable, "portable"), flag(regenerate, "regenerate")
-    quick = flag(quick, "quick") and not regenerate
+    file, overrides = find_mechanism(mechanism), check_overrides(overrides)
+    scene = None if scene is None else check_text(scene, "scene", "the name of a scene")
+    formulation = check_text(formulation, "formulation")
+    portable, regenerate = check_flag(portable, "portable"), check_flag(regenerate, "regenerate")
+    quick = check_flag(quick, "quick") and not regenerate
     return load_bytes(
         read_bytes(file),
         file,
@@ -80,17 +87,20 @@ def load_bytes(
     """
     read = perf_counter()
     start = read if start is None else start
-    with EndingSignals(), BackgroundCompilation(portable, quick=quick and is_allowed(default_cache())) as ahead:
-        source, origin = kernel_source(
-            data, file, scene, overrides=overrides, formulation=formulation, regenerate=regenerate, ahead=ahead
+    with (
+        EndingSignals(),
+        BackgroundCompilation(portable, quick=quick and may_compile_in_background(get_default_cache())) as ahead,
+    ):
+        source, origin = find_kernel_source(
+            data, file, scene, overrides=overrides, formulation=formulation, regenerate=regenerate, background=ahead
         )
         have_source = perf_counter()
         if ahead.is_busy:
-            whole(*RUNTIME)  # while compilers are at work
-        library = compile_kernels(source, portable=portable, rebuild=regenerate, ahead=ahead, quick=quick)
+            import_completely(*RUNTIME)  # while compilers are at work
+        library = compile_kernels(source, portable=portable, rebuild=regenerate, background=ahead, quick=quick)
     have_library = perf_counter()
 
-    whole(*RUNTIME)
+    import_completely(*RUNTIME)
     from gudgeon.model.compiled import CompiledModel
     from gudgeon.model.reference import check_reference
     from gudgeon.simulation.simulation import Simulation

@@ -21,12 +21,12 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import NonFiniteError, SolverError
 from gudgeon.integrators.failure import NO_NUMBER
-from gudgeon.language.functions import CORNERED, JUMPING, names_where
-from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, functions, names
+from gudgeon.language.functions import CORNERED, JUMPING, select_function_names
+from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, iterate_names, list_functions
 from gudgeon.model.compiled import Array
-from gudgeon.model.written import trees, undefined_at_a_corner, values_of_time
+from gudgeon.model.written import evaluate_at_times, find_undefined_at_switch, read_expression_trees
 
-_HIDING = names_where(lambda f: f.hides_corners)  # functions that may hide a switching point
+_HIDING = select_function_names(lambda f: f.hides_corners)  # functions that may hide a switching point
 # grid intervals, largest number of candidates of `_find_jumps`, and of `_find_first_break`
 GRID, MAX_JUMPS, MAX_BREAK_CANDIDATES = 4096, 16, 512
 END_MARGIN = 1e-12  # fraction of a run's time that is searched after its end
@@ -47,7 +47,7 @@ class Jump:
     t: float
     kind: str
     size: float
-    breaks: bool = False  # whether it lies between the branches of where or mod
+    is_between_branches: bool = False  # whether it lies between the branches of where or mod
     message: str = ""  # message: a branch of a where is not a number at its own switching point
 
 
@@ -56,12 +56,12 @@ _Search: TypeAlias = tuple[str, Expr, Callable[..., list[Jump]]]  # in a drive w
 
 def find_hidden_jumps(source: KernelSource, p: Array, t0: float, t1: float) -> list[Jump]:
     """Return the jumps of value or rate of all drives between t0 and t1 (s), sorted by time; at most MOST per drive."""
-    found = []
+    jumps = []
     for drive, tree in _list_drives_with_unknown_switching(source) if t1 > t0 else ():
-        found += _find_jumps(source, p, tree, drive, t0, t1)
+        jumps += _find_jumps(source, p, tree, drive, t0, t1)
     for drive, tree in _list_drives_with_branches(source) if t1 > t0 else ():
-        found += _find_first_break(source, p, tree, drive, t0, t1)
-    return sorted(found, key=lambda jump: jump.t)
+        jumps += _find_first_break(source, p, tree, drive, t0, t1)
+    return sorted(jumps, key=lambda jump: jump.t)
 
 
 def may_jump(source: KernelSource) -> bool:
@@ -74,18 +74,20 @@ def _list_jump_searches(source: KernelSource) -> list[_Search]:
 
     For kinematic scenes these include infinite rates of drives whose switching points are found otherwise.
     """
-    found: list[_Search] = [(drive, tree, _find_jumps) for drive, tree in _list_drives_with_unknown_switching(source)]
-    found += [(drive, tree, _find_first_break) for drive, tree in _list_drives_with_branches(source)]
-    known = {drive for drive, *_ in found}
+    searches: list[_Search] = [
+        (drive, tree, _find_jumps) for drive, tree in _list_drives_with_unknown_switching(source)
+    ]
+    searches += [(drive, tree, _find_first_break) for drive, tree in _list_drives_with_branches(source)]
+    drives = {drive for drive, *_ in searches}
     others = () if _has_impulse_at_jump(source) else _list_drive_expressions(source)
-    return found + [
+    return searches + [
         (drive, tree, _find_unbounded_rates)
         for drive, tree in others
-        if drive not in known and _may_hide_switching_point(tree)
+        if drive not in drives and _may_hide_switching_point(tree)
     ]
 
 
-def first_jumps(
+def find_first_jumps(
     source: KernelSource, p: Array, t0: float, ends: Sequence[float], excluded: Container[int] = ()
 ) -> dict[int, Jump]:
     """Return the first jump of each run after t0 and up to its end (s), by index; runs without one are absent.
@@ -95,15 +97,15 @@ def first_jumps(
     """
     first, known_jumps = dict[int, Jump](), dict[tuple[Any, ...], float | Jump]()
     for drive, tree, search in _list_jump_searches(source):
-        used = {f"parameters.{name.path}" for name in names(tree)}
+        used = {f"parameters.{name.path}" for name in iterate_names(tree)}
         columns = [k for k, slot in enumerate(source.slots) if slot.address in used]
         for i, t1 in enumerate(ends):
             if i in excluded or not t1 > t0:
                 continue
             key = drive, t1, p[i, columns].tobytes()
             if key not in known_jumps:
-                found = [jump for jump in search(source, p[i], tree, drive, t0, t1) if jump.t > t0]
-                known_jumps[key] = min(found, key=lambda jump: jump.t, default=math.inf)
+                jumps = [jump for jump in search(source, p[i], tree, drive, t0, t1) if jump.t > t0]
+                known_jumps[key] = min(jumps, key=lambda jump: jump.t, default=math.inf)
             jump = known_jumps[key]
             if isinstance(jump, Jump) and (i not in first or jump.t < first[i].t):
                 first[i] = jump
@@ -119,7 +121,7 @@ def _has_impulse_at_jump(source: KernelSource) -> bool:
 
 def _list_drive_expressions(source: KernelSource) -> list[tuple[str, Expr]]:
     """Return the name and expression of each drive."""
-    return [(info.address.split(".")[1], tree) for info, tree in trees(source, ("drives",))]
+    return [(info.address.split(".")[1], tree) for info, tree in read_expression_trees(source, ("drives",))]
 
 
 def _list_drives_with_unknown_switching(source: KernelSource) -> list[tuple[str, Expr]]:
@@ -127,19 +129,23 @@ def _list_drives_with_unknown_switching(source: KernelSource) -> list[tuple[str,
     return [
         (drive, tree)
         for drive, tree in _list_drive_expressions(source)
-        if _may_hide_switching_point(tree) and drive not in source.rate_jumps and CORNERED.isdisjoint(functions(tree))
+        if _may_hide_switching_point(tree)
+        and drive not in source.rate_jumps
+        and CORNERED.isdisjoint(list_functions(tree))
     ]
 
 
-def end_before(jump: Jump, t0: float) -> float:
+def compute_end_before_jump(jump: Jump, t0: float) -> float:
     """Return the time (s) before which the last sample of a run from t0 must lie if it meets the jump.
 
     A break between branches is avoided by a margin, since a sample at its time may be on either side.
     """
-    return jump.t - (1e-10 * max(abs(t0), abs(jump.t)) if jump.breaks else 0.0)  # at the jump it is on either side
+    return jump.t - (
+        1e-10 * max(abs(t0), abs(jump.t)) if jump.is_between_branches else 0.0
+    )  # at the jump it is on either side
 
 
-def jump_failure(source: KernelSource, jump: Jump) -> SolverError:
+def build_jump_error(source: KernelSource, jump: Jump) -> SolverError:
     """Build the error that ends a run at a jump of a drive; NonFiniteError if a branch is not a number there."""
     why = "its rate is no number there" if jump.kind == "rate" else "no linkage follows it"
     message = _format_jump(jump, "the impulse there would be left out" if _has_impulse_at_jump(source) else why)
@@ -155,7 +161,7 @@ def _format_jump(jump: Jump, reason: str) -> str:
             f"drive {jump.drive}: its rate is infinite at t = {jump.t:.6g} s: no velocity is a number there\n"
             "  write it so that its rate is bounded, or end the run before"
         )
-    if jump.breaks:
+    if jump.is_between_branches:
         return (
             f"drive {jump.drive}: it jumps by {jump.size:.4g} at t = {jump.t:.6g} s: no linkage follows it\n"
             "  what where and mod choose between must meet where they change over, or the run ends before"
@@ -189,7 +195,9 @@ def _may_hide_switching_point(tree: Expr) -> bool:
 
 def _list_drives_with_branches(source: KernelSource) -> list[tuple[str, Expr]]:
     """Return the drives with where or mod, whose branches may not meet at their switching points."""
-    return [(drive, tree) for drive, tree in _list_drive_expressions(source) if not JUMPING.isdisjoint(functions(tree))]
+    return [
+        (drive, tree) for drive, tree in _list_drive_expressions(source) if not JUMPING.isdisjoint(list_functions(tree))
+    ]
 
 
 @np.errstate(all="ignore")
@@ -202,8 +210,8 @@ def _find_first_break(source: KernelSource, p: Array, tree: Expr, drive: str, t0
     """
     end_margin = END_MARGIN * (t1 - t0)
     t1 += end_margin
-    info = next(info for info, _ in trees(source, ("drives",)) if info.address.split(".")[1] == drive)
-    undefined = undefined_at_a_corner(source, p, info, tree, np.linspace(t0, t1, GRID + 1))
+    info = next(info for info, _ in read_expression_trees(source, ("drives",)) if info.address.split(".")[1] == drive)
+    undefined = find_undefined_at_switch(source, p, info, tree, np.linspace(t0, t1, GRID + 1))
     if undefined:
         t1 = undefined[1]
     ratios, h = (
@@ -214,12 +222,12 @@ def _find_first_break(source: KernelSource, p: Array, tree: Expr, drive: str, t0
         t = t0 + (k + 1) * h
         jump = _classify_jump(source, p, tree, drive, max(t - h, t0), min(t + h, t1))
         if jump and jump.kind == "value":
-            near = values_of_time(source, p, tree, np.array([t - h, t, t + h]))
+            near = evaluate_at_times(source, p, tree, np.array([t - h, t, t + h]))
             if (
                 jump.size > 10.0 * end_margin * np.abs(np.diff(near)).max() / h
             ):  # else a jump of the rate, so near an end
-                return [replace(jump, breaks=True)]
-    return [Jump(drive, t1, "no number", np.nan, breaks=True, message=undefined[0])] if undefined else []
+                return [replace(jump, is_between_branches=True)]
+    return [Jump(drive, t1, "no number", np.nan, is_between_branches=True, message=undefined[0])] if undefined else []
 
 
 def _compute_curvature_ratio(
@@ -229,7 +237,7 @@ def _compute_curvature_ratio(
 
     `pad_mode`: how the differences are continued past the ends t0, t1 (mode of numpy.pad).
     """
-    f = values_of_time(source, p, tree, np.linspace(t0, t1, GRID + 1))
+    f = evaluate_at_times(source, p, tree, np.linspace(t0, t1, GRID + 1))
     second_differences = np.abs(np.diff(f, 2))
     around = np.median(
         np.lib.stride_tricks.sliding_window_view(np.pad(second_differences, 8, mode=pad_mode), 17), axis=1
@@ -245,14 +253,14 @@ def _find_jumps(source: KernelSource, p: Array, tree: Expr, drive: str, t0: floa
     """
     ratios = _compute_curvature_ratio(source, p, tree, t0, t1)
     candidates = [k for k in np.argsort(-ratios, kind="stable")[: 4 * MAX_JUMPS].tolist() if ratios[k] > 3.0]
-    found: list[Jump] = []
+    jumps: list[Jump] = []
     h = (t1 - t0) / GRID
     for k in candidates:
         t = t0 + (k + 1) * h
-        if len(found) < MAX_JUMPS and all(abs(t - jump.t) > 2.5 * h for jump in found):
+        if len(jumps) < MAX_JUMPS and all(abs(t - jump.t) > 2.5 * h for jump in jumps):
             jump = _classify_jump(source, p, tree, drive, max(t - h, t0), min(t + h, t1))
-            found += [jump] if jump else []
-    return found
+            jumps += [jump] if jump else []
+    return jumps
 
 
 def _find_unbounded_rates(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
@@ -270,7 +278,7 @@ def _classify_jump(source: KernelSource, p: Array, tree: Expr, drive: str, a: fl
     sizes: list[float] = []  # of the rate's change
     for _ in range(LEVELS):
         times = np.linspace(a, b, POINTS + 1)
-        f = values_of_time(source, p, tree, times)
+        f = evaluate_at_times(source, p, tree, times)
         second_differences = np.abs(np.diff(f, 2))
         if not np.isfinite(second_differences).all():
             return None  # no number there: another matter

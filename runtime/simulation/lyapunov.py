@@ -19,23 +19,23 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.assembly.linkage import angles
+from gudgeon.assembly.linkage import find_angles
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, InputError
-from gudgeon.integrators.adaptive import tolerance
-from gudgeon.language.argument_checks import refuse, text
+from gudgeon.integrators.adaptive import parse_tolerance
+from gudgeon.language.argument_checks import check_text, raise_bad_value
 from gudgeon.language.functions import JUMPING
-from gudgeon.language.tree import functions, names
+from gudgeon.language.tree import iterate_names, list_functions
 from gudgeon.model.compiled import Array
-from gudgeon.model.parameters import prepare_slots
-from gudgeon.model.sizes import mechanism_sizes
-from gudgeon.model.written import trees
+from gudgeon.model.parameters import prepare_given_values
+from gudgeon.model.sizes import compute_mechanism_sizes
+from gudgeon.model.written import read_expression_trees
 from gudgeon.results.lyapunov import Lyapunov, Section
 from gudgeon.results.results import Result
-from gudgeon.simulation.arguments import end_of, seconds
-from gudgeon.simulation.horizon import check_simulation_of_run, repeat_settings, start_of_run
-from gudgeon.simulation.neighbours import NEAR, Neighbours, SecondRun
-from gudgeon.simulation.restart import numbers, own
+from gudgeon.simulation.arguments import evaluate_end_time, parse_seconds
+from gudgeon.simulation.neighbours import INITIAL_DISTANCE, DifferenceNorm, SecondRun
+from gudgeon.simulation.predictability_horizon import build_repeat_settings, build_start_state, check_simulation_of_run
+from gudgeon.simulation.restart import copy_checked_state, merge_parameters
 from gudgeon.simulation.tangent import Flow, Tangent
 
 if TYPE_CHECKING:
@@ -55,10 +55,10 @@ MIN_INTERVAL = 2.0**-12  # shortest interval, relative to the longest
 PERIOD_TOL = 1e-6  # of a period: by which a time may differ from a multiple of it
 
 
-def reason_without_tangent(source: KernelSource) -> str:
+def explain_invalid_tangent(source: KernelSource) -> str:
     """Return why the Jacobian does not describe all motions of neighbouring states of a scene; "" where it does."""
-    if source.no_slopes:
-        return source.no_slopes
+    if source.reason_without_jacobian:
+        return source.reason_without_jacobian
     if source.states:
         return f"a law has an inner state, {next(filter(None, source.states))}, which is no coordinate"
     if source.frictions:
@@ -67,13 +67,13 @@ def reason_without_tangent(source: KernelSource) -> str:
         return f"the rate of the drive {source.rate_jumps[0]} may jump: the linkage follows by an impulse"
     if source.laws:
         return f"the law {source.laws[0][0]} is of one's own: where it jumps is not known"
-    for info, tree in trees(source, ("forces",)):
-        if found := sorted(functions(tree) & JUMPING):
-            return f"{info.address} calls {found[0]}, which may jump"
+    for info, tree in read_expression_trees(source, ("forces",)):
+        if function_names := sorted(list_functions(tree) & JUMPING):
+            return f"{info.address} calls {function_names[0]}, which may jump"
     return ""
 
 
-def lyapunov(
+def compute_lyapunov_exponent(
     simulation: Simulation,
     until: float | str | Result,
     section: str | float | None,
@@ -98,7 +98,7 @@ def lyapunov(
         t_end = until
     if source.degrees_of_freedom <= 0:
         raise BadValueError("without a degree of freedom no difference can grow: drives determine the motion")
-    reason = _explain_second_run(source, text(by, "by"))
+    reason = _explain_second_run(source, check_text(by, "by"))
     settings = _build_run_settings(settings, reason is not None)
     arguments_of_start = _find_settled_start(simulation, skip, settings, parameters, start)
     run_measured = simulation.simulate(
@@ -106,31 +106,31 @@ def lyapunov(
     )
     if run_measured.diagnostics.interrupted:
         raise KeyboardInterrupt
-    returns = Returns.of(run_measured, section)
-    measure = Neighbours.of(run_measured, simulation.compiled)
+    returns = Returns.from_run(run_measured, section)
+    measure = DifferenceNorm.from_run(run_measured, simulation.compiled)
     _check_duration(run_measured, measure)
-    transverse = bool(returns.event) and not _depends_on_time(source)
-    arguments = (simulation, measure, settings, start_of_run(run_measured), transverse)
+    transverse = bool(returns.event) and not _has_time_dependence(source)
+    arguments = (simulation, measure, settings, build_start_state(run_measured), transverse)
     pair = SecondRun(*arguments) if reason is not None else Tangent(*arguments, Flow(simulation.compiled, run_measured))
     t, growth = [float(run_measured.t[0])], []
     for run, grown in _yield_intervals(pair, t[0], float(run_measured.t[-1]), returns.period, progress):
         t.append(float(run.t[-1]))
         growth.append(grown)
-        returns.note(run)
+        returns.append_run(run)
     return Lyapunov(
         "tangent" if reason is None else "twin",
         reason or "",
         np.array(t),
         np.array(growth),
-        pair.unresolved / (t[-1] - t[0]),
-        pair.merged,
+        pair.growth_error / (t[-1] - t[0]),
+        pair.n_merged,
         transverse,
-        returns.section(),
+        returns.build_section(),
         pair.state,
     )
 
 
-def reason_against_tangent(source: KernelSource) -> str:
+def explain_slow_tangent(source: KernelSource) -> str:
     """Return why by="auto" follows a second run although the tangent would be valid; "" where the tangent is fast.
 
     The reason is a stiff film, on which the tangent needs as many panels as there are steps.
@@ -139,7 +139,7 @@ def reason_against_tangent(source: KernelSource) -> str:
     return f"the film of {films[0]} is stiff: the mesh of the tangent is as fine as its steps" if films else ""
 
 
-def _check_duration(run: Result, measure: Neighbours) -> None:
+def _check_duration(run: Result, measure: DifferenceNorm) -> None:
     """Raise BadValueError if the motion hardly changes in the run, so that a mean over it is no rate of growth."""
     if measure.is_short(run):
         span = float(run.t[-1] - run.t[0])
@@ -163,9 +163,9 @@ def _read_run_settings(
     if parameters is not None or start is not None:
         hint = "leave out parameters and start"
         raise BadValueError("lyapunov of a run: it has its own start and numbers", hint=hint)
-    run_settings = {name: value for name, value in repeat_settings(run)[0].items() if name in ("method", "step")}
+    run_settings = {name: value for name, value in build_repeat_settings(run)[0].items() if name in ("method", "step")}
     requested = {name: value for name, value in settings.items() if value is not None and value != "auto"}
-    return float(run.t[-1]), start_of_run(run), settings | run_settings | requested
+    return float(run.t[-1]), build_start_state(run), settings | run_settings | requested
 
 
 def _yield_intervals(
@@ -200,11 +200,11 @@ def _explain_second_run(source: KernelSource, method: str) -> str | None:
     Raises BadValueError for an unknown method `method`, and for by="tangent" where the Jacobian does not suffice.
     """
     if method not in METHODS:
-        refuse("by", method, f"one of {', '.join(METHODS)}")
-    reason = reason_without_tangent(source)
+        raise_bad_value("by", method, f"one of {', '.join(METHODS)}")
+    reason = explain_invalid_tangent(source)
     if method == "tangent" and reason:
         raise BadValueError(f"no exponent by the tangent: {reason}", hint='by="twin" takes a second run')
-    reason = reason or (reason_against_tangent(source) if method == "auto" else "")
+    reason = reason or (explain_slow_tangent(source) if method == "auto" else "")
     return None if method == "tangent" or (method == "auto" and not reason) else reason
 
 
@@ -217,20 +217,20 @@ def _build_run_settings(settings: dict[str, Any], is_twin: bool) -> dict[str, An
     if given.get("step") is not None or str(given.get("method")) == "rk4":
         return given
     given = {"rtol": RTOL} | given
-    if is_twin and tolerance(given["rtol"], "auto", False) > MAX_RTOL_OF_SECOND_RUN:
-        message = f"rtol is {given['rtol']}: a twin is {NEAR:g} apart, and would measure what steps err by"
+    if is_twin and parse_tolerance(given["rtol"], "auto", False) > MAX_RTOL_OF_SECOND_RUN:
+        message = f"rtol is {given['rtol']}: a twin is {INITIAL_DISTANCE:g} apart, and would measure what steps err by"
         raise BadValueError(message, hint=f"expected {MAX_RTOL_OF_SECOND_RUN:g} or less; without one it is {RTOL:g}")
     return given
 
 
-def neighbours_rtol(source: KernelSource, rtol: float | None) -> float | None:
+def limit_rtol_of_neighbours(source: KernelSource, rtol: float | None) -> float | None:
     """Return the tolerance of runs with a neighbour, where that of other runs is `rtol`; None stays None.
 
     It is at most LOOSEST where by="auto" follows a second run.
     """
     return (
         min(rtol, MAX_RTOL_OF_SECOND_RUN)
-        if rtol is not None and (reason_without_tangent(source) or reason_against_tangent(source))
+        if rtol is not None and (explain_invalid_tangent(source) or explain_slow_tangent(source))
         else rtol
     )
 
@@ -247,11 +247,11 @@ def _find_settled_start(
     With skip 0 nothing is run, and the given arguments are returned. Raises BadValueError for a negative or infinite
     time.
     """
-    state = None if start is None else own(simulation.source, start)
-    given, is_given, _ = numbers(simulation.compiled, state, parameters)
-    p = prepare_slots(simulation.compiled, given, is_given)
-    found = end_of(simulation.source, skip, p)
-    duration = seconds("skip", 0.0 if found is None else found)
+    state = None if start is None else copy_checked_state(simulation.source, start)
+    given, is_given, _ = merge_parameters(simulation.compiled, state, parameters)
+    p = prepare_given_values(simulation.compiled, given, is_given)
+    start_time = evaluate_end_time(simulation.source, skip, p)
+    duration = parse_seconds("skip", 0.0 if start_time is None else start_time)
     if not (math.isfinite(duration) and duration >= 0.0):
         raise BadValueError(f"skip is {duration:g} s: expected a time of zero or more")
     arguments: dict[str, Any] = {"start": start, "parameters": parameters}
@@ -264,9 +264,13 @@ def _find_settled_start(
     return {"start": run.final}
 
 
-def _depends_on_time(source: KernelSource) -> bool:
+def _has_time_dependence(source: KernelSource) -> bool:
     """Return whether the expression of a drive or a force contains the time t."""
-    return any(name.path == "t" for _, tree in trees(source, ("drives", "forces")) for name in names(tree))
+    return any(
+        name.path == "t"
+        for _, tree in read_expression_trees(source, ("drives", "forces"))
+        for name in iterate_names(tree)
+    )
 
 
 @dataclass(eq=False)
@@ -283,21 +287,21 @@ class Returns:
     points: list[Array] = field(default_factory=list)
 
     @staticmethod
-    def of(run: Result, section: str | float | None) -> Returns:
+    def from_run(run: Result, section: str | float | None) -> Returns:
         """Prepare an empty collection of returns, with scales from a run that shows the whole motion.
 
         Raises InputError for an invalid section.
         """
         event, period = _parse_section(run, section)
-        size = float(mechanism_sizes(run.source, run.p))
-        per = np.where(angles(run.source), 1.0, size)
+        size = float(compute_mechanism_sizes(run.source, run.p))
+        per = np.where(find_angles(run.source), 1.0, size)
         speed = float(np.sqrt(np.mean(np.square(run.v / per), axis=0)).max(initial=0.0)) * size
         returns = Returns(event, period, float(run.t[0]), size, speed or size, 0.0)
         points = returns._compute_points(run)
         returns.extent = float(np.sqrt(np.mean(np.sum(np.square(points - points.mean(axis=0)), axis=1))))
         return returns
 
-    def note(self, run: Result) -> None:
+    def append_run(self, run: Result) -> None:
         """Append the returns in the next part of the run: its events, or its end if that is a multiple of the
         period.
         """
@@ -311,7 +315,7 @@ class Returns:
                 self.t.append(float(run.t[-1]))
                 self.points.append(self._compute_points(run)[-1])
 
-    def section(self) -> Section | None:
+    def build_section(self) -> Section | None:
         """Return the collected times and points as a Section; None if no section was requested."""
         if not (self.event or self.period):
             return None
@@ -325,7 +329,7 @@ class Returns:
         """
         source = run.source if not hasattr(run, "all") else run.all.source
         p = run.p if not hasattr(run, "all") else run.all.p
-        angle = angles(source)
+        angle = find_angles(source)
         scale = np.where(angle, 1.0, self.size)
         parts = [
             run.q[:, ~angle] / self.size,
@@ -353,8 +357,8 @@ def _parse_section(run: Result, section: str | float | None) -> tuple[str, float
     if isinstance(section, str) and section in events:
         return section, 0.0
     try:
-        found = end_of(run.source, section, run.p)
-        period = seconds("section", 0.0 if found is None else found)
+        section_time = evaluate_end_time(run.source, section, run.p)
+        period = parse_seconds("section", 0.0 if section_time is None else section_time)
     except InputError as error:
         if isinstance(section, str) and section.isidentifier():
             run.events_of(section)  # UnknownNameError names the nearest

@@ -19,8 +19,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.assembly.linkage import angles, project
-from gudgeon.integrators.adaptive import lengths
+from gudgeon.assembly.linkage import find_angles, project_state
+from gudgeon.integrators.adaptive import compute_error_lengths
 from gudgeon.model.compiled import Array, CompiledModel
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
 
 
-NEAR = 1e-6  # initial distance of neighbours: far above integration errors, far below non-linear effects
+INITIAL_DISTANCE = 1e-6  # initial distance of neighbours: far above integration errors, far below non-linear effects
 MAX_CHANGE_AT_REST = 0.2  # of the rms acceleration: it changes by less in a span in which nothing turns
 SEED = 1  # random seed of the first difference
 MAX_GROWTH = 1e3  # times NEAR: if the distance is larger, the interval is repeated with half its length
@@ -36,26 +36,26 @@ MERGED = 1e-8  # times NEAR: closer runs count as merged, as where friction stic
 
 
 @dataclass(frozen=True, eq=False)
-class Neighbours:
+class DifferenceNorm:
     """Measure differences between states of one run in dimensionless form, with scales taken from that run."""
 
     compiled: CompiledModel
     p: Array  # (n_slots + n_derived,)
-    weights: Array  # (2n,) scales of q and q̇: differences that count as 1
+    scales: Array  # (2n,) scales of q and q̇: differences that count as 1
     size: float  # m, of the mechanism
-    crossing: float  # s, time in which the motion crosses the mechanism's size
+    crossing_time: float  # s, time in which the motion crosses the mechanism's size
 
     @staticmethod
-    def of(run: Result, compiled: CompiledModel) -> Neighbours:
+    def from_run(run: Result, compiled: CompiledModel) -> DifferenceNorm:
         """Build the scales from the parameter values and the rms speeds of a run; a run at rest counts as crossing
         in 1 s.
         """
-        length, size = (float(x) for x in lengths(compiled, run.p))
-        angle = angles(compiled.source)
+        length, size = (float(x) for x in compute_error_lengths(compiled, run.p))
+        angle = find_angles(compiled.source)
         speeds = np.sqrt(np.mean(np.square(run.v / np.where(angle, 1.0, size)), axis=0))
         crossing = 1.0 / speeds.max(initial=0.0) if speeds.max(initial=0.0) > 0.0 else 1.0
         of_q = np.where(angle, length / size, length)
-        return Neighbours(compiled, run.p, np.concatenate([of_q, of_q / crossing]), size, crossing)
+        return DifferenceNorm(compiled, run.p, np.concatenate([of_q, of_q / crossing]), size, crossing)
 
     def is_short(self, run: Result) -> bool:
         """Return whether a run ends before anything turns, so that a Lyapunov exponent would be meaningless.
@@ -63,8 +63,8 @@ class Neighbours:
         Such a run has no contact and does not cross the mechanism's size. It ends before its accelerations could stop
         it (rms speed over rms acceleration), or before they change.
         """
-        span, q = float(run.t[-1] - run.t[0]), self.weights[: self.n]
-        if span >= self.crossing or (run.impacts["t_on"] > run.t[0]).any():
+        span, q = float(run.t[-1] - run.t[0]), self.scales[: self.n]
+        if span >= self.crossing_time or (run.impacts["t_on"] > run.t[0]).any():
             return False
         speed, acceleration, change = (
             float(np.sqrt(np.mean(np.square(x / q)))) for x in (run.v, run.a, run.a - run.a.mean(axis=0))
@@ -74,37 +74,37 @@ class Neighbours:
     @property
     def n(self) -> int:
         """Return the number of coordinates of all bodies."""
-        return len(self.weights) // 2
+        return len(self.scales) // 2
 
-    def apart(self, difference: Array) -> float:
+    def compute_norm(self, difference: Array) -> float:
         """Return the scaled Euclidean norm of a difference (2n,) of (q, q̇)."""
-        return float(np.linalg.norm(difference / self.weights))
+        return float(np.linalg.norm(difference / self.scales))
 
-    def onto(self, t: float, y: Array) -> Array:
+    def project_state(self, t: float, y: Array) -> Array:
         """Project a state y = (q, q̇), (2n,), onto the constraints at time t (s) and return it."""
         n = len(y) // 2
-        return np.concatenate(project(self.compiled, t, y[:n], y[n:], self.p))
+        return np.concatenate(project_state(self.compiled, t, y[:n], y[n:], self.p))
 
-    def drawn(self, t: float, y: Array) -> Array:
+    def draw_neighbour(self, t: float, y: Array) -> Array:
         """Return a neighbour (2n,) of the state y at the distance NEAR on the constraints, in a fixed pseudo-random
         direction.
         """
-        difference = self.weights * np.random.default_rng(SEED).standard_normal(len(y))
+        difference = self.scales * np.random.default_rng(SEED).standard_normal(len(y))
         for _ in range(2):  # project onto the constraints, then scale to the length
-            difference *= NEAR / self.apart(difference)
-            difference = self.onto(t, y + difference) - self.onto(t, y)
+            difference *= INITIAL_DISTANCE / self.compute_norm(difference)
+            difference = self.project_state(t, y + difference) - self.project_state(t, y)
         return y + difference
 
-    def along(self, difference: Array, flow: Array) -> float:
+    def project_on_flow(self, difference: Array, flow: Array) -> float:
         """Return the scaled component of a difference (2n,) along the motion's direction `flow` = (q̇, q̈); 0
         without motion.
         """
-        w = self.weights
+        w = self.scales
         length = float(np.sum(np.square(flow / w)))
         return float((difference / w) @ (flow / w)) / length if length > 0.0 else 0.0
 
 
-def flat(state: State) -> Array:
+def flatten_state(state: State) -> Array:
     """Return the vector (q, q̇), (2n,), of a state."""
     return np.concatenate([state.q, state.v])
 
@@ -130,20 +130,20 @@ class SecondRun:
     """
 
     simulation: Simulation
-    measure: Neighbours
+    measure: DifferenceNorm
     settings: dict[str, Any]
     state: State
     transverse: bool
-    unresolved: float = 0.0
-    merged: int = 0  # number of times that both runs became one
+    growth_error: float = 0.0
+    n_merged: int = 0  # number of times that both runs became one
 
     def __post_init__(self) -> None:
         """Draw the neighbour of the present state, and store its distance; also called again after both runs have
         merged.
         """
-        first = self.measure.drawn(self.state.t, flat(self.state))
+        first = self.measure.draw_neighbour(self.state.t, flatten_state(self.state))
         self.other = _replace_state_vector(self.state, first, self.state.memory.copy())
-        self.distance = self.measure.apart(first - flat(self.state))
+        self.distance = self.measure.compute_norm(first - flatten_state(self.state))
 
     def advance(self, t: float, is_shortest: bool) -> tuple[Result, float] | None:
         """Advance both runs to t (s); return the first run and ln of the growth of their distance.
@@ -161,17 +161,19 @@ class SecondRun:
         if any(run.diagnostics.interrupted for run in (batch[0], batch[1])):
             raise KeyboardInterrupt
         run, neighbour = batch[0], batch[1].final
-        difference = flat(neighbour) - flat(run.final)
+        difference = flatten_state(neighbour) - flatten_state(run.final)
         if self.transverse:
             flow = np.concatenate([run.v[-1], run.a[-1]])
-            difference -= self.measure.along(difference, flow) * flow
-        distance = self.measure.apart(difference)
-        if distance <= MERGED * NEAR:
-            log_growth = math.log(MERGED * NEAR / self.distance)
-            self.state, self.merged = run.final, self.merged + 1
+            difference -= self.measure.project_on_flow(difference, flow) * flow
+        distance = self.measure.compute_norm(difference)
+        if distance <= MERGED * INITIAL_DISTANCE:
+            log_growth = math.log(MERGED * INITIAL_DISTANCE / self.distance)
+            self.state, self.n_merged = run.final, self.n_merged + 1
             self.__post_init__()
             return run, log_growth
-        is_too_far = not 1.0 / MAX_GROWTH < distance / self.distance < MAX_GROWTH or distance > MAX_GROWTH * NEAR
+        is_too_far = (
+            not 1.0 / MAX_GROWTH < distance / self.distance < MAX_GROWTH or distance > MAX_GROWTH * INITIAL_DISTANCE
+        )
         if is_too_far and not is_shortest:
             return None
         log_growth = math.log(distance / self.distance)
@@ -185,8 +187,8 @@ class SecondRun:
 
         Inner states are scaled alike, and the new state is projected onto the constraints.
         """
-        s, y = NEAR / self.distance, flat(self.state)
-        neighbour = self.measure.onto(self.state.t, y + s * difference)
+        s, y = INITIAL_DISTANCE / self.distance, flatten_state(self.state)
+        neighbour = self.measure.project_state(self.state.t, y + s * difference)
         memory = self.state.memory + s * (self.other.memory - self.state.memory)
         self.other = _replace_state_vector(self.other, neighbour, memory)
-        self.distance = self.measure.apart(neighbour - y)
+        self.distance = self.measure.compute_norm(neighbour - y)

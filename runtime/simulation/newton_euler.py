@@ -56,13 +56,13 @@ class Table:
     gravity: tuple[tuple[int, int], ...]  # given components: axis, index into p
 
 
-def table_of(source: KernelSource) -> Table:
+def get_force_table(source: KernelSource) -> Table:
     """Return the table of forces of a scene, built at the first call and cached in `source`."""
     kept = source.__dict__
     if "newton_euler" not in kept:
         kept["newton_euler"] = _build_table(source)
-    found: Table = kept["newton_euler"]
-    return found
+    table: Table = kept["newton_euler"]
+    return table
 
 
 def _build_table(source: KernelSource) -> Table:
@@ -72,33 +72,33 @@ def _build_table(source: KernelSource) -> Table:
     places, n = {point.name: point for point in source.points}, len(source.bodies)
     points = [places[joint.point] for joint in source.joints]
     bodies = {"ground", *(body.name for body in source.bodies)}
-    found = [(part, _build_element(source, part)) for part in source.parts if part.section != "joints"]
-    elements = tuple(element for _, element in found if element)
+    elements_of_parts = [(part, _build_element(source, part)) for part in source.parts if part.section != "joints"]
+    elements = tuple(element for _, element in elements_of_parts if element)
     lost = {
         name.partition(".")[0]
         for part in source.parts
         for name in (*part.ends, *part.options.values())
         if part.name in source.indeterminate
         or part.name in source.rigid
-        or (part, None) in found
+        or (part, None) in elements_of_parts
         or (part.section == "joints" and bodies.intersection(part.options.values()))
     }
     pairs = [(joint.first, joint.second) for joint in source.joints]
     pairs += [(element.first.body, element.second.body) for element in elements]
-    known = len(pairs)
+    n_pairs = len(pairs)
     pairs += [(joint.first, joint.second) for joint in source.clearances]
     signs = np.zeros((n + 1, len(pairs)))  # the last row is the ground's
     for k, (first, second) in enumerate(pairs):
         signs[first, k], signs[second, k] = -1.0, 1.0
     signs = signs[:n]
     moved = ~np.array([body.name in lost for body in source.bodies], dtype=bool)
-    turned = moved & ~signs[:, known:].any(axis=1)
-    given = ((0, source.place.get("gravity.x")), (1, source.place.get("gravity.y")))
+    turned = moved & ~signs[:, n_pairs:].any(axis=1)
+    given = ((0, source.slot_index.get("gravity.x")), (1, source.slot_index.get("gravity.y")))
     return Table(
         signs,
         np.flatnonzero(moved),
         np.flatnonzero(turned),
-        signs[turned, :known],
+        signs[turned, :n_pairs],
         (*points, *(element.second for element in elements)),
         elements,
         tuple((axis, k) for axis, k in given if k is not None),
@@ -124,18 +124,18 @@ def _build_element(source: KernelSource, part: PartInfo) -> Element | None:
     if part.section == "drives":
         return Element(part.kind, first, second, [drive.name for drive in source.drives].index(part.name))
     name = f"{part.name}.{ELEMENTS[part.kind]}"
-    return Element(part.kind, first, second, [one.name for one in source.series].index(name))
+    return Element(part.kind, first, second, [series.name for series in source.series].index(name))
 
 
 def _parse_number(source: KernelSource, address: str) -> Number | None:
     """Return a number of the file at an address as (index into p, 0) or (−1, value); None for an expression."""
-    if address in source.place:
-        return source.place[address], 0.0
-    written = [json.loads(one.tree) for one in source.written if one.address == address]
+    if address in source.slot_index:
+        return source.slot_index[address], 0.0
+    written = [json.loads(expression.tree) for expression in source.written if expression.address == address]
     return (-1, float(written[0])) if written and isinstance(written[0], int | float) else None
 
 
-def newton_euler(
+def compute_newton_euler_residuals(
     compiled: CompiledModel, p: Array, q: Array, evaluation: Evaluation, samples: NDArray[np.intp]
 ) -> Array:
     """Compute the residuals of each body's Newton–Euler equations at the samples `samples`, relative to the largest
@@ -143,7 +143,7 @@ def newton_euler(
 
     The shape is (len(at), n_bodies); bodies that are left out have 0.
     """
-    table, n = table_of(compiled.source), len(samples)
+    table, n = get_force_table(compiled.source), len(samples)
     residuals = np.zeros((n, len(compiled.source.bodies)))
     if not len(table.with_known_forces) or not n:
         return residuals

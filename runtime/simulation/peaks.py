@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from gudgeon.integrators.steps import Steps
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.results.diagnostics import Extremes
-from gudgeon.simulation.between import INSIDE, Path
+from gudgeon.simulation.run_interpolant import INNER_FRACTION, RunInterpolant
 from gudgeon.simulation.step_observers import ComparedScene, Observation
 
 # Chebyshev points, as fractions of an interval, at which a series is sampled
@@ -34,14 +34,14 @@ MAX_INTERVALS = 16  # intervals of a block that are searched; the most promising
 PEAK_TOL = 1e-14  # of a value: a smaller increase is rounding, and the earlier time is reported
 RESOLVED = 2e-4  # of the largest value of a block: allowed error of states predicted from their neighbours
 # matrix from five states to the values at INSIDE of their four intervals
-PREDICT = np.vander(np.arange(4) + INSIDE, 5) @ np.linalg.inv(np.vander(np.arange(5.0)))
+PREDICT = np.vander(np.arange(4) + INNER_FRACTION, 5) @ np.linalg.inv(np.vander(np.arange(5.0)))
 ACCELERATION_ROUNDING = 5e-9  # of the largest acceleration of its kind: smaller values are rounding
 INTERVAL_TOL = 1e-6  # relative difference up to which intervals of a step count as equal
 MAX_HALVED_INTERVALS = 4096  # largest number of intervals that are evaluated for one series of a block
 COEFFICIENT_TOL = 1e-11  # of the largest value of a block: largest last coefficients of a resolved polynomial
 
 
-class Search:
+class PeakSearch:
     """Search the peaks of series over all steps of one run; it is a step observer.
 
     `beside`: the scene from which errors of the series are computed, or None.
@@ -55,10 +55,10 @@ class Search:
         compared_scene: ComparedScene | None = None,
     ) -> None:
         self.names = tuple(names)
-        self.interpolant = Path(compiled, parameter_arrays, self.names)
-        self.beside = compared_scene  # the scene with which errors are computed
+        self.interpolant = RunInterpolant(compiled, parameter_arrays, self.names)
+        self.compared_scene = compared_scene  # the scene with which errors are computed
         self.compared_interpolant = (
-            Path(compared_scene.compiled, compared_scene.numbers, self.names) if compared_scene else None
+            RunInterpolant(compared_scene.compiled, compared_scene.numbers, self.names) if compared_scene else None
         )
         self.kinds = [(name, False) for name in self.names]
         if compared_scene:
@@ -70,20 +70,24 @@ class Search:
         """Process the next states of the run: update the peaks of all series, and of their errors while the other
         scene runs.
         """
-        self.interpolant.take(steps)
+        self.interpolant.load_states(steps)
         interpolants = [self.interpolant]
-        if self.compared_interpolant and self.beside and (followed := self.beside.follow(steps.t)) is not None:
-            self.compared_interpolant.take(followed)
+        if (
+            self.compared_interpolant
+            and self.compared_scene
+            and (followed := self.compared_scene.integrate_to(steps.t)) is not None
+        ):
+            self.compared_interpolant.load_states(followed)
             interpolants.append(self.compared_interpolant)
         for name, error in self.kinds:
             if not error or len(interpolants) == 2:
                 self._update_peaks(name, error, interpolants if error else interpolants[:1])
 
-    def message(self) -> Observation:
+    def build_observation(self) -> Observation:
         """Return the peaks and notes as an Observation, which is stored in a Result."""
-        return Observation(self.found(), self.notes())
+        return Observation(self.list_extremes(), self.list_notes())
 
-    def found(self) -> tuple[Extremes, ...]:
+    def list_extremes(self) -> tuple[Extremes, ...]:
         """Return the extremes of each series, then those of errors against the other scene if it ran to the end.
 
         Values and times are NaN for series without a finite value.
@@ -91,32 +95,38 @@ class Search:
         unknown = (math.nan, math.nan)
         message = []
         for name, error in self.kinds:
-            if error and self.beside and self.beside.lost:
+            if error and self.compared_scene and self.compared_scene.failure_reason:
                 continue
             high, low = (self.best.get((name, error, sign), unknown) for sign in (1, -1))
-            against = self.beside.scene if error and self.beside else ""
+            against = self.compared_scene.scene if error and self.compared_scene else ""
             message.append(Extremes(name, self.interpolant.catalogue[name].unit, *high, 0.0 - low[0], low[1], against))
         return tuple(message)
 
-    def notes(self) -> tuple[str, ...]:
+    def list_notes(self) -> tuple[str, ...]:
         """Return the notes for the run: states left out, and series that could not be searched."""
         message = []
-        if self.interpolant.lost:
-            message.append(f"peaks: {self.interpolant.lost} states of steps have no accelerations and are left out")
+        if self.interpolant.n_without_accelerations:
+            message.append(
+                f"peaks: {self.interpolant.n_without_accelerations} states of steps have no "
+                "accelerations and are left out"
+            )
         for name in sorted(self.unresolved):
             message.append(f"peaks: {name} varies too fast within a step to be searched: a larger value may exist")
-        if self.beside and self.beside.lost:
-            message.append(f"errors over all steps are not known: scene {self.beside.scene}: {self.beside.lost}")
+        if self.compared_scene and self.compared_scene.failure_reason:
+            message.append(
+                f"errors over all steps are not known: scene {self.compared_scene.scene}: "
+                f"{self.compared_scene.failure_reason}"
+            )
         return tuple(message)
 
-    def _update_peaks(self, name: str, is_error: bool, interpolants: list[Path]) -> None:
+    def _update_peaks(self, name: str, is_error: bool, interpolants: list[RunInterpolant]) -> None:
         """Update the peaks of one series, or of its `is_error`, from the present states and the intervals between them.
 
         `interpolants`: that of the run, then for errors that of the other scene. At most MOST intervals are searched,
         the most promising first.
         """
-        values = _subtract_other([path.values(name) for path in interpolants])
-        t, inner = self.interpolant.steps.t, self.interpolant.inner
+        values = _subtract_other([path.evaluate_at_states(name) for path in interpolants])
+        t, inner = self.interpolant.steps.t, self.interpolant.is_within_step
         scale = max(
             float(np.abs(values[np.isfinite(values)]).max(initial=0.0)),
             ACCELERATION_ROUNDING * self._find_largest_acceleration(name),
@@ -139,7 +149,7 @@ class Search:
         self,
         key: tuple[str, bool, int],
         k: int,
-        interpolants: list[Path],
+        interpolants: list[RunInterpolant],
         scale: float,
         time_range: tuple[float, float] | None = None,
     ) -> None:
@@ -150,15 +160,15 @@ class Search:
         low, high = time_range or self.interpolant.steps.t[k : k + 2].tolist()
         for turn in range(ROUNDS):
             times = low + NODES * (high - low)
-            values = key[2] * _subtract_other([path.between(k, times, key[0]) for path in interpolants])
-            known = np.where(np.isfinite(values), values, -np.inf)
-            best = int(known.argmax())
-            self._store_peak(key, float(known[best]), float(times[best]))
+            values = key[2] * _subtract_other([path.evaluate_between(k, times, key[0]) for path in interpolants])
+            finite_values = np.where(np.isfinite(values), values, -np.inf)
+            best = int(finite_values.argmax())
+            self._store_peak(key, float(finite_values[best]), float(times[best]))
             if np.isfinite(values).all():
                 parts = COEFFICIENTS @ values
                 if np.abs(parts[-2:]).max() <= COEFFICIENT_TOL * scale:
-                    top, share = _find_polynomial_maximum(parts)
-                    self._store_peak(key, top, low + share * (high - low))
+                    top, fraction = _find_polynomial_maximum(parts)
+                    self._store_peak(key, top, low + fraction * (high - low))
                     break
             if not times[1] > times[0] or (best in (0, len(NODES) - 1) and turn >= AT_AN_END):
                 break
@@ -175,12 +185,12 @@ class Search:
             n_sampled += len(intervals)
             low, high = intervals[:, :1], intervals[:, 1:]
             times = low + NODES * (high - low)
-            values = self.interpolant.between(k, times.ravel(), name).reshape(times.shape)
-            known = np.asarray(np.isfinite(values).all(axis=1))
-            coefficients = np.where(known[:, np.newaxis], values, 0.0) @ COEFFICIENTS.T
+            values = self.interpolant.evaluate_between(k, times.ravel(), name).reshape(times.shape)
+            is_finite = np.asarray(np.isfinite(values).all(axis=1))
+            coefficients = np.where(is_finite[:, np.newaxis], values, 0.0) @ COEFFICIENTS.T
             is_unresolved = np.abs(coefficients[:, -2:]).max(axis=1) > RESOLVED * scale
             is_unresolved &= times[:, 1] > times[:, 0]
-            for j in np.flatnonzero(known & ~is_unresolved).tolist():
+            for j in np.flatnonzero(is_finite & ~is_unresolved).tolist():
                 for sign in (1, -1):
                     if _find_polynomial_maximum(sign * coefficients[j])[0] + RESOLVED * scale > self._get_peak(
                         name, sign
@@ -234,7 +244,7 @@ def _subtract_other(series: list[Array]) -> Array:
     return series[0] if len(series) == 1 else series[0] - series[1]
 
 
-def _find_unresolved(interpolant: Path, name: str, values: Array, tolerance: float) -> NDArray[np.bool_]:
+def _find_unresolved(interpolant: RunInterpolant, name: str, values: Array, tolerance: float) -> NDArray[np.bool_]:
     """Return a mask (K − 1,) of the intervals in which the states do not resolve a series.
 
     Five states at equal intervals of one step predict the series at INSIDE of each interval by a polynomial of order 4.
@@ -242,15 +252,15 @@ def _find_unresolved(interpolant: Path, name: str, values: Array, tolerance: flo
     tested.
     """
     is_unresolved = np.zeros(max(len(values) - 1, 0), bool)
-    if len(values) < len(PREDICT) + 1 or interpolant.exact or interpolant.films:
+    if len(values) < len(PREDICT) + 1 or interpolant.is_kinematic or interpolant.has_films:
         return is_unresolved
     windows = np.lib.stride_tricks.sliding_window_view
-    h = np.where(interpolant.inner, np.diff(interpolant.steps.t), np.nan)
+    h = np.where(interpolant.is_within_step, np.diff(interpolant.steps.t), np.nan)
     with np.errstate(invalid="ignore"):
         four = windows(h, len(PREDICT))
         equal = np.flatnonzero(np.abs(four - four[:, :1]).max(axis=1) < INTERVAL_TOL * four[:, 0])
         if len(equal):
-            inner_values = windows(interpolant.inside(name), len(PREDICT))[equal]
+            inner_values = windows(interpolant.evaluate_inside(name), len(PREDICT))[equal]
             predicted = windows(values, len(PREDICT) + 1)[equal] @ PREDICT.T
             for k in equal[(np.abs(inner_values - predicted) > tolerance).any(axis=1)].tolist():
                 is_unresolved[k : k + len(PREDICT)] = True

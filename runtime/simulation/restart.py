@@ -15,16 +15,16 @@ from typing import Any
 
 import numpy as np
 
-from gudgeon.assembly.linkage import mechanism_size
-from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.assembly.linkage import compute_mechanism_size
+from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
 from gudgeon.errors import AssemblyError, BadValueError
-from gudgeon.language.argument_checks import mapping, number_of, refuse, text
-from gudgeon.language.shown import counted
+from gudgeon.language.argument_checks import check_mapping, check_number, check_text, raise_bad_value
+from gudgeon.language.text_output import format_count
 from gudgeon.model.arrays import CODE, as_c_array
-from gudgeon.model.choices import choice_notes, specified
+from gudgeon.model.choices import format_parameter, make_choice_notes
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import put
-from gudgeon.model.parameters import given_slots
+from gudgeon.model.contours import set_contours
+from gudgeon.model.parameters import read_given_parameters
 from gudgeon.results.results import State
 
 MAX_VIOLATION = 1e-6  # rad, or relative to the mechanism's size: largest constraint violation that a run leaves
@@ -33,7 +33,7 @@ FREE, HINT_FINAL = 0, "the `final` of a run has both as they belong together"
 MAX_REPORTED = 6  # largest number of parameters or constraint equations that a message names
 
 
-def own(source: KernelSource, start: Any) -> State:
+def copy_checked_state(source: KernelSource, start: Any) -> State:
     """Check the argument `start` and return a copy of the state with arrays as C needs them.
 
     Raises BadValueError if it is not a State of the scene, ArrayError for wrong shapes or values.
@@ -43,22 +43,22 @@ def own(source: KernelSource, start: Any) -> State:
         raise BadValueError(f"start is a {type(start).__name__}: expected a State", hint=f"give {hint}")
     _check_origin(source, start)
     n, clearances = len(source.coordinates), len(source.clearances)
-    state = as_c_array(start.state, "start.state", (clearances,), dtype=CODE, own=True)
+    state = as_c_array(start.state, "start.state", (clearances,), dtype=CODE, always_copy=True)
     if state.size and (state.min() < 0 or state.max() > 2):
         raise BadValueError("start.state: expected 0 (free), 1 (impact) or 2 (contact) for each joint with play")
-    memory = as_c_array(start.memory, "start.memory", (source.n_memory,), own=True)
+    memory = as_c_array(start.memory, "start.memory", (source.n_memory,), always_copy=True)
     _check_memory(source, state, memory)
     return replace(
         start,
-        t=number_of(start.t, "start.t"),
-        q=as_c_array(start.q, "start.q", (n,), finite=True, own=True),
-        v=as_c_array(start.v, "start.v", (n,), finite=True, own=True),
+        t=check_number(start.t, "start.t"),
+        q=as_c_array(start.q, "start.q", (n,), finite=True, always_copy=True),
+        v=as_c_array(start.v, "start.v", (n,), finite=True, always_copy=True),
         state=state,
         memory=memory,
     )
 
 
-def checked_states(source: KernelSource, start: Any, n_runs: int) -> list[State]:
+def copy_checked_states(source: KernelSource, start: Any, n_runs: int) -> list[State]:
     """Return the checked states of a batch, one per run, from one state for all of `n_runs` runs or one each.
 
     Return [] without a start. Raises BadValueError if their number does not fit, or if their times differ.
@@ -67,10 +67,10 @@ def checked_states(source: KernelSource, start: Any, n_runs: int) -> list[State]
         return []
     single = isinstance(start, State) or not isinstance(start, Iterable) or getattr(start, "ndim", 1) == 0
     if single or hasattr(start, "final"):
-        return [own(source, start)] * n_runs
-    states = [own(source, one) for one in start]
+        return [copy_checked_state(source, start)] * n_runs
+    states = [copy_checked_state(source, given_state) for given_state in start]
     if len(states) != n_runs and 1 not in (n_runs, len(states)) or not states:
-        message = f"start has {counted(len(states), 'state')} for {counted(n_runs, 'run')}"
+        message = f"start has {format_count(len(states), 'state')} for {format_count(n_runs, 'run')}"
         raise BadValueError(message, hint="one state, or one for every run")
     times = sorted({state.t for state in states})
     if len(times) > 1:
@@ -113,10 +113,10 @@ def _check_origin(source: KernelSource, start: State) -> None:
     Fields that are empty, as in a state made by hand, are not compared.
     """
     for name in ("mechanism", "scene", "sha256", "formulation"):
-        text(getattr(start, name), f"start.{name}")
+        check_text(getattr(start, name), f"start.{name}")
     overrides = start.overrides
     if not isinstance(overrides, tuple) or not all(isinstance(x, tuple) and len(x) == 2 for x in overrides):
-        refuse("start.overrides", overrides, "a tuple of pairs (address, value)")
+        raise_bad_value("start.overrides", overrides, "a tuple of pairs (address, value)")
     if start.mechanism not in ("", source.mechanism) or start.scene not in ("", source.scene):
         raise BadValueError(
             f"start: this state belongs to another mechanism or scene, {start.mechanism} / {start.scene};"
@@ -146,14 +146,14 @@ def _find_changed_files(source: KernelSource, start: State) -> list[str]:
 
     Return [] if the file itself differs.
     """
-    keys_of_state, present_keys = dict(start.beside), dict(source.beside)
+    keys_of_state, present_keys = dict(start.beside), dict(source.external_files)
     if replace(source, tables=start.beside, laws=()).whole_sha256 != start.sha256:
         return []
     kinds = {name: "law" for name, _ in source.laws} | {name: "table" for name, _ in source.tables}
     return [f"{kinds[name]} {name}" for name in kinds if keys_of_state.get(name) != present_keys[name]]
 
 
-def numbers(
+def merge_parameters(
     compiled: CompiledModel,
     start: State | None,
     parameters: Mapping[str, Any] | None,
@@ -163,16 +163,18 @@ def numbers(
 
     Parameters of the state hold unless `parameters` or `contour` give them anew; a note then lists those that changed.
     """
-    given, is_given = given_slots(compiled.source, parameters)
-    put(compiled.source, contour, given, is_given)
+    given, is_given = read_given_parameters(compiled.source, parameters)
+    set_contours(compiled.source, contour, given, is_given)
     if start is None:
-        return given, is_given, choice_notes(compiled.source, given, is_given)
-    if not mapping(start.parameters, "start.parameters"):
+        return given, is_given, make_choice_notes(compiled.source, given, is_given)
+    if not check_mapping(start.parameters, "start.parameters"):
         values_of_state, is_given_by_state = np.zeros_like(given), np.zeros_like(is_given)
     else:
-        values_of_state, is_given_by_state = given_slots(compiled.source, start.parameters, "start.parameters")
+        values_of_state, is_given_by_state = read_given_parameters(
+            compiled.source, start.parameters, "start.parameters"
+        )
     values, mask = np.where(is_given, given, values_of_state), np.logical_or(is_given, is_given_by_state)
-    selected = choice_notes(compiled.source, values, mask)
+    selected = make_choice_notes(compiled.source, values, mask)
     if not is_given.any():
         return values, mask, selected
     p_before, p = compiled.prepare(values_of_state, is_given_by_state), compiled.prepare(values, mask)
@@ -208,7 +210,7 @@ def check_resumable(compiled: CompiledModel, start: State, p: Array) -> None:
         )
 
 
-def constraint_violation_notes(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array) -> tuple[str, ...]:
+def build_violation_notes(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array) -> tuple[str, ...]:
     """Return a note if the state q, v (n,) at t (s) to resume from violates the constraints; else ().
 
     Positions must satisfy Φ(t, q) = 0, velocities Φ_q q̇ = ν, up to the rounding of their terms. A run never leaves
@@ -240,7 +242,7 @@ def _format_violated_equations(
     `residuals` (m,): residuals; `terms` (m,): sizes of their terms, which allow more; `unit_suffix`: "/s" for
     velocities.
     """
-    rows, size = compiled.source.rows, mechanism_size(compiled, p)
+    rows, size = compiled.source.rows, compute_mechanism_size(compiled, p)
     allowed = MAX_VIOLATION * (np.array([size if row.unit == "m" else 1.0 for row in rows]) + terms)
     violated = [
         f"{row.name} ({x:.3g} {row.unit}{unit_suffix})"
@@ -251,6 +253,6 @@ def _format_violated_equations(
     return f"{', '.join(violated[:MAX_REPORTED])}{more}" if violated else ""
 
 
-def _format_value(value: float, slot: Slot) -> str:
+def _format_value(value: float, slot: RuntimeParameter) -> str:
     """Return a parameter value as text with its unit, or as the word that it stands for."""
-    return str(specified(slot, float(value))) if slot.words else f"{value:.6g} {slot.unit}".strip()
+    return str(format_parameter(slot, float(value))) if slot.words else f"{value:.6g} {slot.unit}".strip()

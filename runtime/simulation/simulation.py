@@ -12,29 +12,37 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gudgeon.assembly.guess_warnings import warn_unfollowed
-from gudgeon.assembly.journals import parting
-from gudgeon.assembly.rank import check_start
-from gudgeon.assembly.start import Start, assemble
+from gudgeon.assembly.guess_warnings import warn_unfollowed_guesses
+from gudgeon.assembly.journals import describe_contacts_without_onset
+from gudgeon.assembly.rank import check_redundant_equations
+from gudgeon.assembly.start import Start, assemble_start
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.trajectory import Problem, Progress
-from gudgeon.language.argument_checks import flag, function, text
-from gudgeon.loading.find import Loading
+from gudgeon.language.argument_checks import check_callable, check_flag, check_text
+from gudgeon.loading.kernel_sources import Loading
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import read_contours
-from gudgeon.model.evaluation import check_room
-from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
-from gudgeon.results.shown import Shown
-from gudgeon.simulation.arguments import MAX_STEPS, derived_for, end_of, integrate, method_of, output_times, step_of
-from gudgeon.simulation.audit import audit_level
-from gudgeon.simulation.conclusion import build_result, check_result, late
-from gudgeon.simulation.hidden_jumps import end_before, first_jumps, jump_failure
-from gudgeon.simulation.restart import check_resumable, constraint_violation_notes, numbers, own
-from gudgeon.simulation.step_observers import StepObserver, check_compared_scene, make_observer, requested_peaks
-from gudgeon.waiting.ctrl_c import CtrlC
-from gudgeon.waiting.imports import GENERATOR, whole
+from gudgeon.model.evaluation import check_sample_memory
+from gudgeon.model.parameters import prepare_given_values, prepare_values, prepare_without_baumgarte
+from gudgeon.results.notebook_display import NotebookDisplay
+from gudgeon.simulation.arguments import (
+    MAX_STEPS,
+    compute_output_times,
+    evaluate_end_time,
+    evaluate_step,
+    find_required_variant,
+    integrate_run,
+    select_method,
+)
+from gudgeon.simulation.audit import parse_audit_level
+from gudgeon.simulation.hidden_jumps import build_jump_error, compute_end_before_jump, find_first_jumps
+from gudgeon.simulation.restart import build_violation_notes, check_resumable, copy_checked_state, merge_parameters
+from gudgeon.simulation.result_builder import build_result, check_result, mark_if_interrupted
+from gudgeon.simulation.step_observers import StepObserver, check_compared_scene, check_requested_peaks, make_observer
+from gudgeon.waiting.ctrl_c import DelayedCtrlC
+from gudgeon.waiting.imports import GENERATOR, import_completely
 
 if TYPE_CHECKING:
     from gudgeon.generator.equations.model import Model
@@ -45,7 +53,7 @@ if TYPE_CHECKING:
     from gudgeon.results.wear import SlidingRequest
 
 
-class Simulation(Shown):
+class Simulation(NotebookDisplay):
     """Evaluate and simulate a loaded scene; `gudgeon.load` returns it.
 
     It holds no state, so that several threads may run it at once. It can be pickled: another process loads its library
@@ -81,10 +89,10 @@ class Simulation(Shown):
         Raises InputError if the file, a table or a law changed after loading.
         """
         if self._model is None:
-            whole(*GENERATOR)
-            from gudgeon.generator.pipeline import derive
+            import_completely(*GENERATOR)
+            from gudgeon.generator.pipeline import derive_scene
 
-            self._model = derive(self._read_unchanged_file(), str(self.file), self.source.scene, self._overrides)
+            self._model = derive_scene(self._read_unchanged_file(), str(self.file), self.source.scene, self._overrides)
         return self._model
 
     @property
@@ -108,7 +116,7 @@ class Simulation(Shown):
             if progress and "full" not in {*self._variants, self.source.formulation}:
                 progress(0.0, "deriving the full formulation")
             return self.full
-        formulation = derived_for(self.source, method)
+        formulation = find_required_variant(self.source, method)
         return self._load_variant(formulation) if formulation else self
 
     def _load_variant(self, formulation: str) -> Simulation:
@@ -134,9 +142,9 @@ class Simulation(Shown):
         """Return the text of the scene's HTML page: the running mechanism, and below it the equations; see
         gudgeon.web.page.write.
         """
-        from gudgeon.web.page import write
+        from gudgeon.web.page import build_page
 
-        return write(self)
+        return build_page(self)
 
     def _read_unchanged_file(self) -> bytes:
         """Return the bytes of the mechanism's file, from which variants of the scene are derived.
@@ -144,17 +152,17 @@ class Simulation(Shown):
         Raises InputError if the file or one of its tables was edited after loading. The error is also raised if a
         registered law was replaced or is not registered in this process.
         """
-        from gudgeon.loading.find import laws_now, read_bytes, tables_now
+        from gudgeon.loading.kernel_sources import find_present_laws, hash_present_tables, read_bytes
 
         data = read_bytes(self.file)
         is_same_file = sha256(data).hexdigest() == self.source.sha256
-        if not is_same_file or tables_now(self.source, self.file) != self.source.tables:
+        if not is_same_file or hash_present_tables(self.source, self.file) != self.source.tables:
             raise InputError(
                 f"{'a table of ' * is_same_file}{self.file} was edited after it was loaded:"
                 " equations derived from it now would not be those of this simulation",
                 hint="load it again with gudgeon.load(…), or put the file back as it was",
             )
-        for (name, loaded_key), (_, present_key) in zip(self.source.laws, laws_now(self.source), strict=True):
+        for (name, loaded_key), (_, present_key) in zip(self.source.laws, find_present_laws(self.source), strict=True):
             if present_key != loaded_key:
                 difference = "is another one now" if present_key else "is not registered in this process"
                 hint = (
@@ -179,7 +187,7 @@ class Simulation(Shown):
         """Return the parameter values with the file's defaults, run-time ones and derived ones; computed once and
         cached.
         """
-        return prepare(self.compiled, {})[0]
+        return prepare_values(self.compiled, {})[0]
 
     def rhs(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
         """Return ẏ = (q̇, q̈), (2n,), at y = (q, q̇), with the file's defaults; see CompiledModel.rhs."""
@@ -220,7 +228,7 @@ class Simulation(Shown):
 
         Raise AssemblyError if it does not close.
         """
-        return assemble(self.compiled, prepare(self.compiled, parameters)[0])
+        return assemble_start(self.compiled, prepare_values(self.compiled, parameters)[0])
 
     def simulate(
         self,
@@ -269,8 +277,8 @@ class Simulation(Shown):
         Raises InputError for arguments (ArrayError for arrays), AssemblyError for a start that does not close,
         SolverError when equations cannot be solved (`partial`: up to there), MemoryError before more than fits.
         """
-        method, progress = text(method, "method"), function(progress, "progress")
-        horizon, stop, level = flag(horizon, "horizon"), flag(stop, "stop"), audit_level(audit)
+        method, progress = check_text(method, "method"), check_callable(progress, "progress")
+        horizon, stop, level = check_flag(horizon, "horizon"), check_flag(stop, "stop"), parse_audit_level(audit)
         if (variant := self.of_method(method, progress)) is not self:
             return variant.simulate(
                 t_end,
@@ -288,19 +296,19 @@ class Simulation(Shown):
                 contour=contour,
                 audit=audit,
             )
-        names, compared_scene = requested_peaks(self.source, peaks), check_compared_scene(self.source, against)
-        initial_state = None if start is None else own(self.source, start)
-        given, is_given, remarks = numbers(
+        names, compared_scene = check_requested_peaks(self.source, peaks), check_compared_scene(self.source, against)
+        initial_state = None if start is None else copy_checked_state(self.source, start)
+        given, is_given, remarks = merge_parameters(
             self.compiled, initial_state, parameters, read_contours(self.source, contour)
         )
-        p, t0 = prepare_slots(self.compiled, given, is_given), 0.0 if initial_state is None else initial_state.t
-        times, from_start = output_times(self.source, p, t0, end_of(self.source, t_end, p), output)
-        check_room(self.compiled, len(times))
+        p, t0 = prepare_given_values(self.compiled, given, is_given), 0.0 if initial_state is None else initial_state.t
+        times, from_start = compute_output_times(self.source, p, t0, evaluate_end_time(self.source, t_end, p), output)
+        check_sample_memory(self.compiled, len(times))
         if self.source.degrees_of_freedom < 0:
-            assemble(self.compiled, p)  # names the joints that contradict each other
-        selected = method_of(self.source, method, step is not None)
-        tolerance = adaptive.tolerance(rtol, selected, step is not None)
-        h = step_of(self.compiled, step, selected, p, float(times[-1] - t0))
+            assemble_start(self.compiled, p)  # names the joints that contradict each other
+        selected = select_method(self.source, method, step is not None)
+        tolerance = adaptive.parse_tolerance(rtol, selected, step is not None)
+        h = evaluate_step(self.compiled, step, selected, p, float(times[-1] - t0))
         if (times[-1] - t0) / h > MAX_STEPS:
             raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
         if initial_state is not None and remarks:
@@ -310,10 +318,10 @@ class Simulation(Shown):
             if initial_state is None
             else (initial_state.q, initial_state.v, initial_state.memory)
         )
-        check_start(self.compiled, p, t0, q)
+        check_redundant_equations(self.compiled, p, t0, q)
         if initial_state is not None:
-            remarks += constraint_violation_notes(self.compiled, p, t0, q, v)
-        remarks += parting(self.compiled, p, t0, q, v, memory)
+            remarks += build_violation_notes(self.compiled, p, t0, q, v)
+        remarks += describe_contacts_without_onset(self.compiled, p, t0, q, v, memory)
         problem = Problem(
             self.compiled,
             p,
@@ -326,7 +334,7 @@ class Simulation(Shown):
             None if initial_state is None else initial_state.state,
             selected,
             tolerance,
-            without_baumgarte(self.compiled, given, is_given),
+            prepare_without_baumgarte(self.compiled, given, is_given),
             stop,
             remarks,
             from_start,
@@ -336,9 +344,9 @@ class Simulation(Shown):
         observer = make_observer(self.compiled, (p, given, is_given), tolerance, names, compared_scene)
         result = self._integrate_problem(problem, given, is_given, observer)
         if horizon and not result.diagnostics.interrupted:
-            from gudgeon.simulation.horizon import with_horizon
+            from gudgeon.simulation.predictability_horizon import add_horizon
 
-            result = with_horizon(self, result, progress)
+            result = add_horizon(self, result, progress)
         return result
 
     def simulate_many(
@@ -428,10 +436,10 @@ class Simulation(Shown):
         simulation in place of t_end: the exponent of that run, from first sample to last, with its numbers.
         Raises BadValueError without a degree of freedom, and for arguments; SolverError, AssemblyError as `simulate`.
         """
-        from gudgeon.simulation.lyapunov import lyapunov
+        from gudgeon.simulation.lyapunov import compute_lyapunov_exponent
 
         settings = {"method": method, "rtol": rtol, "step": step}
-        return lyapunov(self, t_end, section, by, skip, settings, parameters, start, progress)
+        return compute_lyapunov_exponent(self, t_end, section, by, skip, settings, parameters, start, progress)
 
     def _integrate_problem(
         self, problem: Problem, given: Array, is_given: Array, observer: StepObserver | None
@@ -443,19 +451,19 @@ class Simulation(Shown):
         is marked as interrupted. Raises SolverError with the Result up to there as `partial`.
         """
         t0 = float(problem.t[0])
-        jump = first_jumps(self.source, problem.p[None], t0, [float(problem.t[-1])]).get(0)
+        jump = find_first_jumps(self.source, problem.p[None], t0, [float(problem.t[-1])]).get(0)
         if jump:
-            problem = replace(problem, t=problem.t[problem.t < end_before(jump, t0)])
-        with CtrlC() as ctrl_c:
-            problem = replace(problem, take=ctrl_c.take, look=observer)
-            trajectory = integrate(problem)
+            problem = replace(problem, t=problem.t[problem.t < compute_end_before_jump(jump, t0)])
+        with DelayedCtrlC() as ctrl_c:
+            problem = replace(problem, poll_cancellation=ctrl_c.raise_delayed, observer=observer)
+            trajectory = integrate_run(problem)
             result = build_result(problem, trajectory, given, is_given)
             if observer:
-                observer.message().to(result)
+                observer.build_observation().store_in(result)
             result, stopped = check_result(problem, trajectory, result)
             if jump and not trajectory.interrupted and not trajectory.t[-1] < problem.t[-1]:  # it came to the jump
-                stopped = stopped or jump_failure(self.source, jump)
-        result = late(ctrl_c, result)
+                stopped = stopped or build_jump_error(self.source, jump)
+        result = mark_if_interrupted(ctrl_c, result)
         if stopped is not None:
             stopped.partial = result
             raise stopped
@@ -466,6 +474,6 @@ class Simulation(Shown):
 
         Warns about guesses that the assembly does not follow. Raises AssemblyError if the linkage does not close.
         """
-        assembled = assemble(self.compiled, p)
-        warn_unfollowed(self.compiled, p, assembled.q)
+        assembled = assemble_start(self.compiled, p)
+        warn_unfollowed_guesses(self.compiled, p, assembled.q)
         return assembled.q, assembled.v, np.full(self.compiled.n_memory, np.nan)

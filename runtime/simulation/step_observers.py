@@ -12,21 +12,21 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from gudgeon.assembly.start import assemble
+from gudgeon.assembly.start import assemble_start
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.integrators.adaptive import RTOL
 from gudgeon.integrators.steps import Steps
 from gudgeon.integrators.trajectory import Problem
-from gudgeon.language.argument_checks import names, refuse
-from gudgeon.model.choices import specified
+from gudgeon.language.argument_checks import check_names, raise_bad_value
+from gudgeon.model.choices import format_parameter
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.parameters import prepare, without_baumgarte
+from gudgeon.model.parameters import prepare_values, prepare_without_baumgarte
 from gudgeon.results.diagnostics import Extremes
 from gudgeon.results.results import Result
-from gudgeon.results.series import catalogue, check_series
+from gudgeon.results.series import check_series, get_catalogue
 from gudgeon.results.wear import SlidingLoads, SlidingRequest
-from gudgeon.simulation.arguments import integrate, method_of
+from gudgeon.simulation.arguments import integrate_run, select_method
 
 if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
@@ -41,11 +41,11 @@ class StepObserver(Protocol):
     def __call__(self, steps: Steps) -> None:
         """Process the next states of the run."""
 
-    def message(self) -> Observation:
+    def build_observation(self) -> Observation:
         """Return the findings."""
 
 
-def requested_peaks(
+def check_requested_peaks(
     source: KernelSource, peaks: Iterable[str | SlidingRequest] | None
 ) -> tuple[str | SlidingRequest, ...]:
     """Check the argument `peaks` and return the names of series whose peaks are requested, then the requests for wear.
@@ -57,7 +57,7 @@ def requested_peaks(
     wear_requests = (
         tuple(item for item in peaks if isinstance(item, SlidingRequest)) if isinstance(peaks, tuple) else ()
     )
-    series_names = names(
+    series_names = check_names(
         [item for item in peaks if item not in wear_requests] if wear_requests else peaks, "peaks", LIST
     )
     if "t" in series_names:
@@ -71,12 +71,12 @@ class Observation:
 
     extremes: tuple[Extremes, ...] = ()
     notes: tuple[str, ...] = ()
-    rubbed: tuple[SlidingLoads, ...] = ()
+    sliding_loads: tuple[SlidingLoads, ...] = ()
 
-    def to(self, run: Result) -> None:
+    def store_in(self, run: Result) -> None:
         """Store the findings in the diagnostics of a run, in place; notes are appended."""
         notes = (*run.diagnostics.notes, *self.notes)
-        run.diagnostics = replace(run.diagnostics, extremes=self.extremes, notes=notes, rubbed=self.rubbed)
+        run.diagnostics = replace(run.diagnostics, extremes=self.extremes, notes=notes, rubbed=self.sliding_loads)
 
 
 def make_observer(
@@ -93,14 +93,14 @@ def make_observer(
     """
     observers, series = list[StepObserver](), tuple(request for request in requests if isinstance(request, str))
     if series:
-        from gudgeon.simulation.peaks import Search
+        from gudgeon.simulation.peaks import PeakSearch
 
         compared_scene = (
             ComparedScene(compared_simulation, compiled.source, parameter_arrays[0], rtol or RTOL)
             if compared_simulation
             else None
         )
-        observers.append(Search(compiled, series, parameter_arrays, compared_scene))
+        observers.append(PeakSearch(compiled, series, parameter_arrays, compared_scene))
     if len(series) < len(requests):
         from gudgeon.simulation.wear import WearObserver
 
@@ -123,11 +123,11 @@ class CombinedObserver:
         for observer in self.observers:
             observer(steps)
 
-    def message(self) -> Observation:
+    def build_observation(self) -> Observation:
         """Return the findings of all observers, concatenated field by field."""
-        observations = [observer.message() for observer in self.observers]
+        observations = [observer.build_observation() for observer in self.observers]
         return Observation(
-            *(tuple(one for each in observations for one in getattr(each, name.name)) for name in fields(Observation))
+            *(tuple(item for each in observations for item in getattr(each, name.name)) for name in fields(Observation))
         )
 
 
@@ -138,30 +138,30 @@ class ComparedScene:
 
     def __init__(self, simulation: Simulation, source: KernelSource, p: Array, rtol: float) -> None:
         self.compiled = simulation.compiled
-        self.scene, self.names = simulation.source.scene, frozenset(catalogue(simulation.source))
+        self.scene, self.names = simulation.source.scene, frozenset(get_catalogue(simulation.source))
         addresses = {slot.address for slot in self.compiled.source.slots}
         values = {
-            slot.address: specified(slot, float(p[k]))
+            slot.address: format_parameter(slot, float(p[k]))
             for k, slot in enumerate(source.slots)
             if slot.address in addresses
         }
-        self.numbers = prepare(self.compiled, values)
-        self.lost = ""  # reason why it cannot be followed further; "" if it can
+        self.numbers = prepare_values(self.compiled, values)
+        self.failure_reason = ""  # reason why it cannot be followed further; "" if it can
         self.problem: Problem | None = None  # from where it resumes
         self.last: Steps | None = None  # the state there
         self.rtol = rtol
 
-    def follow(self, t: Array) -> Steps | None:
+    def integrate_to(self, t: Array) -> Steps | None:
         """Return the scene's states at times t (k,), which do not decrease from call to call; None after a failure.
 
         The first failure is stored as a text in `lost`.
         """
-        if self.lost:
+        if self.failure_reason:
             return None
         try:
             return self._integrate_to(t)
         except GudgeonError as error:
-            self.lost = str(error)
+            self.failure_reason = str(error)
             return None
 
     def _integrate_to(self, t: Array) -> Steps:
@@ -174,7 +174,7 @@ class ComparedScene:
         times = np.union1d(problem.t[:1], t)
         if self.last is not None and len(times) == 1:
             return self.last[np.zeros(len(t), dtype=int)]
-        x = integrate(replace(problem, t=times))
+        x = integrate_run(replace(problem, t=times))
         if x.stopped is not None:
             raise x.stopped
         work = x.work if self.last is None else x.work + self.last.work  # each part begins with none
@@ -187,7 +187,7 @@ class ComparedScene:
     def _build_start_problem(self) -> Problem:
         """Return the Problem of the assembled scene at t = 0, by method "auto" and without discrete states."""
         p, given, is_given = self.numbers
-        assembled, method = assemble(self.compiled, p), method_of(self.compiled.source, "auto", False)
+        assembled, method = assemble_start(self.compiled, p), select_method(self.compiled.source, "auto", False)
         memory = np.full(self.compiled.n_memory, np.nan)
         return Problem(
             self.compiled,
@@ -199,7 +199,7 @@ class ComparedScene:
             math.inf,
             method=method,
             rtol=self.rtol,
-            p_free=without_baumgarte(self.compiled, given, is_given),
+            p_free=prepare_without_baumgarte(self.compiled, given, is_given),
             stop=False,
         )
 
@@ -212,7 +212,7 @@ def check_compared_scene(source: KernelSource, against: Simulation | None) -> Si
     if against is None:
         return None
     if not hasattr(against, "compiled") or not hasattr(against, "simulate"):
-        refuse("against", against, "a loaded scene, gudgeon.load(file)")
+        raise_bad_value("against", against, "a loaded scene, gudgeon.load(file)")
     if against.source.mechanism != source.mechanism:
         message = f"against is a scene of {against.source.mechanism}: this is a scene of {source.mechanism}"
         raise BadValueError(message, hint="errors are taken against another scene of the same mechanism")

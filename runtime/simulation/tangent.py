@@ -1,16 +1,14 @@
-"""Follow differences by the tangent: the variational equation along the run, through its contacts.
+"""Integrate the variational equation along a run, through its contacts: the growth of small perturbations.
 
-δẏ = J δy is solved with the exact Jacobian J at states of the run, by Gauss collocation of order 6 on panels. Panels
-end where contacts begin and end. They are halved until the propagator P stands still and carries the motion's own
-direction, with t as one more coordinate: f(b) = P f(a). Thus no short change of a force between two nodes is missed.
+δẏ = J δy is solved with the exact Jacobian by Gauss collocation of order 6 on panels, which end at contacts. They are
+halved until the propagator P converges and carries the motion's own direction: f(b) = P f(a).
 
 At a contact, the right-hand side changes from f⁻ to f⁺ on a surface g(y) = 0; g is the penetration. Differences are
 multiplied by the saltation matrix S = I + (f⁺ − f⁻) ∇gᵀ/(∇gᵀ f⁻) (M. di Bernardo, C. Budd, A. Champneys, P. Kowalczyk,
 Piecewise-smooth Dynamical Systems, Springer 2008, section 2.5). The difference of the stored approach speed δ̇⁻ is one
 more coordinate. It begins at the onset with δ(δ̇⁻) = ∇ġ·δy + g̈⁻ δt, δt = −∇g·δy/ġ, and ends with the contact.
 
-The motion is a flow in the integrated coordinates: those of the tree, or of all bodies in the full formulation.
-Baumgarte's gains are zero, as in the methods that project.
+The motion is a flow in the integrated coordinates, with Baumgarte's gains zero.
 """
 
 from __future__ import annotations
@@ -22,12 +20,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.contract.boundary import N_WORK
-from gudgeon.integrators.adaptive import integrated_angles
+from gudgeon.integrators.adaptive import find_integrated_angles
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import contour_of, corner_gap, depth_at
-from gudgeon.model.parameters import without_baumgarte
-from gudgeon.results.samples import with_start
-from gudgeon.simulation.neighbours import NEAR, Neighbours, flat
+from gudgeon.model.contours import compute_corner_gap, find_contour, interpolate_depth
+from gudgeon.model.parameters import prepare_without_baumgarte
+from gudgeon.results.samples import join_start
+from gudgeon.simulation.neighbours import INITIAL_DISTANCE, DifferenceNorm, flatten_state
 
 if TYPE_CHECKING:
     from gudgeon.results.results import Result, State
@@ -62,14 +60,14 @@ class Flow:
 
     def __init__(self, compiled: CompiledModel, run: Result) -> None:
         source = compiled.source
-        self.compiled, self.p = compiled, without_baumgarte(compiled, run.given, run.is_given)
+        self.compiled, self.p = compiled, prepare_without_baumgarte(compiled, run.given, run.is_given)
         self.tree = source.formulation == "reduced"
         self.m, self.chained = (len(source.tree), len(source.chain)) if self.tree else (compiled.n, 0)
-        self.is_angle, self.joints = integrated_angles(source), len(source.clearances)
+        self.is_angle, self.joints = find_integrated_angles(source), len(source.clearances)
         rows = [row.owner for row in source.start_rows]
         self.rows = [[k for k, owner in enumerate(rows) if owner == joint.name] for joint in source.clearances]
         self.play = [float(self.p[joint.clearance]) for joint in source.clearances]
-        self.depths = [contour_of(source, self.p, joint.name) for joint in source.clearances]
+        self.depths = [find_contour(source, self.p, joint.name) for joint in source.clearances]
         first = (joint.first for joint in source.clearances)
         # index into q of the x coordinate of each bearing; −1: ground
         self.bearing = [source.bodies[body].index if body >= 0 else -1 for body in first]
@@ -77,20 +75,20 @@ class Flow:
 
     def _allocate_buffers(self) -> None:
         """Allocate the arrays that C reads and fills in tens of thousands of calls, and store C pointers to them."""
-        compiled, m, size, p = self.compiled, self.m, self.m + self.chained, self.pointers(self.p)
+        compiled, m, size, p = self.compiled, self.m, self.m + self.chained, self.make_pointers(self.p)
         self._full = np.zeros(compiled.n), np.zeros(compiled.n)
         self._reduced = np.zeros(max(size, 1)), np.zeros(max(size, 1))
-        self._reduce = [*self.pointers(*self._full), *p, *self.pointers(*self._reduced, written=True)]
+        self._reduce = [*self.make_pointers(*self._full), *p, *self.make_pointers(*self._reduced, written=True)]
         self._state = np.zeros(max(size, 1)), np.zeros(max(size, 1)), np.zeros(max(compiled.n_memory, 1))
         self._a = np.zeros(max(m, 1))
         others = np.zeros(len(compiled.source.closures) + 1), np.zeros(N_WORK)
-        self._rhs = [*self.pointers(*self._state), *p, *self.pointers(self._a, *others, written=True)]
+        self._rhs = [*self.make_pointers(*self._state), *p, *self.make_pointers(self._a, *others, written=True)]
         of_node = np.zeros(2 * m + N_WORK + self.chained), self._state[2]
         self._J, self._f_t = np.empty((2 * m + N_WORK,) * 2), np.empty(2 * m + N_WORK)
-        self._jacobian = [*self.pointers(*of_node), *p, *self.pointers(self._J, self._f_t, written=True)]
+        self._jacobian = [*self.make_pointers(*of_node), *p, *self.make_pointers(self._J, self._f_t, written=True)]
         self._node, self._others = of_node[0], others  # C's views alone would not keep them
 
-    def reduced(self, t: float, qv: Array) -> tuple[Array, Array]:
+    def reduce_state(self, t: float, qv: Array) -> tuple[Array, Array]:
         """Convert (q, q̇) of all bodies, (2n,), to the integrated state y (2m,) and the dependent coordinates.
 
         The second result (2, n_chain) contains the dependent coordinates and their rates. In the full formulation y is
@@ -104,26 +102,22 @@ class Flow:
         self.compiled.lib.gudgeon_reduce(t, *self._reduce)
         return np.concatenate([q[:m], v[:m]]), np.stack([q[m:size], v[m:size]])
 
-    def expanded(self, t: float, y: Array, chain: Array) -> Array:
-        """Convert the integrated state y (2m,) and the dependent coordinates (2, n_chain) to (q, q̇) of all bodies,
-        (2n,).
-
-        In the full formulation a copy of y is returned.
-        """
+    def expand_state(self, t: float, y: Array, chain: Array) -> Array:
+        """Convert state y (2m,) and dependent coordinates (2, n_chain) to (q, q̇) of all bodies, (2n,)."""
         if not self.tree:
             return y.copy()
         q, v = np.zeros(self.compiled.n), np.zeros(self.compiled.n)
-        given = self.pointers(np.append(y[: self.m], chain[0]), np.append(y[self.m :], chain[1]), self.p)
-        self.compiled.lib.gudgeon_expand(t, *given, *self.pointers(q, v, written=True))
+        given = self.make_pointers(np.append(y[: self.m], chain[0]), np.append(y[self.m :], chain[1]), self.p)
+        self.compiled.lib.gudgeon_expand(t, *given, *self.make_pointers(q, v, written=True))
         return np.concatenate([q, v])
 
-    def lifted(self, t: float, y: Array, chain: Array, d: Array, h: float) -> Array:
+    def lift_difference(self, t: float, y: Array, chain: Array, d: Array, h: float) -> Array:
         """Return the difference (2n,) of all bodies for a difference d (2m,) of y, by central differences with the
         factor h.
         """
-        return (self.expanded(t, y + h * d, chain) - self.expanded(t, y - h * d, chain)) / (2.0 * h)
+        return (self.expand_state(t, y + h * d, chain) - self.expand_state(t, y - h * d, chain)) / (2.0 * h)
 
-    def rates(self, t: float, y: Array, chain: Array, memory: Array) -> Array:
+    def compute_rates(self, t: float, y: Array, chain: Array, memory: Array) -> Array:
         """Return ẏ (2m,) of the integrated state with dependent coordinates `chain` and discrete states `memory`.
 
         Raises SingularError where the equations cannot be solved. The C buffers are overwritten.
@@ -137,7 +131,7 @@ class Flow:
             self.compiled.check_pivot(status, t, self.compiled.source.motion_pivots or None)
         return np.concatenate([y[m:], self._a[:m]])
 
-    def slopes(self, t: float, y: Array, chain: Array, memory: Array) -> Array:
+    def compute_jacobian(self, t: float, y: Array, chain: Array, memory: Array) -> Array:
         """Return the Jacobian of the rates of (y, δ̇⁻, t), (2m + n_clearances + 1) square; the rows of δ̇⁻ and t are 0.
 
         Columns of y and t come from C. Columns of the approach speeds δ̇⁻ of closed contacts are central differences.
@@ -146,18 +140,18 @@ class Flow:
         A = np.zeros((2 * m + self.joints + 1,) * 2)
         node[: 2 * m], node[2 * m + N_WORK :], self._state[2][: len(memory)] = y, chain[0], memory
         status = self.compiled.lib.gudgeon_jacobian(t, *self._jacobian)
-        self.compiled.check_node(status, t)
+        self.compiled.check_linearization(status, t)
         A[: 2 * m, : 2 * m], A[: 2 * m, -1] = J[: 2 * m, : 2 * m], self._f_t[: 2 * m]
         for k in (k for k in range(self.joints) if np.isfinite(memory[k])):
             ends = []
             for factor in (1.0 - RELATIVE_STEP, 1.0 + RELATIVE_STEP):
                 changed = memory.copy()
                 changed[k] *= factor
-                ends.append(self.rates(t, y, chain, changed))
+                ends.append(self.compute_rates(t, y, chain, changed))
             A[: 2 * m, 2 * m + k] = (ends[1] - ends[0]) / (2.0 * RELATIVE_STEP * memory[k])
         return A
 
-    def chain_at(self, t: float, chain: Array) -> Array:
+    def compute_dependent_coordinates(self, t: float, chain: Array) -> Array:
         """Return the dependent coordinates and rates (2, n_chain) at t (s), which drives determine, from those at a
         nearby time.
 
@@ -167,18 +161,21 @@ class Flow:
             return chain
         q, rates = chain[0].copy(), np.zeros(3 * self.chained)
         self.compiled.lib.gudgeon_chains(
-            t, *self.pointers(q, written=True), *self.pointers(self.p), *self.pointers(rates, written=True)
+            t,
+            *self.make_pointers(q, written=True),
+            *self.make_pointers(self.p),
+            *self.make_pointers(rates, written=True),
         )
         return np.stack([q, rates[: self.chained]])
 
-    def gap(self, joint: int, t: float, y: Array, chain: Array) -> tuple[float, float]:
+    def compute_gap(self, joint: int, t: float, y: Array, chain: Array) -> tuple[float, float]:
         """Return the penetration δ (m) and its rate δ̇ (m/s) of a joint with play at the integrated state.
 
         `joint`: index of the joint. Corners at walls and bearings with a contour are included.
         """
-        full, n, rows = self.expanded(t, y, chain), self.compiled.n, self.rows[joint]
-        if self.compiled.source.clearances[joint].at_wall:
-            return corner_gap(self.compiled, self.p, t, full[:n], full[n:], joint)
+        full, n, rows = self.expand_state(t, y, chain), self.compiled.n, self.rows[joint]
+        if self.compiled.source.clearances[joint].is_corner:
+            return compute_corner_gap(self.compiled, self.p, t, full[:n], full[n:], joint)
         e = self.compiled.closed_phi(t, full[:n], self.p)[rows]
         rate = self.compiled.closed_phi_q(t, full[:n], self.p)[rows] @ full[n:]
         rate -= self.compiled.closed_nu(t, full[:n], self.p)[rows]
@@ -191,10 +188,10 @@ class Flow:
         theta, omega = (full[index + 2], full[n + index + 2]) if index >= 0 else (0.0, 0.0)
         angle = np.arctan2(-e[1], -e[0]) - theta
         turning = float(e[0] * rate[1] - e[1] * rate[0]) / length**2 - omega
-        depth, slope = (float(depth_at(depths, angle, order)) for order in (0, 1))
+        depth, slope = (float(interpolate_depth(depths, angle, order)) for order in (0, 1))
         return gap - depth, approach - slope * turning
 
-    def pointers(self, *arrays: Array, written: bool = False) -> list[Any]:
+    def make_pointers(self, *arrays: Array, written: bool = False) -> list[Any]:
         """Return C pointers to arrays, for C to write into them if `written`; an empty array is replaced by one of
         length 1.
         """
@@ -203,9 +200,7 @@ class Flow:
 
 @dataclass(eq=False)
 class Panel:
-    """Hold a panel, s to s + width within 0 to 1, of the time from a to b (s) between contacts, with its propagator
-    P.
-    """
+    """Hold the panel from s to s + width (0 to 1) of the time from a to b (s), with its propagator P."""
 
     a: float
     b: float
@@ -235,19 +230,19 @@ class Panel:
             self.a + length * s * s * (3.0 - 2.0 * s), self.a + INSIDE * length, self.b - INSIDE * length
         ).tolist()
 
-    def halved(self) -> tuple[Panel, Panel]:
+    def split(self) -> tuple[Panel, Panel]:
         """Return two new panels, the halves of this one, without propagators."""
-        h, one = 0.5 * self.width, (self.a, self.b)
-        return Panel(*one, self.s, h, self.depth + 1), Panel(*one, self.s + h, h, self.depth + 1)
+        h, times = 0.5 * self.width, (self.a, self.b)
+        return Panel(*times, self.s, h, self.depth + 1), Panel(*times, self.s + h, h, self.depth + 1)
 
-    def whole(self) -> tuple[Array, float]:
+    def compose_propagator(self) -> tuple[Array, float]:
         """Return the propagator of the panel, composed of its halves if there are any, and the sum of the remaining
         changes.
         """
         if not self.halves:
             assert self.P is not None
             return self.P, self.halving_change
-        (P, first), (Q, second) = (half.whole() for half in self.halves)
+        (P, first), (Q, second) = (half.compose_propagator() for half in self.halves)
         return Q @ P, first + second
 
 
@@ -256,23 +251,21 @@ class Tangent:
     """Follow a tangent vector z of the integrated state, of δ̇⁻ and of t (0), (2m + n_clearances + 1,), along a run."""
 
     simulation: Simulation
-    measure: Neighbours
+    measure: DifferenceNorm
     settings: dict[str, Any]
     state: State
     transverse: bool
     flow: Flow
-    merged: int = 0  # always 0: tangent vectors do not vanish
-    unresolved: float = 0.0  # sum of the errors of ln of the growth
+    n_merged: int = 0  # always 0: tangent vectors do not vanish
+    growth_error: float = 0.0  # sum of the errors of ln of the growth
     z: Array = field(init=False)
 
     def __post_init__(self) -> None:
-        """Set the first tangent vector z from the difference to a randomly drawn neighbour of the start, and its
-        norm.
-        """
-        t, y = self.state.t, flat(self.state)
-        own, _ = self.flow.reduced(t, y)
-        other, _ = self.flow.reduced(t, self.measure.drawn(t, y))
-        self.z = np.append((other - own) / NEAR, np.zeros(self.flow.joints + 1))
+        """Set the first tangent vector z from a randomly drawn neighbour of the start, and its norm."""
+        t, y = self.state.t, flatten_state(self.state)
+        reduced_state, _ = self.flow.reduce_state(t, y)
+        other, _ = self.flow.reduce_state(t, self.measure.draw_neighbour(t, y))
+        self.z = np.append((other - reduced_state) / INITIAL_DISTANCE, np.zeros(self.flow.joints + 1))
         self.distance = self._compute_tangent_norm(self.state, self.z)
 
     def advance(self, t: float, is_shortest: bool) -> tuple[Result, float] | None:
@@ -287,7 +280,7 @@ class Tangent:
         states = self._compute_states(sorted(times)) if times else {}
         z, error = self.z, 0.0
         for panel in self._compute_panels(sorted({self.state.t, t, *times})):
-            P, change = panel.whole()
+            P, change = panel.compose_propagator()
             z, error = P @ z, error + change
             for when, joint, onset, deltadot in changes:
                 if when == panel.b and panel.s + panel.width == 1.0:
@@ -297,7 +290,7 @@ class Tangent:
         grown = math.log(distance / self.distance)
         if abs(grown) > MAX_LOG_GROWTH and not is_shortest:
             return None
-        self.state, self.z, self.distance, self.unresolved = run.final, z / distance, 1.0, self.unresolved + error
+        self.state, self.z, self.distance, self.growth_error = run.final, z / distance, 1.0, self.growth_error + error
         return run, grown
 
     def _simulate_to(self, times: list[float] | Array) -> Result:
@@ -316,28 +309,29 @@ class Tangent:
         Items are (time in s, index of the joint, whether it is an onset, approach speed δ̇⁻ in m/s).
         """
         begin, end = self.state.t, float(run.t[-1])
-        found = []
+        changes = []
         for impact in run.impacts:
             joint, deltadot = int(impact["joint"]), float(impact["deltadot"])
-            found += [
+            changes += [
                 (float(impact[name]), joint, name == "t_on", deltadot)
                 for name in ("t_on", "t_off")
                 if begin < impact[name] < end
             ]
-        return sorted(found)
+        return sorted(changes)
 
     def _compute_states(self, times: list[float]) -> dict[float, tuple[Array, Array]]:
         """Return (q, q̇), (2n,), and discrete states by time, from a run through these increasing times (s)."""
-        run = with_start(self._simulate_to([t for t in times if t > self.state.t]))
+        run = join_start(self._simulate_to([t for t in times if t > self.state.t]))
         rows = np.searchsorted(run.t, times)
         return {
             t: (np.concatenate([run.q[k], run.v[k]]), run.memory[k].copy()) for t, k in zip(times, rows, strict=True)
         }
 
     def _compute_panels(self, times: list[float]) -> list[Panel]:
-        """Return panels between successive times, halved until their propagators converge or DEEPEST is reached.
+        """Return N_PANELS panels between each two successive times, with propagators that have converged.
 
-        Converged means that halving changes a propagator little, and that it carries the direction of motion along.
+        A panel is halved until halving changes its propagator little and both halves map q̇ at one end to q̇ at the
+        other, or until MAX_DEPTH. The halves are nested in `panel.halves`; the list holds the first panels only.
         """
         panels = [
             Panel(a, b, k / N_PANELS, 1.0 / N_PANELS)
@@ -348,7 +342,7 @@ class Tangent:
         unconverged = panels
         while unconverged:
             for panel in unconverged:
-                panel.halves = panel.halved()
+                panel.halves = panel.split()
             halves = [half for panel in unconverged for half in panel.halves]
             self._compute_propagators(halves)
             further: list[Panel] = []
@@ -365,16 +359,12 @@ class Tangent:
         return panels
 
     def _compute_propagators(self, panels: list[Panel]) -> None:
-        """Compute propagator P and carry error of each panel by the three-stage Radau IIA method, and store them in the
-        panel.
-
-        K = (I − A⊗…)⁻¹ A and P = I + Σ b K; A is J dt/ds times the width.
-        """
+        """Compute propagator P and carry error of each panel by the three-stage Radau IIA method, and store them."""
         nodes = [panel.nodes for panel in panels]
-        known = self._compute_states(
+        states = self._compute_states(
             sorted({t for panel in nodes for t, _ in panel} | {t for x in panels for t in x.ends})
         )
-        A = np.array([[rate * self._compute_jacobian(t, *known[t]) for t, rate in panel] for panel in nodes])
+        A = np.array([[rate * self._compute_jacobian(t, *states[t]) for t, rate in panel] for panel in nodes])
         count, _, size, _ = A.shape
         matrix = np.eye(3 * size) - (BUTCHER[None, :, None, :, None] * A[:, :, :, None, :]).reshape(
             count, 3 * size, 3 * size
@@ -383,33 +373,31 @@ class Tangent:
         for panel, P in zip(panels, np.eye(size) + np.einsum("i,pijk->pjk", WEIGHTS, K), strict=True):
             panel.P, panel.carry_error = (
                 P,
-                self._compute_carry_error(P, *(self._compute_rates(t, *known[t]) for t in panel.ends)),
+                self._compute_carry_error(P, *(self._compute_rates(t, *states[t]) for t in panel.ends)),
             )
 
     def _compute_rates(self, t: float, qv: Array, memory: Array) -> Array:
         """Return ẏ (2m,) at the state (q, q̇), (2n,), of all bodies with discrete states `memory`."""
-        y, chain = self.flow.reduced(t, qv)
-        return self.flow.rates(t, y, chain, memory)
+        y, chain = self.flow.reduce_state(t, qv)
+        return self.flow.compute_rates(t, y, chain, memory)
 
     def _compute_carry_error(self, P: Array, first: Array, last: Array) -> float:
-        """Return the relative error with which P carries the rates at a panel's begin (`first`) to those at its end
-        (`last`).
-
-        Exact propagators carry the rates of an autonomous flow along; slow motions are compared with a least speed.
-        """
+        """Return the relative error with which P carries the rates `first` at a panel to those at its end, `last`."""
         w, size = self._compute_scales(), len(first)
         carried = P @ np.concatenate([first, np.zeros(self.flow.joints), [1.0]])
-        largest = max(float(np.linalg.norm(one / w[:size])) for one in (first, last))
-        return float(np.linalg.norm((carried[:size] - last) / w[:size])) / max(largest, 1e-9 / self.measure.crossing)
+        largest = max(float(np.linalg.norm(rates / w[:size])) for rates in (first, last))
+        return float(np.linalg.norm((carried[:size] - last) / w[:size])) / max(
+            largest, 1e-9 / self.measure.crossing_time
+        )
 
     def _compute_jacobian(self, t: float, qv: Array, memory: Array) -> Array:
         """Return the Jacobian at the state (q, q̇) of all bodies; see Flow.slopes."""
-        y, chain = self.flow.reduced(t, qv)
-        return self.flow.slopes(t, y, chain, memory)
+        y, chain = self.flow.reduce_state(t, qv)
+        return self.flow.compute_jacobian(t, y, chain, memory)
 
     def _compute_scales(self) -> Array:
         """Return the scales of y and of δ̇⁻, (2m + n_clearances,): differences that count as 1."""
-        largest, crossing = float(self.measure.weights[: self.measure.n].max()), self.measure.crossing
+        largest, crossing = float(self.measure.scales[: self.measure.n].max()), self.measure.crossing_time
         q = largest * np.where(self.flow.is_angle, 1.0 / self.measure.size, 1.0)
         return np.concatenate([q, q / crossing, np.full(self.flow.joints, largest / crossing)])
 
@@ -425,23 +413,27 @@ class Tangent:
         """Return the tangent vector z after the onset or the end of a contact at t (s), by its saltation matrix.
 
         `joint`: index; `is_onset`: whether the contact begins; `approach_speed`: approach speed (m/s); `state_at_t`:
-        (q, q̇) and discrete states at t. At an onset, the component of the approach speed is set; at an end it becomes
-        0.
+        (q, q̇) and discrete states at t. At an onset, the component of the approach speed is set.
         """
         flow, size = self.flow, 2 * self.flow.m
-        (y, chain), d = flow.reduced(t, state_at_t[0]), z[:size]
+        (y, chain), d = flow.reduce_state(t, state_at_t[0]), z[:size]
         closed, free = state_at_t[1].copy(), state_at_t[1].copy()
         closed[joint], free[joint] = approach_speed, np.nan
-        gap, rate = flow.gap(joint, t, y, chain)
-        h = DIFFERENCE_STEP / self.measure.apart(self._lift_difference(t, y, chain, d))
-        ends = [np.array(flow.gap(joint, t, y + s * h * d, chain)) for s in (1.0, -1.0)]
+        gap, rate = flow.compute_gap(joint, t, y, chain)
+        h = DIFFERENCE_STEP / self.measure.compute_norm(self._lift_difference(t, y, chain, d))
+        ends = [np.array(flow.compute_gap(joint, t, y + s * h * d, chain)) for s in (1.0, -1.0)]
         gap_slope, rate_slope = (ends[0] - ends[1]) / (2.0 * h)
         time_shift = -gap_slope / rate
         offset = (CLEARANCE_OFFSET * flow.play[joint] + 2.0 * abs(gap)) / abs(rate)  # s
-        drift = flow.rates(t, y, chain, free)
+        drift = flow.compute_rates(t, y, chain, free)
         drift[flow.m :] = 0.0
         f = [
-            flow.rates(t + s * offset, y + s * offset * drift, flow.chain_at(t + s * offset, chain), memory)
+            flow.compute_rates(
+                t + s * offset,
+                y + s * offset * drift,
+                flow.compute_dependent_coordinates(t + s * offset, chain),
+                memory,
+            )
             for s, memory in ((-1.0, free if is_onset else closed), (1.0, closed if is_onset else free))
         ]
         z_after = z.copy()
@@ -458,10 +450,13 @@ class Tangent:
         flow, n = self.flow, len(y) // 2
         lifted = self._lift_difference(t, y, chain, f)
         lifted[self.measure.n :] = 0.0
-        h = DIFFERENCE_STEP / max(self.measure.apart(lifted), 1.0 / self.measure.crossing)
+        h = DIFFERENCE_STEP / max(self.measure.compute_norm(lifted), 1.0 / self.measure.crossing_time)
         rates = [
-            flow.gap(
-                joint, t + s, y + s * f + 0.5 * s * s * np.append(f[n:], np.zeros(n)), flow.chain_at(t + s, chain)
+            flow.compute_gap(
+                joint,
+                t + s,
+                y + s * f + 0.5 * s * s * np.append(f[n:], np.zeros(n)),
+                flow.compute_dependent_coordinates(t + s, chain),
             )[1]
             for s in (h, -h)
         ]
@@ -472,15 +467,17 @@ class Tangent:
 
         If `transverse`, its component along the motion is removed first.
         """
-        t, full, size = float(run.t[-1]), flat(run.final), 2 * self.flow.m
-        y, chain = self.flow.reduced(t, full)
+        t, full, size = float(run.t[-1]), flatten_state(run.final), 2 * self.flow.m
+        y, chain = self.flow.reduce_state(t, full)
         d = z[:size]
         if self.transverse:
-            f = self.flow.rates(t, y, chain, run.memory[-1])
-            d = d - f * self.measure.along(self._lift_difference(t, y, chain, d), self._lift_difference(t, y, chain, f))
-        h = NEAR / self.measure.apart(self._lift_difference(t, y, chain, d))
+            f = self.flow.compute_rates(t, y, chain, run.memory[-1])
+            d = d - f * self.measure.project_on_flow(
+                self._lift_difference(t, y, chain, d), self._lift_difference(t, y, chain, f)
+            )
+        h = INITIAL_DISTANCE / self.measure.compute_norm(self._lift_difference(t, y, chain, d))
         ends = [
-            self.flow.reduced(t, self.measure.onto(t, self.flow.expanded(t, y + s * h * d, chain)))[0]
+            self.flow.reduce_state(t, self.measure.project_state(t, self.flow.expand_state(t, y + s * h * d, chain)))[0]
             for s in (1.0, -1.0)
         ]
         return np.append((ends[0] - ends[1]) / (2.0 * h), z[size:])
@@ -492,9 +489,9 @@ class Tangent:
         largest = float(np.abs(d).max(initial=0.0))
         if largest == 0.0:
             return np.zeros(2 * self.measure.n)
-        return self.flow.lifted(t, y, chain, d, 1e-6 / largest)
+        return self.flow.lift_difference(t, y, chain, d, 1e-6 / largest)
 
     def _compute_tangent_norm(self, state: State, z: Array) -> float:
         """Return the scaled norm of the coordinates' part of the tangent vector z at a state."""
-        y, chain = self.flow.reduced(state.t, flat(state))
-        return self.measure.apart(self._lift_difference(state.t, y, chain, z[: 2 * self.flow.m]))
+        y, chain = self.flow.reduce_state(state.t, flatten_state(state))
+        return self.measure.compute_norm(self._lift_difference(state.t, y, chain, z[: 2 * self.flow.m]))

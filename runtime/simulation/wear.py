@@ -14,9 +14,16 @@ from numpy.polynomial.legendre import leggauss
 
 from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
 from gudgeon.integrators.steps import Steps
-from gudgeon.language.argument_checks import message, number_of, positive, refuse, text, whole
-from gudgeon.language.quantities import number_of_text
-from gudgeon.language.shown import one_line
+from gudgeon.language.argument_checks import (
+    check_integer,
+    check_number,
+    check_positive,
+    check_text,
+    raise_bad_value,
+    shorten_value,
+)
+from gudgeon.language.quantities import parse_quantity
+from gudgeon.language.text_output import format_one_line
 from gudgeon.model.evaluation import CLEARANCE_COLUMNS
 from gudgeon.results.wear import (
     HOUR,
@@ -26,13 +33,13 @@ from gudgeon.results.wear import (
     SlidingRequest,
     Surface,
     Wear,
-    bearing_of,
-    cell_angles,
-    spread,
+    compute_cell_angles,
+    distribute_loads,
+    find_bearing_parameters,
 )
-from gudgeon.simulation.between import Path
-from gudgeon.simulation.examine import has_known_contact_force, repeat_exactly, without_oil
-from gudgeon.simulation.horizon import check_simulation_of_run, start_of_run
+from gudgeon.simulation.examine import clear_oil_viscosities, has_known_contact_force, repeat_exactly
+from gudgeon.simulation.predictability_horizon import build_start_state, check_simulation_of_run
+from gudgeon.simulation.run_interpolant import RunInterpolant
 from gudgeon.simulation.step_observers import Observation
 
 if TYPE_CHECKING:
@@ -86,16 +93,16 @@ def wear(
     check_simulation_of_run(simulation, run, "wear")
     requested = _check_request(run, joint, points, since, until, contact)
     rates = (
-        rate_of(k, hardness, "k", "hardness"),
-        rate_of(
+        parse_wear_rate(k, hardness, "k", "hardness"),
+        parse_wear_rate(
             k if journal_k is None else journal_k,
             hardness if journal_hardness is None else journal_hardness,
             "journal_k",
             "journal_hardness",
         ),
     )
-    if text(law, "law") not in LAWS:
-        refuse("law", law, " or ".join(LAWS))
+    if check_text(law, "law") not in LAWS:
+        raise_bad_value("law", law, " or ".join(LAWS))
     again = repeat_exactly(simulation, run, run.t, progress, (requested,))
     if again is None:
         raise GudgeonError(NOT_AGAIN)
@@ -107,29 +114,31 @@ def _check_request(run: Result, joint: Any, points: Any, since: Any, until: Any,
 
     None stands for the start or the end of the run. Raises BadValueError, UnknownNameError.
     """
-    check_rubs(run.source, joint)
-    if text(contact_model, "contact") not in CONTACT:
-        refuse("contact", contact_model, " or ".join(CONTACT))
-    first, last = (start_of_run(run).t, float(run.t[-1])) if len(run.t) else (0.0, 0.0)
-    begin = first if since is None else number_of(since, "since")
-    end = last if until is None else number_of(until, "until")
+    check_joint_can_wear(run.source, joint)
+    if check_text(contact_model, "contact") not in CONTACT:
+        raise_bad_value("contact", contact_model, " or ".join(CONTACT))
+    first, last = (build_start_state(run).t, float(run.t[-1])) if len(run.t) else (0.0, 0.0)
+    begin = first if since is None else check_number(since, "since")
+    end = last if until is None else check_number(until, "until")
     if not first <= begin < end <= last:
         message_of = f"wear from {begin:g} to {end:g} s of a run from {first:g} to {last:g} s"
         raise BadValueError(message_of, hint="expected since before until, both within the run")
-    return SlidingRequest(joint, whole(points, "points", 8, MOST_POINTS), begin, end, contact_model == "overlap")
+    return SlidingRequest(
+        joint, check_integer(points, "points", 8, MOST_POINTS), begin, end, contact_model == "overlap"
+    )
 
 
-def check_rubs(source: KernelSource, joint: Any) -> None:
+def check_joint_can_wear(source: KernelSource, joint: Any) -> None:
     """Raise an error unless wear can be computed for a joint: revolute, with play, dry contact and a known contact
     force.
 
     UnknownNameError for a joint without play, BadValueError for the rest.
     """
-    matching = [one for one in source.clearances if isinstance(joint, str) and one.name == joint]
+    matching = [clearance for clearance in source.clearances if isinstance(joint, str) and clearance.name == joint]
     if not matching:
-        hint = f"its joints with play: {', '.join(one.name for one in source.clearances) or 'none'}"
-        raise UnknownNameError(f"no wear of {message(joint)}: expected a joint with play", hint=hint)
-    if matching[0].at_wall:
+        hint = f"its joints with play: {', '.join(clearance.name for clearance in source.clearances) or 'none'}"
+        raise UnknownNameError(f"no wear of {shorten_value(joint)}: expected a joint with play", hint=hint)
+    if matching[0].is_corner:
         message_of = f"no wear of {joint}: a corner of a slider, and wear is told of bearings, over their circumference"
         raise BadValueError(message_of, hint="expected a revolute joint with play")
     if not matching[0].dry:
@@ -141,7 +150,7 @@ def check_rubs(source: KernelSource, joint: Any) -> None:
         )
 
 
-def rate_of(k: Any, hardness: Any, k_name: str, hardness_name: str) -> float:
+def parse_wear_rate(k: Any, hardness: Any, k_name: str, hardness_name: str) -> float:
     """Return the wear rate k/H (1/Pa) from the arguments k and hardness of `wear`; without a hardness, k is k/H itself.
 
     `k_name` and `hardness_name` of the arguments are for messages. Raises InputError for values that are not positive.
@@ -149,7 +158,7 @@ def rate_of(k: Any, hardness: Any, k_name: str, hardness_name: str) -> float:
 
     def parse_positive(value: Any, what: str, exponents: tuple[int, int, int]) -> float:
         """Return a positive number from a text with a unit or a number."""
-        return positive(number_of_text(value, what, exponents) if isinstance(value, str) else value, what)
+        return check_positive(parse_quantity(value, what, exponents) if isinstance(value, str) else value, what)
 
     if hardness is None:
         return parse_positive(k, k_name, SPECIFIC)
@@ -164,8 +173,8 @@ def _build_wear(run: Result, loads: SlidingLoads, rates: tuple[float, float], la
     bearing, journal = (
         Surface(loads.depth(side, law, rate), loads.radii[side], loads.length, hours) for side, rate in enumerate(rates)
     )
-    span, title = (loads.begin, loads.end), f"{one_line(run.source.title)}: {run.source.scene}"
-    angle = cell_angles(loads.requested.points)
+    span, title = (loads.begin, loads.end), f"{format_one_line(run.source.title)}: {run.source.scene}"
+    angle = compute_cell_angles(loads.requested.points)
     return Wear(loads.requested.joint, law, angle, bearing, journal, loads.slip, span, title)
 
 
@@ -177,35 +186,49 @@ class WearObserver:
     def __init__(
         self, compiled: CompiledModel, request: SlidingRequest, parameter_arrays: tuple[Array, Array, Array]
     ) -> None:
-        self.interpolant, self.compiled, self.requested = Path(compiled, parameter_arrays, ()), compiled, request
-        self.joint_index = [one.name for one in compiled.source.clearances].index(request.joint)
+        self.interpolant, self.compiled, self.requested = (
+            RunInterpolant(compiled, parameter_arrays, ()),
+            compiled,
+            request,
+        )
+        self.joint_index = [clearance.name for clearance in compiled.source.clearances].index(request.joint)
         self.joint = compiled.source.clearances[self.joint_index]
         self.rigid = self.joint.name in compiled.source.rigid
-        self.p = without_oil(compiled, self.interpolant.p) if self.joint.film else self.interpolant.p
+        self.p = clear_oil_viscosities(compiled, self.interpolant.p) if self.joint.film else self.interpolant.p
         self.load, self.friction = np.zeros((2, request.points)), np.zeros((2, request.points))
         self.slip, self.first, self.last, self.n_states = 0.0, np.nan, np.nan, 0
 
     def __call__(self, steps: Steps) -> None:
         """Process the next states of the run: add the loads of closed intervals within the requested time."""
         path, before = self.interpolant, min(self.n_states, 2)
-        path.take(steps)
+        path.load_states(steps)
         self.n_states += len(steps)
         x, k = path.steps, np.arange(max(before - 1, 0), len(path.steps) - 1)
         self.first = float(x.t[0]) if np.isnan(self.first) else self.first
         self.last = float(x.t[-1])
-        known = np.asarray(np.isfinite(path.run.a[1:]).all(axis=1))
+        is_finite = np.asarray(np.isfinite(path.run.a[1:]).all(axis=1))
         begin, end = (np.clip(x.t[rows], self.requested.begin, self.requested.end) for rows in (k, k + 1))
-        kept = path.inner[k] & (x.state[k, self.joint_index] > 0) & known[k] & known[k + 1] & (end > begin)
+        kept = (
+            path.is_within_step[k]
+            & (x.state[k, self.joint_index] > 0)
+            & is_finite[k]
+            & is_finite[k + 1]
+            & (end > begin)
+        )
         if kept.any():
             self._add_loads(k[kept], begin[kept], end[kept])
 
-    def message(self) -> Observation:
+    def build_observation(self) -> Observation:
         """Return the loads over the circumference, and a note on states without accelerations, as an Observation."""
         begin, end = max(self.first, self.requested.begin), min(self.last, self.requested.end)
-        lost = (f"wear: {self.interpolant.lost} states of steps have no accelerations and are left out",)
-        R_i, R_j, L = (float(self.interpolant.p[k]) for k in bearing_of(self.compiled.source, self.requested.joint))
-        found = SlidingLoads(self.requested, self.load, self.friction, self.slip, begin, end, (R_i, R_j), L)
-        return Observation(notes=lost if self.interpolant.lost else (), rubbed=(found,))
+        lost = (
+            f"wear: {self.interpolant.n_without_accelerations} states of steps have no accelerations and are left out",
+        )
+        R_i, R_j, L = (
+            float(self.interpolant.p[k]) for k in find_bearing_parameters(self.compiled.source, self.requested.joint)
+        )
+        sliding = SlidingLoads(self.requested, self.load, self.friction, self.slip, begin, end, (R_i, R_j), L)
+        return Observation(notes=lost if self.interpolant.n_without_accelerations else (), sliding_loads=(sliding,))
 
     def _add_loads(self, k: Array, begin: Array, end: Array) -> None:
         """Add the loads of the intervals between states k and k + 1 (K,), from times `begin` to `end` (K,) in s.
@@ -220,8 +243,8 @@ class WearObserver:
         states = slice(memory.shape[2] - len(self.compiled.source.states), None)
         memory[:, :, states] += s * (x.memory[k + 1, states] - x.memory[k, states])[:, None]
         q_flat, v_flat, latched = (array.reshape(t.size, -1) for array in (q, v, memory))
-        found = self.compiled.evaluate(t.ravel(), q_flat, v_flat, latched, self.p, parts=("clearance",))
-        columns = dict(zip(CLEARANCE_COLUMNS, found.clearance[:, self.joint_index].T, strict=True))
+        evaluation = self.compiled.evaluate(t.ravel(), q_flat, v_flat, latched, self.p, parts=("clearance",))
+        columns = dict(zip(CLEARANCE_COLUMNS, evaluation.clearance[:, self.joint_index].T, strict=True))
         F_n, F_t, e_x, e_y, e, v_t, delta = (
             columns[name].reshape(t.shape) for name in ("Fn", "Ft", "ex", "ey", "e", "vt", "delta")
         )
@@ -242,12 +265,12 @@ class WearObserver:
         """Add each quadrature point's loads to the cells of the arc that the contact sweeps, or overlaps with
         `half_widths` width.
 
-        `side`: 0 bearing, 1 journal; `angle` (K, points) in rad; `half_widths`: half widths in rad, or None for contact
-        at a point; `loads` (2, K·points).
+        `side`: 0 bearing, 1 journal; `angle` (K, points) in rad; `half_widths`: half widths in rad, or None for
+        contact at a point; `loads` (2, K·points).
         """
         ends = angle @ TO_ENDS.T
         low, high = np.minimum(ends[:, 1:], ends[:, :-1]), np.maximum(ends[:, 1:], ends[:, :-1])
-        worn = spread(self.requested.points, low.ravel(), high.ravel(), loads, half_widths)
+        worn = distribute_loads(self.requested.points, low.ravel(), high.ravel(), loads, half_widths)
         self.load[side] += worn[0]
         self.friction[side] += worn[1]
 

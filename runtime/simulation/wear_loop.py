@@ -1,4 +1,4 @@
-"""Simulate wear in rounds: `gudgeon.wear_loop(simulation, "A", 1.0, k=1e-4, hardness=2e9, rounds=5)`.
+"""Simulate wear in rounds of a run and an update of the worn bearing: `gudgeon.wear_loop(simulation, "A", …)`.
 
 Each round runs the scene with the bearing contours that the previous rounds left, and deepens them by the wear depth of
 Archard or Reye over the circumference. Sums over the cells are preserved, so that the contour deepens by k/H ∫ F_n ds.
@@ -18,13 +18,22 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError, UnknownNameError
-from gudgeon.language.argument_checks import function, instance, message, number_of, positive, refuse, text, whole
-from gudgeon.language.argument_checks import names as joint_names
-from gudgeon.language.shown import one_line
-from gudgeon.model.contours import contour_of, read_contours
-from gudgeon.model.parameter_sets import ParameterSets, given_each, rows_of
+from gudgeon.language.argument_checks import (
+    check_callable,
+    check_instance,
+    check_integer,
+    check_number,
+    check_positive,
+    check_text,
+    raise_bad_value,
+    shorten_value,
+)
+from gudgeon.language.argument_checks import check_names as joint_names
+from gudgeon.language.text_output import format_one_line
+from gudgeon.model.contours import find_contour, read_contours
+from gudgeon.model.parameter_sets import ParameterSets, read_given_parameters_of_runs, read_parameter_rows
 from gudgeon.results.wear import LAWS, POINTS, SlidingLoads, SlidingRequest, Worn, WornJoint
-from gudgeon.simulation.wear import CONTACT, MOST_POINTS, check_rubs, rate_of
+from gudgeon.simulation.wear import CONTACT, MOST_POINTS, check_joint_can_wear, parse_wear_rate
 
 if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Progress
@@ -36,7 +45,7 @@ MOST_ROUNDS, MOST_PASSES = 10_000, 100
 
 
 @dataclass(frozen=True)
-class Wearing:
+class WearModel:
     """Hold how bearings wear: joints, law, wear rate k/H (1/Pa), number of runs that a run stands for, resolution."""
 
     joints: tuple[str, ...]
@@ -49,18 +58,18 @@ class Wearing:
     begin: float = -np.inf
 
     @property
-    def rubbing(self) -> tuple[SlidingRequest, ...]:
+    def sliding_requests(self) -> tuple[SlidingRequest, ...]:
         """Return the requests, one per joint, to observe the wear of a run from `begin` (s) on."""
         return tuple(SlidingRequest(joint, self.points, self.begin, np.inf, self.overlap) for joint in self.joints)
 
-    def deeper(self, loads: SlidingLoads, n_angles: int) -> tuple[Array, Array]:
+    def compute_depths(self, loads: SlidingLoads, n_angles: int) -> tuple[Array, Array]:
         """Return the wear depths (m) of a round from the loads of one run: (points,) over the cells, (slots,) over the
         contour.
 
         Depths over the contour are averaged and smoothed.
         """
         depth = self.scale * loads.depth(0, self.law, self.rate)
-        return depth, smoothed(means_on_slots(depth, n_angles), self.passes)
+        return depth, smooth_depths(average_over_slots(depth, n_angles), self.passes)
 
 
 def wear_loop(
@@ -96,36 +105,36 @@ def wear_loop(
     """
     from gudgeon.simulation.simulation import Simulation
 
-    names = _check_joints(instance(simulation, "simulation", Simulation), joints)
-    if text(law, "law") not in LAWS:
-        refuse("law", law, " or ".join(LAWS))
-    if text(contact, "contact") not in CONTACT:
-        refuse("contact", contact, " or ".join(CONTACT))
-    wearing = Wearing(
+    names = _check_joints(check_instance(simulation, "simulation", Simulation), joints)
+    if check_text(law, "law") not in LAWS:
+        raise_bad_value("law", law, " or ".join(LAWS))
+    if check_text(contact, "contact") not in CONTACT:
+        raise_bad_value("contact", contact, " or ".join(CONTACT))
+    wearing = WearModel(
         names,
-        rate_of(k, hardness, "k", "hardness"),
+        parse_wear_rate(k, hardness, "k", "hardness"),
         law,
-        positive(scale, "scale"),
-        whole(points, "points", 8, MOST_POINTS),
+        check_positive(scale, "scale"),
+        check_integer(points, "points", 8, MOST_POINTS),
         contact == "overlap",
-        whole(passes, "passes", 0, MOST_PASSES),
-        -np.inf if since is None else number_of(since, "since"),
+        check_integer(passes, "passes", 0, MOST_PASSES),
+        -np.inf if since is None else check_number(since, "since"),
     )
-    loop = Loop(simulation, wearing, read_contours(simulation.source, contour, runs=True))
-    function(progress, "progress")
-    count = whole(rounds, "rounds", 1, MOST_ROUNDS)
+    loop = WearLoop(simulation, wearing, read_contours(simulation.source, contour, runs=True))
+    check_callable(progress, "progress")
+    count = check_integer(rounds, "rounds", 1, MOST_ROUNDS)
     for k_round in range(count):
-        tick = share(progress, k_round, count)
-        loop.round({} if parameters is None else parameters, t_end, progress=tick, **options)
-    return loop.found()
+        tick = scale_progress(progress, k_round, count)
+        loop.run_round({} if parameters is None else parameters, t_end, progress=tick, **options)
+    return loop.build_result()
 
 
-class Loop:
+class WearLoop:
     """Repeat the same runs, each round with the contours that the last one left."""
 
-    def __init__(self, simulation: Simulation, wearing: Wearing, contour: Mapping[str, Array]) -> None:
+    def __init__(self, simulation: Simulation, wearing: WearModel, contour: Mapping[str, Array]) -> None:
         self.simulation, self.wearing, self.given = simulation, wearing, dict(contour)
-        self.n_angles = {one.joint: one.count for one in simulation.source.contours}
+        self.n_angles = {contour_info.joint: contour_info.count for contour_info in simulation.source.contours}
         self.contours: dict[str, list[Array]] = {joint: [] for joint in wearing.joints}
         self.depths: dict[str, list[Array]] = {joint: [] for joint in wearing.joints}
         self.journals: dict[str, list[Array]] = {joint: [] for joint in wearing.joints}
@@ -134,7 +143,7 @@ class Loop:
         self.sizes: dict[str, Array] = {}
         self.failures: dict[int, str] = {}
 
-    def round(self, parameters: ParameterSets, t_end: Any, **options: Any) -> Batch:
+    def run_round(self, parameters: ParameterSets, t_end: Any, **options: Any) -> Batch:
         """Run all runs once with the present contours, deepen the contours by the wear, and return the Batch.
 
         `options`: further arguments of simulate_many. Failed runs are recorded and deepen nothing. Raises
@@ -143,11 +152,17 @@ class Loop:
         if not any(self.contours.values()):
             self._set_first_contours(parameters)
         batch = self.simulation.simulate_many(
-            parameters, t_end, **{"output": 1, "keep": [], **options}, contour=self.given, peaks=self.wearing.rubbing
+            parameters,
+            t_end,
+            **{"output": 1, "keep": [], **options},
+            contour=self.given,
+            peaks=self.wearing.sliding_requests,
         )
         if batch.interrupted:
             raise KeyboardInterrupt
-        self.failures |= {one.run: str(one.error) for one in batch.failures if one.run not in self.failures}
+        self.failures |= {
+            failure.run: str(failure.error) for failure in batch.failures if failure.run not in self.failures
+        }
         for index, joint in enumerate(self.wearing.joints):
             self._add_round(batch, index, joint)
         return batch
@@ -165,11 +180,11 @@ class Loop:
         sizes = self.sizes.setdefault(joint, np.full((3, n), np.nan))
         for i in (i for i in range(n) if i not in self.failures):
             loads = batch.rubbed[i][index]
-            depth[i], contour_depth[i] = self.wearing.deeper(loads, n_angles)
+            depth[i], contour_depth[i] = self.wearing.compute_depths(loads, n_angles)
             work[i] = (loads.load if self.wearing.law == LAWS[0] else loads.friction)[0].sum()
             journal[i] = self.wearing.scale * loads.depth(1, self.wearing.law, self.wearing.rate)
             sizes[:, i] = loads.radii[0], loads.length, loads.radii[1]
-        joint_index = [one.name for one in batch.source.clearances].index(joint)
+        joint_index = [clearance.name for clearance in batch.source.clearances].index(joint)
         self.depths[joint].append(depth)
         self.journals[joint].append(journal)
         self.works[joint].append(work)
@@ -182,13 +197,13 @@ class Loop:
         values.
         """
         compiled, source = self.simulation.compiled, self.simulation.source
-        given, is_given = given_each(source, rows_of(parameters)[0])
+        given, is_given = read_given_parameters_of_runs(source, read_parameter_rows(parameters)[0])
         for joint in self.wearing.joints:
-            own = contour_of(source, compiled.prepare_each(given, is_given), joint)
-            if own is not None:
-                self.given.setdefault(joint, own if len(own) > 1 else own[0])
+            contour = find_contour(source, compiled.prepare_each(given, is_given), joint)
+            if contour is not None:
+                self.given.setdefault(joint, contour if len(contour) > 1 else contour[0])
 
-    def found(self) -> Worn:
+    def build_result(self) -> Worn:
         """Return the results of all rounds so far as a Worn, with arrays over rounds and runs for each joint."""
         source, wearing = self.simulation.source, self.wearing
         joints = {
@@ -204,11 +219,11 @@ class Loop:
             )
             for joint in wearing.joints
         }
-        title = f"{one_line(source.title)}: {source.scene}"
+        title = f"{format_one_line(source.title)}: {source.scene}"
         return Worn(joints, wearing.law, wearing.rate, wearing.scale, self.failures, title)
 
 
-def means_on_slots(depth: Array, n_angles: int) -> Array:
+def average_over_slots(depth: Array, n_angles: int) -> Array:
     """Return the means (slots,) of depths (points,) over the arcs around the contour's equally spaced angles.
 
     The total mean is kept.
@@ -221,7 +236,7 @@ def means_on_slots(depth: Array, n_angles: int) -> Array:
     return np.asarray(np.diff(upto) * (n_angles / points))
 
 
-def smoothed(depth: Array, passes: int) -> Array:
+def smooth_depths(depth: Array, passes: int) -> Array:
     """Return the depths of a contour after `passes` averages of half itself and a quarter of both neighbours.
 
     The contour is periodic, and the sum is kept.
@@ -237,14 +252,14 @@ def _check_joints(simulation: Simulation, joints: str | Iterable[str]) -> tuple[
 
     Raises UnknownNameError for a joint without one, BadValueError for none or repeated names.
     """
-    joints_with_contour = [one.joint for one in simulation.source.contours]
+    joints_with_contour = [contour.joint for contour in simulation.source.contours]
     names = tuple(joint_names(joints, "joints", "a name or names"))
     if not names:
         raise BadValueError(
-            f"joints is {message(joints)}: expected a name or names", hint=", ".join(joints_with_contour)
+            f"joints is {shorten_value(joints)}: expected a name or names", hint=", ".join(joints_with_contour)
         )
     for joint in names:
-        check_rubs(simulation.source, joint)
+        check_joint_can_wear(simulation.source, joint)
         if joint not in joints_with_contour:
             hint = (
                 f"joints with one: {', '.join(joints_with_contour)}"
@@ -257,7 +272,7 @@ def _check_joints(simulation: Simulation, joints: str | Iterable[str]) -> tuple[
     return names
 
 
-def share(progress: Progress | None, k: int, rounds: int) -> Progress | None:
+def scale_progress(progress: Progress | None, k: int, rounds: int) -> Progress | None:
     """Return a progress function for round k of `rounds`, which scales its fraction to all rounds; None without
     `progress`.
     """

@@ -1,1 +1,1 @@
-"""Studies of many runs: benchmarks of methods, maps and boxes of verdicts, ensembles of a study file."""
+"""Run many simulations: benchmarks of methods, maps of stability over parameters, ensembles of a study file."""

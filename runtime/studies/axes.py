@@ -1,4 +1,4 @@
-"""Own the axes of a map or box of `gudgeon map`: a step, a tolerance, a run-time parameter, or several together."""
+"""Own the axes of `gudgeon map`, the quantities that it varies: step, tolerance or run-time parameters."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
 from gudgeon.errors import BadValueError
-from gudgeon.language.argument_checks import listed, numbers, text
-from gudgeon.model.choices import index_of_word, specified
+from gudgeon.language.argument_checks import check_list, check_numbers, check_text
+from gudgeon.model.choices import find_word_index, format_parameter
 from gudgeon.model.compiled import Array
-from gudgeon.model.parameters import GAINS, given_slots, number, prepare
+from gudgeon.model.parameters import GAINS, prepare_values, read_given_parameters, read_parameter_value
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.runs import Parameters
 
@@ -43,7 +43,7 @@ class Axis:
     words: tuple[str, ...] = ()
 
     @property
-    def of_method(self) -> bool:
+    def is_method_setting(self) -> bool:
         """Return whether the axis varies a setting of the method, `step` or `rtol`, and not a parameter of the
         mechanism.
         """
@@ -60,7 +60,7 @@ class Axis:
         return {address: value * ratio for address, ratio in self.ratios}
 
 
-def axis(
+def make_axis(
     simulation: Simulation, name: str, values: Sequence[float | str], parameters: Parameters | None = None
 ) -> Axis:
     """Return the axis with this name and these values, ascending.
@@ -70,14 +70,14 @@ def axis(
     takes the ratios of its members to the first one. Raises UnknownNameError for an unknown name, BadValueError for
     invalid values, a name without a parameter in the scene, or a group whose first member is 0.
     """
-    if (choice := _find_choice_parameter(simulation.source, text(name, "axis"))) is not None:
-        names = listed(values, f"axis {name}", str, f"a list of names, of {', '.join(choice.words)}")
-        indices = sorted({index_of_word(word, choice) for word in names})
+    if (choice := _find_choice_parameter(simulation.source, check_text(name, "axis"))) is not None:
+        names = check_list(values, f"axis {name}", str, f"a list of names, of {', '.join(choice.words)}")
+        indices = sorted({find_word_index(word, choice) for word in names})
         return Axis(name, tuple(indices), "", ((name, 1.0),), choice.words)
-    values = numbers(values, f"axis {name}")
+    values = check_numbers(values, f"axis {name}")
     if name in SETTINGS:
         return Axis(name, tuple(sorted(values)), SETTINGS[name])
-    source, p = simulation.source, prepare(simulation.compiled, parameters)[0]
+    source, p = simulation.source, prepare_values(simulation.compiled, parameters)[0]
     slots = _drop_unused_materials(source, p, _find_parameter_indices(source, name))
     first = float(p[slots[0]])
     if len(slots) > 1 and first == 0.0:
@@ -86,24 +86,27 @@ def axis(
     return Axis(name, tuple(sorted(values)), source.slots[slots[0]].unit, ratios)
 
 
-def typed(simulation: Simulation, axis_text: str, parameters: Parameters | None = None) -> Axis:
+def parse_axis(simulation: Simulation, axis_text: str, parameters: Parameters | None = None) -> Axis:
     """Return the axis that a command-line text describes: "c=.05mm..1mm:5", "omega=3,6,9", "rtol=1e-4..1e-10:4".
 
     A range low..high:count gives geometrically spaced values, 5 without a count, at most 1000. The values of a choice
     are words separated by commas. Numbers may have units and are rounded to six digits. Raises BadValueError for a text
-    of another form, and the errors of `axis`.
+    of another form, and the errors of `make_axis`.
     """
-    name, _, value_list = text(axis_text, "axis").partition("=")
+    name, _, value_list = check_text(axis_text, "axis").partition("=")
     if not value_list:
         raise BadValueError(f"axis {axis_text!r}: expected name=low..high:count or name=a,b,c")
     if (choice_slot := _find_choice_parameter(simulation.source, name.strip())) is not None:
         if ".." in value_list or ":" in value_list:
             names = ",".join(choice_slot.words)
             raise BadValueError(f"axis {axis_text!r}: its values are names, there is none between: {name}={names}")
-        return axis(simulation, name.strip(), value_list.split(","), parameters)
+        return make_axis(simulation, name.strip(), value_list.split(","), parameters)
     ends, colon, count = value_list.partition(":")
     slot = _find_leading_parameter(simulation.source, name.strip())
-    values = [number(_parse_quantity(part), slot) for part in (ends.split("..") if ".." in ends else ends.split(","))]
+    values = [
+        read_parameter_value(_parse_quantity(part), slot)
+        for part in (ends.split("..") if ".." in ends else ends.split(","))
+    ]
     if ".." in ends:
         if len(values) != 2 or not 0 < values[0] < values[1]:
             raise BadValueError(f"axis {axis_text!r}: expected 0 < low < high")
@@ -113,20 +116,20 @@ def typed(simulation: Simulation, axis_text: str, parameters: Parameters | None 
         values = np.geomspace(values[0], values[1], count_of_values).tolist()
     elif colon:
         raise BadValueError(f"axis {axis_text!r}: only a range low..high takes a number of values after ':'")
-    return axis(simulation, name.strip(), [float(f"{x:.6g}") for x in values], parameters)
+    return make_axis(simulation, name.strip(), [float(f"{x:.6g}") for x in values], parameters)
 
 
-def clearances(simulation: Simulation, values: Sequence[float], parameters: Parameters | None = None) -> Axis:
+def make_clearance_axis(simulation: Simulation, values: Sequence[float], parameters: Parameters | None = None) -> Axis:
     """Return the axis `clearance` with these values (m); the clearances of all joints keep their ratios.
 
     In a scene without play, `values` are ignored and the only value is NaN.
     """
     if not simulation.source.clearances:
         return Axis("clearance", (math.nan,), "m")
-    return axis(simulation, "clearance", values, parameters)
+    return make_axis(simulation, "clearance", values, parameters)
 
 
-def _find_choice_parameter(source: KernelSource, name: str) -> Slot | None:
+def _find_choice_parameter(source: KernelSource, name: str) -> RuntimeParameter | None:
     """Return the run-time parameter with this address if its values are words (a choice, such as a material), else
     None.
     """
@@ -140,14 +143,14 @@ def _find_parameter_indices(source: KernelSource, name: str) -> list[int]:
     parameter of the group, UnknownNameError for an unknown address.
     """
     if name == "clearance":
-        found = list(dict.fromkeys(j.clearance for j in source.clearances if j.clearance < len(source.slots)))
+        indices = list(dict.fromkeys(j.clearance for j in source.clearances if j.clearance < len(source.slots)))
     elif name in GROUPS:
-        found = [k for k, slot in enumerate(source.slots) if GROUPS[name](slot.address)]
+        indices = [k for k, slot in enumerate(source.slots) if GROUPS[name](slot.address)]
     else:
-        return [int(np.flatnonzero(given_slots(source, {name: 1.0})[1])[0])]
-    if not found:
+        return [int(np.flatnonzero(read_given_parameters(source, {name: 1.0})[1])[0])]
+    if not indices:
         raise BadValueError(f"axis {name}: scene {source.scene!r} has no such number")
-    return found
+    return indices
 
 
 def _drop_unused_materials(source: KernelSource, p: Array, slots: list[int]) -> list[int]:
@@ -156,7 +159,7 @@ def _drop_unused_materials(source: KernelSource, p: Array, slots: list[int]) -> 
     Choices of bearings and guides count. A list of fewer than two indices is returned unchanged.
     """
     choices = [
-        (slot, specified(slot, float(entry))) for slot, entry in zip(source.slots, p, strict=False) if slot.words
+        (slot, format_parameter(slot, float(entry))) for slot, entry in zip(source.slots, p, strict=False) if slot.words
     ]
     choices = [(slot, name) for slot, name in choices if slot.address.startswith(("bearings.", "guides."))]
     selectable = {f"materials.{word}.E" for slot, _ in choices for word in slot.words}
@@ -164,13 +167,13 @@ def _drop_unused_materials(source: KernelSource, p: Array, slots: list[int]) -> 
     return slots if len(slots) < 2 else [k for k in slots if source.slots[k].address not in selectable - selected]
 
 
-def _find_leading_parameter(source: KernelSource, name: str) -> Slot:
+def _find_leading_parameter(source: KernelSource, name: str) -> RuntimeParameter:
     """Return the parameter whose unit and dimension the numbers of an axis have.
 
     For `step` and `rtol` it is a new Slot (s, or without dimension), for a group its first member.
     """
     if name in SETTINGS:
-        return Slot(name, SETTINGS[name], 0.0, False, (0, 0, 1 if name == "step" else 0))
+        return RuntimeParameter(name, SETTINGS[name], 0.0, False, (0, 0, 1 if name == "step" else 0))
     return source.slots[_find_parameter_indices(source, name)[0]]
 
 
@@ -178,6 +181,6 @@ def _parse_quantity(text: str) -> float | str:
     """Return the number in SI of a text with or without unit, such as "1mm"; a text that is no quantity is returned as
     text.
     """
-    from gudgeon.model.parameters import value
+    from gudgeon.model.parameters import parse_typed_number
 
-    return value(text)
+    return parse_typed_number(text)

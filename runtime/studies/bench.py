@@ -15,12 +15,22 @@ import numpy as np
 
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.peers import driver as python_driver
-from gudgeon.language.argument_checks import flag, function, mapping, numbers, positive
-from gudgeon.model.default_step import plain_end
+from gudgeon.language.argument_checks import check_callable, check_flag, check_mapping, check_numbers, check_positive
+from gudgeon.model.default_step import evaluate_end
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies import runs as measured
-from gudgeon.studies.methods import ADAPTIVE, RhsTime, choice, time_rhs
-from gudgeon.studies.runs import NAN, Attempt, Error, Parameters, Setting, Work, difference, natural_step, size
+from gudgeon.studies.methods import ADAPTIVE, RhsTime, measure_rhs_time, select_methods
+from gudgeon.studies.runs import (
+    NAN,
+    Attempt,
+    Error,
+    Parameters,
+    Setting,
+    Work,
+    compare_runs,
+    find_default_step,
+    find_mechanism_size,
+)
 
 FINEST, COARSEST = 1 / 5, 200  # steps that are tested, of the step that a plain run takes
 REFERENCE_STEPS = 200_000  # of the finest step: what bounds a smooth scene's window
@@ -85,14 +95,14 @@ class SceneBench:
         """Return all rows of a method, including failed ones, from the longest step or loosest tolerance on."""
         return [row for row in self.rows if row.setting.method == method]
 
-    def order(self, measure: str, method: str = "rk4") -> float:
+    def estimate_order(self, measure: str, method: str = "rk4") -> float:
         """Return the order of convergence of a method: the slope of log(error) over log(step or tolerance).
 
         measure: "motion", "path" or "force". Errors that the references do not resolve, or of SMALL or more, are left
         out. NaN for fewer than three points, or points that are not on a line (a stiff scene at its stability limit).
         """
         points = [(row.setting.value, getattr(row.error, measure)) for row in self.of(method) if not row.failure]
-        log_points = np.log([(h, e) for h, e in points if self.resolved(measure, e) and e < SMALL])
+        log_points = np.log([(h, e) for h, e in points if self.is_resolved(measure, e) and e < SMALL])
         if len(log_points) < 3:
             return NAN
         polynomial = np.polyfit(log_points[:, 0], log_points[:, 1], 1)
@@ -102,7 +112,7 @@ class SceneBench:
             else NAN
         )
 
-    def resolved(self, measure: str, error: float) -> bool:
+    def is_resolved(self, measure: str, error: float) -> bool:
         """Return whether an error is large enough to be measured: more than TRUSTED times the difference of the two
         references.
 
@@ -116,7 +126,7 @@ class SceneBench:
         """
         return next((r for r in self.of(setting.method) if math.isclose(r.setting.value, setting.value)), None)
 
-    def seconds_to(self, error: float, method: str) -> float:
+    def find_seconds_to_error(self, error: float, method: str) -> float:
         """Return the least run time (s per simulated second) of the rows of a method whose largest error is at most
         `error`.
 
@@ -130,7 +140,7 @@ class SceneBench:
 Report = Callable[[float, str], None]
 
 
-def bench(
+def measure_scene(
     simulation: Simulation,
     steps: Sequence[float] | None = None,
     tolerances: Sequence[float] | None = None,
@@ -144,24 +154,31 @@ def bench(
     """Measure run time and error of one scene with every method and setting, against two references.
 
     steps (s) of rk4: by default 1, 2, 5 · 10^k around the step of a plain run. tolerances: by default 1e-3 … 1e-11.
-    methods: names or patterns as in `choice`, by default all that fit. t_end (s): by default the first few contacts or,
+    methods: names or patterns as in `default_option`, by default all that fit. t_end (s): by default the first few
+    contacts or,
     without contact, as many of the shortest steps as are affordable. quick: fewer settings over a tenth of the window,
     without cross-checks. A scene without degrees of freedom is measured by its kinematic method alone. After Ctrl-C the
     rows so far are returned. Raises BadValueError for invalid steps, tolerances or methods.
     """
-    parameters, progress = dict(mapping(parameters, "parameters")), function(progress, "progress")
-    t_end, quick = None if t_end is None else positive(t_end, "t_end"), flag(quick, "quick")
+    parameters, progress = dict(check_mapping(parameters, "parameters")), check_callable(progress, "progress")
+    t_end, quick = None if t_end is None else check_positive(t_end, "t_end"), check_flag(quick, "quick")
     if simulation.source.degrees_of_freedom == 0:
         return _measure_kinematic(simulation, parameters, KINEMATIC[:3] if quick else KINEMATIC, t_end, progress)
-    selected, left_out = choice(simulation, methods, quick)
-    usual = usual_steps(simulation, parameters, quick)
-    steps = sorted(numbers(steps, "steps") or usual, reverse=True)
-    tolerances = sorted(numbers(tolerances, "tolerances") or (TOLERANCES[1::3] if quick else TOLERANCES), reverse=True)
+    selected, left_out = select_methods(simulation, methods, quick)
+    usual = list_default_steps(simulation, parameters, quick)
+    steps = sorted(check_numbers(steps, "steps") or usual, reverse=True)
+    tolerances = sorted(
+        check_numbers(tolerances, "tolerances") or (TOLERANCES[1::3] if quick else TOLERANCES), reverse=True
+    )
     if not steps[-1] > 0 or not 0 < tolerances[-1] <= tolerances[0] < 1:
         raise BadValueError("expected positive steps (s) and tolerances between 0 and 1")
     longest = max(REFERENCE_STEPS * steps[-1] / (10 if quick else 1), 2 * steps[0])
-    pilot = Setting("rk4", natural_step(simulation, parameters))
-    work = Work(simulation, t_end, parameters) if t_end else measured.window(simulation, longest, pilot, parameters)
+    pilot = Setting("rk4", find_default_step(simulation, parameters))
+    work = (
+        Work(simulation, t_end, parameters)
+        if t_end
+        else measured.find_comparison_window(simulation, longest, pilot, parameters)
+    )
     work = replace(work, enough=QUICK if quick else work.enough)
     settings = [Setting("rk4", step) for step in steps if "rk4" in selected]
     settings += [Setting(method, x) for method in selected if method in ADAPTIVE for x in tolerances]
@@ -169,21 +186,23 @@ def bench(
     if checks:
         _ = simulation.full  # derived and compiled before any of them is timed
     settings += [Setting(method, x) for method in checks for x in tolerances[::2]]
-    reference_settings = references(simulation, settings)
+    reference_settings = select_references(simulation, settings)
     scene_bench = _measure_settings(work, settings, reference_settings, progress or (lambda fraction, text: None))
     return replace(scene_bench, left_out=(*left_out, *scene_bench.left_out))
 
 
-def usual_steps(simulation: Simulation, parameters: Parameters | None = None, quick: bool = False) -> tuple[float, ...]:
+def list_default_steps(
+    simulation: Simulation, parameters: Parameters | None = None, quick: bool = False
+) -> tuple[float, ...]:
     """Return the steps 1, 2, 5 · 10^k s, ascending, from a fifth to 200 times the step of a plain run.
 
     With `quick` they begin at the step of a plain run itself.
     """
-    usual = natural_step(simulation, parameters)
-    return measured.round_numbers(usual * (1 if quick else FINEST), usual * COARSEST)
+    usual = find_default_step(simulation, parameters)
+    return measured.list_round_numbers(usual * (1 if quick else FINEST), usual * COARSEST)
 
 
-def references(simulation: Simulation, settings: Sequence[Setting]) -> tuple[Setting, Setting]:
+def select_references(simulation: Simulation, settings: Sequence[Setting]) -> tuple[Setting, Setting]:
     """Return the settings of both reference runs: two methods at much tighter tolerances, or one method at two
     tolerances.
 
@@ -193,7 +212,7 @@ def references(simulation: Simulation, settings: Sequence[Setting]) -> tuple[Set
     if fitting:
         return fitting[0], fitting[1] if len(fitting) > 1 else replace(fitting[0], value=SECOND)
     finest = min(settings, key=lambda setting: setting.value)
-    return finest.finer(FINER[0]), finest.finer(FINER[1])
+    return finest.refine(FINER[0]), finest.refine(FINER[1])
 
 
 def _measure_settings(
@@ -224,11 +243,11 @@ def _measure_settings(
         lengths = successful[0].run.impacts["t_off"] - successful[0].run.impacts["t_on"]
         contact = float(np.nanmin(lengths)) if np.isfinite(lengths).any() else NAN
     if len(successful) == 2 and successful[0].run is not None and successful[1].run is not None:
-        agreement = difference(successful[0].run, successful[1].run)
+        agreement = compare_runs(successful[0].run, successful[1].run)
     rows, left_out, missing = _measure_rows(
         work, settings, successful, lambda k, one: attempt_setting(len(reference_settings) + k, one)
     )
-    rhs = () if missing else tuple(time_rhs(work.simulation, work.t_end))
+    rhs = () if missing else tuple(measure_rhs_time(work.simulation, work.t_end))
     name = work.simulation.source.scene
     return SceneBench(
         name,
@@ -299,12 +318,12 @@ def _measure_row(work: Work, attempt: Attempt, references: Sequence[Attempt]) ->
         )
     diagnostics = attempt.run.diagnostics
     method_names = diagnostics.method.split("+")
-    reference = reference_by_other_method(
+    reference = find_independent_reference(
         [*method_names, method_names[0].rpartition(":")[2].lower()], references
     )  # nor by the same from elsewhere
-    error = difference(attempt.run, reference.run) if reference is not None and reference.run is not None else Error()
+    error = compare_runs(attempt.run, reference.run) if reference is not None and reference.run is not None else Error()
     known_seconds = diagnostics.seconds if attempt.setting.method in python_driver.NAMES else 0.0
-    seconds = known_seconds if known_seconds > work.enough else work.seconds(attempt.setting)
+    seconds = known_seconds if known_seconds > work.enough else work.measure_seconds(attempt.setting)
     return Row(
         attempt.setting,
         seconds / work.t_end,
@@ -316,7 +335,7 @@ def _measure_row(work: Work, attempt: Attempt, references: Sequence[Attempt]) ->
     )
 
 
-def reference_by_other_method(methods: Iterable[str], references: Sequence[Attempt]) -> Attempt | None:
+def find_independent_reference(methods: Iterable[str], references: Sequence[Attempt]) -> Attempt | None:
     """Return the first reference run by none of these methods, else the last one; None without references."""
     return next(
         (attempt for attempt in references if attempt.setting.method not in methods),
@@ -336,19 +355,19 @@ def _measure_kinematic(
     The error is the residual of the constraint equations after Newton's method, divided by the size of the mechanism.
     t_end (s): by default the end of a plain run; None or 0 mean the default. A failed run gets a row with the failure.
     """
-    work = Work(simulation, t_end or plain_end(simulation.compiled, parameters), parameters)
+    work = Work(simulation, t_end or evaluate_end(simulation.compiled, parameters), parameters)
     rows = []
     for index, count in enumerate(counts):
         if progress:
             progress(index / len(counts), f"{count} samples")
         setting = Setting("kinematic", work.t_end / count)
-        attempt = work.sampled(setting, np.linspace(0.0, work.t_end, count + 1))
+        attempt = work.run_at_times(setting, np.linspace(0.0, work.t_end, count + 1))
         if attempt.run is None or attempt.failure:
             failure = attempt.failure or "no result"
             rows.append(Row(setting, NAN, 0, Error(), 0, count, None, failure, attempt.failed_at))
             continue
-        seconds = work.seconds(setting, count) / work.t_end
-        error = Error(attempt.run.diagnostics.phi_max / size(attempt.run))
+        seconds = work.measure_seconds(setting, count) / work.t_end
+        error = Error(attempt.run.diagnostics.phi_max / find_mechanism_size(attempt.run))
         rows.append(Row(setting, seconds, 0, error, samples=count))
-    rhs = tuple(time_rhs(simulation, work.t_end))
+    rhs = tuple(measure_rhs_time(simulation, work.t_end))
     return SceneBench(simulation.source.scene, work.t_end, "", tuple(rows), (), Error(), NAN, rhs)

@@ -1,4 +1,4 @@
-"""Judge a box of parameters: all its corners and Sobol points in it, by a long run and two runs over a window.
+"""Test runs at the corners of a box of parameters and at Sobol points in it: stable, inaccurate or failed.
 
 Two criteria apply to a point. A run over the whole time must remain valid: finite, closed, energy accounted for, no
 contact lost. It must also agree with a hundred times tighter tolerance over a window that ends half-way between the
@@ -16,12 +16,12 @@ import numpy as np
 
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.trajectory import Progress
-from gudgeon.language.argument_checks import number_of
+from gudgeon.language.argument_checks import check_number
 from gudgeon.model.compiled import Array
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.runs import ONSETS, Attempt, Parameters, Setting, Work, apart
-from gudgeon.studies.verdicts import Cell, Limits, Pair, judge, limits_of
+from gudgeon.studies.runs import ONSETS, Attempt, Parameters, Setting, Work, compute_differences
+from gudgeon.studies.verdicts import Cell, Limits, Pair, judge_runs, select_limits
 
 FINER = 100.0
 SEED = 20  # of Sobol's scrambling
@@ -43,7 +43,7 @@ class Range:
 
     def __post_init__(self) -> None:
         """Raise BadValueError unless both ends are numbers with 0 < low ≤ high."""
-        if not 0.0 < number_of(self.low, f"range {self.name}") <= number_of(self.high, f"range {self.name}"):
+        if not 0.0 < check_number(self.low, f"range {self.name}") <= check_number(self.high, f"range {self.name}"):
             raise BadValueError(f"range {self.name}={self.low:g}..{self.high:g}: expected 0 < low ≤ high")
 
     def at(self, fraction: float) -> float:
@@ -53,14 +53,14 @@ class Range:
         return self.low * (self.high / self.low) ** fraction
 
 
-def corners(ranges: Sequence[Range]) -> list[dict[str, float]]:
+def list_corners(ranges: Sequence[Range]) -> list[dict[str, float]]:
     """Return the parameter values at all 2^n corners of the box, range name to value (SI); the last range varies
     fastest.
     """
     return [_interpolate_point(ranges, fractions) for fractions in itertools.product((0.0, 1.0), repeat=len(ranges))]
 
 
-def sobol(ranges: Sequence[Range], count: int) -> list[dict[str, float]]:
+def sample_sobol_points(ranges: Sequence[Range], count: int) -> list[dict[str, float]]:
     """Return the values at the first `count` scrambled Sobol points of the box, range name to value (SI).
 
     The points are the same in every call, since the seed is fixed (A. B. Owen, J. Complexity 14, 1998). The list is
@@ -85,7 +85,7 @@ def judge_point(
     t_end: float,
     setting: Setting,
     limits: Limits | None = None,
-    limit: float = math.inf,
+    cpu_limit: float = math.inf,
     progress: Progress | None = None,
 ) -> Cell:
     """Return the verdict on one point of a box: a long run over [0, t_end] (s), and two runs over the first contacts.
@@ -94,17 +94,17 @@ def judge_point(
     times longer. A failed long run is judged alone. If the two runs differ by more than the limits, they are compared
     again over the time in which runs can agree at all (`_count_predictable_samples`).
     """
-    work, limits = Work(simulation, t_end, parameters, limit=limit), limits or limits_of(setting)
-    long_run = work.sampled(setting, np.linspace(0.0, t_end, DENSE + 1), progress)
+    work, limits = Work(simulation, t_end, parameters, limit=cpu_limit), limits or select_limits(setting)
+    long_run = work.run_at_times(setting, np.linspace(0.0, t_end, DENSE + 1), progress)
     if long_run.failure or long_run.run is None:
-        return judge(parameters, long_run, [], limits)
-    refined_work = replace(work, limit=PATIENCE * limit)
-    times = predictable_times(long_run.run)
+        return judge_runs(parameters, long_run, [], limits)
+    refined_work = replace(work, limit=PATIENCE * cpu_limit)
+    times = choose_comparison_times(long_run.run)
     run_pair = _run_with_refinement(refined_work, setting, times)
-    cell = judge(parameters, long_run, [run_pair], limits)
-    if cell.failed and cell.error.beyond(limits.motion, limits.path, limits.force):
+    cell = judge_runs(parameters, long_run, [run_pair], limits)
+    if cell.failed and cell.error.exceeds_limits(limits.motion, limits.path, limits.force):
         predictable_samples = times[: _count_predictable_samples(refined_work, run_pair[1], limits)]
-        cell = judge(
+        cell = judge_runs(
             parameters,
             long_run,
             [_run_with_refinement(refined_work, setting, predictable_samples)] if len(predictable_samples) > 1 else [],
@@ -113,7 +113,7 @@ def judge_point(
     return cell
 
 
-def predictable_times(run: Result) -> Array:
+def choose_comparison_times(run: Result) -> Array:
     """Return SAMPLES + 1 times (s) from 0 at which two runs are compared.
 
     They end half-way between the fourth onset of contact and the next, or at the end of a run with four onsets or
@@ -128,7 +128,7 @@ def _run_with_refinement(work: Work, setting: Setting, times: Array) -> Pair:
     """Return the outcomes of two runs at the same times (s): with the setting, and with a tolerance FINER times
     tighter.
     """
-    return work.sampled(setting, times), work.sampled(setting.finer(FINER), times)
+    return work.run_at_times(setting, times), work.run_at_times(setting.refine(FINER), times)
 
 
 def _count_predictable_samples(work: Work, fine: Attempt, limits: Limits) -> int:
@@ -141,14 +141,14 @@ def _count_predictable_samples(work: Work, fine: Attempt, limits: Limits) -> int
     if fine.run is None:
         return SAMPLES + 1
     tightest = replace(fine.setting, value=min(fine.setting.value, TIGHT))
-    a, b = (work.sampled(setting, fine.run.t) for setting in (tightest, tightest.finer(FINER)))
+    a, b = (work.run_at_times(setting, fine.run.t) for setting in (tightest, tightest.refine(FINER)))
     if a.run is None or b.run is None or a.failure or b.failure:
         return SAMPLES + 1
     bounds = (limits.motion, limits.path, limits.force)
     exceeds = np.any(
         [
             differences > limit / (MARGIN * FINER)
-            for differences, limit in zip(apart(a.run, b.run), bounds, strict=True)
+            for differences, limit in zip(compute_differences(a.run, b.run), bounds, strict=True)
         ],
         axis=0,
     )

@@ -1,4 +1,4 @@
-"""Judge a map or a box of runs, each stable, inaccurate, diverged or outside the model: `gudgeon map`.
+"""Classify runs over a grid or a box of parameters as stable, inaccurate, diverged or outside the model.
 
 Two criteria apply to a run. It must remain valid over a good part of the motion: finite, closed, energy accounted for,
 no contact lost. It must also agree with a finer run, a tenth of the step or a hundredth of the tolerance, over the
@@ -13,24 +13,34 @@ from dataclasses import dataclass, replace
 
 from gudgeon.errors import BadValueError
 from gudgeon.language.argument_checks import (
-    flag,
-    function,
-    instance,
-    listed,
-    mapping,
-    optional,
-    optional_positive,
-    text,
-    whole,
+    check_callable,
+    check_flag,
+    check_instance,
+    check_integer,
+    check_list,
+    check_mapping,
+    check_optional_instance,
+    check_optional_positive,
+    check_text,
 )
-from gudgeon.model.default_step import plain_end
-from gudgeon.model.parameters import prepare
+from gudgeon.model.default_step import evaluate_end
+from gudgeon.model.parameters import prepare_values
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.axes import GAINS, Axis, axis, clearances
-from gudgeon.studies.box import Range, corners, judge_point, sobol
-from gudgeon.studies.runs import FIXED, NAN, Attempt, Parameters, Setting, Work, natural_step, round_numbers, window
+from gudgeon.studies.axes import GAINS, Axis, make_axis, make_clearance_axis
+from gudgeon.studies.box import Range, judge_point, list_corners, sample_sobol_points
+from gudgeon.studies.runs import (
+    FIXED,
+    NAN,
+    Attempt,
+    Parameters,
+    Setting,
+    Work,
+    find_comparison_window,
+    find_default_step,
+    list_round_numbers,
+)
 from gudgeon.studies.threads import Pool, Report
-from gudgeon.studies.verdicts import Cell, Limits, Status, check_room, judge, not_judged
+from gudgeon.studies.verdicts import Cell, Limits, Status, check_memory_of_cells, judge_runs, make_missing_cell
 
 LONG, SHORT = 300_000, 1_000_000  # steps of the two windows with the shortest step (of the reference)
 COARSEST = 200  # the longest step, of the shortest scene's
@@ -81,7 +91,7 @@ class VerdictMap(_Verdicts):
         column_index = self.columns.values.index(column) if column == column else 0
         return self.cells[column_index * len(self.rows.values) + self.rows.values.index(row)]
 
-    def largest_stable(self, column: float) -> float:
+    def find_largest_stable_row(self, column: float) -> float:
         """Return the largest row value of a column such that its cell and all those at smaller row values are stable.
 
         NaN if the cell at the smallest row value is not stable. Raises KeyError for a column that the map does not
@@ -124,33 +134,34 @@ def verdict_map(
     """Judge every pair of values of at most two axes, by default tolerance (rk4: step) × clearance, and return the map.
 
     `value`: the step or tolerance if neither axis is one. `t_long` (s) is the run over which a cell must remain valid;
-    `t_short` bounds the window in which a step is compared with a tenth of itself (see `window`). `parameters` as in
+    `t_short` bounds the window in which a step is compared with a tenth of itself (see `find_comparison_window`).
+    `parameters` as in
     `simulate`; `quick` judges a few pairs. After Ctrl-C the cells so far are returned, the others as Status.MISSING.
     Raises BadValueError for a scene that is not integrated or axes that do not fit, MemoryError for too many cells.
     """
     _check_dynamic(simulation)
-    axes, method = listed(axes, "axes", Axis, "a list of Axis"), text(method, "method")
-    limits, quick = optional(limits, "limits", Limits), flag(quick, "quick")
-    t_long, t_short = optional_positive(t_long, "t_long"), optional_positive(t_short, "t_short")
-    value, progress = optional_positive(value, "value"), function(progress, "progress")
-    parameter_values, full = dict(mapping(parameters, "parameters")), needs_full(axes, method)
+    axes, method = check_list(axes, "axes", Axis, "a list of Axis"), check_text(method, "method")
+    limits, quick = check_optional_instance(limits, "limits", Limits), check_flag(quick, "quick")
+    t_long, t_short = check_optional_positive(t_long, "t_long"), check_optional_positive(t_short, "t_short")
+    value, progress = check_optional_positive(value, "value"), check_callable(progress, "progress")
+    parameter_values, full = dict(check_mapping(parameters, "parameters")), is_full_formulation_needed(axes, method)
     simulation = simulation.full if full else simulation
-    rows, columns = arrange(simulation, axes, method, parameter_values, quick)
+    rows, columns = arrange_axes(simulation, axes, method, parameter_values, quick)
     default_setting = Setting(
-        method, value or (natural_step(simulation, parameter_values) if method in FIXED else USUAL)
+        method, value or (find_default_step(simulation, parameter_values) if method in FIXED else USUAL)
     )
-    check_room(len(rows.values) * len(columns.values))
+    check_memory_of_cells(len(rows.values) * len(columns.values))
     jobs = _build_jobs(simulation, rows, columns, default_setting, parameter_values)
     shortest_step = (
-        min(setting.value for job in jobs for setting in job.settings) if default_setting.fixed else math.inf
+        min(setting.value for job in jobs for setting in job.settings) if default_setting.has_fixed_step else math.inf
     )
-    t_long = t_long or min(plain_end(simulation.compiled, parameter_values), LONG * shortest_step) / (
+    t_long = t_long or min(evaluate_end(simulation.compiled, parameter_values), LONG * shortest_step) / (
         10 if quick else 1
     )
     max_window = t_short or SHORT * shortest_step / FINER / (10 if quick else 1)
     with Pool[_MapJob, list[Cell]](progress or (lambda fraction, text: None), len(jobs)) as pool:
         cell_lists = pool.map(lambda job, report: _judge_job(simulation, job, t_long, max_window, limits, report), jobs)
-    missing = ([not_judged(job.parameters, setting) for setting in job.settings] for job in jobs)
+    missing = ([make_missing_cell(job.parameters, setting) for setting in job.settings] for job in jobs)
     cells = tuple(
         cell
         for judged_cells, missing_cells in zip(cell_lists, missing, strict=True)
@@ -159,7 +170,7 @@ def verdict_map(
     return VerdictMap(simulation.source.scene, default_setting, rows, columns, cells, t_long, full)
 
 
-def arrange(
+def arrange_axes(
     simulation: Simulation, axes: Sequence[Axis], method: str, parameters: Parameters, quick: bool = False
 ) -> tuple[Axis, Axis]:
     """Return the axes of rows and of columns of a map from at most two axes; missing ones get default values.
@@ -168,7 +179,7 @@ def arrange(
     `quick`: fewer default values. Raises BadValueError for more than two or equal axes, one that does not fit the
     method, or values that are not positive.
     """
-    method_axes, parameter_axes = [a for a in axes if a.of_method], [a for a in axes if not a.of_method]
+    method_axes, parameter_axes = [a for a in axes if a.is_method_setting], [a for a in axes if not a.is_method_setting]
     expected = "step" if method in FIXED else "rtol"
     if len(axes) > 2 or len(method_axes) > 1 or len({a.name for a in axes}) < len(axes):
         raise BadValueError(f"axes {', '.join(a.name for a in axes)}: expected two different ones, step or rtol once")
@@ -181,7 +192,7 @@ def arrange(
     if not method_axes:
         tolerances = TOLERANCES[1:3] if quick else TOLERANCES
         method_axes = [
-            axis(simulation, expected, default_steps([simulation], quick) if method in FIXED else tolerances)
+            make_axis(simulation, expected, list_default_steps([simulation], quick) if method in FIXED else tolerances)
         ]
     return method_axes[0], parameter_axes[0] if parameter_axes else _build_clearance_axis(simulation, parameters, quick)
 
@@ -207,47 +218,55 @@ def verdict_box(
     many points.
     """
     _check_dynamic(simulation)
-    ranges, count = listed(ranges, "ranges", Range, "a list of Range"), whole(count, "count", 0, MOST_POINTS)
-    limits, quick = optional(limits, "limits", Limits), flag(quick, "quick")
-    t_long, parameters = optional_positive(t_long, "t_long"), mapping(parameters, "parameters")
-    progress, setting = function(progress, "progress"), optional(setting, "setting", Setting) or Setting("auto", USUAL)
+    ranges, count = (
+        check_list(ranges, "ranges", Range, "a list of Range"),
+        check_integer(count, "count", 0, MOST_POINTS),
+    )
+    limits, quick = check_optional_instance(limits, "limits", Limits), check_flag(quick, "quick")
+    t_long, parameters = check_optional_positive(t_long, "t_long"), check_mapping(parameters, "parameters")
+    progress, setting = (
+        check_callable(progress, "progress"),
+        check_optional_instance(setting, "setting", Setting) or Setting("auto", USUAL),
+    )
     if not ranges:
         raise BadValueError("a box wants ranges: --range name=low..high")
-    t_long = t_long or plain_end(simulation.compiled, parameters) / (10 if quick else 1)
+    t_long = t_long or evaluate_end(simulation.compiled, parameters) / (10 if quick else 1)
     group_axes = {
-        name: instance(range_, f"addresses: {name}", Axis) for name, range_ in mapping(addresses, "addresses").items()
+        name: check_instance(range_, f"addresses: {name}", Axis)
+        for name, range_ in check_mapping(addresses, "addresses").items()
     }
-    full = needs_full(
-        [group_axes.get(range_.name) or axis(simulation, range_.name, ()) for range_ in ranges], setting.method
+    full = is_full_formulation_needed(
+        [group_axes.get(range_.name) or make_axis(simulation, range_.name, ()) for range_ in ranges], setting.method
     )
     simulation = simulation.full if full else simulation
 
-    def parameters_at(point: Mapping[str, float]) -> dict[str, float | str]:
+    def find_point_parameters(point: Mapping[str, float]) -> dict[str, float | str]:
         """Return the parameters of `simulate` at a point of the box; a group sets all its addresses."""
-        own = (
+        settings = (
             group_axes[name].parameters(value) if name in group_axes else {name: value} for name, value in point.items()
         )
         return dict(parameters) | {
-            address: value for parameter_values in own for address, value in parameter_values.items()
+            address: value for parameter_values in settings for address, value in parameter_values.items()
         }
 
     def judge_one(point: Mapping[str, float], report: Report) -> Cell:
         """Return the verdict on one point, and report the progress of its runs."""
-        return judge_point(simulation, parameters_at(point), t_long, setting, limits, LIMIT, report)
+        return judge_point(simulation, find_point_parameters(point), t_long, setting, limits, LIMIT, report)
 
-    check_room(2.0 ** len(ranges) + count)
-    points = [*corners(ranges), *sobol(ranges, count)]
+    check_memory_of_cells(2.0 ** len(ranges) + count)
+    points = [*list_corners(ranges), *sample_sobol_points(ranges, count)]
     for point in points:
-        prepare(simulation.compiled, parameters_at(point))
+        prepare_values(simulation.compiled, find_point_parameters(point))
     with Pool[Mapping[str, float], Cell](progress or (lambda fraction, text: None), len(points)) as pool:
         cells_or_none = pool.map(judge_one, points)
     cells = tuple(
-        cell or not_judged(parameters_at(point), setting) for cell, point in zip(cells_or_none, points, strict=True)
+        cell or make_missing_cell(find_point_parameters(point), setting)
+        for cell, point in zip(cells_or_none, points, strict=True)
     )
     return VerdictBox(simulation.source.scene, setting, tuple(ranges), tuple(points), cells, t_long, full)
 
 
-def needs_full(axes: Sequence[Axis], method: str) -> bool:
+def is_full_formulation_needed(axes: Sequence[Axis], method: str) -> bool:
     """Return whether an axis sets Baumgarte's gains, so that the scene must be run in the full formulation.
 
     Raises BadValueError for gains with a method other than rk4, since those methods project onto the constraints.
@@ -263,25 +282,25 @@ def _count_judged(cells: Sequence[Cell]) -> tuple[int, int]:
     return sum(cell.status is not Status.MISSING for cell in cells), len(cells)
 
 
-def default_steps(simulations: Sequence[Simulation], quick: bool = False) -> tuple[float, ...]:
+def list_default_steps(simulations: Sequence[Simulation], quick: bool = False) -> tuple[float, ...]:
     """Return the steps 1, 2, 5 · 10^k s, ascending, from the shortest step of a plain run of any scene to 200 times
     that.
 
     With `quick` it is every second of them from the fourth on.
     """
-    plain_step = min(natural_step(simulation) for simulation in simulations)
-    steps = round_numbers(plain_step, COARSEST * plain_step)
+    plain_step = min(find_default_step(simulation) for simulation in simulations)
+    steps = list_round_numbers(plain_step, COARSEST * plain_step)
     return steps[3::2] if quick else steps
 
 
-def default_clearances(c: float, quick: bool = False) -> tuple[float, ...]:
+def list_default_clearances(c: float, quick: bool = False) -> tuple[float, ...]:
     """Return clearances 1, 2, 5 · 10^k m from c/6 to 10/3 c, and c itself, ascending; with `quick` only c.
 
     c is the clearance in the file, m.
     """
     if quick:
         return (c,)
-    return tuple(sorted({*round_numbers(CLEARANCES[0] * c, CLEARANCES[1] * c), float(f"{c:.6g}")}))
+    return tuple(sorted({*list_round_numbers(CLEARANCES[0] * c, CLEARANCES[1] * c), float(f"{c:.6g}")}))
 
 
 def _build_clearance_axis(simulation: Simulation, parameters: Parameters, quick: bool) -> Axis:
@@ -290,18 +309,18 @@ def _build_clearance_axis(simulation: Simulation, parameters: Parameters, quick:
     For example, a clearance must stay below the radius of its bearing. In a scene without play the only value is NaN.
     """
     if not simulation.source.clearances:
-        return clearances(simulation, ())
-    p = prepare(simulation.compiled, parameters)[0]
+        return make_clearance_axis(simulation, ())
+    p = prepare_values(simulation.compiled, parameters)[0]
     file_clearance = float(p[simulation.source.clearances[0].clearance])
-    found = clearances(simulation, default_clearances(file_clearance, quick), parameters)
+    axis = make_clearance_axis(simulation, list_default_clearances(file_clearance, quick), parameters)
     allowed = []
-    for c in found.values:
+    for c in axis.values:
         try:
-            prepare(simulation.compiled, {**parameters, **found.parameters(c)})
+            prepare_values(simulation.compiled, {**parameters, **axis.parameters(c)})
         except BadValueError:
             continue
         allowed.append(c)
-    return replace(found, values=tuple(allowed))
+    return replace(axis, values=tuple(allowed))
 
 
 @dataclass(frozen=True)
@@ -332,13 +351,13 @@ def _build_jobs(
     """
     jobs = []
     for column_value in columns.values:
-        if rows.of_method:
+        if rows.is_method_setting:
             settings = tuple(Setting(default_setting.method, row_value) for row_value in rows.values)
             parameters = {**fixed_parameters, **columns.parameters(column_value)}
             # fixed steps are references for each other, tolerances are judged alone
             jobs += (
                 [_MapJob(parameters, settings)]
-                if default_setting.fixed
+                if default_setting.has_fixed_step
                 else [_MapJob(parameters, (setting,)) for setting in settings]
             )
             continue
@@ -350,7 +369,7 @@ def _build_jobs(
                 )
             )
     for job in jobs:
-        prepare(simulation.compiled, job.parameters)
+        prepare_values(simulation.compiled, job.parameters)
     return jobs
 
 
@@ -362,7 +381,7 @@ def _judge_job(
     t_long (s): end of the long runs. longest (s): bound of the window of comparison, for fixed steps only. Progress
     goes to `report`.
     """
-    if job.settings[0].fixed:
+    if job.settings[0].has_fixed_step:
         return _judge_steps(simulation, job, t_long, longest, limits, report)
     return [judge_point(simulation, job.parameters, t_long, job.settings[0], limits, LIMIT, report)]
 
@@ -375,11 +394,11 @@ def _judge_steps(
     The comparison is over the first contacts, or over at most `longest` (s). If the finer run is also a long one
     without contact, the long runs are compared, too. The progress is weighted by the number of steps of each run.
     """
-    steps = [setting.finer(1) for setting in job.settings]
-    shortest = min(natural_step(simulation), *(setting.value for setting in steps))
-    short_work = window(simulation, longest, Setting("rk4", shortest), job.parameters)
+    steps = [setting.refine(1) for setting in job.settings]
+    shortest = min(find_default_step(simulation), *(setting.value for setting in steps))
+    short_work = find_comparison_window(simulation, longest, Setting("rk4", shortest), job.parameters)
     long_work = Work(simulation, t_long, job.parameters)
-    all_steps = sorted({x for step in steps for x in (step, step.finer(FINER))}, key=lambda x: -x.value)
+    all_steps = sorted({x for step in steps for x in (step, step.refine(FINER))}, key=lambda x: -x.value)
     runs = [(work, step) for work, expected in ((short_work, all_steps), (long_work, steps)) for step in expected]
     total_cost, completed = sum(work.t_end / step.value for work, step in runs), 0.0
     attempts: dict[tuple[Work, Setting], Attempt] = {}
@@ -389,12 +408,12 @@ def _judge_steps(
         completed += fraction
     cells = []
     for step in steps:
-        reference = step.finer(FINER)
+        reference = step.refine(FINER)
         pairs = [(attempts[short_work, step], attempts[short_work, reference])]
         fine = attempts.get((long_work, reference))
         if fine is not None and fine.run is not None and not len(fine.run.impacts):
             pairs.append((attempts[long_work, step], fine))  # without contact errors mean something for longer
-        cells.append(judge(job.parameters, attempts[long_work, step], pairs, limits))
+        cells.append(judge_runs(job.parameters, attempts[long_work, step], pairs, limits))
     return cells
 
 

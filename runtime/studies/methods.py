@@ -18,11 +18,11 @@ from gudgeon.contract.methods import CHOOSING, INTEGRATORS, STAGED
 from gudgeon.errors import BadValueError, SolverError
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.peers.sundials_steppers import INSTALL
-from gudgeon.language.argument_checks import listed
+from gudgeon.language.argument_checks import check_list
 from gudgeon.model.compiled import Array
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.runs import Setting, natural_step, window
+from gudgeon.studies.runs import Setting, find_comparison_window, find_default_step
 
 ADAPTIVE = (*CHOOSING, "auto")
 BATCH, REPEATS = 20_000, 9
@@ -33,7 +33,7 @@ def has_adaptive_method(simulation: Simulation) -> bool:
     return bool(set(CHOOSING) & set(simulation.source.methods))
 
 
-def choice(simulation: Simulation, expected: Sequence[str] | None, quick: bool) -> tuple[list[str], list[str]]:
+def select_methods(simulation: Simulation, expected: Sequence[str] | None, quick: bool) -> tuple[list[str], list[str]]:
     """Return the methods that are measured in a scene, and sentences with the reasons for those left out.
 
     expected: names, or patterns such as "scipy:*"; None means all that fit, with `quick` without the cross-checks,
@@ -42,19 +42,21 @@ def choice(simulation: Simulation, expected: Sequence[str] | None, quick: bool) 
     own_methods = (*(name for name in INTEGRATORS if name not in CHOOSING), *ADAPTIVE)
     all_methods = (*own_methods, *python_driver.NAMES)
     default_methods = own_methods if quick else all_methods
-    expected = default_methods if expected is None else listed(expected, "methods", str, "a list of names of methods")
+    expected = (
+        default_methods if expected is None else check_list(expected, "methods", str, "a list of names of methods")
+    )
     selected = [m for m in all_methods if any(fnmatchcase(m, text) for text in expected)]
     for text in expected:
         if not any(fnmatchcase(method, text) for method in all_methods):
             raise BadValueError(
                 f"method {text!r}: expected some of {', '.join(all_methods)}, or a pattern such as 'scipy:*'"
             )
-    reason = python_driver.unfit(simulation.source)
+    reason = python_driver.explain_unfit(simulation.source)
     fitting, left_out = [], []
     for method in selected:
         package = method.partition(":")[0]
         source, is_requested = simulation.source, method in STAGED and expected is not default_methods
-        supported = (*source.methods, *(STAGED if is_requested and not source.no_slopes else ()))
+        supported = (*source.methods, *(STAGED if is_requested and not source.reason_without_jacobian else ()))
         fits = method in supported if method in CHOOSING else has_adaptive_method(simulation)
         if method in ADAPTIVE and not fits:
             continue
@@ -82,27 +84,29 @@ class RhsTime:
     v: Array
 
 
-def time_rhs(simulation: Simulation, longest: float, batch: int = BATCH, repeats: int = REPEATS) -> list[RhsTime]:
+def measure_rhs_time(
+    simulation: Simulation, longest: float, batch: int = BATCH, repeats: int = REPEATS
+) -> list[RhsTime]:
     """Measure the time of one right-hand side at the start and, if a joint touches within `longest` (s), at its first
     peak force.
 
     Return one or two RhsTime in this order. Each time is the least of `repeats` batches of `batch` calls.
     """
     start = simulation.start()
-    open_contacts = simulation.compiled.memory_array(None)
-    times = [_time_state(simulation, "start", 0.0, start.q, start.v, open_contacts, batch, repeats)]
+    open_contacts = simulation.compiled.as_discrete_states(None)
+    times = [_measure_state_time(simulation, "start", 0.0, start.q, start.v, open_contacts, batch, repeats)]
     if (run := _run_to_contact(simulation, longest)) is not None:
         closed_joints = [j.name for j, code in zip(simulation.source.clearances, run.state[-1], strict=True) if code]
         state = f"{', '.join(closed_joints)} in contact"
         times.append(
-            _time_state(
+            _measure_state_time(
                 simulation, state, float(run.t[-1]), run.q[-1], run.v[-1], run.memory[-1], batch, repeats, closed_joints
             )
         )
     return times
 
 
-def operations(simulation: Simulation, closed: list[str] | None = None) -> int:
+def count_operations(simulation: Simulation, closed: list[str] | None = None) -> int:
     """Return the number of operations of one right-hand side: equations of motion, all films, dry forces of the closed
     joints.
 
@@ -123,9 +127,9 @@ def _run_to_contact(simulation: Simulation, longest: float) -> Result | None:
     """
     if not simulation.source.clearances:
         return None
-    step = natural_step(simulation)
+    step = find_default_step(simulation)
     try:
-        work = window(simulation, longest, Setting("rk4", step))
+        work = find_comparison_window(simulation, longest, Setting("rk4", step))
         impacts = simulation.simulate(work.t_end, output=1, method="rk4", step=step, stop=False, peaks=()).impacts
         if not len(impacts):
             return None
@@ -135,7 +139,7 @@ def _run_to_contact(simulation: Simulation, longest: float) -> Result | None:
     return run if run.state[-1].any() else None
 
 
-def _time_state(
+def _measure_state_time(
     simulation: Simulation,
     state: str,
     t: float,
@@ -146,17 +150,18 @@ def _time_state(
     repeats: int,
     closed: list[str] | None = None,
 ) -> RhsTime:
-    """Measure the time of the right-hand side at a state, as the minimum of `repeats` batches of `batch` calls in C.
+    """Measure the time of the right-hand side at a state, as the minimum of `repeats` batches of `batch` calls in
+    C.
 
     state: text that describes it. q, v, memory: coordinates, velocities, and discrete states. closed: names of the
     joints in contact, for the number of operations.
     """
     model = simulation.compiled
-    y, contact_states = np.concatenate([q, v, np.zeros(N_WORK)]), model.memory_array(memory)
+    y, contact_states = np.concatenate([q, v, np.zeros(N_WORK)]), model.as_discrete_states(memory)
     arguments = (batch, t, model.pointer(y), model.pointer(contact_states), model.pointer(simulation.p))
     shortest = np.inf
     for _ in range(repeats):
         before = time.perf_counter()
         model.lib.gudgeon_time_rhs(*arguments)
         shortest = min(shortest, (time.perf_counter() - before) / batch)
-    return RhsTime(state, shortest, operations(simulation, closed), t, q.copy(), v.copy())
+    return RhsTime(state, shortest, count_operations(simulation, closed), t, q.copy(), v.copy())

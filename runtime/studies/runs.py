@@ -1,6 +1,4 @@
-"""Own the repeated runs of bench and map: their method with step or tolerance, their window, and the difference of two
-runs.
-"""
+"""Own the runs that `gudgeon bench` and `gudgeon map` compare: method, step or tolerance, window, difference."""
 
 from __future__ import annotations
 
@@ -12,16 +10,16 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from gudgeon.assembly.linkage import mechanism_size
+from gudgeon.assembly.linkage import compute_mechanism_size
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators.adaptive import SMALLEST
 from gudgeon.integrators.trajectory import Progress
 from gudgeon.model.compiled import Array
-from gudgeon.model.default_step import plain_end, scene_end, scene_step
-from gudgeon.model.parameters import prepare
+from gudgeon.model.default_step import evaluate_end, evaluate_scene_end, evaluate_scene_step
+from gudgeon.model.parameters import prepare_values
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.show.tables import seconds
+from gudgeon.studies.show.tables import format_seconds
 
 NAN = math.nan
 Parameters: TypeAlias = Mapping[str, float | str]  # as in `simulate`
@@ -45,7 +43,7 @@ class Error:
         """Return the largest of the three measures that are not NaN; NaN if all are."""
         return max((x for x in (self.motion, self.path, self.force) if not math.isnan(x)), default=NAN)
 
-    def beyond(self, motion: float, path: float, force: float) -> bool:
+    def exceeds_limits(self, motion: float, path: float, force: float) -> bool:
         """Return whether any of the three measures exceeds its limit; NaN never does."""
         return self.motion > motion or self.path > path or self.force > force
 
@@ -58,22 +56,22 @@ class Setting:
     value: float  # the step (s) or the tolerance
 
     @property
-    def fixed(self) -> bool:
+    def has_fixed_step(self) -> bool:
         """Return whether the value is a fixed step (s), and not a tolerance."""
         return self.method in FIXED
 
-    def finer(self, factor: float) -> Setting:
+    def refine(self, factor: float) -> Setting:
         """Return the same method with step or tolerance divided by `factor`, rounded to six digits so that equal
         settings compare equal.
 
         A tolerance does not fall below the smallest one that the integrator accepts.
         """
-        least = 0.0 if self.fixed else SMALLEST
+        least = 0.0 if self.has_fixed_step else SMALLEST
         return Setting(self.method, max(float(f"{self.value / factor:.6g}"), least))
 
     def __str__(self) -> str:
         """Return the step with its unit, such as "10 µs", or the tolerance, such as "1e-8"."""
-        return seconds(self.value) if self.fixed else f"{self.value:.0e}".replace("e-0", "e-")
+        return format_seconds(self.value) if self.has_fixed_step else f"{self.value:.0e}".replace("e-0", "e-")
 
 
 @dataclass(frozen=True)
@@ -116,11 +114,11 @@ class Work:
         If a fixed step is longer than the spacing, the samples are at multiples of it that are on the same grid. The
         last sample may lie before the end of the window.
         """
-        stride = max(1, math.floor(setting.value / self.spacing * (1 + 1e-9))) if setting.fixed else 1
+        stride = max(1, math.floor(setting.value / self.spacing * (1 + 1e-9))) if setting.has_fixed_step else 1
         count = max(1, math.floor(self.t_end / (stride * self.spacing) * (1 + 1e-9)))
-        return self.sampled(setting, np.arange(count + 1, dtype=np.float64) * (stride * self.spacing), progress)
+        return self.run_at_times(setting, np.arange(count + 1, dtype=np.float64) * (stride * self.spacing), progress)
 
-    def seconds(self, setting: Setting, output: int = 1, progress: Progress | None = None) -> float:
+    def measure_seconds(self, setting: Setting, output: int = 1, progress: Progress | None = None) -> float:
         """Return the wall time of the integration (s): the minimum of up to REPEATS runs that store only `output` + 1
         samples.
 
@@ -128,7 +126,7 @@ class Work:
         """
         shortest, total = math.inf, 0.0
         for _ in range(REPEATS):
-            attempt = self.sampled(setting, np.linspace(0.0, self.t_end, output + 1), progress)
+            attempt = self.run_at_times(setting, np.linspace(0.0, self.t_end, output + 1), progress)
             if attempt.run is None or attempt.failure:
                 return NAN
             shortest = min(shortest, attempt.run.diagnostics.seconds)
@@ -137,16 +135,16 @@ class Work:
                 break
         return shortest
 
-    def sampled(self, setting: Setting, times: Array, progress: Progress | None = None) -> Attempt:
+    def run_at_times(self, setting: Setting, times: Array, progress: Progress | None = None) -> Attempt:
         """Run a setting with samples at these times (s), and return the outcome; a failed run does not raise."""
-        return attempt(self.simulation, times, setting, self.parameters, progress, self.limit)
+        return attempt_run(self.simulation, times, setting, self.parameters, progress, self.limit)
 
 
 class _TooSlowError(Exception):
     """A run exceeded its limit of processor time."""
 
 
-def attempt(
+def attempt_run(
     simulation: Simulation,
     times: Array,
     setting: Setting,
@@ -172,7 +170,7 @@ def attempt(
             progress(fraction, text)
 
     options: dict[str, Any] = {"rtol": setting.value}
-    if setting.fixed:
+    if setting.has_fixed_step:
         options = {} if setting.method == "kinematic" else {"step": setting.value}
     try:
         run = simulation.simulate(
@@ -201,20 +199,22 @@ def attempt(
     return Attempt(setting, run, cpu=time.thread_time() - start_time)
 
 
-def round_numbers(low: float, high: float) -> tuple[float, ...]:
+def list_round_numbers(low: float, high: float) -> tuple[float, ...]:
     """Return the numbers 1, 2, 5 · 10^k from low to high (both positive, included to rounding), ascending."""
     min_exponent, max_exponent = math.floor(math.log10(low)), math.ceil(math.log10(high))
     candidates = (float(f"{mantissa}e{k}") for k in range(min_exponent, max_exponent + 1) for mantissa in (1, 2, 5))
     return tuple(candidate for candidate in candidates if low * (1 - 1e-9) <= candidate <= high * (1 + 1e-9))
 
 
-def natural_step(simulation: Simulation, parameters: Parameters | None = None) -> float:
+def find_default_step(simulation: Simulation, parameters: Parameters | None = None) -> float:
     """Return the step (s) of a plain run with these parameters: the one that the scene sets, or the default."""
-    p = prepare(simulation.compiled, parameters)[0]
-    return scene_step(simulation.compiled, p, scene_end(simulation.source, p))
+    p = prepare_values(simulation.compiled, parameters)[0]
+    return evaluate_scene_step(simulation.compiled, p, evaluate_scene_end(simulation.source, p))
 
 
-def window(simulation: Simulation, longest: float, setting: Setting, parameters: Parameters | None = None) -> Work:
+def find_comparison_window(
+    simulation: Simulation, longest: float, setting: Setting, parameters: Parameters | None = None
+) -> Work:
     """Return the scene with the time window over the first few contacts, or over `longest` (s) if there are not so
     many.
 
@@ -223,10 +223,10 @@ def window(simulation: Simulation, longest: float, setting: Setting, parameters:
     that errors mean nothing there. A window never exceeds a plain run.
     """
     parameters = dict(parameters or {})
-    longest = min(longest, plain_end(simulation.compiled, parameters))
+    longest = min(longest, evaluate_end(simulation.compiled, parameters))
     for power in range(PILOTS, -1, -1) if simulation.source.clearances else ():
         duration = longest / 2**power
-        pilot = attempt(simulation, np.linspace(0.0, duration, 3), setting, parameters)
+        pilot = attempt_run(simulation, np.linspace(0.0, duration, 3), setting, parameters)
         onsets = np.zeros(0) if pilot.run is None else np.sort(pilot.run.impacts["t_on"])
         if len(onsets) > ONSETS:
             end = float(onsets[ONSETS - 1] + onsets[ONSETS]) / 2
@@ -236,7 +236,7 @@ def window(simulation: Simulation, longest: float, setting: Setting, parameters:
     return Work(simulation, longest, parameters, "no contact" if simulation.source.clearances else "")
 
 
-def difference(run: Result, reference: Result) -> Error:
+def compare_runs(run: Result, reference: Result) -> Error:
     """Return the largest differences of two runs in motion, journal path and joint force.
 
     `reference` is sampled as often as `run`, or a whole number of times as often. If both end at the same time, peak
@@ -245,8 +245,8 @@ def difference(run: Result, reference: Result) -> Error:
     """
     if len(run.t) < 2 or len(reference.t) < 2:
         return Error()
-    motion, path, force = apart(run, reference)
-    peak_force = _peak_force(reference)
+    motion, path, force = compute_differences(run, reference)
+    peak_force = _find_peak_force(reference)
     largest_force = float(force.max()) if peak_force > 0 else NAN
     if abs(run.t[-1] - reference.t[-1]) < 0.5 * (run.t[1] - run.t[0]):  # the same window: peaks between samples too
         for peak, reference_peak in zip(run.diagnostics.peaks, reference.diagnostics.peaks, strict=True):
@@ -256,7 +256,7 @@ def difference(run: Result, reference: Result) -> Error:
     return Error(float(motion.max()), float(path.max()) if run.source.clearances else NAN, largest_force)
 
 
-def apart(run: Result, reference: Result) -> tuple[Array, Array, Array]:
+def compute_differences(run: Result, reference: Result) -> tuple[Array, Array, Array]:
     """Return motion, path and force differences of `Error` at every common sample, (N,) each, for the worst coordinate
     and joint.
 
@@ -266,19 +266,23 @@ def apart(run: Result, reference: Result) -> tuple[Array, Array, Array]:
     stride = round((run.t[1] - run.t[0]) / (reference.t[1] - reference.t[0]))
     count = min(len(run.t), (len(reference.t) - 1) // stride + 1)
     run_slice, reference_slice = slice(0, count), slice(0, (count - 1) * stride + 1, stride)
-    source, peak_force = run.source, _peak_force(reference)
-    scale = np.array([1.0 if name.endswith(".theta") else size(reference) for name in source.coordinates])
+    source, peak_force = run.source, _find_peak_force(reference)
+    scale = np.array(
+        [1.0 if name.endswith(".theta") else find_mechanism_size(reference) for name in source.coordinates]
+    )
     motion: Array = np.abs((run.q[run_slice] - reference.q[reference_slice]) / scale).max(axis=1)
     path, force = np.zeros(count), np.zeros(count)
     for joint in source.clearances or source.joints:
-        force = np.maximum(force, _vector_difference(run, reference, f"{joint.name}.F", run_slice, reference_slice))
+        force = np.maximum(
+            force, _compute_vector_difference(run, reference, f"{joint.name}.F", run_slice, reference_slice)
+        )
     for clearance in source.clearances:
-        distance = _vector_difference(run, reference, f"{clearance.name}.e", run_slice, reference_slice)
+        distance = _compute_vector_difference(run, reference, f"{clearance.name}.e", run_slice, reference_slice)
         path = np.maximum(path, distance / float(reference.p[clearance.clearance]))
     return motion, path, force / peak_force if peak_force > 0 else np.zeros(count)
 
 
-def _vector_difference(
+def _compute_vector_difference(
     run: Result, reference: Result, name: str, run_samples: slice, reference_samples: slice
 ) -> Array:
     """Return the length of the difference of a joint's vector series `name`x, `name`y in two runs, (N,).
@@ -290,7 +294,7 @@ def _vector_difference(
     )
 
 
-def _peak_force(run: Result) -> float:
+def _find_peak_force(run: Result) -> float:
     """Return the largest force (N) of any joint in a run, over its samples and its recorded peaks; 0 without joints.
 
     Joints with play are used if there are any, else all joints.
@@ -300,11 +304,11 @@ def _peak_force(run: Result) -> float:
     return max([sampled_peak, *(peak.F for peak in run.diagnostics.peaks)])
 
 
-def size(run: Result) -> float:
+def find_mechanism_size(run: Result) -> float:
     """Return the size of the mechanism of a run, m, by which lengths and residuals are divided.
 
     Raises GudgeonError for a result that was read from a file, which has no compiled scene.
     """
     if run.compiled is None:
         raise GudgeonError("a result that was read from a file cannot be compared: run the scene again")
-    return mechanism_size(run.compiled, run.p)
+    return compute_mechanism_size(run.compiled, run.p)

@@ -1,4 +1,4 @@
-"""`gudgeon.studies.map` under the names that it had before."""
+"""Keep the former names of the functions of `gudgeon.studies.map`, so that older programs still run."""
 
 from __future__ import annotations
 

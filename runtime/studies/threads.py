@@ -1,4 +1,4 @@
-"""Run pieces of work on as many threads as there are cores; C code releases Python's lock."""
+"""Run independent tasks in as many threads as there are cores; the C code releases Python's lock."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Pool(Generic[Piece, Found]):
         except KeyboardInterrupt:
             self.stop.set()
             self.executor.shutdown(wait=True, cancel_futures=True)
-            results = [_result_or_none(future) for future in futures]
+            results = [_get_result_or_none(future) for future in futures]
             if all(piece is None for piece in results):
                 raise
             return results
@@ -75,7 +75,7 @@ class Pool(Generic[Piece, Found]):
         return report_progress
 
 
-def _result_or_none(future: Future[Found]) -> Found | None:
+def _get_result_or_none(future: Future[Found]) -> Found | None:
     """Return the result of a piece after Ctrl-C; None if it was cancelled or interrupted. Raises any other error of the
     piece.
     """

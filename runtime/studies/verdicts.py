@@ -12,11 +12,11 @@ from typing import TypeAlias
 import numpy as np
 
 from gudgeon.files.free_space import check_memory
-from gudgeon.language.plot_units import quantity
-from gudgeon.model.contours import widest
+from gudgeon.language.plot_units import format_quantity
+from gudgeon.model.contours import compute_max_clearance
 from gudgeon.results.results import Result
-from gudgeon.studies.runs import NAN, Attempt, Error, Parameters, Setting, difference, size
-from gudgeon.studies.show.tables import rough_share, seconds, share
+from gudgeon.studies.runs import NAN, Attempt, Error, Parameters, Setting, compare_runs, find_mechanism_size
+from gudgeon.studies.show.tables import format_fraction, format_rough_fraction, format_seconds
 
 OF_A_CELL = 2048  # bytes of a cell, about: values, texts and its job
 Pair: TypeAlias = tuple[Attempt, Attempt]  # the same window with a setting and with a finer one
@@ -56,9 +56,9 @@ class Limits:
 STRICT = Limits(closed=1e-10, energy=1e-4, motion=1e-6, path=1e-3, force=1e-2)
 
 
-def limits_of(setting: Setting) -> Limits:
+def select_limits(setting: Setting) -> Limits:
     """Return the default limits for a setting: those of fixed steps, or the stricter ones of a tolerance."""
-    return Limits() if setting.fixed else STRICT
+    return Limits() if setting.has_fixed_step else STRICT
 
 
 @dataclass(frozen=True)
@@ -82,17 +82,17 @@ class Cell:
         return self.status in (Status.INACCURATE, Status.DIVERGED)
 
 
-def check_room(cells: float) -> None:
+def check_memory_of_cells(cells: float) -> None:
     """Raise MemoryError if this number of cells does not fit into the free memory."""
     check_memory(OF_A_CELL * cells, f"{cells:.0f} cells")
 
 
-def not_judged(parameters: Parameters, setting: Setting) -> Cell:
+def make_missing_cell(parameters: Parameters, setting: Setting) -> Cell:
     """Return a cell with the status MISSING, for a run that Ctrl-C cut short or left out."""
     return Cell(setting, parameters, Status.MISSING, "interrupted", "–", Error())
 
 
-def judge(parameters: Parameters, long: Attempt, pairs: Sequence[Pair], limits: Limits | None = None) -> Cell:
+def judge_runs(parameters: Parameters, long: Attempt, pairs: Sequence[Pair], limits: Limits | None = None) -> Cell:
     """Return the verdict on a setting: diverged, inaccurate, outside the model or stable, with the reason for the first
     fault found.
 
@@ -100,22 +100,22 @@ def judge(parameters: Parameters, long: Attempt, pairs: Sequence[Pair], limits: 
     ones do not count for the error. limits: by default those of the setting. If the long run failed, the verdict is
     "outside the model" if it says so with a tolerance, else "diverged".
     """
-    limits = limits or limits_of(long.setting)
+    limits = limits or select_limits(long.setting)
     compared_runs = [(a.run, b.run) for a, b in pairs if a.run and b.run and not (a.failure or b.failure)]
-    error = largest_errors([difference(a, b) for a, b in compared_runs])
+    error = find_largest_errors([compare_runs(a, b) for a, b in compared_runs])
     compared = max((float(min(a.t[-1], b.t[-1])) for a, b in compared_runs), default=NAN)
     cell = partial(Cell, long.setting, parameters, seconds=long.cpu, compared=compared)
     if long.failure or long.run is None:
-        at = f"at {seconds(long.failed_at)}" if math.isfinite(long.failed_at) else "fails"
+        failure_text = f"at {format_seconds(long.failed_at)}" if math.isfinite(long.failed_at) else "fails"
         # a fixed step too long throws a journal through its bearing, whatever the model
-        status = Status.OUTSIDE if long.outside and not long.setting.fixed else Status.DIVERGED
-        return cell(status, long.failure or "no result", at, error)
+        status = Status.OUTSIDE if long.outside and not long.setting.has_fixed_step else Status.DIVERGED
+        return cell(status, long.failure or "no result", failure_text, error)
     diagnostics = long.run.diagnostics
     energy = diagnostics.energy_residual / max(diagnostics.energy_turned_over, 1e-300)
     deepest = max((d for d, _ in _compute_penetrations(long.run)), default=NAN)
     for status, reason, label in _find_faults(long.run, energy, error, pairs, limits):
         return cell(status, reason, label, error, energy, deepest)
-    return cell(Status.STABLE, "", rough_share(error.largest), error, energy, deepest)
+    return cell(Status.STABLE, "", format_rough_fraction(error.largest), error, energy, deepest)
 
 
 def _find_faults(
@@ -129,27 +129,31 @@ def _find_faults(
     """
     for depth, radius in _compute_penetrations(run):
         if depth > limits.through * radius:
-            yield Status.DIVERGED, f"a journal flew through its bearing: δ = {quantity(depth, 'm')}", "through"
+            yield Status.DIVERGED, f"a journal flew through its bearing: δ = {format_quantity(depth, 'm')}", "through"
     if not math.isfinite(energy) or energy > limits.lost:
-        yield Status.DIVERGED, f"energy from nowhere: residual {share(energy)} of the energy turned over", "energy"
+        yield (
+            Status.DIVERGED,
+            f"energy from nowhere: residual {format_fraction(energy)} of the energy turned over",
+            "energy",
+        )
     if _has_lost_contact(run):
         yield Status.DIVERGED, "lost contact: the surfaces overlap while the joint counts as free", "lost"
     for coarse, _ in pairs:
         if coarse.failure:
-            yield Status.DIVERGED, coarse.failure, f"at {seconds(coarse.failed_at)}"
+            yield Status.DIVERGED, coarse.failure, f"at {format_seconds(coarse.failed_at)}"
     if violation := _describe_model_violation(run, limits):
         if any(_is_outside_by_step(coarse, fine, limits) for coarse, fine in pairs):
             yield Status.INACCURATE, f"too deep for the method's sake: {violation}, not so in the finer run", "δ"
         yield Status.OUTSIDE, f"the contact law does not hold: {violation}", "δ"
     phi = run.diagnostics.phi_max
-    if not phi <= min(limits.phi * size(run), limits.closed):
+    if not phi <= min(limits.phi * find_mechanism_size(run), limits.closed):
         yield Status.INACCURATE, f"the linkage comes apart: max |Φ| is {phi:.1e} m or rad", "|Φ|"
     for _, fine in pairs:
         if fine.failure:
             message = f"the finer run ({fine.setting}) fails, so nothing vouches for this one: {fine.failure}"
             yield Status.INACCURATE, message, "?"
     exceeded = [
-        (value / limit, f"{name} {share(value)} of {reference}", f"{short} {share(value)}")
+        (value / limit, f"{name} {format_fraction(value)} of {reference}", f"{short} {format_fraction(value)}")
         for short, name, value, limit, reference in (
             ("energy", "energy residual", energy, limits.energy, "the energy turned over"),
             ("motion", "coordinates off by", error.motion, limits.motion, "the mechanism's size"),
@@ -162,7 +166,7 @@ def _find_faults(
         yield Status.INACCURATE, *max(exceeded)[1:]
 
 
-def largest_errors(errors: Sequence[Error]) -> Error:
+def find_largest_errors(errors: Sequence[Error]) -> Error:
     """Return the largest motion, path and force error of several; NaN for a measure that is finite in none."""
     measures = ("motion", "path", "force")
     finite_values = ([getattr(e, m) for e in errors if math.isfinite(getattr(e, m))] for m in measures)
@@ -178,7 +182,7 @@ def _compute_penetrations(run: Result) -> list[tuple[float, float]]:
     depths = []
     for joint, peak in zip(run.source.clearances, run.diagnostics.peaks, strict=True):
         radius = float(run.p[joint.constants["R_i"]]) if "R_i" in joint.constants else math.inf
-        depths.append((peak.e_max - widest(run.source, run.p, joint), radius))
+        depths.append((peak.e_max - compute_max_clearance(run.source, run.p, joint), radius))
     return depths
 
 
@@ -190,9 +194,12 @@ def _describe_model_violation(run: Result, limits: Limits) -> str:
     for joint, (depth, radius) in zip(run.source.clearances, _compute_penetrations(run), strict=True):
         c = float(run.p[joint.clearance])
         if depth > limits.half * c:
-            return f"δ = {quantity(depth, 'm')} at {joint.name} is {share(depth / c)} of the clearance"
+            return f"δ = {format_quantity(depth, 'm')} at {joint.name} is {format_fraction(depth / c)} of the clearance"
         if depth > limits.thin * radius:
-            return f"δ = {quantity(depth, 'm')} at {joint.name} is {share(depth / radius)} of the bearing radius"
+            return (
+                f"δ = {format_quantity(depth, 'm')} at {joint.name} is "
+                f"{format_fraction(depth / radius)} of the bearing radius"
+            )
     return ""
 
 
@@ -205,7 +212,7 @@ def _is_outside_by_step(coarse: Attempt, fine: Attempt, limits: Limits) -> bool:
     """
     if coarse.run is None or fine.run is None or _describe_model_violation(fine.run, limits):
         return False
-    return coarse.setting.fixed or bool(_describe_model_violation(coarse.run, limits))
+    return coarse.setting.has_fixed_step or bool(_describe_model_violation(coarse.run, limits))
 
 
 def _has_lost_contact(run: Result) -> bool:

@@ -1,1 +1,1 @@
-"""What a class gets of a scene: exercise sheets with their solutions, notebooks."""
+"""Make teaching material of a scene: exercise sheets with solutions, and notebooks."""

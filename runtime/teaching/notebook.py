@@ -1,7 +1,7 @@
 """Write a scene's equations as a notebook: derived by plain SymPy, run in NumPy, then run by the compiled simulator.
 
-The format is nbformat 4.5. The content does not depend on the time or place of writing. `block` and `plain` also write
-parts of exercise sheets as Markdown, with formulas between dollar signs.
+The format is nbformat 4.5. The content does not depend on the time or place of writing. `format_block` and
+`escape_markdown` also write parts of exercise sheets as Markdown, with formulas between dollar signs.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from gudgeon.generator.symbols.parameter_table import ParameterEntry
 from gudgeon.generator.targets.latex.document import Block, Document, EmbeddedHtml, Equation, Paragraph, Table, Text
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation, make_notation
-from gudgeon.generator.targets.latex.printers import share_of_pi
-from gudgeon.generator.targets.latex.write import primes
-from gudgeon.language.shown import one_line
-from gudgeon.teaching.sympy_text import names_of, number_of_code, text_of
+from gudgeon.generator.targets.latex.printers import find_fraction_of_pi
+from gudgeon.generator.targets.latex.write import make_primes_table
+from gudgeon.language.text_output import format_one_line
+from gudgeon.teaching.sympy_text import assign_names, format_expression, format_number
 
 Cell = tuple[str, str]  # "markdown" or "code", text
 MAX_LINE_WIDTH = 100
@@ -36,7 +36,7 @@ Phi_q"""
 _SIGNS = re.compile(r"([\\`*_{}\[\]<>#|$~])")
 
 
-def notebook(model: Model, mechanism: str) -> str:
+def write_notebook(model: Model, mechanism: str) -> str:
     """Return the text (JSON) of a Jupyter notebook that derives a scene's equations with SymPy alone and runs the
     scene.
 
@@ -60,12 +60,13 @@ def notebook(model: Model, mechanism: str) -> str:
 
 def _yield_cells(model: Model, mechanism: str) -> Iterator[Cell]:
     """Yield kind ("markdown" or "code") and text of each cell of the notebook, in order."""
-    scene, notation, names = model.scene, make_notation(model), names_of(model)
-    title = plain(one_line(scene.mechanism.title or scene.mechanism.name))
+    scene, notation, names = model.scene, make_notation(model), assign_names(model)
+    title = escape_markdown(format_one_line(scene.mechanism.title or scene.mechanism.name))
     yield (
         "markdown",
         (
-            f"# {title}\n\nMechanism {plain(scene.mechanism.name)}, scene {plain(scene.name)}. The equations of "
+            f"# {title}\n\nMechanism {escape_markdown(scene.mechanism.name)}, scene "
+            f"{escape_markdown(scene.name)}. The equations of "
             "motion, derived by SymPy alone from the file's numbers; then the same functions in NumPy, then the "
             "compiled simulator."
         ),
@@ -80,9 +81,9 @@ def _yield_cells(model: Model, mechanism: str) -> Iterator[Cell]:
     )
     yield "code", _write_coordinates_code(model, notation, names)
     used = _find_used_parameters(model)
-    shown = (notation.math(symbol) for symbol in (*model.q, *model.v, *(entry.symbol for entry in used)))
+    shown = (notation.format_expression(symbol) for symbol in (*model.q, *model.v, *(entry.symbol for entry in used)))
     message = ["## Numbers", "Every number of the file that stands in an equation has a letter."]
-    yield "markdown", "\n\n".join((*message, *map(block, primes(notation, shown))))
+    yield "markdown", "\n\n".join((*message, *map(format_block, make_primes_table(notation, shown))))
     yield "code", _write_parameters_code(used, notation, names)
     yield from _yield_constraint_cells(model, names)
     if not scene.mechanism.bodies or not model.rows:
@@ -96,14 +97,14 @@ def _yield_cells(model: Model, mechanism: str) -> Iterator[Cell]:
             ),
         )
         yield "code", DERIVED
-    if not any(body.lacks for body in scene.mechanism.bodies.values()):
+    if not any(body.missing_keys for body in scene.mechanism.bodies.values()):
         yield from _yield_motion_cells(model, names)
     yield from _yield_run_cells(model, mechanism)
 
 
 def _define_symbol(symbol: sp.Symbol, notation: Notation, names: dict[sp.Symbol, str]) -> str:
     """Return the Python statement that creates a SymPy symbol with its LaTeX name."""
-    return f"{names[symbol]} = sp.Symbol({notation.math(symbol).latex!r}, real=True)"
+    return f"{names[symbol]} = sp.Symbol({notation.format_expression(symbol).latex!r}, real=True)"
 
 
 def _write_coordinates_code(model: Model, notation: Notation, names: dict[sp.Symbol, str]) -> str:
@@ -129,8 +130,8 @@ def _write_column(items: list[str]) -> str:
 def _find_used_parameters(model: Model) -> list[ParameterEntry]:
     """Return the parameters that occur in Φ, M or g."""
     expressions = [*(row.phi for row in model.rows), *model.masses, *model.g]
-    used = set().union(*(model.symbols.explicit(sp.sympify(e)).free_symbols for e in expressions))
-    return [entry for entry in model.slots.entries.values() if entry.symbol in used]
+    used = set().union(*(model.symbols.expand_definitions(sp.sympify(e)).free_symbols for e in expressions))
+    return [entry for entry in model.parameter_table.entries.values() if entry.symbol in used]
 
 
 def _write_parameters_code(entries: list[ParameterEntry], notation: Notation, names: dict[sp.Symbol, str]) -> str:
@@ -144,7 +145,7 @@ def _write_parameters_code(entries: list[ParameterEntry], notation: Notation, na
 
 def _write_default(value: float) -> str:
     """Return a default value as Python text; simple fractions of π as such, other values with all digits."""
-    return number_of_code(value) if share_of_pi(value) else repr(value)
+    return format_number(value) if find_fraction_of_pi(value) else repr(value)
 
 
 def _yield_constraint_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
@@ -162,16 +163,20 @@ def _yield_constraint_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterat
             what, text = f"Drive {owner}", None
         else:
             joint = mechanism.joints[owner]
-            own = joint_types()[joint.kind]
+            joint_type = joint_types()[joint.kind]
             ends = (
-                f"{ref.body}.{ref.point}" if own.joins == "points" else ref.body for ref in (joint.first, joint.second)
+                f"{ref.body}.{ref.point}" if joint_type.joins == "points" else ref.body
+                for ref in (joint.first, joint.second)
             )
             what, text = (
-                f"Joint {owner}, {own.title}: {' and '.join(ends)}",
+                f"Joint {owner}, {joint_type.title}: {' and '.join(ends)}",
                 _write_pivot_code(model, owner, name, rows, names),
             )
-        yield "markdown", f"{plain(what)}; {', '.join(f'{plain(row.name)} in {row.unit}' for row in rows)}."
-        explicit = [text_of(row.phi, model, names) for row in rows]
+        yield (
+            "markdown",
+            f"{escape_markdown(what)}; {', '.join(f'{escape_markdown(row.name)} in {row.unit}' for row in rows)}.",
+        )
+        explicit = [format_expression(row.phi, model, names) for row in rows]
         yield "code", text or f"{name} = {_write_column_by_lines(explicit)}"
     yield "code", f"Phi = {_write_column(parts)}\nPhi"
 
@@ -187,8 +192,8 @@ def _write_pivot_code(model: Model, owner: str, name: str, rows: list[Row], name
     lines = []
     for what, ref in (("first", joint.first), ("second", joint.second)):
         frame = model.geometry.point(ref)
-        place = [text_of(component, model, names) for component in (frame.x, frame.y)]
-        lines.append(f"{what}_{owner} = {_write_column_by_lines(place)}  # {ref.body}.{ref.point}")
+        coordinates = [format_expression(component, model, names) for component in (frame.x, frame.y)]
+        lines.append(f"{what}_{owner} = {_write_column_by_lines(coordinates)}  # {ref.body}.{ref.point}")
     return "\n".join((*lines, f"{name} = first_{owner} - second_{owner}"))
 
 
@@ -210,24 +215,24 @@ def _yield_motion_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterator[C
             f"holds gravity and the force elements. {more}".rstrip()
         ),
     )
-    masses = [text_of(mass, model, names) for mass in model.masses]
-    forces = [text_of(force, model, names) for force in model.g]
+    masses = [format_expression(mass, model, names) for mass in model.masses]
+    forces = [format_expression(force, model, names) for force in model.g]
     yield "code", f"M = sp.diag(*{_write_column(masses)})\ng = {_write_column(forces)}"
 
 
-def markdown(document: Document) -> str:
+def format_document(document: Document) -> str:
     """Return a whole document as Markdown: title, facts, and its sections with headings by level."""
-    parts = [f"# {plain(document.title)}", *map(line, document.facts)]
+    parts = [f"# {escape_markdown(document.title)}", *map(format_text, document.facts)]
     for section in document.sections:
-        parts.append(f"{'#' * (section.level + 1)} {plain(section.title)}")
-        parts += map(block, section.blocks)
+        parts.append(f"{'#' * (section.level + 1)} {escape_markdown(section.title)}")
+        parts += map(format_block, section.blocks)
     return "\n\n".join(parts) + "\n"
 
 
-def block(shown: Block) -> str:
+def format_block(shown: Block) -> str:
     """Return a paragraph, equation, table or sketch as Markdown; "" for what only a page can show."""
     if isinstance(shown, Paragraph):
-        return line(shown.text)
+        return format_text(shown.text)
     if isinstance(shown, Equation):
         return f"$$ {shown.left.latex} = {' '.join(term.latex for term in shown.terms)} $$"
     if isinstance(shown, Table):
@@ -237,12 +242,12 @@ def block(shown: Block) -> str:
     return "\n".join(("```text", *shown.lines, "```"))
 
 
-def line(text: Text) -> str:
+def format_text(text: Text) -> str:
     """Return words and formulas as Markdown: formulas in $…$, other characters escaped."""
-    return "".join(f"${part.latex.strip()}$" if isinstance(part, Name) else plain(part) for part in text)
+    return "".join(f"${part.latex.strip()}$" if isinstance(part, Name) else escape_markdown(part) for part in text)
 
 
-def plain(text: str) -> str:
+def escape_markdown(text: str) -> str:
     """Return text with all Markdown characters escaped."""
     return _SIGNS.sub(r"\\\1", text)
 
@@ -252,7 +257,11 @@ def _format_table(shown: Table) -> str:
 
     def row(cells: tuple[Text, ...]) -> str:
         """Return a row of the table."""
-        return "| " + " | ".join(line(cell).replace(r"\|", "&#124;").replace("|", r"\vert ") for cell in cells) + " |"
+        return (
+            "| "
+            + " | ".join(format_text(cell).replace(r"\|", "&#124;").replace("|", r"\vert ") for cell in cells)
+            + " |"
+        )
 
     return "\n".join((row(shown.header), "|" + " --- |" * len(shown.header), *map(row, shown.rows)))
 
@@ -262,7 +271,7 @@ def _yield_run_cells(model: Model, mechanism: str) -> Iterator[Cell]:
 
     Each comparison is an assertion; without constraint equations there is none.
     """
-    massless = any(body.lacks for body in model.scene.mechanism.bodies.values())
+    massless = any(body.missing_keys for body in model.scene.mechanism.bodies.values())
     plain = not (model.clearances or model.frictions)
     yield (
         "markdown",
@@ -337,8 +346,8 @@ def _write_numpy_comparison(model: Model, mechanism: str) -> str:
 def _write_run_comparison(model: Model, massless: bool, plain: bool) -> str:
     """Return the Python text of the cell that compares the derivation with the end of a run of the compiled simulator.
 
-    Accelerations are compared; if the scene has play or friction (not `plain`), only the Jacobian. massless: drives
-    alone determine the accelerations.
+    Accelerations are compared; if the scene has play or friction (not `escape_markdown`), only the Jacobian.
+    massless: drives alone determine the accelerations.
     """
     head = (
         "end = float(run.t[-1])\n"

@@ -1,6 +1,5 @@
 """Make the questions of a sheet: degrees of freedom, Φ, Φ_q at a position, γ, a joint's play, accelerations, forces.
 
-Accelerations follow from all constraint equations, and the force in a joint follows from the accelerations.
 Abbreviations in formulas are explained in the order of their use.
 """
 
@@ -15,11 +14,11 @@ import sympy as sp
 
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.symbols.switches import Pick
-from gudgeon.generator.targets.latex.document import Block, Equation, cells, paragraph, table
-from gudgeon.generator.targets.latex.kinematics import gamma_of
-from gudgeon.generator.targets.latex.letters import Name, letter
+from gudgeon.generator.targets.latex.document import Block, Equation, make_paragraph, make_row, make_tables
+from gudgeon.generator.targets.latex.kinematics import format_gamma
+from gudgeon.generator.targets.latex.letters import Name, make_letter
 from gudgeon.model.compiled import Array
-from gudgeon.teaching.draw_numbers import NOISE
+from gudgeon.teaching.draw_parameters import NOISE
 from gudgeon.teaching.sheet import LONGEST, Question, Subject
 
 PHI, PHI_Q, NU = Name(r"\Phi", "Φ"), Name(r"\Phi_{q}", "Φ_q"), Name(r"\nu", "ν")
@@ -40,13 +39,13 @@ def make_questions(subject: Subject) -> list[Question]:
 
     Without chosen constraint equations, only those on degrees of freedom and play remain.
     """
-    found = [_ask_freedoms(subject)]
-    if subject.rows:
-        found += [_ask_constraints(subject), _ask_jacobian(subject), _ask_gamma(subject)]
+    questions = [_ask_freedoms(subject)]
+    if subject.selected_rows:
+        questions += [_ask_constraints(subject), _ask_jacobian(subject), _ask_gamma(subject)]
         if subject.model.degrees_of_freedom == 0:
-            found.append(acceleration(subject))
-        found += force(subject)
-    return [*found, *_ask_play(subject)]
+            questions.append(ask_acceleration(subject))
+        questions += ask_reaction(subject)
+    return [*questions, *_ask_play(subject)]
 
 
 def _ask_freedoms(subject: Subject) -> Question:
@@ -58,23 +57,23 @@ def _ask_freedoms(subject: Subject) -> Question:
     mechanism, play = model.scene.mechanism, model.scene.play
     rows, count, n = [], 0, 3 * len(mechanism.bodies)
     for name, kind in [*((j.name, j.kind) for j in mechanism.joints.values()), *((d, "") for d in mechanism.drives)]:
-        own = 0 if name in play else len(joint_types()[kind].row_names) if kind else 1
+        n_equations = 0 if name in play else len(joint_types()[kind].row_names) if kind else 1
         what = joint_types()[kind].title if kind else "drive"
-        rows.append(cells(name, f"{what}, has play" if name in play else what, str(own)))
-        count += own
+        rows.append(make_row(name, f"{what}, has play" if name in play else what, str(n_equations)))
+        count += n_equations
     total = Name(f"f = {n} - {count} = {n - count}", f"f = {n} - {count} = {n - count}")
     solved: list[Block] = [
-        paragraph(f"Each body has 3 coordinates, which makes {n}; what joins and drives them:"),
-        *table(cells("joint or drive", "type", "rows"), rows),
-        paragraph(total, "."),
+        make_paragraph(f"Each body has 3 coordinates, which makes {n}; what joins and drives them:"),
+        *make_tables(make_row("joint or drive", "type", "rows"), rows),
+        make_paragraph(total, "."),
     ]
     if dropped := model.redundancy.dropped:
         text = f"{', '.join(dropped)} follow from the others: the rank is {len(model.rows)}, and {n - len(model.rows)}"
-        solved.append(paragraph(f"Counting is not enough here: {text} are free."))
+        solved.append(make_paragraph(f"Counting is not enough here: {text} are free."))
     elif model.rows:
         text = f" is {len(model.rows)}, as many as there are rows: none follows from the others, and f is what is free."
-        solved.append(paragraph("The rank of ", PHI_Q, text))
-    requested = paragraph(
+        solved.append(make_paragraph("The rank of ", PHI_Q, text))
+    requested = make_paragraph(
         "How many coordinates do the bodies have, how many rows does each joint and drive add to ",
         PHI,
         ", and how many degrees of freedom f are left by Grübler's count? Does the rank of ",
@@ -92,7 +91,7 @@ def _format_owners(subject: Subject) -> str:
 
 def _ask_constraints(subject: Subject) -> Question:
     """Build the question for the constraint equations of the chosen joints and drives."""
-    requested = paragraph(
+    requested = make_paragraph(
         "Write the rows of ",
         PHI,
         f" of {_format_owners(subject)}, in the coordinates of the centres of mass, with the "
@@ -100,8 +99,11 @@ def _ask_constraints(subject: Subject) -> Question:
     )
     solved: list[Block] = [
         block
-        for k, row in subject.rows
-        for block in (paragraph(f"{row.name}, {row.unit}:"), subject.equation(indexed("Phi", k), row.phi))
+        for k, row in subject.selected_rows
+        for block in (
+            make_paragraph(f"{row.name}, {row.unit}:"),
+            subject.make_equation(make_indexed_symbol("Phi", k), row.phi),
+        )
     ]
     return Question("Write Φ", (requested,), tuple(_define_new_abbreviations(subject, "phi") + solved))
 
@@ -111,14 +113,16 @@ def _define_new_abbreviations(subject: Subject, quantity: str) -> list[Block]:
     explain.
     """
     expressions_of = {
-        "phi": [row.phi for _, row in subject.rows],
-        "phi_q": [entry for _, row in subject.rows for entry in row.phi_q.values()],
-        "gamma": [row.gamma for _, row in subject.rows],
+        "phi": [row.phi for _, row in subject.selected_rows],
+        "phi_q": [entry for _, row in subject.selected_rows for entry in row.phi_q.values()],
+        "gamma": [row.gamma for _, row in subject.selected_rows],
     }
-    known = set[sp.Symbol]()
+    defined_symbols = set[sp.Symbol]()
     for before in takewhile(lambda what: what != quantity, expressions_of):
-        known |= set(letters_of(subject, expressions_of[before]))
-    return abbreviations(subject, [s for s in letters_of(subject, expressions_of[quantity]) if s not in known])
+        defined_symbols |= set(list_abbreviations(subject, expressions_of[before]))
+    return define_abbreviations(
+        subject, [s for s in list_abbreviations(subject, expressions_of[quantity]) if s not in defined_symbols]
+    )
 
 
 def _ask_jacobian(subject: Subject) -> Question:
@@ -129,32 +133,36 @@ def _ask_jacobian(subject: Subject) -> Question:
     model, drawn = subject.model, subject.drawn
     compiled = subject.simulation.compiled
     values = compiled.phi_q(drawn.t, drawn.q, drawn.p)
-    off = drawn.uncertainty(lambda q, v: compiled.phi_q(drawn.t, q, drawn.p))
-    place = {q: k for k, q in enumerate(model.q)}
+    off = drawn.estimate_uncertainty(lambda q, v: compiled.phi_q(drawn.t, q, drawn.p))
+    column_of = {q: k for k, q in enumerate(model.q)}
     numbers, rows, below = dict[str, float](), [], list[Block]()
-    for k, row in subject.rows:
-        for q in sorted(row.phi_q, key=place.__getitem__):
-            x = float(values[k - 1, place[q]])
-            numbers[f"{row.name} {subject.simulation.source.coordinates[place[q]]}"] = x
-            by = subject.notation.math(q)
-            left = Name(rf"\partial \Phi_{{{k}}} / \partial {by.latex}", f"∂Φ_{k}/∂{by.text}")
+    for k, row in subject.selected_rows:
+        for q in sorted(row.phi_q, key=column_of.__getitem__):
+            x = float(values[k - 1, column_of[q]])
+            numbers[f"{row.name} {subject.simulation.source.coordinates[column_of[q]]}"] = x
+            coordinate_text = subject.notation.format_expression(q)
+            left = Name(rf"\partial \Phi_{{{k}}} / \partial {coordinate_text.latex}", f"∂Φ_{k}/∂{coordinate_text.text}")
             entry = subject.notation.expand(row.phi_q[q])
-            formula: str | Name = subject.notation.math(entry) if sp.count_ops(entry) <= LONGEST else ""
+            formula: str | Name = subject.notation.format_expression(entry) if sp.count_ops(entry) <= LONGEST else ""
             if isinstance(formula, Name) and len(formula.text) > MAX_CELL_WIDTH:
-                below.append(subject.equation(left, entry))
+                below.append(subject.make_equation(left, entry))
                 formula = "below"
-            shown = subject.number(x, off=off[k - 1, place[q]])
-            rows.append(cells(left, formula, shown, _find_entry_unit(row.unit, place[q] % 3)))
+            shown = subject.format_number(x, off=off[k - 1, column_of[q]])
+            rows.append(make_row(left, formula, shown, _find_entry_unit(row.unit, column_of[q] % 3)))
     requested = [
-        paragraph(f"At {drawn.t:g} s the bodies are at"),
-        *position(subject, rates=False),
-        paragraph(
+        make_paragraph(f"At {drawn.t:g} s the bodies are at"),
+        *tabulate_positions(subject, rates=False),
+        make_paragraph(
             "What entries of ",
             PHI_Q,
             f" do the rows of {_format_owners(subject)} have there? Check one by moving its coordinate by a little.",
         ),
     ]
-    solved = [*_define_new_abbreviations(subject, "phi_q"), *table(cells("entry", "", "value", "unit"), rows), *below]
+    solved = [
+        *_define_new_abbreviations(subject, "phi_q"),
+        *make_tables(make_row("entry", "", "value", "unit"), rows),
+        *below,
+    ]
     return Question("The Jacobian at a position", tuple(requested), tuple(solved), numbers)
 
 
@@ -171,23 +179,25 @@ def _ask_gamma(subject: Subject) -> Question:
     drawn = subject.drawn
     compiled = subject.simulation.compiled
     values = compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
-    off = drawn.uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
+    off = drawn.estimate_uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
     scale = float(np.abs(values).max())
     numbers, solved = dict[str, float](), _define_new_abbreviations(subject, "gamma")
-    for k, row in subject.rows:
+    for k, row in subject.selected_rows:
         numbers[row.name] = float(values[k - 1])
-        gamma = gamma_of(row, subject.model, subject.notation)
+        gamma = format_gamma(row, subject.model, subject.notation)
         if gamma != 0 and sp.count_ops(gamma) <= LONGEST:
-            formula = subject.equation(indexed("gamma", k), gamma)
+            formula = subject.make_equation(make_indexed_symbol("gamma", k), gamma)
             # cases never break
             if all(len(term.text) <= MAX_CELL_WIDTH or "cases" not in term.latex for term in formula.terms):
                 solved.append(formula)
         unit = "m/s²" if row.unit == "m" else "rad/s²"
-        solved.append(subject.value(indexed("gamma", k), numbers[row.name], unit, scale, off[k - 1]))
+        solved.append(
+            subject.make_value_equation(make_indexed_symbol("gamma", k), numbers[row.name], unit, scale, off[k - 1])
+        )
     requested = [
-        paragraph(f"At the same {drawn.t:g} s the rates are"),
-        *position(subject, rates=True),
-        paragraph("Find ", GAMMA, f" in the rows of {_format_owners(subject)}: its formula, and its value."),
+        make_paragraph(f"At the same {drawn.t:g} s the rates are"),
+        *tabulate_positions(subject, rates=True),
+        make_paragraph("Find ", GAMMA, f" in the rows of {_format_owners(subject)}: its formula, and its value."),
     ]
     return Question("γ", tuple(requested), tuple(solved), numbers)
 
@@ -202,47 +212,49 @@ def _ask_play(subject: Subject) -> Iterator[Question]:
     ex, ey = (float(f"{drawn.run[f'{joint}.e{axis}'][-1]:.4g}") for axis in "xy")
     clearance = float(drawn.run.constants[f"{joint}.c"])
     e = float(np.hypot(ex, ey))
-    requested = paragraph(
+    requested = make_paragraph(
         f"The journal of {joint} is off the middle of its bearing by (",
-        subject.number(ex),
+        subject.format_number(ex),
         ", ",
-        subject.number(ey),
+        subject.format_number(ey),
         ") m, and the clearance is ",
-        subject.number(clearance),
+        subject.format_number(clearance),
         " m. How large are the eccentricity e, its ratio e/c and the penetration δ = e - c? Do the surfaces touch?",
     )
     touch = "they touch" if e > clearance else "they do not touch"
     solved = (
-        subject.value(letter("e", joint), e, "m"),
-        subject.value(letter("epsilon", joint), e / clearance),
-        subject.value(letter("delta", joint), e - clearance, "m"),
-        paragraph(f"As δ is {'positive' if e > clearance else 'negative'}, {touch}."),
+        subject.make_value_equation(make_letter("e", joint), e, "m"),
+        subject.make_value_equation(make_letter("epsilon", joint), e / clearance),
+        subject.make_value_equation(make_letter("delta", joint), e - clearance, "m"),
+        make_paragraph(f"As δ is {'positive' if e > clearance else 'negative'}, {touch}."),
     )
     numbers = {"e": e, "ratio": e / clearance, "delta": e - clearance}
     yield Question("A joint with play", (requested,), solved, numbers)
 
 
-def letters_of(subject: Subject, expressions: Iterable[sp.Expr]) -> list[sp.Symbol]:
+def list_abbreviations(subject: Subject, expressions: Iterable[sp.Expr]) -> list[sp.Symbol]:
     """Return the abbreviations that occur in expressions, each after those that its definition contains."""
-    notation, definitions, found = subject.notation, subject.model.symbols.definitions, list[sp.Symbol]()
+    notation, definitions, abbreviations = subject.notation, subject.model.symbols.definitions, list[sp.Symbol]()
 
     def add(expression: sp.Expr) -> None:
         """Add the abbreviations of one expression, those of their definitions first."""
-        for symbol in sorted(notation.expand(expression).free_symbols, key=lambda s: notation.math(s).text):
-            if symbol in notation.kept and symbol in definitions and symbol not in found:
+        for symbol in sorted(
+            notation.expand(expression).free_symbols, key=lambda s: notation.format_expression(s).text
+        ):
+            if symbol in notation.kept and symbol in definitions and symbol not in abbreviations:
                 add(definitions[symbol])
-                found.append(symbol)
+                abbreviations.append(symbol)
 
     for expression in expressions:
         add(expression)
     order = {symbol: k for k, symbol in enumerate(subject.model.symbols.definitions)}
-    return sorted(found, key=order.__getitem__)
+    return sorted(abbreviations, key=order.__getitem__)
 
 
-def abbreviations(subject: Subject, symbols: list[sp.Symbol]) -> list[Block]:
+def define_abbreviations(subject: Subject, symbols: list[sp.Symbol]) -> list[Block]:
     """Return the definitions of abbreviations as blocks after the word "With"; [] if there are none."""
-    found = [block for symbol in symbols for block in _define_symbol(subject, symbol)]
-    return [paragraph("With"), *found] if found else []
+    blocks = [block for symbol in symbols for block in _define_symbol(subject, symbol)]
+    return [make_paragraph("With"), *blocks] if blocks else []
 
 
 def _define_symbol(subject: Subject, symbol: sp.Symbol) -> list[Block]:
@@ -253,8 +265,8 @@ def _define_symbol(subject: Subject, symbol: sp.Symbol) -> list[Block]:
     for driven in subject.model.constraints.drive_angles.values():
         if symbol in driven:
             message = _define_by_steps(subject, symbol, driven)
-            return message or [subject.equation(symbol, value)]
-    return [subject.equation(symbol, value)]
+            return message or [subject.make_equation(symbol, value)]
+    return [subject.make_equation(symbol, value)]
 
 
 def _define_by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbol, ...]) -> list[Block]:
@@ -265,22 +277,31 @@ def _define_by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbo
     """
     notation, t = subject.notation, subject.model.t
     value = notation.expand(subject.model.symbols.definitions[driven[0]])
-    shares = {found: share for found in value.atoms(sp.Max) if (share := _find_clamped_progress(found)) is not None}
+    shares = {
+        clamp: progress for clamp in value.atoms(sp.Max) if (progress := _find_clamped_progress(clamp)) is not None
+    }
     used = {name.text for name in notation.names.values()}
     base = next(sign for sign in ("s", "u", "w", "z") if not {sign, f"{sign}_1"} & used)
-    steps = {found: sp.Symbol(base if len(shares) == 1 else f"{base}_{k}") for k, found in enumerate(shares, 1)}
+    steps = {clamp: sp.Symbol(base if len(shares) == 1 else f"{base}_{k}") for k, clamp in enumerate(shares, 1)}
     inside = value.xreplace(steps)
     if not steps or inside.has(sp.Max, sp.Min, Pick):
         return []
-    rates = {steps[found]: sp.diff(share, t) for found, share in shares.items()}
+    rates = {steps[clamp]: sp.diff(progress, t) for clamp, progress in shares.items()}
     for _ in range(driven.index(symbol)):
         inside = sp.Add(*(_differentiate_in_time(term, rates, t) for term in sp.Add.make_args(inside)))
     names = {s: Name(s.name if "_" not in s.name else f"{base}_{{{s.name[2:]}}}", s.name) for s in rates}
-    own = notation.called(names)
-    shown = [Equation(own.math(steps[found]), own.terms(share)) for found, share in shares.items()]
+    step_notation = notation.rename_symbols(names)
+    shown = [
+        Equation(step_notation.format_expression(steps[clamp]), step_notation.terms(progress))
+        for clamp, progress in shares.items()
+    ]
     still = ", and is still before and behind" if driven.index(symbol) else ", before it 0 and behind it 1"
-    terms = own.terms(sp.Add(*(_expand_progress(term, list(rates)) for term in sp.Add.make_args(inside))))
-    return [*shown, paragraph(f"which goes from 0 to 1{still}:"), Equation(own.math(symbol), terms)]
+    terms = step_notation.terms(sp.Add(*(_expand_progress(term, list(rates)) for term in sp.Add.make_args(inside))))
+    return [
+        *shown,
+        make_paragraph(f"which goes from 0 to 1{still}:"),
+        Equation(step_notation.format_expression(symbol), terms),
+    ]
 
 
 def _find_clamped_progress(expression: sp.Max) -> sp.Expr | None:
@@ -297,8 +318,8 @@ def _differentiate_in_time(term: sp.Expr, rates: dict[sp.Symbol, sp.Expr], t: sp
     first.
     """
     factor, rest = term.as_independent(*rates, as_Add=False)
-    own = (factor * rate * sp.expand(sp.diff(rest, s)) for s, rate in rates.items())
-    return sp.Add(sp.diff(factor, t) * rest, *own)
+    terms = (factor * rate * sp.expand(sp.diff(rest, s)) for s, rate in rates.items())
+    return sp.Add(sp.diff(factor, t) * rest, *terms)
 
 
 def _expand_progress(term: sp.Expr, steps: list[sp.Symbol]) -> sp.Expr:
@@ -307,37 +328,30 @@ def _expand_progress(term: sp.Expr, steps: list[sp.Symbol]) -> sp.Expr:
     return sp.Mul(factor, sp.expand(rest), evaluate=False) if rest != 1 else term
 
 
-def indexed(quantity: str, k: int) -> Name:
+def make_indexed_symbol(quantity: str, k: int) -> Name:
     """Return the symbol of a quantity with the index k, in LaTeX and as text; `quantity`: key of its letter."""
-    name = letter(quantity)
+    name = make_letter(quantity)
     return Name(f"{name.latex}_{{{k}}}", f"{name.text}_{k}")
 
 
-def position(subject: Subject, rates: bool, others: bool = False) -> list[Block]:
-    """Return a table of the positions, or of the rates, of bodies at the sheet's time.
-
-    others: of the bodies that do not occur in the chosen constraint equations, instead of those that do.
-    """
+def tabulate_positions(subject: Subject, rates: bool, others: bool = False) -> list[Block]:
+    """Return a table of positions or rates of bodies in the chosen equations (others: of all other bodies)."""
     model, drawn = subject.model, subject.drawn
-    expressions_of = {s for _, row in subject.rows for s in row.phi_q}
+    expressions_of = {s for _, row in subject.selected_rows for s in row.phi_q}
     header = ("body", "x, m", "y, m", "angle, rad", "angle, degrees")
     if rates:
         header = ("body", "x, m/s", "y, m/s", "angle, rad/s", "")
     values, rows = drawn.v if rates else drawn.q, []
     for body in model.bodies:
         if bool(expressions_of & set(body.q)) != others:
-            own = values[body.index : body.index + 3]
-            angle = "" if rates else subject.number(float(np.degrees(own[2])), 5)
-            rows.append(cells(body.name, *(subject.number(float(x), 9) for x in own), angle))
-    return table(cells(*header), rows)
+            body_values = values[body.index : body.index + 3]
+            angle = "" if rates else subject.format_number(float(np.degrees(body_values[2])), 5)
+            rows.append(make_row(body.name, *(subject.format_number(float(x), 9) for x in body_values), angle))
+    return make_tables(make_row(*header), rows)
 
 
-def acceleration(subject: Subject) -> Question:
-    """Build the question for the largest angular acceleration in a scene that drives determine.
-
-    If nothing turns unevenly, the largest acceleration of a coordinate is asked for. Coordinates that a drive
-    prescribes directly are not.
-    """
+def ask_acceleration(subject: Subject) -> Question:
+    """Build the question for the largest angular acceleration, or else the largest acceleration of a coordinate."""
     model, drawn, compiled = subject.model, subject.drawn, subject.simulation.compiled
     a, driven = drawn.run.a[-1], {q for row in model.rows if len(row.phi_q) == 1 for q in row.phi_q}
     turning = [k for k in range(2, len(a), 3) if model.q[k] not in driven]
@@ -346,29 +360,32 @@ def acceleration(subject: Subject) -> Question:
     k = max(turning, key=lambda k: abs(a[k]))
     name = model.bodies[k // 3].name
     what = "angular acceleration of" if k % 3 == 2 else f"acceleration in {'xy'[k % 3]} of the centre of"
-    others = position(subject, rates=False, others=True)
+    others = tabulate_positions(subject, rates=False, others=True)
     requested = [
-        *([paragraph("The other bodies are at"), *others, paragraph("with the rates")] if others else []),
-        *position(subject, rates=True, others=True),
-        paragraph(
+        *([make_paragraph("The other bodies are at"), *others, make_paragraph("with the rates")] if others else []),
+        *tabulate_positions(subject, rates=True, others=True),
+        make_paragraph(
             "Drives determine the whole motion. Write all rows of ",
             ACCELERATIONS,
             f" at {drawn.t:g} s, by hand or by computer, and solve them: how large is the {what} {name}?",
         ),
     ]
     phi_q, gamma = compiled.phi_q(drawn.t, drawn.q, drawn.p), compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
-    signs = [letter(base, body.name, dots=2) for body in model.bodies for base in ("x", "y", "theta")]
+    signs = [make_letter(base, body.name, dots=2) for body in model.bodies for base in ("x", "y", "theta")]
     shown = range(len(gamma)) if len(gamma) <= MAX_SHOWN_ROWS else [r for r in range(len(gamma)) if phi_q[r, k]]
-    scale, off = float(np.abs(gamma).max()), drawn.uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
+    scale, off = (
+        float(np.abs(gamma).max()),
+        drawn.estimate_uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p)),
+    )
     solved = [
-        paragraph("Row by row ", ACCELERATIONS, _format_omission(len(gamma)), " is, in m/s² and rad/s²,"),
+        make_paragraph("Row by row ", ACCELERATIONS, _format_omission(len(gamma)), " is, in m/s² and rad/s²,"),
         *(
-            _make_linear_equation(subject, subject.number(gamma[r], scale=scale, off=off[r]), phi_q[r], signs)
+            _make_linear_equation(subject, subject.format_number(gamma[r], scale=scale, off=off[r]), phi_q[r], signs)
             for r in shown
         ),
-        paragraph("The accelerations, of centres of mass and of angles, are"),
+        make_paragraph("The accelerations, of centres of mass and of angles, are"),
         *_tabulate_by_body(subject, a, "x, m/s²", "y, m/s²", "angle, rad/s²"),
-        subject.value(signs[k], float(a[k]), "rad/s²" if k % 3 == 2 else "m/s²"),
+        subject.make_value_equation(signs[k], float(a[k]), "rad/s²" if k % 3 == 2 else "m/s²"),
     ]
     coordinate = subject.simulation.source.coordinates[k]
     return Question("Accelerations", tuple(requested), tuple(solved), {coordinate: float(a[k])})
@@ -394,64 +411,68 @@ def _make_linear_equation(subject: Subject, left: Name, factors: Array, symbols_
     return Equation(left, notation.terms(sp.Add(*(s * (sp.nsimplify(x) if abs(x) == 1.0 else x) for x, s in shown))))
 
 
-def force(subject: Subject) -> Iterator[Question]:
+def ask_reaction(subject: Subject) -> Iterator[Question]:
     """Yield the question for the reaction of a randomly chosen joint without play.
 
     Nothing is yielded without masses, or if redundancy leaves all reactions undetermined.
     """
     source, drawn, mechanism = subject.simulation.source, subject.drawn, subject.model.scene.mechanism
     open_ = {*source.indeterminate, *(joint.joint for joint in source.clearances)}
-    known = [row.owner for row in subject.model.rows if row.kind == "joint" and row.owner not in open_]
-    known = [name for name in dict.fromkeys(known) if f"{name}.Fx" in drawn.run]
-    if source.massless or not known:
+    joint_names = [row.owner for row in subject.model.rows if row.kind == "joint" and row.owner not in open_]
+    joint_names = [name for name in dict.fromkeys(joint_names) if f"{name}.Fx" in drawn.run]
+    if source.massless or not joint_names:
         return
-    name = str(subject.rng.permutation(np.array(known, object))[0])
+    name = str(subject.rng.permutation(np.array(joint_names, object))[0])
     second = mechanism.joints[name].second
     F = [float(drawn.run[f"{name}.{what}"][-1]) for what in ("Fx", "Fy", "F")]
     message: list[Block] = []
     if subject.model.degrees_of_freedom:
-        message.append(paragraph(f"The accelerations at {drawn.t:g} s, of centres of mass and of angles, are"))
+        message.append(make_paragraph(f"The accelerations at {drawn.t:g} s, of centres of mass and of angles, are"))
         message += _tabulate_by_body(subject, drawn.run.a[-1], "x, m/s²", "y, m/s²", "angle, rad/s²")
     else:
-        message.append(paragraph("Take the accelerations of all bodies from the question before."))
+        message.append(make_paragraph("Take the accelerations of all bodies from the question before."))
     if source.clearances or source.frictions:
-        message.append(paragraph("Gravity, forces, friction and joints with play add up to the components of g"))
+        message.append(make_paragraph("Gravity, forces, friction and joints with play add up to the components of g"))
         message += _tabulate_by_body(subject, _compute_applied_forces(subject), "x, N", "y, N", "angle, N m")
-    message.append(paragraph("By ", KKT, f": what force does {name} put on {second.body}, in ground axes?"))
+    message.append(make_paragraph("By ", KKT, f": what force does {name} put on {second.body}, in ground axes?"))
     lambdas = [(k, row) for k, row in enumerate(subject.model.rows, 1) if row.owner == name]
     solved: list[Block] = [
         *_write_balance(subject, [k - 1 for k, _ in lambdas]),
         *(
-            subject.value(
-                indexed("lambda", k), _get_multiplier(subject, row.name), "N" if row.unit == "m" else "N m", F[2]
+            subject.make_value_equation(
+                make_indexed_symbol("lambda", k),
+                _get_multiplier(subject, row.name),
+                "N" if row.unit == "m" else "N m",
+                F[2],
             )
             for k, row in lambdas
         ),
-        paragraph(f"The force on {second.body} is what these multipliers put on it, ", FORCE, ":"),
+        make_paragraph(f"The force on {second.body} is what these multipliers put on it, ", FORCE, ":"),
     ]
-    solved += [subject.value(letter("F", axis, name), x, "N", F[2]) for axis, x in zip("xy", F, strict=False)]
-    solved.append(subject.value(letter("F", name), F[2], "N", F[2]))
+    solved += [
+        subject.make_value_equation(make_letter("F", axis, name), x, "N", F[2])
+        for axis, x in zip("xy", F, strict=False)
+    ]
+    solved.append(subject.make_value_equation(make_letter("F", name), F[2], "N", F[2]))
     yield Question("The force in a joint", tuple(message), tuple(solved), dict(zip(("Fx", "Fy", "F"), F, strict=True)))
 
 
 def _write_balance(subject: Subject, requested: list[int]) -> list[Block]:
-    """Return the equations of motion of each coordinate as blocks, from which the multipliers follow.
-
-    requested: indices of the constraint equations of the joint in question; in large systems only their coordinates are
-    shown.
-    """
+    """Return the equations of motion of the coordinates as blocks, from which the multipliers follow."""
     model, drawn, compiled = subject.model, subject.drawn, subject.simulation.compiled
     phi_q = compiled.phi_q(drawn.t, drawn.q, drawn.p)
     left = _compute_applied_forces(subject) - np.asarray(compiled.mass(drawn.p)) * drawn.run.a[-1]
-    signs = [indexed("lambda", k) for k in range(1, len(model.rows) + 1)]
+    signs = [make_indexed_symbol("lambda", k) for k in range(1, len(model.rows) + 1)]
     n, scale = len(model.q), float(np.abs(left).max())
     shown = [k for k in range(n) if phi_q[:, k].any() and (n <= MAX_SHOWN_ROWS or phi_q[requested, k].any())]
-    blocks: list[Block] = [paragraph("Coordinate by coordinate ", BALANCE, _format_omission(n), " is, in N and N m,")]
+    blocks: list[Block] = [
+        make_paragraph("Coordinate by coordinate ", BALANCE, _format_omission(n), " is, in N and N m,")
+    ]
     for k in shown:
-        q, number = subject.notation.math(model.q[k]), subject.number(float(left[k]), scale=scale)
+        q, number = subject.notation.format_expression(model.q[k]), subject.format_number(float(left[k]), scale=scale)
         what = Name(rf"(g - M \ddot{{q}})_{{{q.latex}}} = {number.latex}", f"(g - M·q̈)_{q.text} = {number.text}")
         blocks.append(_make_linear_equation(subject, what, phi_q[:, k], signs))
-    return [*blocks, paragraph("and solved for the multipliers")]
+    return [*blocks, make_paragraph("and solved for the multipliers")]
 
 
 def _get_multiplier(subject: Subject, row: str) -> float:
@@ -460,7 +481,7 @@ def _get_multiplier(subject: Subject, row: str) -> float:
 
 
 def _compute_applied_forces(subject: Subject) -> Array:
-    """Return the generalized applied forces g (n,) of the run, M q̈ + Φ_qᵀ λ, in N and N·m."""
+    """Return the generalized applied forces g = M q̈ + Φ_qᵀ λ (n,) at the last sample of the run, in N and N·m."""
     drawn, compiled = subject.drawn, subject.simulation.compiled
     last, rows = drawn.run, [row.name for row in subject.model.rows]
     multipliers = np.array([_get_multiplier(subject, row) for row in rows])
@@ -473,7 +494,7 @@ def _tabulate_by_body(subject: Subject, values: Array, *header: str) -> list[Blo
     apart = values.reshape(-1, 3)
     scales = [*2 * [float(np.abs(apart[:, :2]).max())], float(np.abs(apart[:, 2]).max())]
     rows = [
-        cells(body.name, *(subject.number(float(values[body.index + k]), 5, scales[k]) for k in range(3)))
+        make_row(body.name, *(subject.format_number(float(values[body.index + k]), 5, scales[k]) for k in range(3)))
         for body in subject.model.bodies
     ]
-    return table(cells("body", *header), rows)
+    return make_tables(make_row("body", *header), rows)

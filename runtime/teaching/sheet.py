@@ -18,26 +18,31 @@ from gudgeon.generator.targets.latex.document import (
     Equation,
     Section,
     Sketch,
-    cells,
-    paragraph,
-    table,
+    make_paragraph,
+    make_row,
+    make_tables,
 )
 from gudgeon.generator.targets.latex.letters import Name
-from gudgeon.generator.targets.latex.mechanism import driven_value, field_rows, part_sections, place
+from gudgeon.generator.targets.latex.mechanism import (
+    format_drive_value,
+    format_point,
+    list_field_rows,
+    make_part_sections,
+)
 from gudgeon.generator.targets.latex.notation import Notation, make_notation
-from gudgeon.generator.targets.latex.theory import sketch_of
-from gudgeon.generator.targets.latex.values import Values, unit_of
-from gudgeon.generator.targets.latex.write import with_letters, with_paper
-from gudgeon.language.shown import one_line
+from gudgeon.generator.targets.latex.theory import read_sketch
+from gudgeon.generator.targets.latex.values import Values, get_unit
+from gudgeon.generator.targets.latex.write import add_letters_section, add_paper_section
+from gudgeon.language.text_output import format_one_line
 from gudgeon.language.tree import Number
-from gudgeon.teaching.draw_numbers import NOISE
+from gudgeon.teaching.draw_parameters import NOISE
 
 if TYPE_CHECKING:
     from gudgeon.generator.equations.constraints import Row
     from gudgeon.generator.equations.model import Model
     from gudgeon.generator.mechanism import Drive, Scene
     from gudgeon.simulation.simulation import Simulation
-    from gudgeon.teaching.draw_numbers import Drawn
+    from gudgeon.teaching.draw_parameters import ExerciseData
 
 GIVEN = ("Bodies", "Ground", "Curves", "Parameters")  # sections of the document that do not contain answers
 LONGEST = 60  # largest number of operations of an expression that a solution shows
@@ -60,16 +65,16 @@ class Subject:
     model: Model
     notation: Notation
     simulation: Simulation
-    drawn: Drawn
+    drawn: ExerciseData
     rng: np.random.Generator
     owners: tuple[str, ...]  # joints and drives whose constraint equations the questions treat
 
     @property
-    def rows(self) -> list[tuple[int, Row]]:
+    def selected_rows(self) -> list[tuple[int, Row]]:
         """Return the chosen constraint equations with their numbers, from 1."""
         return [(k, row) for k, row in enumerate(self.model.rows, 1) if row.owner in self.owners]
 
-    def number(self, x: float, digits: int = 4, scale: float = 0.0, off: float = 0.0) -> Name:
+    def format_number(self, x: float, digits: int = 4, scale: float = 0.0, off: float = 0.0) -> Name:
         """Return a number as it is printed, rounded to significant digits.
 
         scale: size of similar numbers; values below its rounding errors are 0. off: uncertainty from the rounding of
@@ -80,42 +85,46 @@ class Subject:
         if off > 0.0:
             digits = min(digits, max(1, math.floor(math.log10(abs(x))) - math.ceil(math.log10(off)) + 1))
         short = float(f"{x:.{digits}g}")
-        return self.notation.math(sp.Integer(0) if short == 0.0 else sp.Float(short, 17))
+        return self.notation.format_expression(sp.Integer(0) if short == 0.0 else sp.Float(short, 17))
 
-    def equation(self, left: Name | sp.Symbol, right: sp.Expr) -> Equation:
+    def make_equation(self, left: Name | sp.Symbol, right: sp.Expr) -> Equation:
         """Return the equation left = right in the notation of the document."""
-        name = left if isinstance(left, Name) else self.notation.math(left)
+        name = left if isinstance(left, Name) else self.notation.format_expression(left)
         return Equation(name, self.notation.terms(self.notation.expand(right)))
 
-    def value(self, left: Name, x: float, unit: str = "", scale: float = 0.0, off: float = 0.0) -> Equation:
+    def make_value_equation(
+        self, left: Name, x: float, unit: str = "", scale: float = 0.0, off: float = 0.0
+    ) -> Equation:
         """Return the equation left = number unit; scale, off: as for `number`."""
-        number, sign = self.number(x, scale=scale, off=off), unit.replace("²", "^{2}").replace(" ", r" \, ")
+        number, sign = self.format_number(x, scale=scale, off=off), unit.replace("²", "^{2}").replace(" ", r" \, ")
         return Equation(left, (Name(rf"{number.latex} \; \mathrm{{{sign}}}", f"{number.text} {unit}".rstrip()),))
 
 
-def make_subject(model: Model, simulation: Simulation, drawn: Drawn, seed: int) -> Subject:
+def make_subject(model: Model, simulation: Simulation, drawn: ExerciseData, seed: int) -> Subject:
     """Build the subject of a sheet, with at most two joints and one drive drawn from the seed."""
     rng = np.random.default_rng([seed, 1])
-    of = {kind: list(dict.fromkeys(r.owner for r in model.rows if r.kind == kind)) for kind in ("joint", "drive")}
+    owners_by_kind = {
+        kind: list(dict.fromkeys(r.owner for r in model.rows if r.kind == kind)) for kind in ("joint", "drive")
+    }
     selected = [
         name
         for kind, most in (("joint", 2), ("drive", 1))
-        for name in np.array(of[kind], object)[sorted(rng.permutation(len(of[kind]))[:most])]
+        for name in np.array(owners_by_kind[kind], object)[sorted(rng.permutation(len(owners_by_kind[kind]))[:most])]
     ]
     return Subject(model, make_notation(model), simulation, drawn, rng, tuple(selected))
 
 
-def units_of(scene: Scene) -> dict[str, tuple[str, float]]:
+def list_units(scene: Scene) -> dict[str, tuple[str, float]]:
     """Return the unit in the file and its value in SI, by address, of parameters, masses, inertias and lengths.
 
     Values without a unit, zeros and expressions are left out.
     """
-    bodies, found = scene.mechanism.bodies.values(), dict[str, tuple[str, float]]()
+    bodies, units = scene.mechanism.bodies.values(), dict[str, tuple[str, float]]()
     for quantity in (*scene.parameters.values(), *(x for b in bodies for x in (b.mass, b.inertia, b.length))):
         number = quantity.value if quantity is not None else None
-        if quantity is not None and isinstance(number, Number) and number.value and (unit := unit_of(number)):
-            found[quantity.address] = unit, number.value / float(number.text.strip().removesuffix(unit))
-    return found
+        if quantity is not None and isinstance(number, Number) and number.value and (unit := get_unit(number)):
+            units[quantity.address] = unit, number.value / float(number.text.strip().removesuffix(unit))
+    return units
 
 
 def make_sheets(subject: Subject, questions: Sequence[Question], seed: int) -> tuple[Document, Document]:
@@ -124,14 +133,16 @@ def make_sheets(subject: Subject, questions: Sequence[Question], seed: int) -> t
     """
     mechanism, scene = subject.model.scene.mechanism, subject.model.scene.name
     facts = (("mechanism ", mechanism.name, f", scene {scene}, seed {seed}"),)
-    title = one_line(mechanism.title or mechanism.name)
+    title = format_one_line(mechanism.title or mechanism.name)
     given = tuple(_build_given_sections(subject))
     requested = tuple(Section(f"{k}. {x.title}", x.requested) for k, x in enumerate(questions, 1))
     solved = tuple(_build_solution_sections(k, question) for k, question in enumerate(questions, 1))
     last = Section("These numbers again", tuple(_build_repetition_blocks(subject)))
     notation = subject.notation
-    sheet = Document(f"Exercise: {title}", facts, with_paper(with_letters((*given, *requested), notation)))
-    sections = with_paper(with_letters((*given, *sum(solved, ()), last), notation))
+    sheet = Document(
+        f"Exercise: {title}", facts, add_paper_section(add_letters_section((*given, *requested), notation))
+    )
+    sections = add_paper_section(add_letters_section((*given, *sum(solved, ()), last), notation))
     return sheet, replace(sheet, title=f"Solutions: {title}", sections=sections)
 
 
@@ -143,7 +154,7 @@ def _build_solution_sections(k: int, question: Question) -> tuple[Section, ...]:
 def _build_given_sections(subject: Subject) -> list[Section]:
     """Return the sections with bodies, points, joints, drives, forces and parameters, each with its symbol."""
     model, notation = subject.model, subject.notation
-    sections = {section.title: section for section in part_sections(model, notation) if section.title in GIVEN}
+    sections = {section.title: section for section in make_part_sections(model, notation) if section.title in GIVEN}
     joints = Section("Joints and drives", tuple(_build_joint_blocks(subject)))
     forces = [Section("Gravity and forces", blocks)] if (blocks := tuple(_build_force_blocks(subject))) else []
     last = [title for title in ("Curves", "Parameters") if title in sections]
@@ -156,20 +167,22 @@ def _build_joint_blocks(subject: Subject) -> list[Block]:
     model, values = subject.model, Values(subject.model, subject.notation)
     mechanism, rows = model.scene.mechanism, []
     for joint in mechanism.joints.values():
-        own = joint_types()[joint.kind]
-        ends = [place(ref, own.joins) for ref in (joint.first, joint.second)]
-        rows.append(cells(joint.name, own.title + (", has play" if joint.name in model.scene.play else ""), *ends))
-    blocks = table(cells("joint", "type", "first", "second"), rows)
-    fields = [row for joint in mechanism.joints.values() for row in field_rows(joint, values)]
-    blocks += table(cells("joint", "field", "value"), fields)
+        joint_type = joint_types()[joint.kind]
+        ends = [format_point(ref, joint_type.joins) for ref in (joint.first, joint.second)]
+        rows.append(
+            make_row(joint.name, joint_type.title + (", has play" if joint.name in model.scene.play else ""), *ends)
+        )
+    blocks = make_tables(make_row("joint", "type", "first", "second"), rows)
+    fields = [row for joint in mechanism.joints.values() for row in list_field_rows(joint, values)]
+    blocks += make_tables(make_row("joint", "field", "value"), fields)
     driven = [
-        cells(drive.name, _format_driven_quantity(drive), driven_value(model, subject.notation, drive.name))
+        make_row(drive.name, _format_driven_quantity(drive), format_drive_value(model, subject.notation, drive.name))
         for drive in mechanism.drives.values()
     ]
-    blocks += table(cells("drive", "prescribes", "value"), driven, (2,)) + values.below()
+    blocks += make_tables(make_row("drive", "prescribes", "value"), driven, (2,)) + values.below()
     for kind in dict.fromkeys(joint.kind for joint in mechanism.joints.values()):
-        summary, *lines = sketch_of(joint_types()[kind])
-        blocks += [paragraph(summary), Sketch(tuple(lines))]
+        summary, *lines = read_sketch(joint_types()[kind])
+        blocks += [make_paragraph(summary), Sketch(tuple(lines))]
     return blocks
 
 
@@ -177,14 +190,16 @@ def _build_force_blocks(subject: Subject) -> list[Block]:
     """Return gravity and tables of the force elements as blocks; [] without both."""
     model, values = subject.model, Values(subject.model, subject.notation)
     gravity, elements = model.scene.mechanism.gravity, [e.element for e in model.elements.values()]
-    blocks = table(cells("gravity"), [cells(values.vector(gravity))]) if gravity is not None else []
+    blocks = make_tables(make_row("gravity"), [make_row(values.vector(gravity))]) if gravity is not None else []
     kinds = {element.name: element_types()[element.kind] for element in elements}
     rows = [
-        cells(e.name, kinds[e.name].title, " and ".join(place(x, kinds[e.name].targets) for x in e.targets))
+        make_row(e.name, kinds[e.name].title, " and ".join(format_point(x, kinds[e.name].targets) for x in e.targets))
         for e in elements
     ]
-    blocks += table(cells("element", "type", "acts on"), rows)
-    blocks += table(cells("element", "field", "value"), [r for e in elements for r in field_rows(e, values)])
+    blocks += make_tables(make_row("element", "type", "acts on"), rows)
+    blocks += make_tables(
+        make_row("element", "field", "value"), [r for e in elements for r in list_field_rows(e, values)]
+    )
     return blocks + values.below()
 
 
@@ -201,7 +216,7 @@ def _format_driven_quantity(drive: Drive) -> str:
 def _build_repetition_blocks(subject: Subject) -> list[Block]:
     """Return a paragraph that lists the drawn values and the time of the sheet, to be used again."""
     drawn = subject.drawn
-    if not drawn.numbers:
-        return [paragraph(f"All numbers are the file's own; the moment is {drawn.t:g} s.")]
-    message = [f"{address} = {x}" for address, x in drawn.numbers.items()]
-    return [paragraph(f"Drawn: {', '.join(message)}; the moment is {drawn.t:g} s. All else is the file's.")]
+    if not drawn.parameters:
+        return [make_paragraph(f"All numbers are the file's own; the moment is {drawn.t:g} s.")]
+    message = [f"{address} = {x}" for address, x in drawn.parameters.items()]
+    return [make_paragraph(f"Drawn: {', '.join(message)}; the moment is {drawn.t:g} s. All else is the file's.")]

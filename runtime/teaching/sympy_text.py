@@ -12,9 +12,9 @@ from sympy.printing.str import StrPrinter
 
 from gudgeon.errors import GudgeonError
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.ir.finite_slopes import for_readers
-from gudgeon.generator.symbols.symbols import plain_name
-from gudgeon.generator.targets.latex.printers import share_of_pi
+from gudgeon.generator.ir.finite_slopes import remove_numerical_forms
+from gudgeon.generator.symbols.symbols import strip_identifier
+from gudgeon.generator.targets.latex.printers import find_fraction_of_pi
 from gudgeon.language.functions import IN_SYMPY
 
 # names that the notebook uses
@@ -51,11 +51,11 @@ class Printer(StrPrinter):
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         """Return the name of a symbol."""
-        return self._names.get(expr, plain_name(expr))
+        return self._names.get(expr, strip_identifier(expr))
 
     def _print_Float(self, expr: sp.Float) -> str:
         """Return a number; simple fractions of π as such."""
-        return number_of_code(float(expr))
+        return format_number(float(expr))
 
     def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
         """Return the text of an item, in parentheses too if it is a fraction of π in a product."""
@@ -109,32 +109,32 @@ class Printer(StrPrinter):
         raise GudgeonError(f"{message}\n  write a .tex, .txt or .html")
 
 
-def number_of_code(value: float) -> str:
+def format_number(value: float) -> str:
     """Return a number as Python text that is read back exactly; simple fractions of π as such ("sp.pi/2")."""
-    share = share_of_pi(value)
-    if share is None:
+    pi_fraction = find_fraction_of_pi(value)
+    if pi_fraction is None:
         return repr(value).removesuffix(".0")
-    count, of = share
+    count, denominator = pi_fraction
     above = {1: "sp.pi", -1: "-sp.pi"}.get(count, f"{count}*sp.pi")
-    return above if of == 1 else f"{above}/{of}"
+    return above if denominator == 1 else f"{above}/{denominator}"
 
 
-def names_of(model: Model) -> dict[sp.Symbol, str]:
+def assign_names(model: Model) -> dict[sp.Symbol, str]:
     """Return a unique Python name for each symbol of the constraint equations, masses and forces.
 
     Names that the notebook uses otherwise get the prefix "its_".
     """
-    symbols = (model.t, *model.q, *model.v, *(entry.symbol for entry in model.slots.entries.values()))
+    symbols = (model.t, *model.q, *model.v, *(entry.symbol for entry in model.parameter_table.entries.values()))
     names: dict[sp.Symbol, str] = {}
     for symbol in symbols:
-        name = "t" if symbol == model.t else plain_name(symbol)
+        name = "t" if symbol == model.t else strip_identifier(symbol)
         while symbol != model.t and (name in USED_NAMES or name.startswith(USED_PREFIXES) or name in names.values()):
             name = f"its_{name}"
         names[symbol] = name
     return names
 
 
-def text_of(expression: sp.Expr, model: Model, names: Mapping[sp.Symbol, str]) -> str:
+def format_expression(expression: sp.Expr, model: Model, names: Mapping[sp.Symbol, str]) -> str:
     """Return an expression in q, q̇, t and parameters as Python. Raises GudgeonError if plain SymPy lacks a
     function."""
-    return str(Printer(names).doprint(for_readers(model.symbols.explicit(sp.sympify(expression)))))
+    return str(Printer(names).doprint(remove_numerical_forms(model.symbols.expand_definitions(sp.sympify(expression)))))

@@ -1,1 +1,1 @@
-"""What takes seconds: Ctrl-C, questions from C, programs that are started, late imports."""
+"""Keep long calls interruptible: Ctrl-C, cancellation of C functions, other programs, late imports."""

@@ -20,14 +20,14 @@ INTERRUPTED = 130  # exit code of an interrupted program
 _whole: list[bool] = []  # not empty if the process is the command `gudgeon` only
 
 
-class CtrlC:
+class DelayedCtrlC:
     """Delay SIGINT within a with block until `take`, which calls the handler that was installed before."""
 
     def __init__(self) -> None:
         self.since, self.frame = 0.0, None  # s, when Ctrl-C came; 0: none waits
         self._handler: Callable[[int, FrameType | None], Any] | None = None
 
-    def __enter__(self) -> CtrlC:
+    def __enter__(self) -> DelayedCtrlC:
         """Install the delaying handler; do nothing outside the main thread or if SIGINT is ignored."""
         if threading.current_thread() is threading.main_thread():
             handler = signal.getsignal(signal.SIGINT)
@@ -49,7 +49,7 @@ class CtrlC:
         elif now - self.since > PATIENCE and self._handler is not None:
             self._handler(number, frame)
 
-    def take(self) -> None:
+    def raise_delayed(self) -> None:
         """Call the former handler if a Ctrl-C is recorded, and forget it; the handler usually raises
         KeyboardInterrupt.
         """

@@ -10,8 +10,8 @@ from contextvars import ContextVar
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gudgeon.waiting.asking import EVERY
-from gudgeon.waiting.ctrl_c import CtrlC
+from gudgeon.waiting.cancellation import EVERY
+from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 if TYPE_CHECKING:
     import subprocess
@@ -21,7 +21,7 @@ _given_up: ContextVar[Callable[[], bool] | None] = ContextVar("whether nobody wa
 
 
 @contextmanager
-def until(given_up: Callable[[], bool]) -> Iterator[None]:
+def set_wait_condition(given_up: Callable[[], bool]) -> Iterator[None]:
     """Let `Programs.wait` in this thread raise KeyboardInterrupt once `given_up()` is true, within the with block.
 
     Python raises no signals in other threads than the main one; the thread that received Ctrl-C tells them.
@@ -43,7 +43,7 @@ class Programs:
         """Return the context."""
         return self
 
-    def begin(self, line: list[str], folder: Path | None, environment: dict[str, str]) -> subprocess.Popen[str]:
+    def start(self, line: list[str], folder: Path | None, environment: dict[str, str]) -> subprocess.Popen[str]:
         """Start a program in a folder (None: the current one) and return its process. Raise OSError if it cannot be
         run.
 
@@ -51,7 +51,7 @@ class Programs:
         """
         import subprocess
 
-        with CtrlC() as ctrl_c:  # not between the start of a process and the note of it
+        with DelayedCtrlC() as ctrl_c:  # not between the start of a process and the note of it
             process = subprocess.Popen(
                 line,
                 cwd=folder,
@@ -64,27 +64,27 @@ class Programs:
                 start_new_session=True,
             )
             self._begun.append(process)
-        ctrl_c.take()
+        ctrl_c.raise_delayed()
         return process
 
     def wait(self, process: subprocess.Popen[str]) -> tuple[str, str]:
         """Wait for a program to end, and return its standard output and error as texts.
 
-        Raises KeyboardInterrupt soon after Ctrl-C, or once the condition of `until` is true.
+        Raises KeyboardInterrupt soon after Ctrl-C, or once the condition of `set_wait_condition` is true.
         """
         import subprocess
 
         message: tuple[str, str] | None = None
         given_up = _given_up.get()
-        with CtrlC() as ctrl_c:
+        with DelayedCtrlC() as ctrl_c:
             while message is None:
                 try:
                     message = process.communicate(timeout=EVERY)
                 except subprocess.TimeoutExpired:
-                    ctrl_c.take()
+                    ctrl_c.raise_delayed()
                     if given_up and given_up():
                         raise KeyboardInterrupt from None
-        ctrl_c.take()  # one that came as the program ended
+        ctrl_c.raise_delayed()  # one that came as the program ended
         return message
 
     def stop(self, *given_up: subprocess.Popen[str]) -> None:

@@ -1,1 +1,1 @@
-"""A scene for a page: its C as WebAssembly, a description in JSON, and the JavaScript that runs it (simulator.js)."""
+"""Simulate a scene in a web page: its C as WebAssembly, a description in JSON, and JavaScript (simulator.js)."""

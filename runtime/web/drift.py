@@ -8,7 +8,7 @@ from string import Template
 import numpy as np
 
 from gudgeon.contract.methods import KINEMATIC
-from gudgeon.loading.shipped import shipped, shipped_file
+from gudgeon.loading.shipped import find_shipped_file, list_shipped
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 
@@ -58,7 +58,7 @@ print(sim.simulate()["Phi.max"].max())  # projected onto Phi = 0 after each step
 """)
 
 
-def seen_step(run: Result) -> float:
+def compute_drift_step(run: Result) -> float:
     """Return the step (s) of rk4 at which the drift of a driven mechanism is visible: a sixtieth of a period.
 
     The period is that of the fastest body, or the length of a shorter run. Gains of about 0.1/step hold the constraints
@@ -69,7 +69,7 @@ def seen_step(run: Result) -> float:
     return min(period, float(run.t[-1] - run.t[0])) / STEPS
 
 
-def message(simulation: Simulation, run: Result, size: int, max_size: int) -> dict[str, str] | None:
+def explain_missing_drift(simulation: Simulation, run: Result, size: int, max_size: int) -> dict[str, str] | None:
     """Return {note, code} of a scene, which explain why constraints do not drift on its page.
 
     None if the page has a formulation in which they drift. run: at the file's values. size: bytes of the scene's
@@ -78,35 +78,38 @@ def message(simulation: Simulation, run: Result, size: int, max_size: int) -> di
     replacements = dict[str, str]()
     if simulation.source.methods == (KINEMATIC,):
         note, code = SOLVED + (EVENTS if simulation.source.events else KEPT), INTEGRATED
-        replacements = _step_and_gains(run)
+        replacements = _format_step_and_gains(run)
     elif simulation.source.formulation == "reduced" and size > max_size:
-        note, code = HELD.format(size=round(size / 1e3), most=round(max_size / 1e3), loaded=loaded(simulation)), RUN
+        note, code = (
+            HELD.format(size=round(size / 1e3), most=round(max_size / 1e3), loaded=format_load_arguments(simulation)),
+            RUN,
+        )
     else:
         return None
-    return {"note": note, "code": code.substitute(replacements, loaded=loaded(simulation))}
+    return {"note": note, "code": code.substitute(replacements, loaded=format_load_arguments(simulation))}
 
 
-def _step_and_gains(run: Result) -> dict[str, str]:
+def _format_step_and_gains(run: Result) -> dict[str, str]:
     """Return texts for the code: the number of steps, and two gains, one that holds the constraints and one that is too
     large.
     """
-    period_step, duration = seen_step(run), float(run.t[-1] - run.t[0])
+    period_step, duration = compute_drift_step(run), float(run.t[-1] - run.t[0])
     n_steps = max(1, round(duration / period_step))
     return {"steps": str(n_steps), "gains": f"{0.1 * n_steps / duration:.1g}, {n_steps / duration:.3g}"}
 
 
-def drifts(simulation: Simulation) -> bool:
+def has_drift(simulation: Simulation) -> bool:
     """Return whether rk4 on the page integrates all constraint equations, with Baumgarte's terms."""
     return simulation.source.formulation != "reduced" or simulation.source.methods == (KINEMATIC,)
 
 
-def loaded(simulation: Simulation) -> str:
+def format_load_arguments(simulation: Simulation) -> str:
     """Return the arguments of `gudgeon.load` as text: file and scene.
 
     The file is the name of a shipped mechanism, or of the user's file without its folder.
     """
     name = simulation.file.stem
-    is_own_file = name not in shipped() or not simulation.file.samefile(shipped_file(name))
+    is_own_file = name not in list_shipped() or not simulation.file.samefile(find_shipped_file(name))
     return ", ".join(
         json.dumps(argument) for argument in (simulation.file.name if is_own_file else name, simulation.source.scene)
     )

@@ -15,10 +15,10 @@ from pathlib import Path
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import BadValueError, BuildError
-from gudgeon.loading.cache import Cache, default_cache, digest
-from gudgeon.loading.compiler import finish, plain, zig
-from gudgeon.loading.engine import UNIT, declarations, engine_digest, include_flags
-from gudgeon.waiting.asking import report_work
+from gudgeon.loading.cache import Cache, compute_digest, get_default_cache
+from gudgeon.loading.compiler import build_environment, find_zig, finish_compiler
+from gudgeon.loading.engine import UNIT, build_include_flags, compute_engine_digest, select_declarations
+from gudgeon.waiting.cancellation import report_work
 from gudgeon.waiting.programs import Programs
 
 MODULE = "simulator.wasm"
@@ -79,7 +79,7 @@ FLAGS = (
 )
 
 
-def simulator(source: KernelSource, *, cache: Cache | None = None) -> bytes:
+def compile_simulator(source: KernelSource, *, cache: Cache | None = None) -> bytes:
     """Return the WebAssembly module of a scene from the cache, or compile it (the first time with the C library: a
     minute).
 
@@ -87,20 +87,20 @@ def simulator(source: KernelSource, *, cache: Cache | None = None) -> bytes:
     """
     if source.cdef:
         raise BadValueError(f"{source.mechanism}/{source.scene} is no scene that the engine runs: it has no simulator")
-    compiler, cache = _find_zig(), cache or default_cache()
+    compiler, cache = _find_zig(), cache or get_default_cache()
     command = [
         str(compiler),
         "cc",
         *FLAGS,
         *_export_options(source),
-        *include_flags(),
+        *build_include_flags(),
         source.main,
         str(UNIT),
         "-o",
         MODULE,
     ]
     key_parts = [text for name in sorted(source.files) for text in (name, source.files[name])]
-    key = digest(["web/1", version("ziglang"), *command[1:], engine_digest(), *key_parts])
+    key = compute_digest(["web/1", version("ziglang"), *command[1:], compute_engine_digest(), *key_parts])
 
     def build(folder: Path) -> None:
         """Compile the module into a folder of the cache."""
@@ -116,7 +116,7 @@ def _find_zig() -> Path:
     Raises BuildError with the command that installs it if its wheel is missing.
     """
     try:
-        return zig()
+        return find_zig()
     except ImportError as error:
         raise BuildError(
             "a simulator for pages is compiled by zig, which is not installed\n"
@@ -126,7 +126,7 @@ def _find_zig() -> Path:
 
 def _export_options(source: KernelSource) -> list[str]:
     """Return the linker options that export those functions which simulator.js calls and the scene has."""
-    declared_functions = set(re.findall(r"\bgudgeon_(\w+)\(", declarations(source)))
+    declared_functions = set(re.findall(r"\bgudgeon_(\w+)\(", select_declarations(source)))
     needed_functions = CALLED + (DRIVEN if source.methods == (KINEMATIC,) else ())
     return [f"-Wl,--export=gudgeon_{name}" for name in needed_functions if name in declared_functions]
 
@@ -146,9 +146,9 @@ def _compile_module(source: KernelSource, command: list[str], folder: Path) -> N
     }
     with Programs() as programs:
         try:
-            process = programs.begin(command, folder, {**plain(), **cache_folders})
+            process = programs.start(command, folder, {**build_environment(), **cache_folders})
         except OSError as error:
             raise BuildError(f"zig cannot be run: {error}\n  install it anew: pip install 'gudgeon[web]'") from error
-        if build_error := finish(programs, process, folder / MODULE):
+        if build_error := finish_compiler(programs, process, folder / MODULE):
             raise build_error
     shutil.rmtree(folder / "zig", ignore_errors=True)

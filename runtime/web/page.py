@@ -11,10 +11,10 @@ from typing import NamedTuple
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.compiled import CompiledModel
-from gudgeon.model.written import partials
+from gudgeon.model.written import find_partial_expressions
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.web.description import description
-from gudgeon.web.module import simulator
+from gudgeon.web.description import build_description
+from gudgeon.web.module import compile_simulator
 
 UNDEFINED = "undefined.js"
 FILES = ("boundary.js", "run.js", UNDEFINED, "loops.js", "start.js", "simulator.js")
@@ -29,7 +29,7 @@ class Parts(NamedTuple):
     scripts: str
 
 
-def write(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> str:
+def build_page(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> str:
     """Return the HTML of a scene's page.
 
     scenes: pages of other scenes by name, itself included, to which it links with its parameter values. Raises
@@ -38,27 +38,27 @@ def write(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> st
     """
     from gudgeon.generator.targets.latex import equations_html
 
-    return equations_html(simulation.model, **parts(simulation, scenes)._asdict(), source=simulation.source)
+    return equations_html(simulation.model, **build_page_parts(simulation, scenes)._asdict(), source=simulation.source)
 
 
-def parts(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> Parts:
+def build_page_parts(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> Parts:
     """Return the HTML parts that make the equations' page of a scene interactive.
 
     Without the compiler (extra `web`) they have one recorded run at the file's values. A small simulator is accompanied
-    by the full formulation, in which constraints drift. Raises as `write`.
+    by the full formulation, in which constraints drift. Raises as `build_page`.
     """
     import gudgeon.results.figures.plots  # noqa: F401 (without matplotlib it says what to install)
-    from gudgeon.web.running import running_parts
+    from gudgeon.web.page_parts import build_running_parts
 
-    return running_parts(simulation, scenes or {})
+    return build_running_parts(simulation, scenes or {})
 
 
-def script(source: KernelSource) -> str:
+def build_script(source: KernelSource) -> str:
     """Return JavaScript that declares `gudgeon` with `gudgeon.load`, for a page's <script> or a file for Node.
 
     The check for undefined expressions is included if the scene needs it.
     """
-    sources = [code(name) for name in FILES if name != UNDEFINED or partials(source)]
+    sources = [read_script(name) for name in FILES if name != UNDEFINED or find_partial_expressions(source)]
     return "\n".join(
         (
             "const gudgeon = (() => {",
@@ -77,35 +77,38 @@ def carried(compiled: CompiledModel) -> str:
 
     Raises BuildError if the compiler for pages is not installed.
     """
-    module = packed_module(compiled)
-    return f"<script>\n{script(compiled.source)}</script>\n{element(DESCRIPTION, description(compiled))}{module}"
+    module = pack_module(compiled)
+    return (
+        f"<script>\n{build_script(compiled.source)}</script>\n"
+        f"{build_json_element(DESCRIPTION, build_description(compiled))}{module}"
+    )
 
 
-def packed_module(compiled: CompiledModel, suffix: str = "") -> str:
+def pack_module(compiled: CompiledModel, suffix: str = "") -> str:
     """Return the WebAssembly module of a scene as a hidden HTML element (gzip, base64); `suffix` ends its id."""
-    return packed_element(f"{MODULE}{suffix}", simulator(compiled.source))
+    return pack_element(f"{MODULE}{suffix}", compile_simulator(compiled.source))
 
 
-def packed_element(name: str, data: bytes) -> str:
+def pack_element(name: str, data: bytes) -> str:
     """Return bytes as a hidden HTML element with the id `name` (gzip, base64), which `gudgeon.unpacked` reads."""
     encoded = base64.b64encode(gzip.compress(data, 9, mtime=0)).decode("ascii")
     return f'<script type="text/plain" id="{name}">{encoded}</script>\n'
 
 
-def element(name: str, json_text: str) -> str:
+def build_json_element(name: str, json_text: str) -> str:
     """Return a JSON text as a hidden HTML element with the id `name`; a text in it cannot end the element."""
     escaped = json_text.replace("<", "\\u003c")
     return f'<script type="application/json" id="{name}">{escaped}</script>\n'
 
 
 @cache
-def code(name: str) -> str:
+def read_script(name: str) -> str:
     """Return a JavaScript file of this folder in the form for pages."""
-    from gudgeon.generator.targets.javascript.module import embedded_script
+    from gudgeon.generator.targets.javascript.module import compress_script
 
-    return embedded_script(file_text(name))
+    return compress_script(read_file(name))
 
 
-def file_text(name: str) -> str:
+def read_file(name: str) -> str:
     """Return the text of a file of this folder."""
     return Path(__file__).with_name(name).read_text(encoding="utf-8")

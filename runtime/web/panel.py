@@ -1,4 +1,4 @@
-"""Prepare the initial contents of a page's panel as JSON: drawing, parameters with ranges, traces, one run."""
+"""Prepare the initial contents of a simulator page as JSON: drawing, parameters with ranges, curves, one run."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from typing import Any
 import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.drawing.labels import Names
+from gudgeon.drawing.labels import NameLabels
 from gudgeon.drawing.page import PIXELS
-from gudgeon.drawing.picture import draw_on, size_of
+from gudgeon.drawing.picture import compute_figure_size, draw_sketch
 from gudgeon.drawing.plan import make_plan
 from gudgeon.drawing.rig import Rig, make_rig
 from gudgeon.drawing.shapes import Sketch
 from gudgeon.results.figures.animation import QUICK, SHOWN, SLOW
-from gudgeon.results.figures.postures import postures_of
+from gudgeon.results.figures.postures import select_postures
 from gudgeon.results.reports.comparison import NOISE
 from gudgeon.results.results import Result
-from gudgeon.results.series import default_watch, rates
+from gudgeon.results.series import choose_watched_series, find_rate_names
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.web.look import look
-from gudgeon.web.numbers import groups, units
+from gudgeon.web.parameter_panel import build_parameter_sections, list_units
+from gudgeon.web.style_sheet import make_css_class
 
 WIDE, NARROW = 7.0, 3.6  # inches of a drawing on wide and narrow screens; names are placed for both
 SHOWN_AT = 24  # number of postures from which the drawing is made
@@ -31,101 +31,103 @@ MORE = ("reaction", "reaction head", "path")  # roles that exist on pages only
 KEPT, MOST = 400, 60  # samples and series of a recorded run
 
 
-def rig_of(run: Result) -> Rig:
+def build_rig(run: Result) -> Rig:
     """Return the drawing of a run."""
-    motion = postures_of(run, SHOWN_AT)
+    motion = select_postures(run, SHOWN_AT)
     return make_rig(motion, make_plan(motion))
 
 
-def panel(simulation: Simulation, run: Result, rig: Rig) -> dict[str, Any]:
+def build_panel(simulation: Simulation, run: Result, rig: Rig) -> dict[str, Any]:
     """Return the initial contents of a scene's panel for JSON, from a run at the file's values.
 
     They are parameters, units, drawing, names, traces, values to show, and the duration of the animation.
     """
     source, duration = run.source, float(run.t[-1] - run.t[0])
-    points_by_joint = dict(_journals(source))
+    points_by_joint = dict(_list_journals(source))
     return {
-        "groups": groups(simulation, simulation.p),
-        "units": units(source),
+        "groups": build_parameter_sections(simulation, simulation.p),
+        "units": list_units(source),
         "noise": NOISE,
-        "rig": rig.json(),
-        "names": list(_names(rig)),
+        "rig": rig.to_json_data(),
+        "names": list(_iterate_names(rig)),
         "joints": [[name, point] for name, point in points_by_joint.items() if f"{name}.Fx" in run.names],
-        "traces": _first_traces(run),
-        "values": _first_values(run),
+        "traces": _choose_first_traces(run),
+        "values": _choose_first_values(run),
         "seconds": duration if SLOW <= duration <= QUICK else SHOWN,
-        "path": _first_path(rig),
+        "path": _choose_first_path(rig),
     }
 
 
-def _journals(source: KernelSource) -> list[tuple[str, str]]:
+def _list_journals(source: KernelSource) -> list[tuple[str, str]]:
     """Return (joint, point) for all joints, those with play first; the force acts on the point."""
     joints_with_play = [(joint.name, joint.point) for joint in source.clearances]
     return [*joints_with_play, *((joint.name, joint.point) for joint in source.joints)]
 
 
-def _first_traces(run: Result) -> list[str]:
+def _choose_first_traces(run: Result) -> list[str]:
     """Return the names of the traces shown at first: watched series or drives (two), a force, and Phi.max.
 
     A force without finite sample is left out.
     """
     source = run.source
     drive_series = [name for drive in source.drives for name in (f"{drive.name}.torque", f"{drive.name}.force")]
-    force_series = [f"{name}.F" for name, _ in _journals(source)]
-    names = [*default_watch(run)[:1], *source.peaks[:1], *(name for name in drive_series if name in run.names)][:2]
+    force_series = [f"{name}.F" for name, _ in _list_journals(source)]
+    names = [*choose_watched_series(run)[:1], *source.peaks[:1], *(name for name in drive_series if name in run.names)][
+        :2
+    ]
     names += [name for name in force_series if name in run.names and np.isfinite(run[name]).any()][:1]
     return [*dict.fromkeys(names), "Phi.max"]
 
 
-def _first_values(run: Result) -> list[str]:
+def _choose_first_values(run: Result) -> list[str]:
     """Return the names of the live values: watched series with their rates, outputs, drives, eccentricities, joint
     forces.
 
     Names that the run lacks are left out.
     """
     source, candidates = run.source, list[str]()
-    for name in default_watch(run):
-        candidates += [name, rates(name)[0]]
+    for name in choose_watched_series(run):
+        candidates += [name, find_rate_names(name)[0]]
     candidates += [*source.outputs, *source.peaks]
     candidates += [f"{drive.name}.{quantity}" for drive in source.drives for quantity in ("torque", "force")]
     candidates += [f"{joint.name}.eps" for joint in source.clearances]
-    candidates += [f"{name}.F" for name, _ in _journals(source)]
+    candidates += [f"{name}.F" for name, _ in _list_journals(source)]
     return [name for name in dict.fromkeys(candidates) if name in run.names]
 
 
-def _first_path(rig: Rig) -> str:
+def _choose_first_path(rig: Rig) -> str:
     """Return the first named point that no joint or force element uses, whose path is drawn; "" if there is none."""
     points = [carried.shape.part.partition(" ")[2] for carried in rig.shapes if carried.shape.part.startswith("point ")]
     return points[0] if points else ""
 
 
-def looks_of(rig: Rig) -> tuple[list[tuple[str, int]], list[tuple[str, int]]]:
+def list_styles(rig: Rig) -> tuple[list[tuple[str, int]], list[tuple[str, int]]]:
     """Return two lists of (role, tint), each CSS class once: of shapes, and of names.
 
     Roles that exist on pages only are included.
     """
     shape_styles = dict.fromkeys((carried.shape.role, carried.shape.tint) for carried in rig.shapes)
     unique_shape_styles = {
-        look(role, tint): (role, tint) for role, tint in [*shape_styles, *((role, 0) for role in MORE)]
+        make_css_class(role, tint): (role, tint) for role, tint in [*shape_styles, *((role, 0) for role in MORE)]
     }
-    name_styles = {look(role, tint): (role, tint) for role, tint in _name_looks(rig)}
+    name_styles = {make_css_class(role, tint): (role, tint) for role, tint in _iterate_name_styles(rig)}
     return list(unique_shape_styles.values()), list(name_styles.values())
 
 
-def _name_looks(rig: Rig) -> Iterator[tuple[str, int]]:
+def _iterate_name_styles(rig: Rig) -> Iterator[tuple[str, int]]:
     """Yield (role, tint) of each name of the drawing; the tint is that of its part."""
     tints = {carried.shape.part: carried.shape.tint for carried in rig.shapes}
     for label in rig.sketch.labels:
         yield label.role, tints.get(label.part, 0)
 
 
-def _names(rig: Rig) -> Iterator[list[Any]]:
+def _iterate_names(rig: Rig) -> Iterator[list[Any]]:
     """Yield [text, part, class, shift on a wide screen, on a narrow one, distance] of each name.
 
     Shifts are in pixels with y down, None where the name is hidden; the distance from the part is in m.
     """
-    wide_shifts, narrow_shifts = _name_shifts(rig.sketch, WIDE), _name_shifts(rig.sketch, NARROW)
-    for label, (role, tint) in zip(rig.sketch.labels, _name_looks(rig), strict=True):
+    wide_shifts, narrow_shifts = _compute_name_offsets(rig.sketch, WIDE), _compute_name_offsets(rig.sketch, NARROW)
+    for label, (role, tint) in zip(rig.sketch.labels, _iterate_name_styles(rig), strict=True):
         shifts = [
             [round(x, 1), round(-y, 1)]
             for x, y in (shifts_by_part.get(label.part, (0.0, 0.0)) for shifts_by_part in (wide_shifts, narrow_shifts))
@@ -137,25 +139,31 @@ def _names(rig: Rig) -> Iterator[list[Any]]:
         visible_shifts: list[Any] = [
             None if is_hidden else shift for shift, is_hidden in zip(shifts, hidden_flags, strict=True)
         ]
-        yield [label.text, label.part, f"{look(role, tint)}-name", *visible_shifts, float(f"{label.clear:.3g}")]
+        yield [
+            label.text,
+            label.part,
+            f"{make_css_class(role, tint)}-name",
+            *visible_shifts,
+            float(f"{label.clear:.3g}"),
+        ]
 
 
-def _name_shifts(sketch: Sketch, inches: float) -> dict[str, tuple[float, float]]:
+def _compute_name_offsets(sketch: Sketch, inches: float) -> dict[str, tuple[float, float]]:
     """Return the offsets of names from their parts in pixels, y up, by part, for a figure width in inches.
 
     matplotlib places the names; a name without room is left out.
     """
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=size_of(sketch, inches), dpi=PIXELS)
+    figure = Figure(figsize=compute_figure_size(sketch, inches), dpi=PIXELS)
     ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-    draw_on(ax, sketch)
+    draw_sketch(ax, sketch)
     figure.draw_without_rendering()
-    names = next((artist for artist in ax.get_children() if isinstance(artist, Names)), None)
-    return names.beside if names is not None else {}
+    names = next((artist for artist in ax.get_children() if isinstance(artist, NameLabels)), None)
+    return names.label_offsets if names is not None else {}
 
 
-def recorded(run: Result, first_names: list[str]) -> dict[str, Any]:
+def pack_run(run: Result, first_names: list[str]) -> dict[str, Any]:
     """Return a run for a page without simulator: at most KEPT samples of at most MOST series, as packed float32.
 
     The series `first_names` come first, then forces and eccentricities. The result can be written as JSON.

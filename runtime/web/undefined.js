@@ -1,3 +1,5 @@
+/* Find expressions of the file that are undefined at given parameter values (runtime/language/undefined_parts.py). */
+
 /* Return the arguments of a node. */
 const argumentsOf = (tree) => (tree[0] === "curve" ? [tree[2]] : tree.slice(1));
 

@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 import gudgeon
 from gudgeon.cli import app
-from gudgeon.commands.assembly_report import assemble_scenes, remarks
+from gudgeon.commands.assembly_report import assemble_scenes, yield_remarks
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.generator.reader.read import read_mechanism
 from tests.slow import slow_rows_but
@@ -111,7 +111,7 @@ def test_degrees_of_freedom(joints: str, drives: str, freedoms: int, along: tupl
 def test_a_driven_crank_without_its_shaft_is_named() -> None:
     def message(joints: str) -> list[str]:
         mechanism = read_mechanism(four_bar(joints), "four.yaml")
-        return [text for whose, text in remarks(mechanism, assemble_scenes(mechanism, False)) if whose == "shaft"]
+        return [text for whose, text in yield_remarks(mechanism, assemble_scenes(mechanism, False)) if whose == "shaft"]
 
     assert message(B + C + D) == ["no joint ties crank to the ground, against which drive motor turns it"]
     assert message(A + B + C) == [] == message(A + B + C + D)
@@ -139,7 +139,7 @@ start: {{guess: {{a.theta: {guess} deg, b.theta: {-guess / 2} deg}}}}
     scenes = assemble_scenes(mechanism, False)
     closed = scenes.scenes["ideal"].closed
     assert (closed.aligned, closed.freedoms, closed.redundant) == (aligned, 0, 0)
-    assert [whose for whose, _ in remarks(mechanism, scenes)].count("singular") == aligned
+    assert [whose for whose, _ in yield_remarks(mechanism, scenes)].count("singular") == aligned
 
 
 @pytest.mark.parametrize(("given", "fits"), [(1, True), (0, False), (3, False)])
@@ -332,7 +332,7 @@ start: {{guess: {{{guess}}}}}
 def test_guesses_that_tell_assemblies_apart(guess: str, alike: bool) -> None:
     """The piston stands at 160.7 or -74.1 mm: its place tells them apart, that of the driven crank does not."""
     message = found(engine_of(guess), branches=True)
-    assert len(message.assemblies) == 2 and len(message.alike) == alike
+    assert len(message.assemblies) == 2 and len(message.equivalent_assemblies) == alike
 
 
 JANSEN = Path(__file__).parents[2] / "mechanisms" / "gallery" / "jansen_leg.yaml"
@@ -345,7 +345,7 @@ def test_what_else_to_guess_of_jansens_leg(tmp_path: Path) -> None:
     assert ", f.theta: -65 deg" in text
     file.write_text(text.replace(", f.theta: -65 deg", ""), encoding="utf-8")
     message = assemble_scenes(read_mechanism(file.read_bytes(), "jansen.yaml"), branches=True)
-    assert len(message.assemblies) == 8 and len(message.alike) == 1
+    assert len(message.assemblies) == 8 and len(message.equivalent_assemblies) == 1
     output = CliRunner().invoke(app, ["check", str(file), "--branches"]).output
     assert "2 fit the start's guesses alike: guess f.theta too, -29.82 deg" in " ".join(output.split())
     assert "8 assemblies found" in output

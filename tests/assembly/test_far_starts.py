@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from gudgeon.assembly import linkage, start
-from gudgeon.assembly.start import search
+from gudgeon.assembly.start import search_start
 from gudgeon.errors import AssemblyError, SingularError
-from gudgeon.model.parameters import prepare
+from gudgeon.model.parameters import prepare_values
 from tests.scenes import loader
 
 CART = """
@@ -49,9 +49,9 @@ def test_a_start_far_away_assembles(written: float, x: float, ask: str, hangs: b
     text, given = CART.format(x=written, bob=BOB * hangs, pin=PIN * hangs, ask=ask), {"x": x}
     simulation, near = loader(tmp_path)(text), 1e-7 if "guess" in ask else 1e-14  # a guess is no more than one
     for scene in (simulation, simulation.full):
-        compiled, p = scene.compiled, prepare(scene.compiled, given)[0]
-        assert compiled.close(0.0, p, linkage.mechanism_size(compiled, p)) is not None
-        found, sought = start.assemble(compiled, p), search(compiled, p)
+        compiled, p = scene.compiled, prepare_values(scene.compiled, given)[0]
+        assert compiled.close_linkage(0.0, p, linkage.compute_mechanism_size(compiled, p)) is not None
+        found, sought = start.assemble_start(compiled, p), search_start(compiled, p)
         assert found.q[0] == pytest.approx(x, rel=near)
         assert sought.q == pytest.approx(found.q, rel=near, abs=1e-7)
         assert sought.v == pytest.approx(found.v, rel=1e-9, abs=1e-9)
@@ -90,6 +90,6 @@ def test_masses_that_no_double_holds_together_are_told(tmp_path: Path) -> None:
     heavier = r"rod \(1e\+100 .* and crank"
     with pytest.raises(AssemblyError, match=rf"the inertias of {heavier}.*too far apart"):
         heavy.start({"bodies.crank.mass": 1.0, "bodies.rod.inertia": 1e100})
-    p = prepare(heavy.compiled, {"bodies.crank.mass": 1.0, "bodies.rod.inertia": 1e-20})[0]
+    p = prepare_values(heavy.compiled, {"bodies.crank.mass": 1.0, "bodies.rod.inertia": 1e-20})[0]
     with pytest.raises(SingularError, match=r"(?s)vanished.*the inertias of crank .* and rod .* are too far apart"):
         heavy.compiled.check_pivot(1, 0.0, p=p)

@@ -13,11 +13,11 @@ import pytest
 from typer.testing import CliRunner
 
 import gudgeon
-from gudgeon.assembly.journals import check_places
-from gudgeon.assembly.start import search
+from gudgeon.assembly.journals import check_journal_positions
+from gudgeon.assembly.start import search_start
 from gudgeon.cli import app
 from gudgeon.errors import AssemblyError, UnknownNameError
-from gudgeon.model.parameters import prepare
+from gudgeon.model.parameters import prepare_values
 from gudgeon.simulation.simulation import Simulation
 
 C, R, M = 3e-4, 1e-2, 0.1
@@ -128,13 +128,13 @@ def relative(q: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, ...]:
 
 def test_a_linkage_closes_around_its_journals(scenes: Scenes) -> None:
     """Both as the file says, the crank as its motor, the piston on its line; the search in Python agrees with C."""
-    p = prepare(scenes.driven.compiled, {"start.play.B.e.y": "-0.03 mm"})[0]
+    p = prepare_values(scenes.driven.compiled, {"start.play.B.e.y": "-0.03 mm"})[0]
     start = scenes.driven.start({"start.play.B.e.y": "-0.03 mm"})
     expected = ([2e-5, 4e-5], [3e-3, 0.0], [0.0, -3e-5], [0.0, -2e-3])
     for got, each in zip(relative(start.q, start.v), expected, strict=True):
         np.testing.assert_allclose(got, each, atol=1e-13)
     np.testing.assert_allclose([start.q[2], start.q[7], start.v[2]], [math.radians(50), 0.0, 20.0], atol=1e-12)
-    found = search(scenes.driven.compiled, p)
+    found = search_start(scenes.driven.compiled, p)
     np.testing.assert_allclose(found.q, start.q, atol=1e-12)
     np.testing.assert_allclose(found.v, start.v, atol=1e-10)
     assert start.residual < 1e-12 > found.residual
@@ -251,7 +251,7 @@ def test_a_journal_too_deep_is_refused_alike_alone_and_as_a_column(scenes: Scene
     batch = scenes.free.simulate_many(columns, 1e-4)
     assert {failure.run: str(failure.error) for failure in batch.failures} == dict(enumerate(texts))
     nearly = numbers([most * (1.0 - 1e-7), 0.0], [0.0, 0.0])
-    check_places(scenes.free.compiled, prepare(scenes.free.compiled, nearly)[0])  # so deep may it lie
+    check_journal_positions(scenes.free.compiled, prepare_values(scenes.free.compiled, nearly)[0])  # so deep may it lie
     assert "2.6 mm long and may be 1.3 mm" in texts[0] and "bare number" not in texts[0]
     length, limit = re.findall(r"(\S+) mm long and may be (\S+) mm", texts[1])[0]
     assert float(length) > float(limit) == pytest.approx(1.3)

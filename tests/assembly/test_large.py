@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gudgeon.assembly import large, rank
-from gudgeon.assembly.large import smallest
+from gudgeon.assembly.large import solve_minimum_norm
 from gudgeon.model.compiled import Array
 
 N = 30  # squares: 183 coordinates
@@ -43,10 +43,12 @@ def test_rank_and_tied_rows_are_those_of_a_dense_decomposition(angle: float, lea
     matrix = squares(angle)
     assert matrix.shape[1] >= large.LARGE
     assert (
-        rank.rank(matrix, least) == rank._compute_rank_by_svd(matrix, least) == len(matrix) - (N if angle == 0.0 else 0)
+        rank.compute_rank(matrix, least)
+        == rank._compute_rank_by_svd(matrix, least)
+        == len(matrix) - (N if angle == 0.0 else 0)
     )
     dense = rank._compute_shares_by_svd(matrix, least) > 1e-6
-    assert (rank.tied(matrix, least) > 1e-6).tolist() == dense.tolist()
+    assert (rank.compute_dependence_shares(matrix, least) > 1e-6).tolist() == dense.tolist()
     assert dense.any() == (angle == 0.0)
 
 
@@ -55,7 +57,7 @@ def test_rows_beyond_the_columns_or_no_numbers_are_not_taken_for_independent() -
     assert large.is_independent(matrix, 1e-9)
     assert not large.is_independent(np.vstack([matrix, matrix[:3]]), 1e-9)
     assert not large.is_independent(np.where(matrix == 1.0, np.nan, matrix), 1e-9)
-    assert not large.tied_shares(np.where(matrix == 1.0, np.nan, matrix), 1e-6).any()
+    assert not large.estimate_dependence_shares(np.where(matrix == 1.0, np.nan, matrix), 1e-6).any()
 
 
 @pytest.mark.parametrize("angle", [1.5, 0.0])
@@ -63,12 +65,12 @@ def test_steps_are_those_of_least_squares(angle: float) -> None:
     matrix, rng = squares(angle), np.random.default_rng(0)
     target = matrix @ rng.standard_normal(matrix.shape[1])
     expected = np.linalg.lstsq(matrix, target, rcond=1e-12)[0]
-    assert smallest(matrix, target) == pytest.approx(expected, abs=1e-7)
+    assert solve_minimum_norm(matrix, target) == pytest.approx(expected, abs=1e-7)
     places = matrix[:, np.arange(matrix.shape[1]) % 3 != 2]  # more rows than columns: as Newton begins
     assert len(places) > places.shape[1]
     target = rng.standard_normal(len(places))
     expected = np.linalg.lstsq(places, target, rcond=1e-12)[0]
-    assert large.nearest_step(places, target) == pytest.approx(expected, abs=1e-5)
+    assert large.solve_damped_least_squares(places, target) == pytest.approx(expected, abs=1e-5)
 
 
 def test_no_configuration_costs_a_dense_decomposition(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -81,9 +83,9 @@ def test_no_configuration_costs_a_dense_decomposition(monkeypatch: pytest.Monkey
     redundant, target = np.vstack([matrix, matrix[:3]]), matrix @ np.ones(matrix.shape[1])
     monkeypatch.setattr(np.linalg, "svd", dense)
     monkeypatch.setattr(np.linalg, "lstsq", dense)
-    assert rank.rank(matrix) == len(matrix) and rank.tied(matrix).max() < 1e-12
-    assert rank.tied(flat, 1e-6).any()  # of a dead centre too
-    assert rank.rank(redundant) == len(matrix) and (rank.tied(redundant) > 1e-6).sum() >= 6
-    assert redundant @ smallest(redundant, np.append(target, target[:3])) == pytest.approx(
+    assert rank.compute_rank(matrix) == len(matrix) and rank.compute_dependence_shares(matrix).max() < 1e-12
+    assert rank.compute_dependence_shares(flat, 1e-6).any()  # of a dead centre too
+    assert rank.compute_rank(redundant) == len(matrix) and (rank.compute_dependence_shares(redundant) > 1e-6).sum() >= 6
+    assert redundant @ solve_minimum_norm(redundant, np.append(target, target[:3])) == pytest.approx(
         np.append(target, target[:3]), abs=1e-12
     )

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import gudgeon
-from gudgeon.assembly.rank import dependent_rows
+from gudgeon.assembly.rank import find_dependent_equations
 from tests.programs import needs_compiler
 from tests.scenes import loader
 
@@ -43,7 +43,7 @@ def test_masses_make_no_dead_centre(start: str, length: float, tmp_path: Path) -
     for m, J in MASSES:
         run = simulation.simulate(1e-6, output=1, parameters={"m": m, "J": J}, audit=False)
         assert not any("dead centre" in note for note in run.diagnostics.notes), (m, J)
-        assert not dependent_rows(simulation.compiled, run.p, 0.0, run.q[0])
+        assert not find_dependent_equations(simulation.compiled, run.p, 0.0, run.q[0])
 
 
 def test_a_stretched_linkage_is_one_for_all_masses(tmp_path: Path) -> None:
@@ -55,7 +55,7 @@ def test_a_stretched_linkage_is_one_for_all_masses(tmp_path: Path) -> None:
         stretched = run.q[0].copy()
         stretched[[0, 1, 2]], stretched[[3, 4, 5]] = (0.025, 0.0, 0.0), (0.15, 0.0, 0.0)
         stretched[[6, 7, 8]] = (0.25, 0.0, 0.0)
-        assert "D" in dependent_rows(driven.compiled, run.p, 0.0, stretched)
+        assert "D" in find_dependent_equations(driven.compiled, run.p, 0.0, stretched)
 
 
 LIFT = """

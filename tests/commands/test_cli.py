@@ -17,14 +17,14 @@ import pytest
 
 import gudgeon
 from gudgeon.commands import check
-from gudgeon.commands.check import check_file
+from gudgeon.commands.check import check_mechanism
 from gudgeon.commands.emit import emit_c
 from gudgeon.commands.equations import write_equations
 from gudgeon.commands.studies import Request, load_scenes
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.language.deprecations import STRESS
-from gudgeon.loading.find import derived
-from gudgeon.loading.shipped import committed
+from gudgeon.loading.kernel_sources import derive_kernel_source
+from gudgeon.loading.shipped import read_committed_source
 from gudgeon.studies import map as maps
 from gudgeon.studies import stress
 from tests.programs import needs_compiler
@@ -38,12 +38,14 @@ def derived_once(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def once(data: bytes, file: Path, scene: str, seconds: dict[str, float]) -> KernelSource:
         if (data, scene) not in known:
-            shipped = committed(file.stem, scene, sha256(data).hexdigest())  # the same: tests/test_generated.py
-            known[data, scene] = shipped or derived(data, file, scene, seconds=seconds), seconds
+            shipped = read_committed_source(
+                file.stem, scene, sha256(data).hexdigest()
+            )  # the same: tests/test_generated.py
+            known[data, scene] = shipped or derive_kernel_source(data, file, scene, seconds=seconds), seconds
         seconds |= known[data, scene][1]
         return known[data, scene][0]
 
-    monkeypatch.setattr(check, "derived", once)
+    monkeypatch.setattr(check, "derive_kernel_source", once)
 
 
 CHECKED = """\
@@ -101,8 +103,10 @@ def test_check_begins_a_new_table_where_a_line_is_full(
     call: Gudgeon, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Twelve scenes do not fit beside each other; none is cut off. They differ by numbers, and are derived once."""
-    first = cache(lambda data, file: derived(data, file, "ideal"))
-    monkeypatch.setattr(check, "derived", lambda data, file, scene, seconds: replace(first(data, file), scene=scene))
+    first = cache(lambda data, file: derive_kernel_source(data, file, "ideal"))
+    monkeypatch.setattr(
+        check, "derive_kernel_source", lambda data, file, scene, seconds: replace(first(data, file), scene=scene)
+    )
     scenes = [f"scene_number_{k}" for k in range(12)]
     listed = "".join(f"  {name}: {{parameters: {{omega: {k + 1} rad/s}}}}\n" for k, name in enumerate(scenes))
     head, _, tail = TEXT.partition("scenes:\n")
@@ -284,7 +288,7 @@ def test_a_terminal_is_told_what_is_derived_and_compiled(
         assert "\x1b[2K" in cold and not re.search(r"\x1b\[[0-9;]*m", cold)
         assert shown(task, Screen()) == ""
     equations = partial(write_equations, pump, tmp_path / "x.txt", ("worn",))
-    for anew, scene in ((equations, "worn"), (lambda: check_file(pump, True, False), "ideal")):
+    for anew, scene in ((equations, "worn"), (lambda: check_mechanism(pump, True, False), "ideal")):
         assert f"deriving pump, scene {scene}" in shown(anew, Screen())
         assert shown(anew, io.StringIO()) == ""
 

@@ -15,11 +15,11 @@ import gudgeon
 from gudgeon.contract.methods import STAGED
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.peers import driver as python_driver
-from gudgeon.studies.axes import axis
-from gudgeon.studies.bench import bench
+from gudgeon.studies.axes import make_axis
+from gudgeon.studies.bench import measure_scene
 from gudgeon.studies.map import verdict_map
-from gudgeon.studies.methods import ADAPTIVE, choice
-from gudgeon.studies.show.bench import notes
+from gudgeon.studies.methods import ADAPTIVE, select_methods
+from gudgeon.studies.show.bench import describe_bench
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon, written
 
@@ -112,7 +112,7 @@ def test_where_nothing_can_be_written_nothing_is_run(
 def test_gains_act_in_the_full_formulation() -> None:
     """With a long step the constraints drift, and stronger terms pull back more of it."""
     dry = gudgeon.load("nine_bar_press", scene="dry")
-    axes = [axis(dry, "gains", [0.1, 100.0]), axis(dry, "step", [2e-5])]
+    axes = [make_axis(dry, "gains", [0.1, 100.0]), make_axis(dry, "step", [2e-5])]
     found = verdict_map(dry, axes, method="rk4", t_long=5e-3, t_short=2e-3)
     weak, strong = (found.cell(2e-5, gain) for gain in (0.1, 100.0))
     assert found.full and weak.energy != strong.energy
@@ -134,27 +134,27 @@ def test_marked_step_is_a_row(call: Gudgeon, pump: str, tmp_path: Path) -> None:
 def test_bench_takes_what_fits_a_scene(monkeypatch: pytest.MonkeyPatch) -> None:
     dry = gudgeon.load("nine_bar_press", scene="dry")
     usual = [method for method in ADAPTIVE if method not in STAGED]
-    assert choice(dry, None, quick=True) == (["rk4", *usual], [])
-    assert choice(dry, ["radau*"], quick=True) == ([*STAGED], [])  # derived for it where somebody asks
-    assert choice(gudgeon.load("nine_bar_press", "lubricated"), None, quick=True) == (["rk4", *ADAPTIVE], [])
-    assert choice(dry, ["scipy:*", "auto"], quick=True)[0] == ["auto", *python_driver.SCIPY]
+    assert select_methods(dry, None, quick=True) == (["rk4", *usual], [])
+    assert select_methods(dry, ["radau*"], quick=True) == ([*STAGED], [])  # derived for it where somebody asks
+    assert select_methods(gudgeon.load("nine_bar_press", "lubricated"), None, quick=True) == (["rk4", *ADAPTIVE], [])
+    assert select_methods(dry, ["scipy:*", "auto"], quick=True)[0] == ["auto", *python_driver.SCIPY]
     monkeypatch.setitem(sys.modules, "sksundae", None)
     monkeypatch.setattr("gudgeon.studies.methods.find_spec", lambda name: None)
-    found, left_out = choice(dry, None, quick=False)
+    found, left_out = select_methods(dry, None, quick=False)
     assert found == ["rk4", *usual, *python_driver.SCIPY]
     assert len(left_out) == 1 and "not installed" in left_out[0]
-    found, left_out = choice(gudgeon.load("belt_block"), None, quick=False)
+    found, left_out = select_methods(gudgeon.load("belt_block"), None, quick=False)
     assert found == ["rk4", *usual] and all("dry_friction" in line for line in left_out)
     with pytest.raises(BadValueError, match="euler"):
-        choice(dry, ["euler"], quick=False)
+        select_methods(dry, ["euler"], quick=False)
     with pytest.raises(BadValueError, match="none of the methods"):
-        choice(dry, ["sundials:*"], quick=False)
+        select_methods(dry, ["sundials:*"], quick=False)
 
 
 def test_cross_checks_are_compared_with_another_method() -> None:
     pendulum = gudgeon.load(PENDULUM, scene="ideal")
     expected = ["scipy:DOP853", "scipy:RK45"]
-    found = bench(pendulum, [1e-3], [1e-5, 1e-6, 1e-7], t_end=0.5, quick=True, methods=expected)
+    found = measure_scene(pendulum, [1e-3], [1e-5, 1e-6, 1e-7], t_end=0.5, quick=True, methods=expected)
     assert found.methods == tuple(expected) and [len(found.of(name)) for name in expected] == [2, 2]
     first, second = (found.of(name)[0] for name in expected)
     assert first.reference is not None and first.reference.method == "rodas5p"  # not by the same formulas
@@ -168,10 +168,10 @@ def test_a_slow_cross_check_is_run_at_fewer_tolerances(monkeypatch: pytest.Monke
     pendulum = gudgeon.load(PENDULUM, scene="ideal")
     options = {"t_end": 0.05, "quick": True, "methods": ["rk4", "scipy:RK45"]}
     monkeypatch.setattr("gudgeon.studies.bench.LONG", 0.0)
-    found = bench(pendulum, [1e-3], [1e-4, 1e-5, 1e-6], **options)  # type: ignore[arg-type]
+    found = measure_scene(pendulum, [1e-3], [1e-4, 1e-5, 1e-6], **options)  # type: ignore[arg-type]
     assert [row.setting.value for row in found.of("scipy:RK45")] == [1e-4] and len(found.of("rk4")) == 1
-    assert any(line.startswith("scipy:RK45: 1e-6 and tighter left out") for line in notes(found, None))
+    assert any(line.startswith("scipy:RK45: 1e-6 and tighter left out") for line in describe_bench(found, None))
     monkeypatch.setattr("gudgeon.studies.bench.LIMIT", 0.0)
-    found = bench(pendulum, [1e-3], [1e-4, 1e-5, 1e-6], **options)  # type: ignore[arg-type]
+    found = measure_scene(pendulum, [1e-3], [1e-4, 1e-5, 1e-6], **options)  # type: ignore[arg-type]
     assert not found.of("scipy:RK45") and any("1e-4 and tighter left out" in line for line in found.left_out)
     assert not found.interrupted

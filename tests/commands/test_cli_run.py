@@ -155,7 +155,7 @@ def test_an_interrupt_keeps_what_was_computed(
         return simulate(self, *args, **options)
 
     monkeypatch.setattr(Simulation, "simulate", interrupted)
-    monkeypatch.setattr("gudgeon.waiting.asking.EVERY", 0.0)  # C asks at every right-hand side
+    monkeypatch.setattr("gudgeon.waiting.cancellation.EVERY", 0.0)  # C asks at every right-hand side
     done = call("run", pump)
     assert done.exit_code == 130, done.output
     run = gudgeon.Result.load(tmp_path / "out/pump_worn.nc")
@@ -198,14 +198,14 @@ def test_a_folder_that_is_a_file_is_told_before_anything_is_run(call: Gudgeon, p
 def test_tables_are_not_cut_where_the_screen_is_narrow(call: Gudgeon, pump: str) -> None:
     from rich.console import Console
 
-    from gudgeon.results.reports.comparison import compare, tables
+    from gudgeon.results.reports.comparison import build_tables, compute_scene_report
 
     runs = [gudgeon.load(pump, scene=scene).simulate(0.002, output=20, step=2e-6) for scene in ("ideal", "worn")]
-    reports = [compare(run, runs[0] if run is runs[1] else None, ["piston.x"]) for run in runs] * 2
+    reports = [compute_scene_report(run, runs[0] if run is runs[1] else None, ["piston.x"]) for run in runs] * 2
     shown = {}
     for width in (200, 70):
         console = Console(width=width, file=io.StringIO(), record=True)
-        for table in tables("A pump", reports, width):
+        for table in build_tables("A pump", reports, width):
             console.print(table)
         shown[width] = console.export_text()
         assert max(map(len, shown[width].splitlines())) <= width

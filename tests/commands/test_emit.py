@@ -16,7 +16,7 @@ from gudgeon.commands.emit import LIST, emit_c, refuse_foreign_files
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, InputError, OutputError
 from gudgeon.loading.compiler import find_compiler
-from gudgeon.loading.engine import engine_files, engine_readme
+from gudgeon.loading.engine import read_engine_files, read_engine_readme
 from tests.tiny import tiny
 
 
@@ -27,7 +27,7 @@ def source(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[KernelSource
     monkeypatch.setattr(emit, "select_scenes", lambda mechanism, expected: expected or ("ideal", "dry"))
     monkeypatch.setattr(emit, "find_mechanism", Path)
     monkeypatch.setattr(emit, "read_bytes", lambda file: b"")
-    monkeypatch.setattr(emit, "kernel_source", lambda data, file, scene: (current[0], "cache"))
+    monkeypatch.setattr(emit, "find_kernel_source", lambda data, file, scene: (current[0], "cache"))
     return current
 
 
@@ -187,7 +187,7 @@ def test_the_engine_is_written_once_beside_the_scenes(tmp_path: Path) -> None:
     """What was emitted compiles by itself; emitted again it is the same; a file of another in its folders is kept."""
     emit_c("pendulum", tmp_path, ())
     before = contents(tmp_path)
-    texts = {name: text.encode() for name, text in (*engine_files().items(), engine_readme())}
+    texts = {name: text.encode() for name, text in (*read_engine_files().items(), read_engine_readme())}
     assert texts == {name: before[name] for name in before if name.startswith("engine/") and not name.endswith(LIST)}
     flags = ["-std=c11", "-O0", "-ffp-contract=off", "-fPIC", "-shared", "-I.", "-I.."]
     for scene in ("ideal", "two_seconds"):

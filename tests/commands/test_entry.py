@@ -16,7 +16,7 @@ from typer.models import CommandInfo
 
 import gudgeon
 from gudgeon import cli
-from gudgeon.cli import name_of
+from gudgeon.cli import get_command_name
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
 from tests.slow import slow_but
@@ -27,8 +27,8 @@ import os, signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGTERM, signal.SIG_DFL)  # whoever runs the tests may have it ignored
 from gudgeon.integrators import batch
-from gudgeon.waiting import asking
-asking.EVERY, real, looks = 0.0, batch.Runs._poll_and_report, []
+from gudgeon.waiting import cancellation
+cancellation.EVERY, real, looks = 0.0, batch.Runs._poll_and_report, []
 
 def look(*arguments):
     looks.append(0)
@@ -76,7 +76,7 @@ def test_of_a_command_that_is_asked_for_its_options_alone_are_read(
     made = typer.main.get_command_from_info
 
     def noted(command_info: CommandInfo, **options: Any) -> Any:
-        read.append(name_of(command_info))
+        read.append(get_command_name(command_info))
         return made(command_info, **options)
 
     monkeypatch.setattr("typer.main.get_command_from_info", noted)
@@ -198,7 +198,7 @@ def test_as_a_module(tmp_path: Path) -> None:
 def test_errors_are_red_where_somebody_looks_and_wants_it(
     no_color: str | None, term: str, red: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    from gudgeon.commands.outcome import complain
+    from gudgeon.commands.outcome import print_error
     from gudgeon.errors import GudgeonError
 
     monkeypatch.delenv("NO_COLOR", raising=False)
@@ -206,7 +206,7 @@ def test_errors_are_red_where_somebody_looks_and_wants_it(
     if no_color is not None:
         monkeypatch.setenv("NO_COLOR", no_color)
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
-    complain(GudgeonError("no"))
+    print_error(GudgeonError("no"))
     assert capsys.readouterr().err == ("\033[31merror:\033[0m no\n" if red else "error: no\n")
 
 
@@ -215,12 +215,12 @@ def test_a_bar_is_shown_on_a_terminal_alone(
     is_terminal: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """And not where a command is asked to be quiet, or for JSON."""
-    from gudgeon.commands.progress import progress_bar
+    from gudgeon.commands.progress import show_progress_bars
 
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.setattr(sys.stderr, "isatty", lambda: is_terminal, raising=False)
     for quiet in (False, True):
-        with progress_bar(quiet) as bar:
+        with show_progress_bars(quiet) as bar:
             report = bar("study")
             assert (report is not None) == (is_terminal and not quiet)
             if report:

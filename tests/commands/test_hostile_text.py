@@ -14,9 +14,9 @@ from typing import Any
 import pytest
 
 import gudgeon
-from gudgeon.language.shown import figure_title, one_line, plain_console, visible
+from gudgeon.language.text_output import escape_invisible, format_figure_title, format_one_line, make_plain_console
 from gudgeon.results.reports import comparison
-from gudgeon.results.reports.comparison import compare, tables
+from gudgeon.results.reports.comparison import build_tables, compute_scene_report
 from gudgeon.results.results import Result
 from tests.programs import needs_compiler
 from tests.pump import TEXT, Gudgeon, written
@@ -55,36 +55,38 @@ def is_safe(text: str) -> bool:
 @pytest.mark.parametrize("title", TITLES)
 def test_a_title_is_text_in_tables(title: str, run: Result, ideal: Result) -> None:
     out = io.StringIO()
-    console = plain_console(200, file=out, force_terminal=True, color_system="truecolor")
-    for table in tables(title, [compare(run, ideal, ["S9.y"])], 200):
+    console = make_plain_console(200, file=out, force_terminal=True, color_system="truecolor")
+    for table in build_tables(title, [compute_scene_report(run, ideal, ["S9.y"])], 200):
         console.print(table)
     text = out.getvalue()
     assert "\x1b]8" not in text and "\u202e" not in text  # neither a link nor a turned line
-    assert one_line(title)[:40] in text.replace("\n", "")
+    assert format_one_line(title)[:40] in text.replace("\n", "")
 
 
 @pytest.mark.parametrize("title", slow_but(SHOWN, TITLES))
 def test_a_title_is_text_in_figures(title: str, run: Result, ideal: Result) -> None:
     pytest.importorskip("matplotlib")
-    from gudgeon.results.figures.plots import figure
+    from gudgeon.results.figures.plots import draw_run_figure
 
-    picture: Any = figure({"dry": replace(run, source=replace(run.source, title=title), stored={})}, ideal, ["S9.y"])
+    picture: Any = draw_run_figure(
+        {"dry": replace(run, source=replace(run.source, title=title), stored={})}, ideal, ["S9.y"]
+    )
     shown, is_mathematics = picture._suptitle._preprocess_math(picture._suptitle.get_text())
     assert not is_mathematics
-    assert shown.replace("\n", "").replace(" ", "") == one_line(title).replace(" ", "")
+    assert shown.replace("\n", "").replace(" ", "") == format_one_line(title).replace(" ", "")
     picture.draw_without_rendering()
 
 
 @pytest.mark.parametrize("title", TITLES)
 def test_what_is_shown_can_be_shown(title: str) -> None:
-    assert is_safe(visible(title)) and is_safe(one_line(title)) and is_safe(figure_title(title))
-    assert "\n" not in one_line(title) and len(one_line(title)) <= 240
-    assert len(figure_title(title, 60).splitlines()) <= 5
+    assert is_safe(escape_invisible(title)) and is_safe(format_one_line(title)) and is_safe(format_figure_title(title))
+    assert "\n" not in format_one_line(title) and len(format_one_line(title)) <= 240
+    assert len(format_figure_title(title, 60).splitlines()) <= 5
 
 
 def test_text_that_only_looks_odd_stays_as_it_is() -> None:
     for text in ("10\u00a0N, δ̇⁻ → 3 µm", "नमस्ते", "می\u200cروم", "👩\u200d🔧", "[mm] $5"):
-        assert visible(text) == one_line(text) == text
+        assert escape_invisible(text) == format_one_line(text) == text
 
 
 @needs_compiler
@@ -177,7 +179,7 @@ def test_arguments_are_told_as_they_are(arguments: tuple[str, ...], call: Gudgeo
 
 
 @needs_compiler
-@pytest.mark.parametrize("fails", ["tables", "compare", "figure"])
+@pytest.mark.parametrize("fails", ["build_tables", "compute_scene_report", "figure"])
 def test_what_cannot_be_shown_is_saved(
     fails: str, call: Gudgeon, pump: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -186,7 +188,7 @@ def test_what_cannot_be_shown_is_saved(
 
     if fails == "figure":
         pytest.importorskip("matplotlib")
-        monkeypatch.setattr("gudgeon.results.figures.plots.figure", fail)
+        monkeypatch.setattr("gudgeon.results.figures.plots.draw_run_figure", fail)
     else:
         monkeypatch.setattr(comparison, fails, fail)
     done = call("run", pump, "--t-end", "0.001")

@@ -14,14 +14,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gudgeon.commands.law_plot import figure_of
+from gudgeon.commands.law_plot import make_law_figure
 from gudgeon.generator.field import NUMBER
 from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, FACTORS, SOURCES
-from gudgeon.generator.kinds.laws.law import RESULTS, Law, bundled_laws, called
+from gudgeon.generator.kinds.laws.law import RESULTS, Law, find_bundled_laws, find_laws_of_role
 from gudgeon.generator.targets.latex.document import Equation
-from gudgeon.generator.targets.latex.law import GIVEN, forms, in_a_line
-from gudgeon.generator.targets.latex.law_page import laws_in_order, laws_page
-from gudgeon.generator.targets.latex.letters import of_latex
+from gudgeon.generator.targets.latex.law import GIVEN, derive_forms, print_equation
+from gudgeon.generator.targets.latex.law_page import list_laws, print_laws_page
+from gudgeon.generator.targets.latex.letters import make_name
 from tests.equations.one_law import PAIR, Evaluator
 from tests.kinds.own import example, forgotten
 from tests.oracles.dry import delivered
@@ -29,7 +29,7 @@ from tests.pump import Gudgeon
 from tests.slow import slow_but
 from tests.targets_latex.equations_reader import dots_apart, evaluate, rows, sections, width
 
-NAMES = [name for role in RESULTS for name in called(role)]
+NAMES = [name for role in RESULTS for name in find_laws_of_role(role)]
 STATES = {  # of what laws read, by the letter; z lies within what bristles take
     "delta": 3e-5,
     "ratio": -0.4,
@@ -53,7 +53,7 @@ assert "sympy" not in sys.modules
 """
 
 
-page_of_laws = cache(laws_page)  # seconds
+page_of_laws = cache(print_laws_page)  # seconds
 
 
 @pytest.fixture(autouse=True)
@@ -68,7 +68,7 @@ def test_the_table_has_every_law_and_every_name(call: Gudgeon) -> None:
     assert done.exit_code == 0 and {*NAMES, *RESULTS} <= {*words}
     listed = json.loads(call("laws", "--json").stdout)
     found = {role: [law["law"] for law in some] for role, some in listed.items()}
-    assert found == {role: [law.name for law in bundled_laws().values() if law.role == role] for role in RESULTS}
+    assert found == {role: [law.name for law in find_bundled_laws().values() if law.role == role] for role in RESULTS}
     hertz = next(law for law in listed["normal"] if law["law"] == "hertz")
     assert [*RESULTS] == [*listed] and "flores" in hertz["also"]
 
@@ -79,12 +79,12 @@ def test_the_table_waits_for_no_sympy() -> None:
 
 
 def law_of(name: str) -> Law:
-    return next(some[name] for role in RESULTS if name in (some := called(role)))
+    return next(some[name] for role in RESULTS if name in (some := find_laws_of_role(role)))
 
 
 def merged(first: Sequence[Equation], changed: Sequence[Equation]) -> list[str]:
     """The lines of both; of two with the same left side the changed one."""
-    return [f"  {line}" for line in {one.left.text: in_a_line(one) for one in (*first, *changed)}.values()]
+    return [f"  {line}" for line in {one.left.text: print_equation(one) for one in (*first, *changed)}.values()]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -93,15 +93,15 @@ def test_what_is_read_is_what_the_law_gives(name: str) -> None:
     law = law_of(name)
     numbers = {own.name: 0.31 + 0.07 * k for k, own in enumerate(law.parameters)} | NUMBERS.get(law.name, {})
     state = {key: STATES[key] for key in law.variables}
-    known = {of_latex(own.symbol).text: numbers[own.name] for own in law.parameters}
+    known = {make_name(own.symbol).text: numbers[own.name] for own in law.parameters}
     known |= {key.replace("nu", "ν"): value for key, value in vars(PAIR).items()}
     known |= {LETTERS.get(key, key): value for key, value in state.items()}
     if "ratio" in state:  # it is written as a fraction
         known[dots_apart("δ̇") + "⁻"] = STATES["deltadot"] / STATES["ratio"]
-    first, *others = forms(law, name)
+    first, *others = derive_forms(law, name)
     for form in (first, *others):
         changed = ((), ()) if form is first else (form.constants, form.steps)
-        letters = {of_latex(own.symbol).text for own in law.parameters if form.selected.get(own.name) == GIVEN}
+        letters = {make_name(own.symbol).text for own in law.parameters if form.selected.get(own.name) == GIVEN}
         constants = [one for one in first.constants if one.left.text not in letters]  # what is given follows from none
         read = evaluate([*merged(constants, changed[0]), *merged(first.steps, changed[1])], known)
         selected = dict(law.also.get(name, {})) | {key: x for key, x in form.selected.items() if x != GIVEN}
@@ -131,7 +131,7 @@ def test_all_about_one(name: str, call: Gudgeon) -> None:
     found = {cells[0]: cells for cells in rows(lines["Numbers"]) if len(cells) == 6}
     for own in law.fields_as(name):
         assert own.name in (found if own.kind == NUMBER else " ".join(lines["Options"]))
-    assert found[next(own.name for own in law.parameters)][1] == of_latex(law.parameters[0].symbol).text
+    assert found[next(own.name for own in law.parameters)][1] == make_name(law.parameters[0].symbol).text
 
 
 def test_dampings_are_cited(call: Gudgeon) -> None:
@@ -149,9 +149,9 @@ def test_dampings_are_cited(call: Gudgeon) -> None:
 
 
 def test_a_film_tells_its_shear_torque_and_what_is_nothing_without_it() -> None:
-    first, *others = forms(law_of("pinkus_sternlicht"), "pinkus_sternlicht")
+    first, *others = derive_forms(law_of("pinkus_sternlicht"), "pinkus_sternlicht")
     assert [form.selected for form in others if form.equations] == [{"as_printed": True}, {"shear": True}]
-    assert not [one for one in first.equations if in_a_line(one).endswith(" = 0")]
+    assert not [one for one in first.equations if print_equation(one).endswith(" = 0")]
 
 
 def test_a_law_of_ones_own(call: Gudgeon, tmp_path: Path) -> None:
@@ -181,7 +181,7 @@ def test_every_law_is_drawn(name: str, call: Gudgeon, tmp_path: Path) -> None:
 
 def lines_of(name: str, **numbers: float | str) -> list[np.ndarray]:
     """x and y as drawn."""
-    return [np.array(line.get_data()) for line in figure_of(law_of(name), name, numbers).axes[0].lines]
+    return [np.array(line.get_data()) for line in make_law_figure(law_of(name), name, numbers).axes[0].lines]
 
 
 def test_what_is_drawn_is_the_law() -> None:
@@ -202,7 +202,7 @@ def test_curves_that_are_one_are_drawn_once() -> None:
     (_, closing), (_, resting), (_, parting) = lines_of("hertz")
     np.testing.assert_allclose(closing, 1.15 * resting, rtol=1e-12)
     np.testing.assert_allclose(parting, 0.85 * resting, rtol=1e-12)
-    titles = [figure_of(law_of(name), name, {}).axes[0].get_title() for name in ("hertz", "kelvin_voigt")]
+    titles = [make_law_figure(law_of(name), name, {}).axes[0].get_title() for name in ("hertz", "kelvin_voigt")]
     assert ["m/s" in title for title in titles] == [False, True]
 
 
@@ -242,6 +242,4 @@ def test_the_page_of_laws_is_current() -> None:
     """`make tables` writes it, a heading a law."""
     page = (Path(__file__).resolve().parents[2] / "docs" / "laws.md").read_text("utf-8")
     assert page.partition("<!-- Below: `make tables`. -->\n\n")[2] == page_of_laws()
-    assert re.findall(r"^### `(\w+)`$", page, re.MULTILINE) == [
-        law.name for role in RESULTS for law in laws_in_order(role)
-    ]
+    assert re.findall(r"^### `(\w+)`$", page, re.MULTILINE) == [law.name for role in RESULTS for law in list_laws(role)]

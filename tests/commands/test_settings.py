@@ -10,8 +10,8 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, UnknownNameError
-from gudgeon.loading.shipped import shipped_file
-from gudgeon.model.parameters import as_parameter
+from gudgeon.loading.shipped import find_shipped_file
+from gudgeon.model.parameters import explain_address
 from tests.programs import needs_compiler
 from tests.pump import TEXT, Gudgeon
 
@@ -50,20 +50,22 @@ def test_a_number_that_is_written_as_zero_is_told(address: str, call: Gudgeon, p
 
 def test_a_zero_that_is_no_component_and_one_that_is_left_out(tmp_path: Path) -> None:
     """A key of a force or of a law, with what to do: as a parameter it can be set."""
-    text = shipped_file("slider_crank_spring").read_text(encoding="utf-8").replace("damping: 1 N*s/m", "damping: 0")
+    text = (
+        find_shipped_file("slider_crank_spring").read_text(encoding="utf-8").replace("damping: 1 N*s/m", "damping: 0")
+    )
     plain, named = tmp_path / "plain.yaml", tmp_path / "named.yaml"
     plain.write_text(text, encoding="utf-8")
     source = gudgeon.load(plain).source
     for address in ("forces.coil.damping", "coil.damping"):
-        message, hint = as_parameter(source, address)
+        message, hint = explain_address(source, address)
         assert message.startswith("forces.coil.damping is 0, written so") and "damping: own) and set that" in hint
     oiled = gudgeon.load("nine_bar_press", "lubricated").source
-    message, _ = as_parameter(oiled, "contacts.oil.film.extra_clearance")
+    message, _ = explain_address(oiled, "contacts.oil.film.extra_clearance")
     assert message.startswith("contacts.oil.film.extra_clearance is 0, written so or left out,")
     own = text.replace("damping: 0", "damping: own").replace("\nforces:", "\nparameters: {own: 0 N*s/m}\n\nforces:")
     named.write_text(own, encoding="utf-8")
     assert own.count("own: 0") == own.count(": own") == 1
-    assert as_parameter(gudgeon.load(named).source, "own") == ("", "")
+    assert explain_address(gudgeon.load(named).source, "own") == ("", "")
 
 
 def test_a_result_of_the_motion_is_told_what_says_it(call: Gudgeon, pump: str) -> None:

@@ -14,11 +14,11 @@ import pytest
 pytest.importorskip("matplotlib")
 
 from gudgeon.assembly.closure import Closure  # noqa: E402
-from gudgeon.drawing.labels import Names  # noqa: E402
-from gudgeon.drawing.picture import figure_of  # noqa: E402
+from gudgeon.drawing.labels import NameLabels  # noqa: E402
+from gudgeon.drawing.picture import build_figure  # noqa: E402
 from gudgeon.drawing.posture import Posture  # noqa: E402
 from gudgeon.drawing.shapes import Sketch  # noqa: E402
-from gudgeon.generator.pipeline import closed_linkage  # noqa: E402
+from gudgeon.generator.pipeline import build_closed_linkage  # noqa: E402
 from gudgeon.generator.reader.read import read_mechanism  # noqa: E402
 from gudgeon.model.compiled import Array  # noqa: E402
 
@@ -38,23 +38,23 @@ def drawn(file: Path | str) -> Drawn:
     """The last scene of a file (where it has play, one with it) at its start; of a text its own."""
     text = file.encode() if isinstance(file, str) else file.read_bytes()
     mechanism = read_mechanism(text, "drawn.yaml", None)
-    linkage, _ = closed_linkage(mechanism, list(mechanism.scenes)[-1])
+    linkage, _ = build_closed_linkage(mechanism, list(mechanism.scenes)[-1])
     closure = Closure(linkage, linkage.p, 0.0)
     with np.errstate(all="ignore"):
-        q, _ = closure.nearest()
+        q, _ = closure.find_nearest()
     return Drawn(mechanism, linkage, closure, Posture(linkage.source, linkage.p, q))
 
 
 def boxes(picture: Any) -> Iterator[tuple[str, tuple[float, ...]]]:
     for ax in picture.axes:
         for artist in ax.get_children():
-            if isinstance(artist, Names):
+            if isinstance(artist, NameLabels):
                 yield from artist.boxes.items()
 
 
 def named(sketch: Sketch) -> dict[str, Array]:
     """Boxes of names (left, low, right, high) in metres."""
-    picture = figure_of([sketch], [""], "x")
+    picture = build_figure([sketch], [""], "x")
     picture.draw_without_rendering()
     back = picture.axes[0].transData.inverted().transform
     return {part: np.ravel(back(np.reshape(box, (2, 2)))) for part, box in boxes(picture)}

@@ -22,15 +22,15 @@ from matplotlib.colors import to_rgb  # noqa: E402
 from PIL import Image  # noqa: E402
 
 import gudgeon  # noqa: E402
-from gudgeon.drawing.insets import eccentricity  # noqa: E402
-from gudgeon.drawing.labels import overlapping  # noqa: E402
+from gudgeon.drawing.insets import compute_eccentricity  # noqa: E402
+from gudgeon.drawing.labels import find_overlaps  # noqa: E402
 from gudgeon.drawing.page import _track_names  # noqa: E402
 from gudgeon.drawing.roles import INK, TINTS  # noqa: E402
 from gudgeon.drawing.shapes import Sketch  # noqa: E402
 from gudgeon.errors import BadValueError, GudgeonError, OutputError, UnknownNameError  # noqa: E402
-from gudgeon.results.figures.animation import RED, check_animation_options, sketches, touching_between  # noqa: E402
-from gudgeon.results.figures.mechanism_plots import touching_at  # noqa: E402
-from gudgeon.results.figures.postures import posture_at  # noqa: E402
+from gudgeon.results.figures.animation import RED, check_animation_options, draw_sketches, find_contacts_between  # noqa: E402
+from gudgeon.results.figures.mechanism_plots import find_contacts_at_posture  # noqa: E402
+from gudgeon.results.figures.postures import compute_posture  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 
 
@@ -154,15 +154,17 @@ def test_a_journals_number_moves_with_it(crank: Result, html: str) -> None:
 def test_a_blow_between_two_pictures_is_seen(run: Result) -> None:
     """Of the made-up run: A is in contact from 0.11 to 0.12 s, and from 0.46 s on."""
     run.state[:] = 0
-    assert touching_between(run, 0.10, 0.109) == frozenset()
-    assert touching_between(run, 0.10, 0.111) == touching_between(run, 0.119, 0.2) == frozenset({"A"})
-    assert touching_between(run, 0.13, 0.4) == frozenset() and touching_between(run, 0.9, 1.0) == frozenset({"A"})
+    assert find_contacts_between(run, 0.10, 0.109) == frozenset()
+    assert find_contacts_between(run, 0.10, 0.111) == find_contacts_between(run, 0.119, 0.2) == frozenset({"A"})
+    assert find_contacts_between(run, 0.13, 0.4) == frozenset() and find_contacts_between(run, 0.9, 1.0) == frozenset(
+        {"A"}
+    )
 
 
 def test_red_is_what_is_at_that_time(crank: Result) -> None:
     """A red journal where e ≥ c at the picture's time; a red bearing where a contact came and went since the last."""
     expected = check_animation_options(crank, 1.0, len(crank.t), [], False, False)
-    every = [*sketches(crank, replace(expected, times=crank.t))]
+    every = [*draw_sketches(crank, replace(expected, times=crank.t))]
     now = np.array(["touching" in roles(sketch) for sketch in every])
     since = np.array(["touched" in roles(sketch) for sketch in every])
     assert (now == (crank["wristpin.eps"] >= 1.0)).all() and now.any() and not now.all()
@@ -178,10 +180,10 @@ def roles(sketch: Sketch) -> set[str]:
 
 def test_between_samples_red_is_what_is_drawn(crank: Result) -> None:
     for t in (crank.t[1:] + crank.t[:-1]) / 2:
-        posture = posture_at(crank, float(t))
+        posture = compute_posture(crank, float(t))
         ends = crank.source.clearances[0]
-        overlaps = float(np.hypot(*eccentricity(posture, "wristpin"))) >= crank.p[ends.clearance]
-        assert touching_at(crank, posture) == (frozenset({"wristpin"}) if overlaps else frozenset())
+        overlaps = float(np.hypot(*compute_eccentricity(posture, "wristpin"))) >= crank.p[ends.clearance]
+        assert find_contacts_at_posture(crank, posture) == (frozenset({"wristpin"}) if overlaps else frozenset())
 
 
 def test_files(crank: Result, tmp_path: Path) -> None:
@@ -202,7 +204,7 @@ def test_files(crank: Result, tmp_path: Path) -> None:
 def test_names_follow_and_lie_on_no_other(name: str) -> None:
     """A turn of the crank: each name keeps its place beside what it names until another name is there."""
     run = gudgeon.load(name).simulate()
-    drawn = list(sketches(run, check_animation_options(run, 1.6, 25.0, [], False, False)))
+    drawn = list(draw_sketches(run, check_animation_options(run, 1.6, 25.0, [], False, False)))
     scale = 700.0 / float(drawn[0].high[0] - drawn[0].low[0])
     halves = {label.part: np.array([3.5 * len(label.text), 6.0]) for label in drawn[0].labels}
     followed = list(_track_names(drawn, dict.fromkeys(halves, (0.0, 0.0)), halves, scale))[1:]
@@ -210,12 +212,12 @@ def test_names_follow_and_lie_on_no_other(name: str) -> None:
     for sketch, before, now in zip(drawn[2:], followed, followed[1:], strict=False):
         middles = {label.part: scale * label.place + now[label.part] for label in sketch.labels}
         boxes = np.array([[*(at - halves[part]), *(at + halves[part])] for part, at in middles.items()])
-        assert overlapping(boxes, boxes).sum() == len(boxes)
+        assert find_overlaps(boxes, boxes).sum() == len(boxes)
         moves += sum(before[part] != now[part] for part in now)
         still += sum(before[part] == now[part] for part in now)
         first = [scale * label.place + followed[0][label.part] for label in sketch.labels]
         boxes = np.array([[*(at - half), *(at + half)] for at, half in zip(first, halves.values(), strict=True)])
-        fixed += int(overlapping(boxes, boxes).sum() > len(boxes))
+        fixed += int(find_overlaps(boxes, boxes).sum() > len(boxes))
     assert fixed > 0 and 0 < moves < 0.1 * still  # without following some would lie on others
 
 

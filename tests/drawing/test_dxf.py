@@ -14,7 +14,7 @@ import pytest
 pytest.importorskip("matplotlib")
 ezdxf = pytest.importorskip("ezdxf")
 
-from gudgeon.drawing.dxf import as_dxf  # noqa: E402
+from gudgeon.drawing.dxf import encode_dxf  # noqa: E402
 from gudgeon.drawing.shapes import Disc, Label, Line, Sketch  # noqa: E402
 from tests.pump import Gudgeon  # noqa: E402
 
@@ -77,7 +77,7 @@ def sketch(*parts: str, x: float = 0.25) -> Sketch:
 def test_names_that_no_layer_may_have(tmp_path: Path) -> None:
     """CAD takes names for the same that differ in capitals alone, and refuses some signs."""
     path = tmp_path / "x.dxf"
-    path.write_bytes(as_dxf([sketch("joint a", "joint A", "joint a/b", "joint a|b", "Gelenk ε")], [""]))
+    path.write_bytes(encode_dxf([sketch("joint a", "joint A", "joint a/b", "joint a|b", "Gelenk ε")], [""]))
     circles = read(path).modelspace().query("CIRCLE")
     names = [e.dxf.layer for e in circles]
     assert names == ["joint a", "joint A 2", "joint a_b", "joint a_b 2", "Gelenk ε"]
@@ -91,7 +91,7 @@ def test_names_that_no_layer_may_have(tmp_path: Path) -> None:
 @pytest.mark.parametrize("x", [np.nan, np.inf])
 def test_no_file_with_a_number_that_is_none(x: float) -> None:
     with pytest.raises(ValueError, match="not finite"):
-        as_dxf([sketch("joint a", x=x)], [""])
+        encode_dxf([sketch("joint a", x=x)], [""])
 
 
 def test_without_ezdxf_it_is_told_what_to_install(

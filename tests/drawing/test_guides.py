@@ -46,8 +46,8 @@ def test_the_ground_stays_on_its_side_of_a_guide() -> None:
     assert len(others) > 1
     postures = [start.posture for start in starts] + [replace(first.posture, q=one.q) for one in others]
     for plan in (make_plan(postures), make_plan(postures[::-1]), *(make_plan([posture]) for posture in postures)):
-        assert plan.ways["rail"] == pytest.approx([0.0, 1.0], abs=1e-15)
-        assert plan.ways["column"] == pytest.approx([1.0, 0.0], abs=1e-15)
+        assert plan.ground_directions["rail"] == pytest.approx([0.0, 1.0], abs=1e-15)
+        assert plan.ground_directions["column"] == pytest.approx([1.0, 0.0], abs=1e-15)
 
 
 TROLLEY = """format: gudgeon/1
@@ -69,7 +69,7 @@ def test_a_guide_alone_lies_away_from_what_it_carries_at_the_start(angle: str, u
     start = drawn(TROLLEY.replace("ANGLE", angle)).posture
     swung = replace(start, q=start.q + [0.0, 0.0, 0.0, 0.0, 0.0, 2.0])
     for plan in (make_plan([start]), make_plan([start, swung]), make_plan([swung], start)):
-        assert plan.ways["rail"] == pytest.approx([0.0, up], abs=1e-15)
+        assert plan.ground_directions["rail"] == pytest.approx([0.0, up], abs=1e-15)
 
 
 @pytest.mark.parametrize("rate", [-1.0, 0.0, 1.0])

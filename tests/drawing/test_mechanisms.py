@@ -13,10 +13,10 @@ import pytest
 pytest.importorskip("matplotlib")
 
 from gudgeon.assembly.branches import find_assemblies  # noqa: E402
-from gudgeon.assembly.mobility import find_mobility, free_motions  # noqa: E402
-from gudgeon.drawing.failures import freedoms, gaps  # noqa: E402
-from gudgeon.drawing.labels import Names  # noqa: E402
-from gudgeon.drawing.picture import as_bytes, figure_of  # noqa: E402
+from gudgeon.assembly.mobility import compute_free_motions, find_mobility  # noqa: E402
+from gudgeon.drawing.failures import draw_free_motions, draw_gaps  # noqa: E402
+from gudgeon.drawing.labels import NameLabels  # noqa: E402
+from gudgeon.drawing.picture import build_figure, encode_figure  # noqa: E402
 from gudgeon.drawing.plan import make_plan  # noqa: E402
 from gudgeon.drawing.posture import Posture  # noqa: E402
 from gudgeon.drawing.shapes import Disc, Label, Line  # noqa: E402
@@ -40,8 +40,8 @@ KINDS = [file for file in FILES if file.stem in CROWDED]
 def test_everything_is_drawn_once_and_no_name_lies_on_another(file: Path) -> None:
     found = drawn(file)
     sketch = make_sketch(found.posture)
-    picture = figure_of([sketch], [""], "x")
-    svg = as_bytes(picture, ".svg").decode()
+    picture = build_figure([sketch], [""], "x")
+    svg = encode_figure(picture, ".svg").decode()
     ids = re.findall(r'<g id="([^"]+)"', svg)
     mechanism = found.mechanism
     expected = [f"body-{name}" for name in mechanism.bodies] + [f"joint-{name}" for name in mechanism.joints]
@@ -56,7 +56,7 @@ def test_everything_is_drawn_once_and_no_name_lies_on_another(file: Path) -> Non
         assert a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1], (one, other)
     width, height = picture.get_size_inches() * picture.dpi
     assert all(a[0] >= 0 and a[1] >= 0 and a[2] <= width * 1.01 and a[3] <= height for a in placed.values())
-    assert as_bytes(figure_of([make_sketch(found.posture)], [""], "x"), ".svg").decode() == svg
+    assert encode_figure(build_figure([make_sketch(found.posture)], [""], "x"), ".svg").decode() == svg
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
@@ -64,16 +64,16 @@ def test_pins_and_bodies_are_where_the_start_has_them(file: Path) -> None:
     """Pins at the points of both bodies, which a closed start joins; outlines around all points of a body."""
     posture = drawn(file).posture
     sketch = make_sketch(posture)
-    for part in posture.parts("joints", "revolute"):
+    for part in posture.iterate_parts("joints", "revolute"):
         (pin,) = [shape for shape in sketch.of(f"joint {part.name}") if shape.role == "pin"]
         for end in part.ends:
-            assert isinstance(pin, Disc) and pin.centre == pytest.approx(posture.place(end), abs=1e-9)
-    for part in posture.parts("joints", "distance"):
+            assert isinstance(pin, Disc) and pin.centre == pytest.approx(posture.get_position(end), abs=1e-9)
+    for part in posture.iterate_parts("joints", "distance"):
         (rod,) = [shape for shape in sketch.of(f"joint {part.name}") if shape.role == "rod"]
         assert isinstance(rod, Line)
-        length = posture.number(f"joints.{part.name}.length")
+        length = posture.get_parameter(f"joints.{part.name}.length")
         assert float(np.hypot(*(rod.points[1] - rod.points[0]))) == pytest.approx(length, rel=1e-9)
-    for part in posture.parts("joints", "gear"):
+    for part in posture.iterate_parts("joints", "gear"):
         wheels = [shape for shape in sketch.of(f"joint {part.name}") if shape.role in ("wheel", "ring")]
         one, other = (shape for shape in wheels if isinstance(shape, Disc))
         span, inside = float(np.hypot(*(other.centre - one.centre))), part.options["internal"] == "true"
@@ -84,8 +84,8 @@ def test_names_without_room_are_left_out_and_counted() -> None:
     """As many names as do not fit at one place: those that are there lie apart, the others are told."""
     sketch = make_sketch(drawn(ROOT / "mechanisms/pendulum.yaml").posture)
     crowd = tuple(Label(f"joint x{k}", "joint", f"a_long_name_{k}", np.zeros(2)) for k in range(400))
-    picture = figure_of([replace(sketch, labels=crowd)], [""], "x")
-    svg = as_bytes(picture, ".svg").decode()
+    picture = build_figure([replace(sketch, labels=crowd)], [""], "x")
+    svg = encode_figure(picture, ".svg").decode()
     placed = dict(boxes(picture))
     assert 10 < len(placed) < 400 and f"{400 - len(placed)} names left out" in svg
     for a, b in combinations(placed.values(), 2):
@@ -127,8 +127,8 @@ start: {set: {beam.theta: 10 deg}}
 def test_a_gap_is_as_long_as_the_linkage_is_open(text: str) -> None:
     """Of each joint or drive the length of its rows' residual, joined at one end; no other has a gap."""
     found = drawn(text)
-    residual, closure = found.closure.residual(found.posture.q), found.closure
-    shapes, labels = gaps(closure, found.posture)
+    residual, closure = found.closure.compute_residual(found.posture.q), found.closure
+    shapes, labels = draw_gaps(closure, found.posture)
     lengths = dict[str, list[float]]()
     for owner, unit, left in zip(closure.owners, closure.units, residual, strict=True):
         if unit == "m" and owner != "start":
@@ -142,10 +142,12 @@ def test_a_gap_is_as_long_as_the_linkage_is_open(text: str) -> None:
             assert spans[part] == pytest.approx(size, rel=1e-9), part
     rod = next((s for s in shapes if s.part == "gap rod"), None)
     if isinstance(rod, Line):
-        reach = float(np.hypot(*(found.posture.place("slide.origin") - [0.3, 0.0])))
+        reach = float(np.hypot(*(found.posture.get_position("slide.origin") - [0.3, 0.0])))
         assert spans["gap rod"] == pytest.approx(abs(reach - 0.08), rel=1e-12)
     assert {label.part for label in labels} >= set(expected)
-    svg = as_bytes(figure_of([make_sketch(found.posture, more=shapes, labels=labels)], [""], "x"), ".svg").decode()
+    svg = encode_figure(
+        build_figure([make_sketch(found.posture, shapes_on_top=shapes, labels=labels)], [""], "x"), ".svg"
+    ).decode()
     assert all(f'id="{part.replace(" ", "-")}"' in svg for part in spans)
 
 
@@ -169,19 +171,19 @@ start: {guess: {coupler.theta: 20 deg, stray.x: 80 mm, block.x: 70 mm}}
 def test_what_may_move_is_told_by_arrows_along_it() -> None:
     found = drawn(LOOSE)
     linkage, posture = found.linkage, found.posture
-    motions = free_motions(linkage, linkage.p, posture.q)
+    motions = compute_free_motions(linkage, linkage.p, posture.q)
     mobility = find_mobility(linkage, linkage.p, posture.q)
     assert motions.shape[1] == mobility.freedoms == 5 and mobility.loose == ("stray",)
     assert np.abs(linkage.closed_phi_q(0.0, posture.q, linkage.p) @ motions).max() < 1e-12
-    shapes, labels = freedoms(found.closure, posture, 1e-3, mobility.loose)
+    shapes, labels = draw_free_motions(found.closure, posture, 1e-3, mobility.loose)
     heads = {part: [s for s in shapes if s.part == part and s.role == "free head"] for part in {s.part for s in shapes}}
     assert {part: len(found) for part, found in heads.items()} == {"free coupler": 2, "free stray": 5, "free block": 2}
     assert [label.part for label in labels] == ["free stray"]
-    for part, along in (("free coupler", posture.theta("coupler") + np.pi / 2), ("free block", 0.0)):
+    for part, along in (("free coupler", posture.get_angle("coupler") + np.pi / 2), ("free block", 0.0)):
         tips = [head.points[0] for head in heads[part] if isinstance(head, Line)]
         span = tips[0] - tips[1]
         assert abs(span @ [-np.sin(along), np.cos(along)]) < 1e-12 * float(np.hypot(*span)) + 1e-15
-    sketch = make_sketch(posture, more=shapes, labels=labels, loose=frozenset(mobility.loose))
+    sketch = make_sketch(posture, shapes_on_top=shapes, labels=labels, unconnected=frozenset(mobility.loose))
     assert {s.role for s in sketch.of("body stray")} == {"loose"} and {s.role for s in sketch.of("body crank")} == {
         "body"
     }
@@ -194,7 +196,7 @@ def test_assemblies_share_a_scale_and_differ_in_what_is_drawn() -> None:
     places = [make_sketch(replace(found.posture, q=one.q)).of("joint B")[0] for one in closed]
     one, other = (disc.centre for disc in places if isinstance(disc, Disc))
     # mirror images in the line from the crank's head to the rocker's pivot
-    a, b = found.posture.place("crank.head"), np.array([0.1, 0.0])
+    a, b = found.posture.get_position("crank.head"), np.array([0.1, 0.0])
     along = (b - a) / np.hypot(*(b - a))
     mirrored = a + 2 * ((one - a) @ along) * along - (one - a)
     assert other == pytest.approx(mirrored, abs=1e-9)
@@ -214,10 +216,10 @@ def test_the_plan_of_a_motion_holds_all_of_it() -> None:
 def test_what_leads_to_a_name_begins_at_the_edge_of_what_is_named() -> None:
     sketch, clear = make_sketch(drawn(ROOT / "mechanisms/pendulum.yaml").posture), 0.02
     crowd = tuple(Label(f"joint x{k}", "joint", f"name_{k}", np.zeros(2), clear) for k in range(60))
-    picture = figure_of([replace(sketch, labels=crowd)], [""], "x")
+    picture = build_figure([replace(sketch, labels=crowd)], [""], "x")
     picture.draw_without_rendering()
     (ax,) = picture.axes
-    (names,) = [artist for artist in ax.get_children() if isinstance(artist, Names)]
+    (names,) = [artist for artist in ax.get_children() if isinstance(artist, NameLabels)]
     feet = np.array([np.asarray(line.get_xydata(), float)[0] for line in names.leads])
     begins = ax.transData.inverted().transform(feet)
     assert len(begins) > 10

@@ -12,12 +12,12 @@ import pytest
 pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
-from gudgeon.drawing.labels import Names, crossing  # noqa: E402
+from gudgeon.drawing.labels import NameLabels, count_crossings  # noqa: E402
 from gudgeon.drawing.movers import ARROW  # noqa: E402
 from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
 from gudgeon.results.figures import plots  # noqa: E402
-from gudgeon.results.figures.mechanism_plots import sketch_at  # noqa: E402
-from gudgeon.results.figures.postures import loads_at, posture_at  # noqa: E402
+from gudgeon.results.figures.mechanism_plots import draw_sketch_at_time  # noqa: E402
+from gudgeon.results.figures.postures import compute_posture, evaluate_loads  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 
 
@@ -57,7 +57,7 @@ def test_between_samples_the_error_falls_with_the_fourth_power_of_their_distance
         run = simulation.simulate(1.0, output=count, rtol=1e-12)
         middles = (run.t[1:] + run.t[:-1]) / 2
         exact = simulation.simulate(output=[0.0, *middles], rtol=1e-12).q[1:]
-        drawn = [posture_at(run, float(t)).q for t in middles]
+        drawn = [compute_posture(run, float(t)).q for t in middles]
         errors.append(np.abs(np.array(drawn) - exact).max())
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
     np.testing.assert_allclose(orders, 4.0, atol=0.3)
@@ -69,12 +69,12 @@ def test_joints_stay_together_between_coarse_samples(four_bar: Result) -> None:
     run = simulation.simulate(1.0, output=9)
     for t in (0.03, 0.17, 0.555):
         exact = simulation.simulate(output=[0.0, t])
-        np.testing.assert_allclose(posture_at(run, t).q, exact.q[-1], atol=1e-12)
+        np.testing.assert_allclose(compute_posture(run, t).q, exact.q[-1], atol=1e-12)
 
 
 def test_the_rate_between_samples_is_that_of_the_place(four_bar: Result) -> None:
     t, h = 0.2525, 1e-6
-    before, at, after = (posture_at(four_bar, t + shift) for shift in (-h, 0.0, h))
+    before, at, after = (compute_posture(four_bar, t + shift) for shift in (-h, 0.0, h))
     assert at.v is not None
     np.testing.assert_allclose(at.v, (after.q - before.q) / (2 * h), rtol=1e-6, atol=1e-7)
 
@@ -108,7 +108,7 @@ def test_arrows_are_the_series_to_the_scale_that_is_drawn(press: Result) -> None
     k = 60
     ax = press.plot.mechanism(float(press.t[k]), velocities=True, forces=True)
     found = by_gid(ax)
-    (names,) = [artist for artist in ax.get_children() if isinstance(artist, Names)]
+    (names,) = [artist for artist in ax.get_children() if isinstance(artist, NameLabels)]
     message = {label.part: label.text for label in names.sketch.labels}
     for role, on, unit, letter, of_these in (
         ("velocity", "", "m/s", "v", ("L1.head", "L7.com", "L8.head")),
@@ -135,7 +135,7 @@ def test_applied_forces_are_to_the_scale_of_reactions(pushed: Result) -> None:
     """Both against the series, by the arrow of a round number; without reactions a force has one length."""
     ax = pushed.plot.mechanism(float(pushed.t[20]), forces=True)
     found = by_gid(ax)
-    (names,) = [artist for artist in ax.get_children() if isinstance(artist, Names)]
+    (names,) = [artist for artist in ax.get_children() if isinstance(artist, NameLabels)]
     message = {label.part: label.text for label in names.sketch.labels}["scale reaction"]
     stands, unit = re.fullmatch(r"reaction on the second body, applied force: ([\d.]+) (m?N)", message).groups()  # type: ignore[union-attr]
     length = np.hypot(*(found["scale-reaction-2"].get_xy()[0] - found["scale-reaction"].get_xy()[0]))
@@ -149,14 +149,14 @@ def test_applied_forces_are_to_the_scale_of_reactions(pushed: Result) -> None:
 
 
 def test_a_force_has_an_arrow_in_every_drawing_of_a_run(pushed: Result) -> None:
-    picture: Any = plots.figure({"ideal": pushed}, pushed, ["rod.x"])
+    picture: Any = plots.draw_run_figure({"ideal": pushed}, pushed, ["rod.x"])
     (drawn,) = [ax for ax in picture.get_axes() if "body-rod" in by_gid(ax)]
     assert drawn.get_title() == "t = 0 s"
     scene = gudgeon.load("slider_crank_spring")
     for found in (by_gid(drawn), by_gid(pushed.plot.path("rod.tip"))):
         assert {"force-push", "force-push-2"} <= set(found)  # a shaft and a head
     start = scene.start()
-    (push,) = loads_at(scene.source, scene.p, start.q, start.v).values()
+    (push,) = evaluate_loads(scene.source, scene.p, start.q, start.v).values()
     assert push == pytest.approx((pushed["push.Fx"][0], pushed["push.Fy"][0])) == (1.0, 0.0)
 
 
@@ -201,11 +201,11 @@ def test_a_file_of_a_run_is_drawn_as_the_run_is(press: Result, tmp_path: Path) -
 
 
 def test_the_figure_of_a_command_shows_the_mechanism(press: Result, tmp_path: Path) -> None:
-    picture: Any = plots.figure({"dry": press}, press, ["S9.y"])
+    picture: Any = plots.draw_run_figure({"dry": press}, press, ["S9.y"])
     drawn = [ax for ax in picture.get_axes() if "body-L7" in by_gid(ax)]
     assert len(drawn) == 1
     plots.save_figure(picture, tmp_path / "x.png")
-    (names,) = [artist for artist in drawn[0].get_children() if isinstance(artist, Names)]
+    (names,) = [artist for artist in drawn[0].get_children() if isinstance(artist, NameLabels)]
     assert {f"joint {name}" for name in ("A", "guide", "P2")} <= set(names.boxes)
 
 
@@ -213,15 +213,15 @@ def test_walls_stand_still() -> None:
     """What a spring and a cylinder hold on the ground lies where it lay, across the mean of their motion."""
     for name, part in (("andrews_squeezer", "force spring"), ("cylinder_boom", "drive cylinder")):
         run = gudgeon.load(name).simulate()
-        shapes = [sketch_at(run, share * float(run.t[-1])).shapes for share in (0.0, 0.37, 1.0)]
+        shapes = [draw_sketch_at_time(run, share * float(run.t[-1])).shapes for share in (0.0, 0.37, 1.0)]
         walls = [next(one.points for one in own if (one.part, one.role) == (part, "rail")) for own in shapes]  # type: ignore[union-attr]
         assert np.ptp(walls, axis=0).max() < 1e-12, name
         fixed, moving = sorted(
             next(one.ends for one in run.source.parts if one.name == part.split()[1]),
             key=lambda end: not end.startswith("ground"),
         )
-        postures = [posture_at(run, float(t)) for t in run.t[:: max(1, len(run.t) // 20)]]
-        spans = [posture.place(moving) - posture.place(fixed) for posture in postures]
+        postures = [compute_posture(run, float(t)) for t in run.t[:: max(1, len(run.t) // 20)]]
+        spans = [posture.get_position(moving) - posture.get_position(fixed) for posture in postures]
         mean = np.mean([span / np.hypot(*span) for span in spans], axis=0)
         across = walls[0][1] - walls[0][0]
         assert abs(float(across @ mean)) < 0.05 * float(np.hypot(*across)), name
@@ -233,12 +233,12 @@ def test_no_line_leads_under_a_name() -> None:
     for t in np.linspace(0.0, 1.0, 6):
         ax: Any = run.plot.mechanism(float(t))
         ax.figure.draw_without_rendering()
-        names = next(artist for artist in ax.get_children() if isinstance(artist, Names))
+        names = next(artist for artist in ax.get_children() if isinstance(artist, NameLabels))
         leads: Any = names.leads
         for line in leads:
             segment = line.get_xydata().reshape(1, 4)
             inner = [np.array(box) + [1.0, 1.0, -1.0, -1.0] for box in names.boxes.values()]
-            assert sum(crossing(box, segment) for box in inner) == 0, t
+            assert sum(count_crossings(box, segment) for box in inner) == 0, t
 
 
 def test_a_title_fits_a_narrow_figure() -> None:

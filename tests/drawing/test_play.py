@@ -7,7 +7,7 @@ import pytest
 
 pytest.importorskip("matplotlib")
 
-from gudgeon.drawing.insets import eccentricity, magnification  # noqa: E402
+from gudgeon.drawing.insets import compute_eccentricity, compute_magnification  # noqa: E402
 from gudgeon.drawing.shapes import Disc, Line, unit_vector  # noqa: E402
 from gudgeon.drawing.sketch import make_sketch  # noqa: E402
 from tests.drawing.drawn import ROOT, drawn  # noqa: E402
@@ -19,11 +19,11 @@ def test_a_journal_is_drawn_where_it_is_at_the_scale_that_is_told() -> None:
     text = (ROOT / "mechanisms/slider_crank.yaml").read_text()
     text = text.replace("start:\n", "start:\n  play: {wristpin: {e: [0.05 mm, -0.12 mm]}}\n")
     posture = drawn(text).posture
-    e = eccentricity(posture, "wristpin")
+    e = compute_eccentricity(posture, "wristpin")
     assert e == pytest.approx([5e-5, -1.2e-4], abs=1e-12)
     sketch = make_sketch(posture)
     by_role = {s.role: s for s in sketch.of("inset wristpin") if isinstance(s, Disc)}
-    times = magnification(posture, "wristpin", sketch.unit)
+    times = compute_magnification(posture, "wristpin", sketch.unit)
     assert by_role["journal"].centre - by_role["hole"].centre == pytest.approx(times * e)
     assert by_role["clearance"].radius == pytest.approx(times * 2e-4)
     assert by_role["hole"].radius - by_role["journal"].radius == pytest.approx(times * 2e-4)  # the gap is to scale
@@ -49,7 +49,7 @@ def test_a_slider_is_drawn_between_its_walls_where_it_is() -> None:
     delta = [one[0] for one in ORACLE.contacts(np.array([posture.q[2], *posture.q[3:6], *[0.0] * 4]))]
     assert sorted(np.sign(delta)) == [-1.0, -1.0, -1.0, 1.0]
     sketch = make_sketch(posture)
-    times, up = magnification(posture, "way", sketch.unit), np.array([-np.sin(0.2), np.cos(0.2)])
+    times, up = compute_magnification(posture, "way", sketch.unit), np.array([-np.sin(0.2), np.cos(0.2)])
     shapes = sketch.of("inset way")
     heights = [shape.points @ up for shape in shapes if isinstance(shape, Line) and shape.role == "bearing"]
     discs = [shape for shape in shapes if isinstance(shape, Disc)]

@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 
 from gudgeon.loading.compiler import find_compiler
-from gudgeon.loading.engine import include_flags
+from gudgeon.loading.engine import build_include_flags
 
 FOLDER = Path(__file__).parent / "c"
-FLAGS = ["-std=c11", "-O1", "-g", "-Wall", "-Wextra", "-Werror", *include_flags()]
+FLAGS = ["-std=c11", "-O1", "-g", "-Wall", "-Wextra", "-Werror", *build_include_flags()]
 
 
 @pytest.mark.parametrize("program", sorted(file.stem for file in FOLDER.glob("test_*.c")))

@@ -73,7 +73,9 @@ class ComplexStep:
 
     def __init__(self, model: Model, values: Mapping[str, float] | None = None) -> None:
         self.model, self.n = model, len(model.q)
-        given = {model.slots.entries[address].symbol: sp.Float(x, 17) for address, x in (values or {}).items()}
+        given = {
+            model.parameter_table.entries[address].symbol: sp.Float(x, 17) for address, x in (values or {}).items()
+        }
         self._numbers = {s: sp.Float(x, 17) for s, x in defaults(model).items()} | given
         rows = (*model.Phi, *model.Phi_q, *model.nu, *model.gamma)
         elements = [element.loads.power for element in model.elements.values()]
@@ -97,7 +99,7 @@ class ComplexStep:
     def function(self, expressions: Iterable[sp.Expr]) -> Callable[..., Complex]:
         """Expressions in the model's symbols as a function of (t, q, v)."""
         state = [self.model.t, list(self.model.q), list(self.model.v)]
-        return self._lambda(state, [self.model.symbols.explicit(sp.sympify(e)) for e in expressions])
+        return self._lambda(state, [self.model.symbols.expand_definitions(sp.sympify(e)) for e in expressions])
 
     def _lambda(self, arguments: Sequence[Any], expressions: Sequence[sp.Expr]) -> Callable[..., Complex]:
         numbers = [e.xreplace(self._numbers) for e in expressions]
@@ -194,7 +196,7 @@ class ComplexStep:
         speeds = (ux * n_x + uy * n_y, uy * n_x - ux * n_y, w_i, w_j)
         worn = [0.0 + 0j, 0.0 + 0j]
         if joint.contour:
-            table = [complex(self._numbers[s]) for s in self.model.slots.tables[joint.contour.table]]
+            table = [complex(self._numbers[s]) for s in self.model.parameter_table.tables[joint.contour.table]]
             worn = _hermite(table, _angle(ey, ex) - theta)
         delta, total = e - c - worn[0], np.zeros(4, dtype=complex)
         share = 1.0 if joint.film is None else self._share(joint, delta, e_0) if delta.real > 0.0 else 0.0
@@ -236,7 +238,7 @@ class ComplexStep:
         if joint.clip_ratio:
             ratio = _greatest(-1.0 + 0j, _least(1.0 + 0j, ratio))
         a_i, a_j = R_i + delta / 2, R_j - delta / 2
-        (normal,) = self._law(joint.normal, delta, ratio, *[v_n] * len(joint.normal.further))
+        (normal,) = self._law(joint.normal, delta, ratio, *[v_n] * len(joint.normal.further_variables))
         tangential = 0.0
         if joint.friction is not None:
             own = len(joint.states)
@@ -255,7 +257,7 @@ class ComplexStep:
         rate = gradient @ np.array([v_n, v_t]) + slope * w_i
         normal, tangent = gradient / steep, np.array([slope / e, 1.0]) / steep
         ratio = 1.0 + 0j if np.isnan(stored) else rate / stored
-        (force,) = self._law(joint.normal, delta, ratio, *[rate] * len(joint.normal.further))
+        (force,) = self._law(joint.normal, delta, ratio, *[rate] * len(joint.normal.further_variables))
         arm_j = (R_j - delta / steep / 2) * normal  # from the journal's centre to where both touch
         arm_i = arm_j + np.array([e, 0.0])
         spin_i, spin_j = (w * np.array([-arm[1], arm[0]]) for w, arm in ((w_i, arm_i), (w_j, arm_j)))
@@ -290,7 +292,7 @@ class ComplexStep:
         rate = meeting @ normal
         ratio, along = 1.0 + 0j if np.isnan(stored) else rate / stored, 0.0
         assert joint.normal is not None
-        (force,) = self._law(joint.normal, delta, ratio, *[rate] * len(joint.normal.further))
+        (force,) = self._law(joint.normal, delta, ratio, *[rate] * len(joint.normal.further_variables))
         if joint.friction is not None:
             own = len(joint.states)
             along, *bending[:own] = self._law(joint.friction, force, meeting @ tangent, *z[:own])
@@ -314,7 +316,7 @@ class ComplexStep:
         if id(equations) not in self._laws:
             known: dict[sp.Symbol, sp.Expr] = {}
             for name, step in equations.steps.items():
-                value = self.model.symbols.explicit(sp.sympify(step)).xreplace(known)
+                value = self.model.symbols.expand_definitions(sp.sympify(step)).xreplace(known)
                 known[sp.Symbol(name, real=True)] = value
             results = [known[sp.Symbol(name, real=True)] for name in equations.law.results]
             self._laws[id(equations)] = self._lambda(list(equations.variables), results)

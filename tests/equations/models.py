@@ -10,7 +10,7 @@ import numpy as np
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.pipeline import derive
+from gudgeon.generator.pipeline import derive_scene
 from tests.oracles.linkage_yaml import to_yaml
 from tests.oracles.random_linkage import Case, random_case
 
@@ -21,19 +21,21 @@ Function = Callable[[complex, np.ndarray, np.ndarray], np.ndarray]
 def press(scene: str) -> Model:
     """The shipped press."""
     data = resources.files("gudgeon.mechanisms").joinpath("nine_bar_press.yaml").read_bytes()
-    return derive(data, "nine_bar_press.yaml", scene)
+    return derive_scene(data, "nine_bar_press.yaml", scene)
 
 
 @cache
 def random_model(seed: int) -> tuple[Case, Model]:
     """A random linkage as the oracle has it and as the product derives it from its file."""
     case = random_case(seed, bodies=2 + seed % 4, loops=seed % 3, drives=seed % 3)
-    return case, derive(to_yaml(case).encode(), f"random_{seed}.yaml", "ideal")
+    return case, derive_scene(to_yaml(case).encode(), f"random_{seed}.yaml", "ideal")
 
 
 def defaults(model: Model) -> dict[sp.Symbol, sp.Expr]:
     """Every slot's default, as the exact value of its binary64 number."""
-    return {entry.symbol: sp.Rational(*entry.default.as_integer_ratio()) for entry in model.slots.entries.values()}
+    return {
+        entry.symbol: sp.Rational(*entry.default.as_integer_ratio()) for entry in model.parameter_table.entries.values()
+    }
 
 
 def numeric(model: Model, matrix: sp.Matrix) -> Function:

@@ -7,7 +7,7 @@ from typing import Any
 
 import sympy as sp
 
-from gudgeon.generator.kinds.laws.law import RESULTS, VARIABLES, LawInputs, PairSymbols, laws
+from gudgeon.generator.kinds.laws.law import RESULTS, VARIABLES, LawInputs, PairSymbols, find_all_laws
 
 PAIR = PairSymbols(R_i=0.015, R_j=0.0147, c=0.3e-3, L=0.04, E_i=70e9, nu_i=0.3, E_j=206e9, nu_j=0.28)
 
@@ -16,9 +16,9 @@ class Evaluator:
     """A law with numbers for everything but its state variables; calls give its results as floats."""
 
     def __init__(self, name: str, parameters: Mapping[str, float], **options: str | bool) -> None:
-        self.law = laws()[name]
+        self.law = find_all_laws()[name]
         values = {p.name: p.default for p in self.law.parameters} | dict(parameters)
-        selected = {o.name: o.choice for o in self.law.options} | options
+        selected = {o.name: o.default_option for o in self.law.options} | options
         symbols = {v: sp.Symbol(v, real=True) for v in self.law.variables}
         pair = PairSymbols(**{k: sp.Float(v) for k, v in vars(PAIR).items()})
         numbers = {k: sp.Float(v) for k, v in values.items() if v is not None}

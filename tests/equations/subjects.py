@@ -9,9 +9,9 @@ from functools import cache, cached_property
 import numpy as np
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.pipeline import derive, in_c
+from gudgeon.generator.pipeline import derive_scene, generate_c
 from gudgeon.loading.build import compile_kernels
-from gudgeon.loading.shipped import shipped_file
+from gudgeon.loading.shipped import find_shipped_file
 from gudgeon.model.compiled import CompiledModel
 from tests.equations.complex_step import ComplexStep
 
@@ -85,11 +85,11 @@ def _derived(
     data: bytes, name: str, scene: str, options: tuple[tuple[str, object], ...]
 ) -> tuple[Model, CompiledModel]:
     """What the numbers have no part in."""
-    model = derive(data, name, scene, {key.replace("__", "."): x for key, x in options})  # type: ignore[misc]
-    source = in_c(model, "full")
+    model = derive_scene(data, name, scene, {key.replace("__", "."): x for key, x in options})  # type: ignore[misc]
+    source = generate_c(model, "full")
     return model, CompiledModel(source, compile_kernels(source))
 
 
 @cache
 def shipped_subject(name: str, scene: str, gains: float = 50.0) -> Subject:
-    return make(shipped_file(name).read_bytes(), name, scene, dict.fromkeys(GAINS, gains))
+    return make(find_shipped_file(name).read_bytes(), name, scene, dict.fromkeys(GAINS, gains))

@@ -10,7 +10,7 @@ import sympy as sp
 from sympy.printing.c import C99CodePrinter
 from sympy.printing.pycode import PythonCodePrinter
 
-from gudgeon.generator.symbols.derivatives import derivative, symbols_of
+from gudgeon.generator.symbols.derivatives import differentiate, find_symbols
 from gudgeon.generator.symbols.switches import Pick
 from gudgeon.generator.targets.cached_printer import CachedPrinter
 
@@ -58,14 +58,14 @@ def expressions(count: int) -> Iterator[sp.Expr]:
 )
 def test_derivatives_of_each_kind(expression: sp.Expr) -> None:
     for symbol in SYMBOLS:
-        assert derivative(expression, symbol) == sp.diff(expression, symbol)
+        assert differentiate(expression, symbol) == sp.diff(expression, symbol)
 
 
 def test_derivatives_and_symbols_of_random_expressions() -> None:
     for expression in expressions(60):
-        assert symbols_of(expression) == expression.free_symbols
+        assert find_symbols(expression) == expression.free_symbols
         for symbol in SYMBOLS:
-            assert derivative(expression, symbol) == sp.diff(expression, symbol), (expression, symbol)
+            assert differentiate(expression, symbol) == sp.diff(expression, symbol), (expression, symbol)
 
 
 @pytest.mark.parametrize("printer", [C99CodePrinter, PythonCodePrinter])

@@ -11,7 +11,7 @@ import sympy as sp
 
 import gudgeon
 from gudgeon.errors import SolverError
-from gudgeon.generator.kinds.laws.law import LawInputs, PairSymbols, laws
+from gudgeon.generator.kinds.laws.law import LawInputs, PairSymbols, find_all_laws
 from tests.equations.one_law import PAIR, Evaluator
 from tests.equations.subjects import NAN, make
 from tests.kernels.test_jacobian_contacts import PRESS, journal_at
@@ -70,7 +70,7 @@ def test_slope_by_the_implicit_function_theorem(law: str) -> None:
     numbers = {"restitution": sp.Integer(1)}
     pair = PairSymbols(**{key: sp.Float(value, 40) for key, value in vars(PAIR).items()})
     given = {"delta": delta, "ratio": sp.Integer(0), "deltadot": sp.Integer(0)}
-    steps = laws()[law].build(LawInputs(numbers, {"dissipation": "none"}, pair, given, lambda n, x, m: x))
+    steps = find_all_laws()[law].build(LawInputs(numbers, {"dissipation": "none"}, pair, given, lambda n, x, m: x))
     known: dict[sp.Symbol, sp.Expr] = {}
     slopes: dict[sp.Symbol, sp.Expr] = {}
     with mp.workdps(30):

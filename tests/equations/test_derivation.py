@@ -9,7 +9,7 @@ import pytest
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.pipeline import derive
+from gudgeon.generator.pipeline import derive_scene
 from tests.equations.models import numeric, press, random_model, random_state
 from tests.oracles import ideal_press, numpy_linkage
 from tests.slow import slow_but
@@ -41,10 +41,10 @@ def test_an_arm_is_that_of_the_point_whose_name_it_has() -> None:
     """A(θ) s, s from the body's centre of mass: documents say so by the name."""
     model = press("ideal")
     geometry = model.geometry
-    named = {symbol: of for symbol, of in geometry.turned.items() if of.point}
+    named = {symbol: of for symbol, of in geometry.turned_components.items() if of.point}
     assert len(named) > 10
     for symbol, of in named.items():
-        cos, sin = geometry.angle(geometry.bodies[of.body])
+        cos, sin = geometry.find_cos_and_sin(geometry.bodies[of.body])
         x, y = geometry.local[of.body, of.point]
         want = cos * x - sin * y if of.axis == "x" else sin * x + cos * y
         assert sp.expand(model.symbols.definitions[symbol] - want) == 0
@@ -91,7 +91,7 @@ def test_drives_with_corners_have_the_rates_of_the_side_that_they_are_on() -> No
     values = {name: form.replace("T", "(t/(1 s))") for name, (form, *_) in CORNERS.items()}
     drives = "".join(f'  by_{n}: {{coordinate: {n}.x, value: "1 m*({value})"}}\n' for n, value in values.items())
     text = f"format: gudgeon/1\nname: corners\nground: {{o: [0, 0]}}\nbodies:\n{bodies}drives:\n{drives}"
-    model = derive(text.encode(), "corners.yaml", "ideal").numpy()
+    model = derive_scene(text.encode(), "corners.yaml", "ideal").numpy()
     p, rest = model.prepare(), np.zeros(model.n)
     for T in (0.25, 0.4, 0.6, 0.75):
         want = np.array([(before if T < 0.5 else after)(T) for _, before, after in CORNERS.values()])
@@ -128,7 +128,7 @@ def test_random_linkages_against_the_oracle(seed: int) -> None:
         for function, want in zip(functions, (rows.phi, rows.phi_q, rows.nu, rows.gamma), strict=True):
             got = function(t, q, v)
             assert close(got if want.ndim == 2 else got[:, 0], want, 1e-13)
-    numbers = {e.symbol: e.default for e in model.slots.entries.values()}
+    numbers = {e.symbol: e.default for e in model.parameter_table.entries.values()}
     assert [float(m.subs(numbers)) for m in model.masses] == pytest.approx(numpy_linkage.mass(case.linkage), rel=1e-15)
     assert [float(g.subs(numbers)) for g in model.g] == pytest.approx(
         numpy_linkage.forces(case.linkage, case.q, case.v), rel=1e-14
@@ -158,10 +158,10 @@ def test_a_row_that_mixes_time_and_coordinates() -> None:
     """A row made of a coordinate and a drive's angle has ∂²Φ/∂q∂t, which γ counts twice."""
     model, h = press("ideal"), 1e-30
     body, angle = model.bodies[0], model.constraints.drive_angles["crank1"][0]
-    cos, _ = model.geometry.angle(body)
+    cos, _ = model.geometry.find_cos_and_sin(body)
     phi = body.x * angle**2 + cos * body.y * angle
     row = model.constraints._derive_row("mixed", "mixed", "joint", "m", phi, [body])
-    explicit = model.symbols.explicit
+    explicit = model.symbols.expand_definitions
     phi_q_v, nu, gamma = (numeric(model, sp.Matrix([explicit(e)])) for e in (row.phi_q_v, row.nu, row.gamma))
     t, q, v = random_state(model, 5)
     later = t + 1j * h, q + 1j * h * v, v

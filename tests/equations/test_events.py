@@ -13,11 +13,11 @@ import pytest
 
 from gudgeon.contract.kernel_source import EventInfo, KernelSource
 from gudgeon.errors import BadValueError, UnknownNameError
-from gudgeon.generator.pipeline import derive, generate
+from gudgeon.generator.pipeline import derive_scene, generate
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.targets.latex import equations_text
 from gudgeon.loading.compiler import find_compiler
-from gudgeon.loading.engine import include_flags, sizes
+from gudgeon.loading.engine import build_include_flags, parse_sizes
 
 SLIDER = resources.files("gudgeon.mechanisms").joinpath("slider_crank.yaml").read_text(encoding="utf-8")
 EVENTS = """
@@ -74,13 +74,13 @@ def test_the_runtime_is_told() -> None:
 def test_terms_that_cancel_are_refused_at_their_place() -> None:
     data = file("events: {still: {zero: crank.x - crank.x + c}}\n")
     with pytest.raises(BadValueError, match="never changes: its terms cancel") as caught:
-        derive(data, "slider.yaml", "ideal")
+        derive_scene(data, "slider.yaml", "ideal")
     assert caught.value.where is not None and caught.value.where.column == len("events: {still: {zero: ") + 1
 
 
 def test_a_scene_without_events_has_no_code_for_them() -> None:
     source = generate(file(""), "slider.yaml", "ideal")
-    assert sizes(source)["N_USER_EVENTS"] == 0 and "watched.c" not in source.files
+    assert parse_sizes(source)["N_USER_EVENTS"] == 0 and "watched.c" not in source.files
     assert not any("event[" in text for text in source.files.values())
 
 
@@ -113,7 +113,7 @@ def values(source: KernelSource, driver: str, states: np.ndarray, folder: Path) 
     """What a driver prints of states (N, …) that it reads."""
     for name, text in {**source.files, "driver.c": driver}.items():
         (folder / name).write_text(text, encoding="utf-8")
-    command = [*find_compiler(), "-std=c11", "-O0", *include_flags(), "driver.c", "-o", "driver", "-lm"]
+    command = [*find_compiler(), "-std=c11", "-O0", *build_include_flags(), "driver.c", "-o", "driver", "-lm"]
     subprocess.run(command, cwd=folder, check=True, capture_output=True)
     text = "\n".join(" ".join(f"{x:.17g}" for x in state) for state in states)
     done = subprocess.run(["./driver"], cwd=folder, input=text, check=True, capture_output=True, text=True)
@@ -159,6 +159,6 @@ def test_values_at_random_states(scene: str, tmp_path: Path) -> None:
 
 
 def test_written_equations_hold_them() -> None:
-    text = equations_text(derive(file(), "slider.yaml", "ideal"))
+    text = equations_text(derive_scene(file(), "slider.yaml", "ideal"))
     assert "corner: where it falls through zero the run ends:" in text
     assert "z_reach = " in text and "lift: where it crosses zero the time is recorded:" in text

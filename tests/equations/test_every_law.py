@@ -15,7 +15,14 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from gudgeon.generator.kinds.laws.law import FURTHER, VARIABLES, Law, LawInputs, PairSymbols, bundled_laws
+from gudgeon.generator.kinds.laws.law import (
+    FURTHER_VARIABLES,
+    VARIABLES,
+    Law,
+    LawInputs,
+    PairSymbols,
+    find_bundled_laws,
+)
 from tests.equations.one_law import PAIR
 from tests.equations.subjects import NAN, Subject, make
 from tests.programs import needs_compiler
@@ -99,16 +106,16 @@ def _corners(value: sp.Expr) -> Iterator[sp.Expr]:
 def choices() -> list[tuple[str, str]]:
     """Every law that gives a force with its defaults, then with each other choice of one key."""
     found = []
-    for law in (law for law in bundled_laws().values() if not law.rigid):
+    for law in (law for law in find_bundled_laws().values() if not law.rigid):
         found.append((law.name, ""))
-        found += [(law.name, f"{own.name}={x}") for own in law.options for x in own.values if x != own.choice]
+        found += [(law.name, f"{own.name}={x}") for own in law.options for x in own.values if x != own.default_option]
     return found
 
 
 @cache
 def vectors(name: str, choice: str, *changed: tuple[str, float]) -> Vectors:
-    law = bundled_laws()[name]
-    options = {own.name: own.choice for own in law.options}
+    law = find_bundled_laws()[name]
+    options = {own.name: own.default_option for own in law.options}
     if choice:
         key, _, word = choice.partition("=")
         options[key] = next(x for own in law.options if own.name == key for x in own.values if str(x) == word)
@@ -145,7 +152,7 @@ def passive(own: Vectors, count: int, seed: int = 1) -> Array:
     law, state = own.law, random(own.law, count, seed)
     if law.role == "normal":  # the rest is elastic
         moving = own(*state)["F_n"]
-        rates = {"ratio", *FURTHER["normal"]}
+        rates = {"ratio", *FURTHER_VARIABLES["normal"]}
         still = own(*(0.0 * x if name in rates else x for name, x in zip(law.variables, state, strict=True)))["F_n"]
         rate = state[law.variables.index("deltadot" if law.name == "kelvin_voigt" else "ratio")]
         assert (still >= 0.0).all() and np.isfinite(moving).all()
@@ -235,7 +242,7 @@ def jump(own: Vectors, g: Callable[..., Any], seed: int) -> float | None:
     )
 
 
-@pytest.mark.parametrize("name", sorted(n for n, law in bundled_laws().items() if law.role == "film"))
+@pytest.mark.parametrize("name", sorted(n for n, law in find_bundled_laws().items() if law.role == "film"))
 def test_a_film_is_isotropic_at_the_centre_and_none_at_rest(name: str) -> None:
     """At ε = 0 any direction may be the normal: force and velocity are parallel, and alike whichever way they point."""
     own, rng = vectors(name, ""), np.random.default_rng(4)
@@ -248,12 +255,12 @@ def test_a_film_is_isotropic_at_the_centre_and_none_at_rest(name: str) -> None:
     assert max(np.abs(still[force]).max() for force in ("F_r", "F_t")) < 1e-140  # what keeps 0/0 away
 
 
-@pytest.mark.parametrize("name", sorted(n for n, law in bundled_laws().items() if law.role == "film"))
+@pytest.mark.parametrize("name", sorted(n for n, law in find_bundled_laws().items() if law.role == "film"))
 def test_a_film_is_in_proportion_to_its_viscosity(name: str) -> None:
     """So that without viscosity what is left of a joint's force is what its surfaces bear (simulation/wear.py)."""
-    state = random(bundled_laws()[name], 1000)
+    state = random(find_bundled_laws()[name], 1000)
     thin, thick, none = (vectors(name, "shear=True", ("viscosity", mu))(*state) for mu in (0.01, 0.03, 0.0))
-    for result in bundled_laws()[name].results:
+    for result in find_bundled_laws()[name].results:
         np.testing.assert_allclose(thick[result], 3.0 * thin[result], rtol=1e-12)
         assert np.abs(thin[result]).max() > 0.0 and not np.any(none[result])
 
@@ -305,7 +312,7 @@ scenes: {{all: {{play: {{{", ".join(f"J{k}: {{bearing: b, contact: c{k}}}" for k
 def test_no_law_without_states_is_left_out_of_the_slopes() -> None:
     named = {word.strip(" ,{}") for word in CONTACTS.replace("law: ", "\n@").split("\n") if word.startswith("@")}
     named = {word[1:].split(",")[0].strip(" }") for word in named}
-    assert named == {law.name for law in bundled_laws().values() if not (law.states or law.rigid)}
+    assert named == {law.name for law in find_bundled_laws().values() if not (law.states or law.rigid)}
 
 
 @pytest.fixture(scope="module")
@@ -349,4 +356,4 @@ def test_no_joint_jumps_where_film_and_contact_meet(discs: Subject) -> None:
 
 def test_variables_are_drawn_for_every_role() -> None:
     known = {"delta", "ratio", "deltadot", "F_n", "v_t", "epsilon", "w_n", "w_t"}
-    assert {x for some in (*VARIABLES.values(), *FURTHER.values()) for x in some} <= known
+    assert {x for some in (*VARIABLES.values(), *FURTHER_VARIABLES.values()) for x in some} <= known

@@ -10,7 +10,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, InputError, SolverError
-from gudgeon.generator.pipeline import derive
+from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.reader.read import read_mechanism
 from tests.equations.subjects import NAN, make
 from tests.programs import needs_compiler
@@ -135,7 +135,7 @@ def test_what_is_no_such_force_is_told_where_it_stands(force: str) -> None:
     message, hint, offset = WRONG[force]
     lines = text(f'expression, force: "{force}"').encode()
     with pytest.raises(InputError) as error:
-        derive(lines, "ball.yaml", "dry")
+        derive_scene(lines, "ball.yaml", "dry")
     where = error.value.where
     assert message in str(error.value) and hint in str(error.value)
     assert where is not None and where.line == 13

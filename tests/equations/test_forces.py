@@ -9,7 +9,7 @@ import sympy as sp
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from gudgeon.generator.kinds.laws.law import RESULTS, LawInputs, PairSymbols, laws
+from gudgeon.generator.kinds.laws.law import RESULTS, LawInputs, PairSymbols, find_all_laws
 from tests.equations.one_law import PAIR, Evaluator
 from tests.oracles import dry, film
 
@@ -35,12 +35,12 @@ FRICTION = Evaluator("modified_coulomb", {"mu": 0.15, "v0": 1e-4, "v1": 1e-3})
 
 def test_every_law_is_built_of_smooth_pieces_and_known_symbols() -> None:
     """No Piecewise (common-subexpression elimination would hoist a division above its guard), no stray symbols."""
-    assert {law.role for law in laws().values()} == set(RESULTS)
-    for law in laws().values():
+    assert {law.role for law in find_all_laws().values()} == set(RESULTS)
+    for law in find_all_laws().values():
         symbols = {v: sp.Symbol(v, real=True) for v in law.variables}
         parameters = {p.name: sp.Symbol(p.name, positive=True) for p in law.parameters}
         pair = PairSymbols(**{k: sp.Symbol(k, positive=True) for k in vars(PAIR)})
-        selected = {o.name: o.choice for o in law.options}
+        selected = {o.name: o.default_option for o in law.options}
         steps = law.build(LawInputs(parameters, selected, pair, symbols, lambda name, expression, meaning: expression))
         assert set(law.results) <= set(steps)
         known = {*symbols.values(), *parameters.values(), *vars(pair).values()}

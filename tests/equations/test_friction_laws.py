@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
-from gudgeon.generator.kinds.laws.law import called
+from gudgeon.generator.kinds.laws.law import find_laws_of_role
 from tests.equations.one_law import Evaluator
 
 MU, MU_S, NORMAL = 0.12, 0.2, 37.0
@@ -48,7 +48,7 @@ PRINTED = {
 
 
 def test_none_is_left_out() -> None:
-    assert set(PRINTED) | {"dahl", "lugre"} == set(called("friction"))
+    assert set(PRINTED) | {"dahl", "lugre"} == set(find_laws_of_role("friction"))
 
 
 @pytest.mark.parametrize("name", sorted(PRINTED))

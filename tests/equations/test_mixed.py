@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import quad
 
 import gudgeon
-from gudgeon.generator.kinds.laws.law import called
+from gudgeon.generator.kinds.laws.law import find_laws_of_role
 from tests.equations.one_law import Evaluator
 from tests.programs import needs_compiler
 
@@ -25,7 +25,7 @@ def share(law: str, ratio: float) -> float:
 
 
 def test_none_is_left_out() -> None:
-    assert set(FIRST) == set(called("mixed"))
+    assert set(FIRST) == set(find_laws_of_role("mixed"))
 
 
 def test_christensens_share_is_the_area_in_which_heights_overlap() -> None:

@@ -6,8 +6,8 @@ import pytest
 import sympy as sp
 
 from gudgeon.errors import Location
-from gudgeon.generator.symbols.from_expressions import to_sympy
-from gudgeon.generator.symbols.squares import root
+from gudgeon.generator.symbols.from_expressions import convert_to_sympy
+from gudgeon.generator.symbols.squares import extract_squares
 from gudgeon.language.parser import parse
 
 x, y, t = sp.symbols("x y t", real=True)
@@ -26,11 +26,11 @@ HALF = sp.Rational(1, 2)
     ],
 )
 def test_squares_under_a_root(base: sp.Expr, expected: sp.Expr) -> None:
-    assert root(base, HALF) == expected
+    assert extract_squares(base, HALF) == expected
 
 
 def read(text: str) -> sp.Expr:
-    return to_sympy(parse(text, Location("f", 1, 1)), lambda name: sp.Symbol(name, real=True))
+    return convert_to_sympy(parse(text, Location("f", 1, 1)), lambda name: sp.Symbol(name, real=True))
 
 
 @pytest.mark.parametrize("c", ["0.2202", "1/3", "1.7e-9", "12345.678", "0.123456789012345"])
@@ -77,4 +77,4 @@ def test_what_is_nearly_a_square_stays_a_root(text: str) -> None:
 )
 def test_other_roots_stay_as_they_are(base: sp.Expr) -> None:
     """No more is made of them than was written, in time or memory."""
-    assert root(base, HALF) == sp.sqrt(base)
+    assert extract_squares(base, HALF) == sp.sqrt(base)

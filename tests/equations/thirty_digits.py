@@ -28,7 +28,7 @@ class Reference:
     def values(self, expressions: Iterable[sp.Expr]) -> list[Any]:
         """Numbers for expressions in the model's symbols, derived ones included."""
         with mp.workdps(DIGITS):
-            explicit = [self.model.symbols.explicit(sp.sympify(e)) for e in expressions]
+            explicit = [self.model.symbols.expand_definitions(sp.sympify(e)) for e in expressions]
             return [mp.mpmathify(sp.N(e.xreplace(self._numbers), DIGITS + 5)) for e in explicit]
 
     def vector(self, matrix: sp.Matrix) -> np.ndarray:
@@ -123,7 +123,7 @@ class Reference:
         """The law's results at a state of its own variables."""
         known = dict(zip(equations.variables, (sp.Float(x, DIGITS + 5) for x in state), strict=True))
         for name, step in equations.steps.items():
-            value = self.model.symbols.explicit(sp.sympify(step)).xreplace(known | self._numbers)
+            value = self.model.symbols.expand_definitions(sp.sympify(step)).xreplace(known | self._numbers)
             known[sp.Symbol(name, real=True)] = sp.N(value, DIGITS + 5)
         results: tuple[str, ...] = ("F_n",) if equations.law.role == "normal" else ("F_t",)
         results = ("F_r", "F_t", "T0") if equations.law.role == "film" else results

@@ -20,8 +20,8 @@ from gudgeon.cli import app
 from gudgeon.contract.boundary import VR_OUTPUTS as OUTPUTS
 from gudgeon.contract.boundary import VR_PARAMETERS as PARAMETERS
 from gudgeon.errors import BadValueError, InputError
-from gudgeon.exchange.fmu import fmu_bytes
-from gudgeon.exchange.fmu_description import outputs
+from gudgeon.exchange.fmu import build_fmu
+from gudgeon.exchange.fmu_description import iterate_outputs
 from gudgeon.loading import compiler
 from tests.programs import needs_compiler
 
@@ -61,7 +61,7 @@ def scene(name: str, which: str) -> gudgeon.Simulation:
 @cache
 def archive(simulation: gudgeon.Simulation) -> bytes:
     """Compiled once: `scene` gives the same simulation each time."""
-    return fmu_bytes(simulation)
+    return build_fmu(simulation)
 
 
 def written(simulation: gudgeon.Simulation, folder: Path) -> str:
@@ -117,10 +117,10 @@ def test_it_is_valid_and_moves_as_the_native_run(
     from fmpy.validation import validate_fmu
 
     simulation = scene(name, which)
-    numbers = {k: v for k, v in numbers.items() if k in simulation.source.place}
+    numbers = {k: v for k, v in numbers.items() if k in simulation.source.slot_index}
     fmu = written(simulation, tmp_path)
     assert validate_fmu(fmu) == []
-    names = [one for one, *_ in outputs(simulation.source)]
+    names = [one for one, *_ in iterate_outputs(simulation.source)]
     found = fmpy.simulate_fmu(
         fmu,
         stop_time=t_end,
@@ -132,7 +132,7 @@ def test_it_is_valid_and_moves_as_the_native_run(
         fmi_type="CoSimulation",
     )
     run = simulation.simulate(output=found["time"], rtol=RTOL, parameters=numbers)
-    units = {one: unit for one, unit, *_ in outputs(simulation.source)}
+    units = {one: unit for one, unit, *_ in iterate_outputs(simulation.source)}
     largest: dict[str, float] = {}
     for one in names:
         largest[units[one]] = max(largest.get(units[one], 0.0), np.nanmax(np.abs(run[one]), initial=0.0))
@@ -285,8 +285,8 @@ def test_sources_are_whole_and_the_archive_is_the_same_each_time(monkeypatch: py
     pendulum = scene("pendulum", "ideal")
     with zipfile.ZipFile(io.BytesIO(archive(pendulum))) as file:
         whole = {*file.namelist()}
-    monkeypatch.setattr(compiler, "is_there", lambda: False)
-    first, again = fmu_bytes(pendulum), fmu_bytes(pendulum)
+    monkeypatch.setattr(compiler, "has_compiler", lambda: False)
+    first, again = build_fmu(pendulum), build_fmu(pendulum)
     assert first == again
     with zipfile.ZipFile(io.BytesIO(first)) as file:
         names = set(file.namelist())
@@ -301,7 +301,7 @@ def test_sources_are_whole_and_the_archive_is_the_same_each_time(monkeypatch: py
 
 def test_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What it says of the archive, without the library that other tests compile."""
-    monkeypatch.setattr(compiler, "is_there", lambda: False)
+    monkeypatch.setattr(compiler, "has_compiler", lambda: False)
     target = tmp_path / "press.FMU"
 
     def emitted(*arguments: str) -> Any:

@@ -16,7 +16,7 @@ from gudgeon.contract.boundary import VR_INDICATORS as INDICATORS
 from gudgeon.contract.boundary import VR_OUTPUTS as OUTPUTS
 from gudgeon.contract.boundary import VR_RATES as RATES
 from gudgeon.contract.boundary import VR_STATES as STATES
-from gudgeon.exchange.fmu_description import exchange_obstacle, outputs, states
+from gudgeon.exchange.fmu_description import explain_exchange_obstacle, iterate_outputs, list_states
 from tests.exchange.test_fmu import instance, scene, written
 from tests.programs import needs_compiler
 
@@ -80,7 +80,7 @@ def test_it_is_valid_and_moves_as_the_native_run(
     simulation = scene(name, which)
     fmu = written(simulation, tmp_path)
     assert validate_fmu(fmu) == []
-    series = [one for one in series if one in {name for name, *_ in outputs(simulation.source)}]
+    series = [one for one in series if one in {name for name, *_ in iterate_outputs(simulation.source)}]
     found = fmpy.simulate_fmu(
         fmu,
         stop_time=t_end,
@@ -131,8 +131,8 @@ def test_directional_derivatives(name: str, which: str, tmp_path: Path) -> None:
 
 def expect_directional_derivatives(simulation: gudgeon.Simulation, tmp_path: Path, outputs_off: float = 1e-8) -> None:
     """Of rates beside central differences of the FMU's own rates, of outputs beside those of its own outputs."""
-    count = len(states(simulation.source))
-    shown = [k for k, (one, *_) in enumerate(outputs(simulation.source)) if one.endswith((".x", ".omega"))][:4]
+    count = len(list_states(simulation.source))
+    shown = [k for k, (one, *_) in enumerate(iterate_outputs(simulation.source)) if one.endswith((".x", ".omega"))][:4]
     rng = np.random.default_rng(7)
     with model(written(simulation, tmp_path)) as made:
         nominal = vector(made, "getNominalsOfContinuousStates", count)
@@ -171,7 +171,7 @@ def contact(simulation: gudgeon.Simulation, folder: Path) -> Iterator[tuple[str,
     with instance(written(simulation, folder), 0.02) as slave:
 
         def states_there() -> Iterator[Any]:
-            now, count = 0.0, len(states(simulation.source))
+            now, count = 0.0, len(list_states(simulation.source))
             for t in (on - 1e-9, on + 1e-9, 0.9 * off + 0.1 * on, off + 1e-9):
                 slave.doStep(now, t - now)
                 now = t
@@ -216,7 +216,7 @@ def test_contacts_are_events(tmp_path: Path) -> None:
     It counts as an impact until a completed step no longer compresses it, as in the native run.
     """
     simulation = scene("nine_bar_press", "dry")
-    place = {name: OUTPUTS + k for k, (name, *_) in enumerate(outputs(simulation.source))}
+    place = {name: OUTPUTS + k for k, (name, *_) in enumerate(iterate_outputs(simulation.source))}
     marks = []
     with contact(simulation, tmp_path) as (joint, k, onset, ways), model(written(simulation, tmp_path)) as made:
         for t, x, own in ways:
@@ -235,10 +235,13 @@ def test_contacts_are_events(tmp_path: Path) -> None:
 def test_an_event_located_at_zero_itself_counts(tmp_path: Path) -> None:
     """Penetrations of 0.0 to the bit, which importers' searches come to: an approach begins, a retreat ends there."""
     simulation = scene("nine_bar_press", "dry")
-    fmu, c = written(simulation, tmp_path), simulation.source.slots[simulation.source.place["parameters.c"]].default
+    fmu, c = (
+        written(simulation, tmp_path),
+        simulation.source.slots[simulation.source.slot_index["parameters.c"]].default,
+    )
     with contact(simulation, tmp_path) as (joint, k, _, ways):
         _, (t_on, x_on, _), within, (t_off, x_off, _) = ways
-    minus = OUTPUTS + [name for name, *_ in outputs(simulation.source)].index(f"{joint}.deltadot_minus")
+    minus = OUTPUTS + [name for name, *_ in iterate_outputs(simulation.source)].index(f"{joint}.deltadot_minus")
     for t, x, begins in ((t_on, x_on, True), (t_off, x_off, False)):
         with model(fmu) as made:
             put(made, t, x)
@@ -302,6 +305,6 @@ def test_a_state_goes_through_bytes(tmp_path: Path) -> None:
 def test_what_others_cannot_integrate_says_why(tmp_path: Path) -> None:
     for name, why in (("four_bar", "no freedom"), ("shaker", "drives alone")):
         simulation = scene(name, "ideal")
-        assert why in exchange_obstacle(simulation.source)
+        assert why in explain_exchange_obstacle(simulation.source)
         assert fmpy.read_model_description(written(simulation, tmp_path)).modelExchange is None
-    assert not exchange_obstacle(gudgeon.load("pendulum").source)
+    assert not explain_exchange_obstacle(gudgeon.load("pendulum").source)

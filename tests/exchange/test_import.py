@@ -19,10 +19,10 @@ from typer.testing import CliRunner
 import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import InputError
-from gudgeon.exchange.mechanism_yaml import LINE_MASS, mechanism_text
+from gudgeon.exchange.mechanism_yaml import LINE_MASS, write_mechanism_text
 from gudgeon.exchange.pmks import read_pmks
 from gudgeon.exchange.pylinkage import read_pylinkage
-from gudgeon.exchange.read import mechanism_of, read_linkage
+from gudgeon.exchange.read import convert_to_mechanism, read_linkage
 from tests.programs import needs_compiler
 
 DATA = Path(__file__).parents[1] / "data/exchange"
@@ -53,7 +53,7 @@ def test_points_move_as_in_pylinkage(name: str, tmp_path: Path) -> None:
     stored = json.loads((DATA / f"{name}.json").read_text(encoding="utf-8"))
     file = written(stored["file"], tmp_path)
     linkage, steps = read_linkage(file), np.array(stored["steps"])
-    run = as_mechanism(mechanism_of(file), tmp_path).simulate(float(len(steps)), output=len(steps))
+    run = as_mechanism(convert_to_mechanism(file), tmp_path).simulate(float(len(steps)), output=len(steps))
     compared = 0
     for k, joint in enumerate(stored["ids"]):
         for body in (body for body in linkage.bodies if joint in body.local):
@@ -74,7 +74,7 @@ def test_a_shared_link_of_pmks(tmp_path: Path) -> None:
     assert linkage.positions["A"] == (-3.74, -2.41) and linkage.positions["G"] == (7.32, -3.51)
     assert [body.name for body in linkage.bodies] == ["AB", "BCD", "DE", "EF", "FCG"]
     assert set(linkage.ground) == {"A", "G"} and linkage.gravity is None
-    simulation = as_mechanism(mechanism_of(file), tmp_path)
+    simulation = as_mechanism(convert_to_mechanism(file), tmp_path)
     run = simulation.simulate(0.04, output=4)  # its crank swings by some degrees to either side
     assert run["AB.theta"][-1] - run["AB.theta"][0] == pytest.approx(-0.04 * 20.0 * math.pi / 30.0, abs=1e-12)
     for body, point in (("AB.tail", "A"), ("BCD.D", "D"), ("EF.head", "F"), ("FCG.G", "G")):
@@ -90,7 +90,7 @@ def test_inches_are_centimetres_of_other_size(tmp_path: Path) -> None:
     file, sizes = tmp_path / "six_bar.txt", []
     for units, unit in (("0", 0.0254), ("1", 0.01), ("2", 1.0)):
         file.write_text(SIX_BAR.replace(".K,0.1", f".K,0.{units}"), encoding="utf-8")
-        text = mechanism_of(file)
+        text = convert_to_mechanism(file)
         assert "no units" not in text and "name: six_bar" in text
         run = as_mechanism(text, tmp_path).simulate(0.01, output=2)
         sizes.append(np.array([run[f"{body}.{axis}"][0] / unit for body in ("AB", "BCD", "FCG") for axis in "xy"]))
@@ -108,12 +108,13 @@ def test_numbers_of_pmks() -> None:
 
 def test_what_is_not_said_is_told(tmp_path: Path) -> None:
     stored = json.loads((DATA / "pylinkage_fourbar.json").read_text(encoding="utf-8"))
-    text = mechanism_text(read_pylinkage(stored["file"]))
+    text = write_mechanism_text(read_pylinkage(stored["file"]))
     head = text.partition("format:")[0]
     assert "counts steps" in head and "Masses are not in it" in head and "no units" in head
     assert f"mass: {3.0 * LINE_MASS:g} kg" in text
     assert (
-        "\n" not in mechanism_text(read_pylinkage({**stored["file"], "name": "a\nname: b"})).split("format:")[0][1:20]
+        "\n"
+        not in write_mechanism_text(read_pylinkage({**stored["file"], "name": "a\nname: b"})).split("format:")[0][1:20]
     )
 
 
@@ -165,7 +166,7 @@ def test_what_cannot_be_read_is_refused(data: Any, message: str, tmp_path: Path)
     file = tmp_path / "odd.json"
     file.write_text(json.dumps(data), encoding="utf-8")
     with pytest.raises(InputError, match=message):
-        mechanism_of(file)
+        convert_to_mechanism(file)
     done = CliRunner().invoke(app, ["import", str(file), "-o", str(tmp_path / "x.yaml")])
     assert done.exit_code == 2 and not (tmp_path / "x.yaml").exists()
 
@@ -187,7 +188,7 @@ def test_what_is_neither_is_refused(text: str, tmp_path: Path) -> None:
     file = tmp_path / "odd.txt"
     file.write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match=str(file)):
-        mechanism_of(file)
+        convert_to_mechanism(file)
 
 
 def test_the_command_writes_what_check_accepts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

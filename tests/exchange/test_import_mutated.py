@@ -20,10 +20,10 @@ from typer.testing import CliRunner
 import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import InputError
-from gudgeon.exchange.mechanism_yaml import mechanism_text
-from gudgeon.exchange.pmks import address_in, read_old_pmks, read_pmks
+from gudgeon.exchange.mechanism_yaml import write_mechanism_text
+from gudgeon.exchange.pmks import find_address, read_old_pmks, read_pmks
 from gudgeon.exchange.pylinkage import read_pylinkage
-from gudgeon.exchange.read import mechanism_of, read_linkage
+from gudgeon.exchange.read import convert_to_mechanism, read_linkage
 from gudgeon.generator.reader.read import read_mechanism
 from tests.exchange.test_import import MOVED, SIX_BAR
 from tests.programs import needs_compiler
@@ -53,7 +53,7 @@ def documents() -> list[Any]:
 
 
 def accepted(linkage: Any) -> None:
-    read_mechanism(mechanism_text(linkage).encode(), "imported.yaml")
+    read_mechanism(write_mechanism_text(linkage).encode(), "imported.yaml")
 
 
 def renamed(data: Any, names: dict[str, str]) -> Any:
@@ -115,7 +115,7 @@ def test_damaged_files_of_pylinkage_are_refused_or_read() -> None:
         document = documents()[k % 5] if k < 5 else mutated(documents()[k % 5], rng)
         try:
             linkage = read_pylinkage(document)
-            text = mechanism_text(linkage)
+            text = write_mechanism_text(linkage)
         except InputError:
             continue
         try:
@@ -154,7 +154,7 @@ def test_damaged_links_of_pmks_are_refused_or_read(tmp_path: Path) -> None:
         text = f"{host}?{damaged(query, rng) if k >= len(links) else query}"
         file.write_text(text, encoding="utf-8")
         try:
-            made = mechanism_text(read_linkage(file))
+            made = write_mechanism_text(read_linkage(file))
         except InputError:
             assert k >= len(links)
             continue
@@ -168,7 +168,7 @@ def test_damaged_links_of_pmks_are_refused_or_read(tmp_path: Path) -> None:
 
 def test_work_grows_with_the_size_of_a_file() -> None:
     """A megabyte of addresses without an end; joints that are placed by joints that come later in the file."""
-    assert address_in("https://pmks" * 80_000) is None  # a search of cubic cost would not come back
+    assert find_address("https://pmks" * 80_000) is None  # a search of cubic cost would not come back
 
     def chain(count: int) -> Any:
         joints = [{"type": "Static", "name": "P0", "x": 0, "y": 0}, {"type": "Static", "name": "Q", "x": 1, "y": 9}]
@@ -195,7 +195,7 @@ def test_work_grows_with_the_size_of_a_file() -> None:
 
         sys.setprofile(count)
         try:
-            mechanism_text(read_pylinkage(document))
+            write_mechanism_text(read_pylinkage(document))
         finally:
             sys.setprofile(None)
         return counted[0]
@@ -205,13 +205,13 @@ def test_work_grows_with_the_size_of_a_file() -> None:
 
 def test_old_links_have_the_points_of_today() -> None:
     """The six-bar of the authors of PMKS+ as it was shared before 2023, and as today; a welded linkage of May 2023."""
-    today = read_pmks(address_in(SIX_BAR) or "")
-    old = read_old_pmks(address_in(LINKS["pr92_old_sixbar"]) or "")
+    today = read_pmks(find_address(SIX_BAR) or "")
+    old = read_old_pmks(find_address(LINKS["pr92_old_sixbar"]) or "")
     assert old.positions == {name: pytest.approx(at) for name, at in today.positions.items()}
     assert set(old.ground) == set(today.ground) == {"A", "G"}
     assert {frozenset(b.local) for b in old.bodies} == {frozenset(b.local) for b in today.bodies}
     assert old.drives[0].rate == pytest.approx(10 * math.pi / 30.0) and old.unit == "cm"
-    welded = read_pmks(address_in(LINKS["pr35_welded"]) or "")
+    welded = read_pmks(find_address(LINKS["pr35_welded"]) or "")
     assert [body.name for body in welded.bodies] == ["ab", "cd", "gh", "hi", "bcefgj"]
     body, parts = welded.bodies[-1], [(-4.048, -1.016), (-14.153, 3.773)]
     assert set(body.local) == set("bcefgj") and body.mass == pytest.approx(2.0)
@@ -224,7 +224,7 @@ def test_old_links_have_the_points_of_today() -> None:
 def test_an_input_at_a_floating_pin_turns_one_link_against_the_other(tmp_path: Path) -> None:
     file, target = tmp_path / "link.txt", tmp_path / "imported.yaml"
     file.write_text(LINKS["pr230_driven_floating"], encoding="utf-8")
-    target.write_text(mechanism_of(file), encoding="utf-8")
+    target.write_text(convert_to_mechanism(file), encoding="utf-8")
     drive = read_linkage(file).drives[0]
     run = gudgeon.load(target).simulate(0.1, output=10)
     turned = np.ptp(run["CD.theta"] - run["ACT.theta"])

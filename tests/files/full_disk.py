@@ -53,13 +53,13 @@ def pumps(room: Path) -> list[Path]:
 
 @task
 def emit(room: Path) -> Act:
-    from gudgeon.commands.common import scene_names
-    from gudgeon.loading.find import kernel_source
+    from gudgeon.commands.common import read_scene_names
+    from gudgeon.loading.kernel_sources import find_kernel_source
 
     paths = pumps(room)
     for path in paths:
-        for scene in scene_names(str(path)):
-            kernel_source(path.read_bytes(), path, scene)
+        for scene in read_scene_names(str(path)):
+            find_kernel_source(path.read_bytes(), path, scene)
     return lambda folder, k: command("emit", paths[k], "-o", folder / "c", "--scene", "worn")
 
 
@@ -68,8 +68,8 @@ def equations(room: Path) -> Act:
     from gudgeon.generator import pipeline
 
     paths = pumps(room)
-    kept = {path.read_bytes(): pipeline.derive(path.read_bytes(), str(path), "ideal") for path in paths}
-    pipeline.derive = lambda data, *_: kept[data]
+    kept = {path.read_bytes(): pipeline.derive_scene(path.read_bytes(), str(path), "ideal") for path in paths}
+    pipeline.derive_scene = lambda data, *_: kept[data]
     return lambda folder, k: command("equations", paths[k], "-o", folder / "x.tex")
 
 
@@ -77,21 +77,23 @@ def equations(room: Path) -> Act:
 def table_and_figure(room: Path) -> Act:
     """`gudgeon bench` once all is measured: a CSV file and a picture beside it."""
     import gudgeon
-    from gudgeon.studies.bench import bench
-    from gudgeon.studies.show.bench import show_bench
+    from gudgeon.studies.bench import measure_scene
+    from gudgeon.studies.show.bench import report_bench
 
     simulation = gudgeon.load("pendulum")
-    found = [bench(simulation, [0.01 / (k + 1)], [1e-6], t_end=0.1, quick=True, methods=["rk4"]) for k in range(2)]
-    return lambda folder, k: report_errors(lambda: show_bench(simulation.source, [found[k]], folder / "x.csv", None))
+    found = [
+        measure_scene(simulation, [0.01 / (k + 1)], [1e-6], t_end=0.1, quick=True, methods=["rk4"]) for k in range(2)
+    ]
+    return lambda folder, k: report_errors(lambda: report_bench(simulation.source, [found[k]], folder / "x.csv", None))
 
 
 @task
-def figure(room: Path) -> Act:
+def draw_run_figure(room: Path) -> Act:
     import gudgeon
-    from gudgeon.results.figures.plots import figure, save_figure
+    from gudgeon.results.figures.plots import draw_run_figure, save_figure
 
     run = gudgeon.load("pendulum").simulate(1.0)
-    pictures = [figure({"ideal": run}, {}, [name]) for name in list(run.names)[:2]]
+    pictures = [draw_run_figure({"ideal": run}, {}, [name]) for name in list(run.names)[:2]]
     return lambda folder, k: report_errors(lambda: save_figure(pictures[k], folder / "x.png"))
 
 
@@ -139,11 +141,11 @@ def compile_nowhere(room: Path) -> Act:
 
 def compiled(folder: Path, k: int) -> None:
     from gudgeon.loading import build
-    from gudgeon.loading.cache import Cache, is_whole
+    from gudgeon.loading.cache import Cache, is_complete
 
     (folder / "tmp").mkdir(exist_ok=True)
     assert build.compile_kernels(tiny(3 + k), cache=Cache(folder / "cache")).lib.scale(1.0) == 3.0 + k
-    assert all(is_whole(entry) for entry in folder.glob("cache/libraries/*"))
+    assert all(is_complete(entry) for entry in folder.glob("cache/libraries/*"))
 
 
 def report_errors(act: Callable[[], object]) -> None:

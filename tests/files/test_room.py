@@ -17,10 +17,10 @@ import pytest
 import gudgeon
 from gudgeon.errors import OutputError
 from gudgeon.files import free_space
-from gudgeon.files.free_space import check_disk, check_memory, free_disk, free_memory, size_text
-from gudgeon.model.evaluation import evaluated_bytes, sample_bytes
+from gudgeon.files.free_space import check_disk, check_memory, format_size, read_free_disk, read_free_memory
+from gudgeon.model.evaluation import compute_evaluation_bytes, compute_sample_bytes
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.axes import axis
+from gudgeon.studies.axes import make_axis
 from gudgeon.studies.box import Range
 from gudgeon.studies.map import verdict_box, verdict_map
 from tests.programs import needs_compiler
@@ -41,9 +41,9 @@ class Disk(NamedTuple):
 @pytest.fixture
 def small(monkeypatch: pytest.MonkeyPatch) -> None:
     """A machine with a gigabyte of memory and ten megabytes of disk, where no run may begin."""
-    monkeypatch.setattr(free_space, "free_memory", lambda: GB)
+    monkeypatch.setattr(free_space, "read_free_memory", lambda: GB)
     monkeypatch.setattr(os, "statvfs", lambda path: Disk(2500))
-    for place in ("integrators.batch.Runs.here", "integrators.batch.Runs.run"):
+    for place in ("integrators.batch.Runs.integrate_single_run", "integrators.batch.Runs.integrate_all"):
         monkeypatch.setattr(f"gudgeon.{place}", None)
 
 
@@ -61,24 +61,24 @@ def test_what_is_free_is_the_least_of_machine_group_and_limit(tmp_path: Path) ->
 
     write("proc/meminfo", "MemTotal: 9000000 kB\nMemFree: 7 kB\nMemAvailable:    8000000 kB\n")
     write("proc/self/statm", "1000 200 30")
-    assert free_memory(tmp_path) == 8e6 * 1024
+    assert read_free_memory(tmp_path) == 8e6 * 1024
     write("proc/self/cgroup", "0::/user/one\n")
     write("sys/fs/cgroup/user/one/memory.max", "max\n")
     write("sys/fs/cgroup/user/one/memory.current", "50\n")
-    assert free_memory(tmp_path) == 8e6 * 1024
+    assert read_free_memory(tmp_path) == 8e6 * 1024
     write("sys/fs/cgroup/user/memory.max", "5000000000\n")
     write("sys/fs/cgroup/user/memory.current", "3000000000\n")
     write("sys/fs/cgroup/user/memory.stat", "anon 5\ninactive_file 1000000000\n")
-    assert free_memory(tmp_path) == 3e9
+    assert read_free_memory(tmp_path) == 3e9
     write("proc/self/cgroup", "4:cpu,memory:/job\n2:devices:/\n")
     write("sys/fs/cgroup/memory/job/memory.limit_in_bytes", "2000000000")
     write("sys/fs/cgroup/memory/job/memory.usage_in_bytes", "2500000000")
-    assert free_memory(tmp_path) == 0.0
+    assert read_free_memory(tmp_path) == 0.0
 
 
 def test_a_limit_of_the_process_counts() -> None:
     """`ulimit -v`: what is free is at most what it leaves, and a run that needs more is told so in a word."""
-    code = "import gudgeon; from gudgeon.files.free_space import free_memory; print(free_memory())\n"
+    code = "import gudgeon; from gudgeon.files.free_space import read_free_memory; print(read_free_memory())\n"
     code += "gudgeon.load('pendulum').simulate(1.0, output=2 * 10**7)"
     limit = 3 << 29
     done = subprocess.run(
@@ -92,13 +92,13 @@ def test_a_limit_of_the_process_counts() -> None:
 
 
 def test_the_bar(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(free_space, "free_memory", lambda: GB)
+    monkeypatch.setattr(free_space, "read_free_memory", lambda: GB)
     check_memory(0.89 * GB, "x")
     with pytest.raises(MemoryError, match=r"^4 tables would take 901 MB, and 1 GB are free$"):
         check_memory(0.901 * GB, "4 tables")
-    monkeypatch.setattr(free_space, "free_memory", lambda: pytest.fail("little is not asked about"))
+    monkeypatch.setattr(free_space, "read_free_memory", lambda: pytest.fail("little is not asked about"))
     check_memory(1e6, "x")
-    assert [size_text(size) for size in (12, 3400, 5.6e6, 7.8e9, 2.5e13)] == [
+    assert [format_size(size) for size in (12, 3400, 5.6e6, 7.8e9, 2.5e13)] == [
         "12 bytes",
         "3.4 kB",
         "5.6 MB",
@@ -109,7 +109,7 @@ def test_the_bar(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_disk_is_that_of_the_nearest_folder_which_is_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     real = os.statvfs(tmp_path)
-    assert free_disk(tmp_path / "a/b") == pytest.approx(real.f_bavail * real.f_frsize, rel=0.2)
+    assert read_free_disk(tmp_path / "a/b") == pytest.approx(real.f_bavail * real.f_frsize, rel=0.2)
     requested: list[Path] = []
 
     def statvfs(path: Path) -> Disk:
@@ -124,7 +124,7 @@ def test_a_disk_is_that_of_the_nearest_folder_which_is_there(tmp_path: Path, mon
         check_disk(tmp_path / "a/b", 8193, "it", "x")
     assert requested[:3] == [tmp_path / "a/b", tmp_path / "a", tmp_path]
     monkeypatch.setattr(os, "statvfs", lambda path: Disk(0, f_blocks=0))  # a file system that does not say
-    assert math.isinf(free_disk(tmp_path))
+    assert math.isinf(read_free_disk(tmp_path))
 
 
 @needs_compiler
@@ -136,9 +136,11 @@ def test_bytes_of_a_sample_are_those_of_the_arrays() -> None:
         if not press.source.degrees_of_freedom:
             kept.append(run.a)
         found = sum(array.nbytes for array in kept) / len(run.t)
-        assert found <= sample_bytes(press.compiled) <= found + 10  # where nothing is remembered there is a place
+        assert (
+            found <= compute_sample_bytes(press.compiled) <= found + 10
+        )  # where nothing is remembered there is a place
         every = vars(run.evaluation).values()
-        assert evaluated_bytes(press.compiled) * len(run.t) == sum(array.nbytes for array in every)
+        assert compute_evaluation_bytes(press.compiled) * len(run.t) == sum(array.nbytes for array in every)
 
 
 @needs_compiler
@@ -166,12 +168,12 @@ def test_runs_that_do_not_fit_into_memory(pendulum: Simulation) -> None:
 @pytest.mark.usefixtures("small")
 def test_maps_of_more_cells_than_fit(pendulum: Simulation) -> None:
     """A cell is two kilobytes: 460 × 1000 of them are more than nine tenths of a gigabyte, so are 19 edges' corners."""
-    axes = [axis(pendulum, "rtol", np.geomspace(1e-12, 1e-4, 460).tolist())]
-    axes.append(axis(pendulum, "g", np.linspace(1.0, 2.0, 1000).tolist()))
+    axes = [make_axis(pendulum, "rtol", np.geomspace(1e-12, 1e-4, 460).tolist())]
+    axes.append(make_axis(pendulum, "g", np.linspace(1.0, 2.0, 1000).tolist()))
     with pytest.raises(MemoryError, match=r"^460000 cells would take 942 MB, and 1 GB are free$"):
         verdict_map(pendulum, axes)
     edges = [Range(f"p{k}", 1.0, 2.0) for k in range(19)]
-    known = {edge.name: axis(pendulum, "g", (1.0, 2.0)) for edge in edges}
+    known = {edge.name: make_axis(pendulum, "g", (1.0, 2.0)) for edge in edges}
     with pytest.raises(MemoryError, match="^524290 cells"):
         verdict_box(pendulum, edges, 2, addresses=known)
 
@@ -195,7 +197,7 @@ def test_exports_that_do_not_fit(pendulum: Simulation, tmp_path: Path, monkeypat
                 of.to_mat(tmp_path / "x.mat", ["swing"])
         assert not [*tmp_path.iterdir()] and size > 16 * rows
     monkeypatch.setattr(free_space, "LEAST", 0)
-    monkeypatch.setattr(free_space, "free_memory", lambda: 1e5)
+    monkeypatch.setattr(free_space, "read_free_memory", lambda: 1e5)
     for export in (lambda: batch.to_mat(tmp_path / "x.mat", ["swing"]), lambda: batch.to_dataframe(["swing"])):
         with pytest.raises(MemoryError, match="of 3 runs would take"):
             export()
@@ -233,7 +235,7 @@ def test_what_follows_from_samples_and_a_file_that_is_too_large(
     run = pendulum.simulate(1.0, output=20_000)
     with monkeypatch.context() as short:
         short.setattr(free_space, "LEAST", 0)
-        short.setattr(free_space, "free_memory", lambda: 1e6)
+        short.setattr(free_space, "read_free_memory", lambda: 1e6)
         with pytest.raises(MemoryError, match="what follows from 20001 samples would take"):
             pendulum.compiled.evaluate(run.t, run.q, run.v, run.memory, run.p)
     with monkeypatch.context() as short:

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from gudgeon.errors import OutputError
-from gudgeon.files.writing import PART, AtomicFiles, check_target, write_bytes, write_text, written
+from gudgeon.files.writing import PART, AtomicFiles, check_target, open_atomic, write_bytes, write_text
 
 
 def test_a_file_is_made_with_its_folders(tmp_path: Path) -> None:
@@ -63,7 +63,7 @@ def test_the_temporary_name_is_opened_exclusively(tmp_path: Path, monkeypatch: p
 def test_the_folder_may_be_moved_while_a_file_is_written(tmp_path: Path) -> None:
     """What is put in the folder's place meanwhile gets nothing."""
     (tmp_path / "other").mkdir()
-    with written(tmp_path / "out" / "x") as file:
+    with open_atomic(tmp_path / "out" / "x") as file:
         (tmp_path / "out").rename(tmp_path / "away")
         (tmp_path / "out").symlink_to(tmp_path / "other")
         file.write(b"text")
@@ -104,13 +104,13 @@ def test_a_disk_that_tells_late_leaves_nothing(
         raise OSError(code, os.strerror(code))
 
     monkeypatch.setattr(os, where, full)
-    with pytest.raises(OutputError, match=os.strerror(code)), written(tmp_path / "x", sync=True) as file:
+    with pytest.raises(OutputError, match=os.strerror(code)), open_atomic(tmp_path / "x", sync=True) as file:
         file.write(b"new")
     assert (tmp_path / "x").read_bytes() == b"older" and os.listdir(tmp_path) == ["x"]
 
 
 def test_an_interrupt_leaves_nothing(tmp_path: Path) -> None:
-    with pytest.raises(KeyboardInterrupt), written(tmp_path / "x") as file:
+    with pytest.raises(KeyboardInterrupt), open_atomic(tmp_path / "x") as file:
         file.write(b"half")
         raise KeyboardInterrupt
     assert os.listdir(tmp_path) == []

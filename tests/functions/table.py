@@ -8,7 +8,7 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from gudgeon.errors import Location
-from gudgeon.generator.symbols.from_expressions import to_sympy
+from gudgeon.generator.symbols.from_expressions import convert_to_sympy
 from gudgeon.language.functions import FUNCTIONS, Function
 from gudgeon.language.parser import parse
 from gudgeon.language.tree import Expr, evaluate
@@ -40,11 +40,11 @@ def names(function: Function) -> list[str]:
 
 
 def tree(function: Function) -> Expr:
-    return parse(function.call(*names(function)), HERE)
+    return parse(function.format_call(*names(function)), HERE)
 
 
 def in_sympy(function: Function) -> sp.Expr:
-    return to_sympy(tree(function), lambda name: sp.Symbol(name, real=True))
+    return convert_to_sympy(tree(function), lambda name: sp.Symbol(name, real=True))
 
 
 def values(function: Function, arguments: Array) -> Array:

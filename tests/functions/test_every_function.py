@@ -14,11 +14,11 @@ import pytest
 import sympy as sp
 
 from gudgeon.errors import ExpressionError, UnitError
-from gudgeon.generator.ir.differentiation import partial
+from gudgeon.generator.ir.differentiation import compute_partial_derivative
 from gudgeon.generator.ir.readable import Readable
-from gudgeon.generator.ir.series_rules import NoSeries
-from gudgeon.generator.symbols.from_expressions import derivative_at
-from gudgeon.generator.targets.c.function_table import function_table
+from gudgeon.generator.ir.series_rules import NoTaylorSeries
+from gudgeon.generator.symbols.from_expressions import convert_derivative
+from gudgeon.generator.targets.c.function_table import print_function_table
 from gudgeon.generator.targets.javascript.printer import PRELUDE, JavaScriptPrinter
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
 from gudgeon.generator.targets.numpy.printer import NumPyPrinter
@@ -45,10 +45,10 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 
 @every_function
 def test_it_is_parsed_with_its_arguments_alone(function: Function) -> None:
-    call = parse(function.call(*function.arguments), HERE)
+    call = parse(function.format_call(*function.arguments), HERE)
     assert isinstance(call, Call) and (call.function, len(call.arguments)) == (function.name, len(function.arguments))
     with pytest.raises(ExpressionError, match=f"{function.name} takes"):
-        parse(function.call(*names(function), "1"), HERE)
+        parse(function.format_call(*names(function), "1"), HERE)
 
 
 @every_function
@@ -125,7 +125,7 @@ def test_slopes(function: Function) -> None:
         ahead[:, k] += h
         behind[:, k] -= h
         differences = (values(function, ahead) - values(function, behind)) / (2.0 * h)
-        slope = partial(in_sympy(function), symbol).replace(sp.DiracDelta, lambda *x: 0)
+        slope = compute_partial_derivative(in_sympy(function), symbol).replace(sp.DiracDelta, lambda *x: 0)
         code = NumPyPrinter(Readable(())).doprint(slope)
         found = eval(code, {"np": np}, dict(zip(names(function), arguments.T, strict=True)))  # noqa: S307
         smooth = abs(differences) < 1e3
@@ -133,7 +133,7 @@ def test_slopes(function: Function) -> None:
     for text in filter(None, (function.derivative, function.far_derivative)):
         x, f = sp.symbols("x f", real=True)
         known = {"x": arguments[:, 0], "f": values(function, arguments)}
-        found = eval(NumPyPrinter(Readable(())).doprint(derivative_at(text, x, f)), {"np": np}, known)  # noqa: S307
+        found = eval(NumPyPrinter(Readable(())).doprint(convert_derivative(text, x, f)), {"np": np}, known)  # noqa: S307
         np.testing.assert_allclose(found + 0.0 * differences, differences, rtol=1e-5, atol=1e-7)
 
 
@@ -161,7 +161,7 @@ def test_taylor_series(function: Function) -> None:
     middle = [sp.Rational(sum(interval(function)) / 2.0 + 0.1) + moves for moves in (X, Y, X, Y)]
     expression = in_sympy(function).subs(dict(zip(sorted_symbols(function), middle, strict=False)))
     if function.jump_order is not None:
-        with pytest.raises(NoSeries):
+        with pytest.raises(NoTaylorSeries):
             coefficients(expression, 1)
         return
     exact = sp.lambdify((X, Y), expression, "mpmath")
@@ -184,4 +184,4 @@ def test_documents(function: Function) -> None:
 
 def test_what_is_written_from_the_table_is_current() -> None:
     """`make tables` writes the header; the table of docs/format.md has a test of its own."""
-    assert (ROOT / "engine" / "scene" / "function_table.h").read_text(encoding="utf-8") == function_table()
+    assert (ROOT / "engine" / "scene" / "function_table.h").read_text(encoding="utf-8") == print_function_table()

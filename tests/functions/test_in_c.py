@@ -17,7 +17,7 @@ from gudgeon.generator.targets.c.printer import CPrinter
 from gudgeon.generator.targets.c.ranges_printer import RangesPrinter
 from gudgeon.language.functions import FUNCTIONS, Function
 from gudgeon.loading.compiler import find_compiler
-from gudgeon.loading.engine import ENGINE, include_flags
+from gudgeon.loading.engine import ENGINE, build_include_flags
 from tests.functions.table import (
     Array,
     draw,
@@ -80,7 +80,7 @@ def library(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     folder = tmp_path_factory.mktemp("functions")
     (folder / "f.c").write_text(c_code())
     flags = ["-O1", "-std=c11", "-Wall", "-Wextra", "-Werror", "-Wno-unused-function", "-ffp-contract=off"]
-    line = [*find_compiler(), *flags, "-fPIC", "-shared", *include_flags(), "f.c", "-lm", "-o", "f.so"]
+    line = [*find_compiler(), *flags, "-fPIC", "-shared", *build_include_flags(), "f.c", "-lm", "-o", "f.so"]
     subprocess.run(line, cwd=folder, check=True)
     found = ctypes.CDLL(str(folder / "f.so"))
     found.value.restype = found.lane.restype = ctypes.c_double
@@ -137,7 +137,7 @@ def scene_of_all() -> bytes:
             f"{(low + high) / 2 + 0.05 * k:g} + {(high - low) / 7:g}*sin(bob.theta + {k})"
             for k in range(len(function.arguments))
         ]
-        calls.append(function.call(*arguments[:-1], "0.7" if function.divides else arguments[-1]))
+        calls.append(function.format_call(*arguments[:-1], "0.7" if function.divides else arguments[-1]))
     forces = "\n".join(f"  f{k}: {{torque: bob, value: 0.1 N*m * {call}}}" for k, call in enumerate(calls))
     outputs = "\n".join(f"  out{k}: {call}" for k, call in enumerate(calls))
     events = "\n".join(f"  event{k}: {{zero: 100 + {call}}}" for k, call in enumerate(calls))

@@ -7,7 +7,7 @@ import re
 from collections.abc import Collection, Mapping
 
 from gudgeon.language.functions import FUNCTIONS, Units
-from gudgeon.language.units import DIMENSIONLESS, LENGTH, RATE, TIME, Dimension, si_unit
+from gudgeon.language.units import DIMENSIONLESS, LENGTH, RATE, TIME, Dimension, find_si_unit
 
 OF_A_NUMBER = tuple(
     name for name, f in FUNCTIONS.items() if len(f.arguments) == 1 and f.units in (Units.PURE, Units.ROOT)
@@ -52,7 +52,7 @@ class Writer:
         number = self._rng.choice(_NUMBERS)
         if of == DIMENSIONLESS:
             return number if self._rng.random() < 0.7 else f"{number} {self._rng.choice(_ANGLES)}"
-        return f"{number} {si_unit(of)}" if of.is_whole else f"({number} {si_unit(of**2)})**0.5"
+        return f"{number} {find_si_unit(of)}" if of.is_whole else f"({number} {find_si_unit(of**2)})**0.5"
 
     def _name(self, of: Dimension) -> str:
         return self._as(self._rng.choice(tuple(self._names)), of)

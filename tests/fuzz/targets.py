@@ -11,7 +11,7 @@ from pathlib import Path
 from gudgeon.errors import InputError, InputErrors, Location
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.parser import check_dimension, parse
-from gudgeon.language.tree import evaluate, from_json, names, to_json
+from gudgeon.language.tree import evaluate, from_json, iterate_names, to_json
 from gudgeon.language.units import DIMENSIONLESS, LENGTH, TIME, Dimension
 from tests.mechanisms.invalid import MISTAKES
 
@@ -64,7 +64,7 @@ def expression(data: bytes) -> None:
     value = evaluate(tree, lambda path: 0.5)
     again = evaluate(from_json(to_json(tree)), lambda path: 0.5)
     assert value == again or math.isnan(value) and math.isnan(again)
-    assert all(name.path for name in names(tree))
+    assert all(name.path for name in iterate_names(tree))
 
 
 def reader(data: bytes) -> None:

@@ -19,15 +19,15 @@ from typing import Any, cast
 
 import numpy as np
 
-from gudgeon.assembly.start import assemble
+from gudgeon.assembly.start import assemble_start
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import AssemblyError, GudgeonError, InputError, InputErrors
 from gudgeon.generator.pipeline import generate
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.tree import Expr, evaluate
 from gudgeon.loading.compiler import find_compiler
-from gudgeon.loading.engine import UNIT, declarations, include_flags
-from gudgeon.loading.library import opened
+from gudgeon.loading.engine import UNIT, build_include_flags, select_declarations
+from gudgeon.loading.library import open_library
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.simulation.simulation import Simulation
 from tests.fuzz.scenes import RandomFile, random_file
@@ -136,13 +136,13 @@ def check_syntax(source: KernelSource, folder: Path) -> None:
     """No error, no warning."""
     write(source, folder)
     files = [source.main, str(UNIT), *([source.lanes] if source.lanes else [])]
-    _compile([*WARNINGS, "-fsyntax-only", *include_flags(), *files], folder)
+    _compile([*WARNINGS, "-fsyntax-only", *build_include_flags(), *files], folder)
 
 
 def library(source: KernelSource, folder: Path, name: str) -> CompiledModel:
     """Compiled with all warnings on, and loaded; what it has no use for is not compiled."""
     write(source, folder)
-    text, message = f'#include "{source.main}"\n#include "engine/engine.c"\n', declarations(source)
+    text, message = f'#include "{source.main}"\n#include "engine/engine.c"\n', select_declarations(source)
     if source.formulation == "reduced":
         chained = bool(source.chain)
         state = "at.q, at.v" if chained else "s, rate"
@@ -155,8 +155,10 @@ def library(source: KernelSource, folder: Path, name: str) -> CompiledModel:
         message += MESSAGES
     (folder / "library.c").write_text(text, encoding="utf-8")
     file = folder / f"{name}.so"
-    _compile([*WARNINGS, "-O1", "-fPIC", "-shared", *include_flags(), "library.c", "-o", file.name, "-lm"], folder)
-    return CompiledModel(source, opened(file, message))
+    _compile(
+        [*WARNINGS, "-O1", "-fPIC", "-shared", *build_include_flags(), "library.c", "-o", file.name, "-lm"], folder
+    )
+    return CompiledModel(source, open_library(file, message))
 
 
 def _compile(flags: list[str], folder: Path) -> None:
@@ -172,7 +174,7 @@ def compare(file: RandomFile, compiled: CompiledModel, seed: int) -> bool:
     slots = len(compiled.source.slots)
     reduced = Reduced(compiled, compiled.prepare(np.zeros(slots), np.zeros(slots, dtype=bool)))
     try:
-        start = assemble(compiled, reduced.p, t)
+        start = assemble_start(compiled, reduced.p, t)
     except AssemblyError:
         return False
     s, rate = reduced.reduce(t, start.q, start.v)

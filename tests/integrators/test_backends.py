@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.assembly.linkage import project, residuals
+from gudgeon.assembly.linkage import compute_residuals, project_state
 from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.results.results import Result
@@ -126,9 +126,9 @@ def test_projection_is_the_nearest_state_in_the_metric_of_the_mass() -> None:
     compiled, p, start = squeezer.compiled, squeezer.p, squeezer.start()
     rng = np.random.default_rng(3)
     q0, v0 = start.q + 1e-7 * rng.normal(size=compiled.n), start.v + 1e-3 * rng.normal(size=compiled.n)
-    q, v = project(compiled, 0.0, q0, v0, p)
-    assert max(residuals(compiled, 0.0, q, v, p)) < 1e-13
-    again = project(compiled, 0.0, q, v, p)
+    q, v = project_state(compiled, 0.0, q0, v0, p)
+    assert max(compute_residuals(compiled, 0.0, q, v, p)) < 1e-13
+    again = project_state(compiled, 0.0, q, v, p)
     assert abs(again[0] - q).max() < 1e-15 and abs(again[1] - v).max() < 1e-12
     rows = compiled.phi_q(0.0, q, p)
     free = np.linalg.svd(rows)[2][len(rows) :]  # directions that keep the constraints

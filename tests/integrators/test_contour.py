@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 import gudgeon
 from gudgeon.errors import ArrayError, BadValueError, UnknownNameError
-from gudgeon.model.contours import depth_at
+from gudgeon.model.contours import interpolate_depth
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
 
@@ -163,17 +163,20 @@ def test_its_polynomials_have_two_derivatives_and_the_mean_of_the_depths() -> No
     rng = np.random.default_rng(2)
     depths = rng.uniform(0.0, 1.0, 24)
     knots = 2.0 * np.pi * np.arange(24) / 24
-    np.testing.assert_allclose(depth_at(depths, knots), depths, atol=1e-14)
+    np.testing.assert_allclose(interpolate_depth(depths, knots), depths, atol=1e-14)
     for order in range(3):
         np.testing.assert_allclose(
-            depth_at(depths, knots - 1e-12, order), depth_at(depths, knots + 1e-12, order), rtol=1e-8, atol=1e-8
+            interpolate_depth(depths, knots - 1e-12, order),
+            interpolate_depth(depths, knots + 1e-12, order),
+            rtol=1e-8,
+            atol=1e-8,
         )
     x = rng.uniform(-20.0, 20.0, 200)
     for order in (1, 2):
-        rise = (depth_at(depths, x + 1e-6, order - 1) - depth_at(depths, x - 1e-6, order - 1)) / 2e-6
-        np.testing.assert_allclose(depth_at(depths, x, order), rise, rtol=1e-5, atol=1e-5 * 24**order)
+        rise = (interpolate_depth(depths, x + 1e-6, order - 1) - interpolate_depth(depths, x - 1e-6, order - 1)) / 2e-6
+        np.testing.assert_allclose(interpolate_depth(depths, x, order), rise, rtol=1e-5, atol=1e-5 * 24**order)
     fine = (np.arange(24 * 400) + 0.5) * 2.0 * np.pi / (24 * 400)
-    assert depth_at(depths, fine).mean() == pytest.approx(depths.mean(), rel=1e-9)
+    assert interpolate_depth(depths, fine).mean() == pytest.approx(depths.mean(), rel=1e-9)
 
 
 def test_a_batch_has_a_contour_a_run(worn: Simulation, tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ from gudgeon.cli import app
 from gudgeon.errors import BadValueError, InputError, SolverError
 from gudgeon.generator.pipeline import generate
 from gudgeon.loading.compiler import find_compiler
-from gudgeon.loading.engine import include_flags
+from gudgeon.loading.engine import build_include_flags
 from tests.equations.subjects import make
 from tests.scenes import loader
 from tests.slow import slow_rows_but
@@ -246,7 +246,7 @@ def test_c_has_no_warnings(text: str, tmp_path: Path) -> None:
     source = generate(("format: gudgeon/1\nname: n\n" + text).encode(), "n.yaml", "ideal")
     for file, content in source.files.items():
         (tmp_path / file).write_text(content, encoding="utf-8")
-    flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", *include_flags()]
+    flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", *build_include_flags()]
     for main in filter(None, (source.main, source.lanes)):
         line = [*find_compiler(), *flags, main]
         done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, check=False)

@@ -10,8 +10,8 @@ import pytest
 from scipy.optimize import brentq
 
 import gudgeon
-from gudgeon.generator.kinds.laws.law import called
-from gudgeon.model.parameters import prepare
+from gudgeon.generator.kinds.laws.law import find_laws_of_role
+from gudgeon.model.parameters import prepare_values
 from gudgeon.reynolds import Bearing
 from gudgeon.reynolds.deviations import law_force
 from gudgeon.simulation.simulation import Simulation
@@ -85,7 +85,7 @@ def equilibrium(steady: Callable[[float], tuple[float, float]], load: float) -> 
 
 
 @pytest.mark.parametrize("load", [300.0, pytest.param(900.0, marks=pytest.mark.slow)])
-@pytest.mark.parametrize("law", sorted(called("film")))
+@pytest.mark.parametrize("law", sorted(find_laws_of_role("film")))
 def test_eccentricity_and_attitude_under_a_constant_load(rotor: Rotor, law: str, load: float) -> None:
     eps, place = equilibrium(STEADY.get(law) or fitted(law), load)
     mass = min(2.0, 2e-5 * load / C / OMEGA**2)  # light enough to be at rest in the end
@@ -134,7 +134,7 @@ def test_the_linearized_rotor_is_the_textbooks(rotor: Rotor, load: float) -> Non
     eps, place = equilibrium(short_film, load)
     mass, (stiffness, damping) = limit(load)[0], textbook(eps, load)
     full, y = rotor("ocvirk").full, np.array([*place, 0.0, 0.0, 0.0, OMEGA])
-    J = full.compiled.jacobian(0.0, y, prepare(full.compiled, {"load": load, "mass": mass})[0])[0]
+    J = full.compiled.jacobian(0.0, y, prepare_values(full.compiled, {"load": load, "mass": mass})[0])[0]
     for columns, want in ((slice(0, 2), stiffness), (slice(3, 5), damping)):
         np.testing.assert_allclose(-mass * J[3:5, columns], want, rtol=0, atol=1e-9 * abs(want).max())
 

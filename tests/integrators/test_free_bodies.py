@@ -12,7 +12,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import gudgeon
-from gudgeon.generator.kinds.laws.law import Law, laws
+from gudgeon.generator.kinds.laws.law import Law, find_all_laws
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
 
@@ -63,12 +63,12 @@ def values(law: Law) -> dict[str, float]:
 def variants(role: str) -> dict[str, bool]:
     """Every law of a role with every combination of its options, as YAML; whether any is not the usual one."""
     found = {}
-    for law in laws().values():
+    for law in find_all_laws().values():
         if law.role == role:
             for choice in itertools.product(*(option.values for option in law.options)):
                 options = {o.name: str(v).lower() for o, v in zip(law.options, choice, strict=True)}
                 numbers = {k: repr(v) for k, v in values(law).items()} | {f.name: FORCE for f in law.expressions}
-                default = {o.name: str(o.choice).lower() for o in law.options}
+                default = {o.name: str(o.default_option).lower() for o in law.options}
                 for selected, number in law.instead.items():  # the number, or a choice other than the default
                     left_out = options if options[selected] == default[selected] else numbers
                     left_out.pop(selected if left_out is options else number)

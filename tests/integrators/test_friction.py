@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 
 import gudgeon
-from gudgeon.loading.shipped import shipped_file
+from gudgeon.loading.shipped import find_shipped_file
 from tests.equations.subjects import make
 from tests.programs import needs_compiler
 
@@ -45,7 +45,7 @@ def test_a_block_at_rest_does_not_creep() -> None:
 
 def test_a_block_slides_to_rest(tmp_path: Path) -> None:
     """Without spring and belt: x = v0²/(2 μ g) after v0/(μ g), then nothing."""
-    text = shipped_file("belt_block").read_text(encoding="utf-8")
+    text = find_shipped_file("belt_block").read_text(encoding="utf-8")
     file = tmp_path / "block.yaml"
     file.write_text(text.replace("block.x: start_at", "block.x: start_at\n  rates: {block.vx: 1 m/s}"))
     block = gudgeon.load(file)
@@ -64,7 +64,7 @@ METHODS = ({"method": "rk4", "step": 1e-3}, {"method": "dop853", "rtol": 1e-10},
 @pytest.fixture(scope="module")
 def stribeck(tmp_path_factory: pytest.TempPathFactory) -> gudgeon.Simulation:
     """The belt's block with friction that falls with the slip."""
-    text = shipped_file("belt_block").read_text(encoding="utf-8")
+    text = find_shipped_file("belt_block").read_text(encoding="utf-8")
     file = tmp_path_factory.mktemp("stribeck") / "belt.yaml"
     text = text.replace("kinetic: 3.924 N", f"kinetic: 3.924 N, stribeck_velocity: {FALLS}")
     text = text.replace("  start_at: 0 m\n", "  start_at: 0 m\n  speed: 0 m/s\n")
@@ -123,7 +123,7 @@ def test_a_block_slides_to_rest_on_friction_that_falls(
 @pytest.mark.parametrize("mode", [0.0, 1.0, -1.0])
 def test_slopes_of_friction_that_falls(mode: float) -> None:
     """By the complex step, where it slips either way and where it sticks."""
-    kinetic, text = b"kinetic: 3.924 N", shipped_file("belt_block").read_bytes()
+    kinetic, text = b"kinetic: 3.924 N", find_shipped_file("belt_block").read_bytes()
     subject = make(text.replace(kinetic, kinetic + b", stribeck_velocity: 0.05"), "belt", "ideal")
     for v in (0.03, 0.13, -0.4):
         subject.compare(0.0, np.array([0.01, 0.0, 0.0, v, 0.0, 0.0]), np.array([mode]))

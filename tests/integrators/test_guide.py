@@ -13,9 +13,9 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import AssemblyError
-from gudgeon.exchange.fmu_description import outputs
-from gudgeon.language.shown import plain_console
-from gudgeon.results.reports.comparison import compare, tables
+from gudgeon.exchange.fmu_description import iterate_outputs
+from gudgeon.language.text_output import make_plain_console
+from gudgeon.results.reports.comparison import build_tables, compute_scene_report
 from gudgeon.simulation.simulation import Simulation
 from tests.equations.subjects import make
 from tests.kernels.test_tree_jacobian import Tree, slope
@@ -364,21 +364,21 @@ def test_a_slider_that_turns_over_is_refused(numbers: dict[str, float], message:
 def test_force_and_moment_of_a_guide_are_shown(folder: Path) -> None:
     """In the table of runs, the figure, a run's report and an FMU: at samples, as its corners' over all steps are."""
     pytest.importorskip("matplotlib")
-    from gudgeon.results.figures.plots import figure
+    from gudgeon.results.figures.plots import draw_run_figure
 
     run = made(folder, BLOCK, "rough").simulate(0.02, parameters={"parameters.lift": -C, "parameters.v": 0.8})
-    report = compare(run, None, ["block.x"])
+    report = compute_scene_report(run, None, ["block.x"])
     (force, moment), at = report.guides, np.abs(run["way.M"]).argmax()
     assert (force.name, moment.name) == ("way.F", "way.M") and force.peak == run["way.F"].max()
     assert moment.peak == run["way.M"][at] and moment.t == run.t[at] and moment.peak != 0.0
-    console = plain_console(200)
+    console = make_plain_console(200)
     with console.capture() as message:
-        for table in tables("", [report], 200):
+        for table in build_tables("", [report], 200):
             console.print(table)
     assert "way.M" in message.get() and "N·m" in message.get()
-    (ax,) = [ax for ax in _axes(figure({"rough": run}, {}, ["block.x"])) if "moment at way" in ax.get_ylabel()]
+    (ax,) = [ax for ax in _axes(draw_run_figure({"rough": run}, {}, ["block.x"])) if "moment at way" in ax.get_ylabel()]
     np.testing.assert_allclose(ax.lines[0].get_ydata(), 1e3 * run["way.M"], rtol=1e-14)  # mN m
-    assert {"way.Fx", "way.Fy", "way.M"} <= {name for name, *_ in outputs(run.source)}  # of an FMU
+    assert {"way.Fx", "way.Fy", "way.M"} <= {name for name, *_ in iterate_outputs(run.source)}  # of an FMU
     shown = run.report()
     assert "moment on the slider" in str(shown) and shown.to_dict()["guides"]["way"]["M"]["peak"] == moment.peak
 

@@ -14,7 +14,7 @@ import gudgeon
 from gudgeon.errors import BadValueError
 from gudgeon.generator.targets.latex import equations_tex
 from gudgeon.integrators import lanes
-from gudgeon.loading.shipped import shipped_file
+from gudgeon.loading.shipped import find_shipped_file
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
@@ -30,7 +30,7 @@ Press = Callable[..., Simulation]
 
 @pytest.fixture(scope="module")
 def press(tmp_path_factory: pytest.TempPathFactory) -> Press:
-    text = shipped_file("nine_bar_press").read_text(encoding="utf-8")
+    text = find_shipped_file("nine_bar_press").read_text(encoding="utf-8")
     assert COULOMB in text
     file = tmp_path_factory.mktemp("states") / "press.yaml"
     file.write_text(text.replace(COULOMB, "{law: dahl, mu: 0.15, presliding: 20 um}"), encoding="utf-8")
@@ -115,7 +115,7 @@ def test_runs_side_by_side(
     """To the last bit those of single runs, while journals come, bend, slide and go."""
     scene, place = (two, "j.y") if mechanism == "two" else (press(), "S9.y")
     if mechanism == LUGRE:
-        text = shipped_file("nine_bar_press").read_text(encoding="utf-8")
+        text = find_shipped_file("nine_bar_press").read_text(encoding="utf-8")
         (tmp_path / "press.yaml").write_text(text.replace(COULOMB, mechanism), encoding="utf-8")
         scene = gudgeon.load(tmp_path / "press.yaml", "dry")
     c = np.linspace(2.5e-4, 5e-4, 8)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.generator.solvers.sparsity import Block, triangular_blocks
+from gudgeon.generator.solvers.sparsity import Block, find_triangular_blocks
 from gudgeon.simulation.simulation import Simulation
 from tests.oracles import ideal_press
 from tests.programs import needs_compiler
@@ -101,17 +101,17 @@ def test_press_at_few_and_many_samples() -> None:
 def test_groups_of_rows() -> None:
     """A dyad, then a row that needs it, then a ring of three that needs both."""
     pattern = [{4, 0, 5}, {1, 2}, {0, 1}, {1, 2}, {5, 3}, {3, 4}]
-    blocks = triangular_blocks(pattern, 6)
+    blocks = find_triangular_blocks(pattern, 6)
     assert blocks is not None
     assert [set(block.rows) for block in blocks] == [{1, 3}, {2}, {0, 4, 5}]
     solved: set[int] = set()
     for block in blocks:
         solved |= set(block.columns)
         assert all(pattern[row] <= solved for row in block.rows)
-    assert triangular_blocks([{0}, {0}], 2) is None
-    assert triangular_blocks([{0}], 2) is None
-    assert triangular_blocks([], 0) == ()
-    assert triangular_blocks([{0}], 1) == (Block((0,), (0,)),)
+    assert find_triangular_blocks([{0}, {0}], 2) is None
+    assert find_triangular_blocks([{0}], 2) is None
+    assert find_triangular_blocks([], 0) == ()
+    assert find_triangular_blocks([{0}], 1) == (Block((0,), (0,)),)
 
 
 def test_a_plate_on_three_rods_is_one_block(tmp_path: Path) -> None:

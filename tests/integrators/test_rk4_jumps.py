@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.loading.engine import sizes
+from gudgeon.loading.engine import parse_sizes
 from tests.slow import slow_but, slow_rows_but
 
 HEAD = "format: gudgeon/1\nname: j\ngravity: [0, -9.81 m/s^2]\n"
@@ -116,7 +116,7 @@ forces: {rub: {dry_friction: [cart.origin, plate.origin], direction: [1, 0], sta
 def test_only_scenes_whose_drives_jump_look_for_it(tmp_path: Path) -> None:
     for value, has in (("2 m/s * t", False), ("smooth_step(t, 0.1 s, 0.3 s) * 1 m", False), ("abs(t)*1 m/s", True)):
         source = scene(SLIDER + ON_SLIDER.format(value), tmp_path).source
-        assert sizes(source)["DRIVE_IMPULSES"] == has
+        assert parse_sizes(source)["DRIVE_IMPULSES"] == has
 
 
 BRANCHES = [(f"{pick}(late, t) * 1 m/s", formulation) for pick in ("min", "max") for formulation in ("reduced", "full")]

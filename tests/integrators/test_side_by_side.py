@@ -44,14 +44,14 @@ class Seen:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.used: list[int] = []
-        plain = lanes.numbers_of
+        plain = lanes.yield_waiting_runs
 
         def numbers_of(*arguments: Any) -> Any:
             for i in plain(*arguments):
                 self.used.append(i)
                 yield i
 
-        monkeypatch.setattr("gudgeon.integrators.threads.numbers_of", numbers_of)
+        monkeypatch.setattr("gudgeon.integrators.threads.yield_waiting_runs", numbers_of)
 
 
 @pytest.fixture(autouse=True)
@@ -254,7 +254,7 @@ def test_the_library_is_made_where_it_is_worth_it(monkeypatch: pytest.MonkeyPatc
     alone = press.simulate_many(sets, 0.01, output=3, threads=2)
     press.simulate_many({"c": sets["c"][:1]}, 0.01, output=3, threads=2)
     assert not made
-    with lanes.followed_by(10**18):  # blocks of a study: what one takes is little, all of them are not
+    with lanes.announce_later_runs(10**18):  # blocks of a study: what one takes is little, all of them are not
         gudgeon.load("nine_bar_press", "lubricated").simulate_many(sets, 0.01, output=3, threads=2)
     assert made == [True]
     monkeypatch.setattr(lanes, "MIN_REMAINING_S", 1e-9)

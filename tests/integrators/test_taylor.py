@@ -16,10 +16,10 @@ import sympy as sp
 import gudgeon
 from gudgeon.errors import BadValueError
 from gudgeon.generator.ir.kernels import Kernel, Section
-from gudgeon.generator.ir.series import series_of
-from gudgeon.generator.ir.series_rules import Gathered, NoSeries
+from gudgeon.generator.ir.series import derive_taylor_series
+from gudgeon.generator.ir.series_rules import NoTaylorSeries, StoreRow
 from gudgeon.generator.ir.statements import Line, Statement
-from gudgeon.generator.symbols.storage import Key, Place, key_of
+from gudgeon.generator.symbols.storage import Key, Place, find_key
 from gudgeon.integrators import lanes
 from gudgeon.results.batch import Batch
 from gudgeon.simulation.simulation import Simulation
@@ -44,7 +44,7 @@ def coefficients(value: sp.Expr, orders: int) -> list[float]:
         Statement("result", value),
         Statement(Place("a")[0], sp.Symbol("result", real=True)),
     )
-    made = series_of(Kernel("f", (), (), (Section("", lines),)), lambda target: target, "f")
+    made = derive_taylor_series(Kernel("f", (), (), (Section("", lines),)), lambda target: target, "f")
     rows = dict[tuple[str, int], list[float]]()
     names: dict[Key, float] = {Place("p")["w"]: 0.6}
     found: list[float] = []
@@ -66,7 +66,7 @@ def coefficients(value: sp.Expr, orders: int) -> list[float]:
 
 def follow(line: Line, known: dict[Key, float], rows: dict[tuple[str, int], list[float]]) -> None:
     """What a line does, with numbers by their names."""
-    if isinstance(line, Gathered):
+    if isinstance(line, StoreRow):
         for i, value in enumerate(line.values):
             rows.setdefault((line.array, 8 * line.row + i), []).append(number(value, known))
     elif isinstance(line, Statement):
@@ -77,7 +77,7 @@ def follow(line: Line, known: dict[Key, float], rows: dict[tuple[str, int], list
 def number(value: object, known: dict[Key, float]) -> float:
     """Of an expression."""
     expression = sp.sympify(value)
-    return float(expression.evalf(25, subs={s: known[key_of(s)] for s in expression.free_symbols}))
+    return float(expression.evalf(25, subs={s: known[find_key(s)] for s in expression.free_symbols}))
 
 
 @pytest.mark.parametrize(
@@ -115,7 +115,7 @@ def test_coefficients_of_every_operation(value: sp.Expr) -> None:
 
 def test_what_has_no_series_is_told() -> None:
     for value, why in ((sp.Abs(X), "abs"), (X**Y, "exponent"), (sp.Max(X, Y), "max")):
-        with pytest.raises(NoSeries, match=why):
+        with pytest.raises(NoTaylorSeries, match=why):
             coefficients(value, 1)
 
 

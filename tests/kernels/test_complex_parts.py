@@ -10,14 +10,14 @@ from typing import Any
 import pytest
 import sympy as sp
 
-from gudgeon.generator.ir.complex_parts import at_complex
+from gudgeon.generator.ir.complex_parts import convert_to_complex
 from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.statements import Call, Guard, Statement
 from gudgeon.generator.ir.values import Conditional
 from gudgeon.generator.kernels.program import make_program
-from gudgeon.generator.pipeline import derive
-from gudgeon.generator.symbols.storage import Key, Place, key_of
-from gudgeon.loading.shipped import shipped_file
+from gudgeon.generator.pipeline import derive_scene
+from gudgeon.generator.symbols.storage import Key, Place, find_key
+from gudgeon.loading.shipped import find_shipped_file
 from tests.slow import slow_but
 
 ETA = complex(0.31, -0.42)
@@ -39,7 +39,7 @@ def value_of(value: Any, memory: Memory) -> complex:
         case Conditional():
             assert value.test.relation == "!=" and value.test.bound == (0.0,)
             return value_of(value.then if value_of(value.test.value, memory) != 0 else value.otherwise, memory)
-    names = {symbol: memory[key_of(symbol)] for symbol in value.free_symbols}
+    names = {symbol: memory[find_key(symbol)] for symbol in value.free_symbols}
     function = sp.lambdify(list(names), value, [{"Size": abs}, "math"])
     return complex(function(*names.values()))
 
@@ -56,18 +56,18 @@ def run(kernel: Kernel, memory: Memory, called: dict[str, Kernel]) -> None:
 
 @cache
 def kernels_of(name: str, scene: str) -> tuple[Kernel, Kernel, Kernel]:
-    file = shipped_file(name)
-    newton = make_program(derive(file.read_bytes(), str(file), scene)).methods.newton  # type: ignore[union-attr]
-    return newton.factor, newton.substitute, newton.solve
+    file = find_shipped_file(name)
+    newton = make_program(derive_scene(file.read_bytes(), str(file), scene)).methods.newton  # type: ignore[union-attr]
+    return newton.factor_kernel, newton.substitute_kernel, newton.solve_kernel
 
 
 @pytest.mark.parametrize("of", slow_but(SCENES[1:2], SCENES), ids="-".join)
 def test_both_parts_are_those_of_the_complex_numbers(of: tuple[str, str]) -> None:
     plain = kernels_of(*of)
-    twins = tuple(at_complex(kernel, ("eta", "r", "u", "x", Place("lin")["lu"]), ("s",)) for kernel in plain)
+    twins = tuple(convert_to_complex(kernel, ("eta", "r", "u", "x", Place("lin")["lu"]), ("s",)) for kernel in plain)
     one, two = Memory(eta=ETA, s=0.0), Memory(eta=ETA.real, eta_i=ETA.imag)
     read = {
-        key_of(s)
+        find_key(s)
         for section in plain[2].sections
         for x in section.statements
         for e in x.expressions
@@ -92,9 +92,9 @@ def test_both_parts_are_those_of_the_complex_numbers(of: tuple[str, str]) -> Non
 
 def test_a_pivot_is_judged_by_the_size_of_both_parts() -> None:
     """|Re| + |Im| is compared with the share of the same of what it is measured by, in one number."""
-    factor = at_complex(kernels_of("nine_bar_press", "lubricated")[0], ("eta", Place("lin")["lu"]))
+    factor = convert_to_complex(kernels_of("nine_bar_press", "lubricated")[0], ("eta", Place("lin")["lu"]))
     lines = [line for section in factor.sections for line in section.statements]
-    locals_ = {line.target for line in lines if isinstance(line, Statement) and line.defines}
+    locals_ = {line.target for line in lines if isinstance(line, Statement) and line.declared_local}
     for guard in (line for line in lines if isinstance(line, Guard)):
         bound = [x for x in guard.test.bound if isinstance(x, sp.Basic)]  # type: ignore[union-attr]
         assert all(x.is_Symbol and x.name in locals_ for x in (guard.test.value, *bound))  # type: ignore[union-attr]
@@ -104,4 +104,4 @@ def test_what_has_no_counterpart_is_told() -> None:
     x, eta = sp.symbols("x eta")
     of = Kernel("f", (), (), (Section("", (Statement("y", sp.sin(x * eta)),)),))
     with pytest.raises(ValueError, match="no complex counterpart"):
-        at_complex(of, ("eta",))
+        convert_to_complex(of, ("eta",))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gudgeon.generator.pipeline import derive
+from gudgeon.generator.pipeline import derive_scene
 
 FALLING = b"""
 format: gudgeon/1
@@ -19,6 +19,6 @@ joints: {rail: {translational: [ground.O, stone.origin], axis: [0, 1]}}
 
 def test_a_body_on_a_vertical_rail_falls_freely() -> None:
     """The x axis of the body lies along the rail."""
-    model = derive(FALLING, "falling.yaml", "ideal").numpy()
+    model = derive_scene(FALLING, "falling.yaml", "ideal").numpy()
     q, v = np.array([0.0, -1.0, np.pi / 2]), np.array([0.0, 3.0, 0.0])
     assert model.dynamics(0.0, q, v, model.prepare()).a == pytest.approx([0.0, -10.0, 0.0])

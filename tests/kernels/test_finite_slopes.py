@@ -13,9 +13,9 @@ import pytest
 import sympy as sp
 
 from gudgeon.errors import Location, NonFiniteError
-from gudgeon.generator.ir.differentiation import partial
+from gudgeon.generator.ir.differentiation import compute_partial_derivative
 from gudgeon.generator.ir.finite_slopes import Slope
-from gudgeon.generator.symbols.from_expressions import to_sympy
+from gudgeon.generator.symbols.from_expressions import convert_to_sympy
 from gudgeon.language.parser import parse
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
@@ -135,5 +135,5 @@ def test_a_slope_that_is_none_is_told(tmp_path: Path, of: str) -> None:
 )
 def test_only_what_may_overflow_is_guarded(form: str, guarded: bool) -> None:
     x = sp.Symbol("x", real=True)
-    value = to_sympy(parse(form, Location("f", 1, 1)), lambda _: x)
-    assert partial(value, x).has(Slope) == guarded
+    value = convert_to_sympy(parse(form, Location("f", 1, 1)), lambda _: x)
+    assert compute_partial_derivative(value, x).has(Slope) == guarded

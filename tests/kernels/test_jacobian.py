@@ -11,7 +11,7 @@ import gudgeon
 from gudgeon.assembly.start import Start
 from gudgeon.errors import SingularError
 from gudgeon.loading.generated_scenes import read_scenes
-from gudgeon.loading.shipped import GENERATED, generated, shipped_file
+from gudgeon.loading.shipped import GENERATED, find_shipped_file, list_generated
 from gudgeon.simulation.simulation import Simulation
 from tests.equations.subjects import GAINS, NAN, Subject, make, shipped_subject
 from tests.oracles.linkage_yaml import to_yaml
@@ -50,7 +50,10 @@ start: {guess: {a.theta: 0.4 rad, c.x: 0.8 m}}
 """
 
 INTEGRATED = [  # read, not loaded: a file that is collected compiles nothing
-    (name, source.scene) for name in generated() for source in read_scenes(GENERATED / name) if "rk4" in source.methods
+    (name, source.scene)
+    for name in list_generated()
+    for source in read_scenes(GENERATED / name)
+    if "rk4" in source.methods
 ]
 APART = [("slider_crank", "dry"), ("shaker", "ideal"), ("belt_block", "ideal"), ("bouncing_ball", "elastic")]
 
@@ -142,7 +145,7 @@ def check_solve(subject: Subject, t: float, y: np.ndarray, memory: np.ndarray, r
 
 
 def simulation(name: str, scene: str) -> Simulation:
-    return Simulation(shipped_subject(name, scene).library, shipped_file(name))
+    return Simulation(shipped_subject(name, scene).library, find_shipped_file(name))
 
 
 def test_simulation_and_errors() -> None:

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.loading.shipped import shipped_file
+from gudgeon.loading.shipped import find_shipped_file
 from gudgeon.simulation.simulation import Simulation
 from tests.equations.subjects import NAN, Subject, assert_columns, make
 from tests.programs import needs_compiler
 from tests.slow import slow_but
 
 pytestmark = [needs_compiler, pytest.mark.plain]
-SHIPPED = shipped_file("nine_bar_press").read_text(encoding="utf-8")
+SHIPPED = find_shipped_file("nine_bar_press").read_text(encoding="utf-8")
 # Bearings, contacts and scenes of the press in a linkage of three bodies: A turns with the crank, B stands still.
 PRESS = (
     """

@@ -9,14 +9,14 @@ import sympy as sp
 from gudgeon.generator.ir import sine_pairs
 from gudgeon.generator.ir import split as parts
 from gudgeon.generator.ir.kernels import Kernel, Section
-from gudgeon.generator.ir.signatures import Number, result, source
-from gudgeon.generator.ir.split import nearby
+from gudgeon.generator.ir.signatures import Number, make_input_argument, make_output_argument
+from gudgeon.generator.ir.split import order_near_readers
 from gudgeon.generator.ir.statements import Call, Declare, Line, Statement
 from gudgeon.generator.pipeline import generate
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 from gudgeon.generator.targets.c import functions, printer
 from gudgeon.loading.build import compile_kernels
-from gudgeon.loading.shipped import shipped_file
+from gudgeon.loading.shipped import find_shipped_file
 from gudgeon.mechanisms.n_four_bar import text
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.simulation.simulation import Simulation
@@ -35,7 +35,7 @@ WORKS = [
 
 def simulation(name: str, scene: str, formulation: str, n: int = 0) -> Simulation:
     """Derived and compiled now."""
-    file = shipped_file(name)
+    file = find_shipped_file(name)
     data = text(n).encode() if n else file.read_bytes()
     source = generate(data, str(file), scene, None, formulation)
     return Simulation(CompiledModel(source, compile_kernels(source)), file)
@@ -84,22 +84,22 @@ def test_statements_stand_near_what_reads_them() -> None:
     # two pairs of values, computed first and read last: each pair moves to what reads it
     defines = ["a", "b", "c", "d", "ab", "cd", ""]
     reads = [frozenset(names.split()) for names in ("x", "y", "x", "y", "a b", "c d", "ab cd")]
-    assert nearby(reads, defines) == [0, 1, 4, 2, 3, 5, 6]
+    assert order_near_readers(reads, defines) == [0, 1, 4, 2, 3, 5, 6]
 
 
 @pytest.mark.parametrize("seed", range(5))
 def test_every_statement_comes_once_and_behind_what_it_reads(seed: int) -> None:
     draw = np.random.default_rng(seed)
     needs = [set(draw.integers(0, k, size=3).tolist()) if k else set() for k in range(300)]
-    order = nearby([frozenset(f"x{j}" for j in own) for own in needs], [f"x{k}" for k in range(300)])
+    order = order_near_readers([frozenset(f"x{j}" for j in own) for own in needs], [f"x{k}" for k in range(300)])
     place = {k: n for n, k in enumerate(order)}
     assert sorted(order) == list(range(300)) and order != sorted(order)
     assert all(place[j] < place[k] for k, own in enumerate(needs) for j in own)
 
 
 def test_a_short_kernel_is_its_only_part() -> None:
-    kernel = Kernel("f", (), (result("x"),), (Section("", (Statement(Place("x")[0], sp.Float(1)),)),))
-    assert parts.cut(kernel) == (kernel,)
+    kernel = Kernel("f", (), (make_output_argument("x"),), (Section("", (Statement(Place("x")[0], sp.Float(1)),)),))
+    assert parts.split_kernel(kernel) == (kernel,)
 
 
 def test_what_declares_calls_or_jumps_stays(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -109,14 +109,16 @@ def test_what_declares_calls_or_jumps_stays(monkeypatch: pytest.MonkeyPatch) -> 
     plain = [first, *(Statement(f"a{k}", a[k - 1] + b[k % 2]) for k in range(1, 40))]
     front: tuple[Line, ...] = (Declare(Number.REAL, "b", (2,)), Call("fill", (), (Place("b"),)))
     last = Statement(Place("y")[0], a[39] + a[3])
-    kernel = Kernel("f", (), (source("x"), result("y")), (Section("", (*front, *plain, last)),))
+    kernel = Kernel(
+        "f", (), (make_input_argument("x"), make_output_argument("y")), (Section("", (*front, *plain, last)),)
+    )
     # every statement but the first reads b, which only the call knows: nothing may move
-    assert parts.cut(kernel) == (kernel,)
+    assert parts.split_kernel(kernel) == (kernel,)
     free = [first, *(Statement(f"a{k}", a[k - 1] + 1) for k in range(1, 40))]
-    *pieces, main = parts.cut(Kernel("f", (), kernel.arguments, (Section("", (*front, *free, last)),)))
+    *pieces, main = parts.split_kernel(Kernel("f", (), kernel.arguments, (Section("", (*front, *free, last)),)))
     assert [piece.name for piece in pieces] == ["f_part_1", "f_part_2", "f_part_3"]
     kept = [line for section in main.sections for line in section.statements if not isinstance(line, Statement)]
-    assert [functions.Lines(printer.CPrinter()).line(line).strip() for line in kept] == [
+    assert [functions.LinePrinter(printer.CPrinter()).line(line).strip() for line in kept] == [
         "double passed[3];",
         "double b[2];",
         "fill(b);",

@@ -7,8 +7,8 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from gudgeon.generator.pipeline import derive
-from gudgeon.loading.shipped import shipped_file
+from gudgeon.generator.pipeline import derive_scene
+from gudgeon.loading.shipped import find_shipped_file
 from tests.slow import slow_but
 
 LEAST = {"slider_crank": 1, "four_bar": 2, "n_four_bar": 4}  # so many rows at least
@@ -17,7 +17,7 @@ LEAST = {"slider_crank": 1, "four_bar": 2, "n_four_bar": 4}  # so many rows at l
 @pytest.mark.parametrize("name", slow_but(["slider_crank", "four_bar"], LEAST))
 def test_a_status_names_the_first_row_that_depends_on_those_before_it(name: str) -> None:
     """One to three bodies turned level, upright or slanting, so in one line; against ranks of Φ_q M^(-1/2)."""
-    model = derive(shipped_file(name).read_bytes(), name, "ideal").numpy()
+    model = derive_scene(find_shipped_file(name).read_bytes(), name, "ideal").numpy()
     p, rng, found = model.prepare(), np.random.default_rng(1), set()
     names = [row.name for row in model.model.all_rows]
     numbered = [(k, names.index(pivot)) for k, pivot in enumerate(model.program.kkt.pivots, 1) if pivot in names]

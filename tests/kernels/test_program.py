@@ -11,8 +11,8 @@ from gudgeon.contract.methods import STAGES
 from gudgeon.errors import BadValueError
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kernels.program import make_program
-from gudgeon.generator.pipeline import derive, in_c
-from gudgeon.generator.targets.c.emit import emit
+from gudgeon.generator.pipeline import derive_scene, generate_c
+from gudgeon.generator.targets.c.emit import emit_scene
 from gudgeon.generator.targets.latex import equations_text
 from tests.slow import slow_but
 
@@ -39,12 +39,12 @@ ORDERS = [
 def derived(name: str, scene: str) -> Model:
     """The model of a shipped scene, which nothing has printed yet."""
     file = MECHANISMS / f"{name}.yaml"
-    return derive(file.read_bytes(), file.name, scene)
+    return derive_scene(file.read_bytes(), file.name, scene)
 
 
 def tables(model: Model) -> list[dict[str, Any]]:
     """Everything in a model that grew while it was derived, in its order."""
-    owners = (model.symbols, model.symbols.switches, model.slots, model.geometry, model.constraints)
+    owners = (model.symbols, model.symbols.switches, model.parameter_table, model.geometry, model.constraints)
     return [
         {name: [*value.items()] if hasattr(value, "items") else value for name, value in vars(owner).items()}
         for owner in owners
@@ -58,7 +58,7 @@ def printed(model: Model, what: str) -> Any:
     if what == "numpy":
         return model.numpy().source
     try:
-        return in_c(model, what)
+        return generate_c(model, what)
     except BadValueError as why:
         return str(why)
 
@@ -74,20 +74,25 @@ def test_no_text_depends_on_what_was_printed_before(of: tuple[str, str]) -> None
         assert printed(model, what) == alone[what], what
     assert tables(model) == before
     assert [slot.address for slot in alone["full"].slots] == [slot.address for slot in alone["reduced"].slots]
-    assert [*model.slots.entries] == [slot.address for slot in alone["reduced"].slots]
+    assert [*model.parameter_table.entries] == [slot.address for slot in alone["reduced"].slots]
 
 
 def test_a_model_is_read_only() -> None:
     model = derived("pendulum", "ideal")
-    for table in (model.slots.entries, model.slots.derived, model.symbols.info, model.symbols.rules):
+    for table in (
+        model.parameter_table.entries,
+        model.parameter_table.derived,
+        model.symbols.info,
+        model.symbols.rules,
+    ):
         with pytest.raises(TypeError, match="does not support item assignment"):
             table["late"] = None  # type: ignore[assignment]
     with pytest.raises(AssertionError, match="late: derived after the tables were frozen"):
-        model.symbols.new("late")
+        model.symbols.add_symbol("late")
     with pytest.raises(AssertionError, match="late"):
-        model.slots.derive("late", 1 / (model.masses[0] + 17))
+        model.parameter_table.derive("late", 1 / (model.masses[0] + 17))
     with pytest.raises(AssertionError, match="a corner after the tables were frozen"):
-        model.symbols.switches.side("", model.q[0] - 17)
+        model.symbols.switches.get_or_add_switch("", model.q[0] - 17)
 
 
 @pytest.mark.parametrize("of", slow_but(SCENES[1:3], SCENES), ids="-".join)
@@ -96,18 +101,24 @@ def test_printing_derives_nothing(of: tuple[str, str, str]) -> None:
     name, scene, formulation = of
     program = make_program(derived(name, scene), formulation)
     model, own = program.model, program.integrated.system.model
-    before = [len(x) for x in (model.slots.entries, model.slots.derived, model.symbols.info, own.symbols.info)]
-    first = emit(program)
-    assert before == [len(x) for x in (model.slots.entries, model.slots.derived, model.symbols.info, own.symbols.info)]
-    assert emit(program) == first
+    before = [
+        len(x)
+        for x in (model.parameter_table.entries, model.parameter_table.derived, model.symbols.info, own.symbols.info)
+    ]
+    first = emit_scene(program)
+    assert before == [
+        len(x)
+        for x in (model.parameter_table.entries, model.parameter_table.derived, model.symbols.info, own.symbols.info)
+    ]
+    assert emit_scene(program) == first
 
 
 def test_what_is_derived_too_late_is_told() -> None:
     program = make_program(derived("slider_crank", "dry"))
     for model in (program.model, program.integrated.system.model):
         with pytest.raises(AssertionError, match="late: derived after the tables were frozen"):
-            model.symbols.new("late")
+            model.symbols.add_symbol("late")
         with pytest.raises(AssertionError, match="late"):
-            model.slots.derive("late", 1 / (model.masses[0] + 17))
+            model.parameter_table.derive("late", 1 / (model.masses[0] + 17))
         with pytest.raises(AssertionError, match="a corner after the tables were frozen"):
-            model.symbols.switches.side("", model.q[0] - 17)
+            model.symbols.switches.get_or_add_switch("", model.q[0] - 17)

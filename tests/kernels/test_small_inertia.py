@@ -12,7 +12,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError
-from gudgeon.generator.pipeline import derive
+from gudgeon.generator.pipeline import derive_scene
 from gudgeon.simulation.simulation import Simulation
 from tests.oracles import numpy_linkage
 from tests.oracles.linkage_yaml import to_yaml
@@ -102,7 +102,7 @@ def solved(mass: np.ndarray, phi_q: np.ndarray, g: np.ndarray, gamma: np.ndarray
 def test_random_linkages(seed: int) -> None:
     """The absolute formulation's accelerations and multipliers, by the NumPy target, against fifty digits."""
     case = with_inertias(seed)
-    model = derive(to_yaml(case).encode(), f"random_{seed}.yaml", "ideal")
+    model = derive_scene(to_yaml(case).encode(), f"random_{seed}.yaml", "ideal")
     own, q, v = model.numpy(), case.q, case.v
     p, names = own.prepare(EXACT), {row.name for row in model.rows}
     kept = [k for k, row in enumerate(model.all_rows) if row.name in names]

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.integrators.batch import integrate
+from gudgeon.integrators.batch import integrate_problem
 from gudgeon.integrators.trajectory import Problem
-from gudgeon.model.parameters import without_baumgarte
+from gudgeon.model.parameters import prepare_without_baumgarte
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
 
@@ -37,8 +37,8 @@ class Tree:
         self.lib, self.pointer = self.compiled.lib, self.compiled.pointer
         run = simulation.simulate(t, output=1, rtol=1e-9)
         zeros = np.zeros(len(simulation.source.slots))
-        self.p = without_baumgarte(self.compiled, zeros, zeros.astype(bool))
-        self.memory = self.compiled.memory_array(run.memory[-1] if self.compiled.n_memory else None)
+        self.p = prepare_without_baumgarte(self.compiled, zeros, zeros.astype(bool))
+        self.memory = self.compiled.as_discrete_states(run.memory[-1] if self.compiled.n_memory else None)
         self.n = len(simulation.source.tree)
         chained = len(simulation.source.chain)
         q, v = np.zeros(self.n + chained), np.zeros(self.n + chained)
@@ -108,6 +108,6 @@ def test_a_run_starts_where_it_is_told() -> None:
     press = gudgeon.load("nine_bar_press", scene="lubricated")
     start = press.start()
     problem = Problem(press.compiled, press.p, np.zeros(1), start.q, start.v, np.full(2, np.nan), 1.0, p_free=press.p)
-    run = integrate(problem)
+    run = integrate_problem(problem)
     assert run.q[0] == pytest.approx(start.q, abs=1e-15)
     assert run.v[0] == pytest.approx(start.v, abs=1e-14)

@@ -13,7 +13,7 @@ import pytest
 import sympy as sp
 
 from gudgeon.errors import BadValueError, InputErrors, Location, NonFiniteError
-from gudgeon.generator.symbols.from_expressions import to_sympy
+from gudgeon.generator.symbols.from_expressions import convert_to_sympy
 from gudgeon.generator.targets.c import printer, ranges_printer
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
 from gudgeon.language.parser import parse
@@ -84,7 +84,7 @@ def test_several_runs_at_once_have_them_too(scene: Simulation) -> None:
 
 
 def read(text: str) -> sp.Expr:
-    return to_sympy(parse(text, Location("f", 1, 1)), lambda name: sp.Symbol(name, real=True))
+    return convert_to_sympy(parse(text, Location("f", 1, 1)), lambda name: sp.Symbol(name, real=True))
 
 
 @pytest.mark.parametrize(
@@ -108,7 +108,7 @@ def read(text: str) -> sp.Expr:
 )
 def test_how_a_whole_is_written(form: str, c: str, ranges: str, tex: str | None, text: str | None) -> None:
     value = read(form)
-    assert printer.expression(value) == c
+    assert printer.print_expression(value) == c
     assert ranges_printer.RangesPrinter()._print_range(value) == ranges
     assert tex is None or TexPrinter({}, {}).doprint(value) == tex
     assert text is None or TextPrinter({}, {}).doprint(value) == text
@@ -117,7 +117,7 @@ def test_how_a_whole_is_written(form: str, c: str, ranges: str, tex: str | None,
 @pytest.mark.parametrize("number", [sp.Float("1e-400"), sp.Float("-1e-322"), sp.Float("1e400"), sp.Integer(10) ** 350])
 def test_a_coefficient_that_binary64_has_not_stands_on_both_sides(number: sp.Expr) -> None:
     x = sp.Symbol("x", real=True)
-    text = printer.expression(number * sp.exp(x))
+    text = printer.print_expression(number * sp.exp(x))
     at = -np.sign(float(sp.log(abs(number)))) * 700.0
     found = eval(text, {"exp": np.exp, "x": at})  # two products and a call: Python reads them as C does
     assert found == pytest.approx(float(number * sp.exp(sp.Integer(int(at)))), rel=1e-12, abs=0.0)

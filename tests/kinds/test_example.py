@@ -8,10 +8,10 @@ from __future__ import annotations
 import pytest
 
 from gudgeon.generator.field import RELATIONS
-from gudgeon.generator.kinds.laws.law import Law, laws
+from gudgeon.generator.kinds.laws.law import Law, find_all_laws
 
 
-@pytest.mark.parametrize("law", laws().values(), ids=lambda law: law.name)
+@pytest.mark.parametrize("law", find_all_laws().values(), ids=lambda law: law.name)
 def test_the_defaults_of_a_law_are_within_their_bounds(law: Law) -> None:
     for field in law.parameters:
         for bound in field.bounds:

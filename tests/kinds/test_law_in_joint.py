@@ -15,7 +15,7 @@ import pytest
 
 import gudgeon
 from gudgeon.generator.field import POSITIVE, RELATIONS, Field, number
-from gudgeon.generator.kinds.laws.law import Law, LawInputs, laws
+from gudgeon.generator.kinds.laws.law import Law, LawInputs, find_all_laws
 from gudgeon.generator.kinds.laws.registered import register
 from gudgeon.language.units import STIFFNESS
 from tests.kinds.own import forgotten
@@ -68,7 +68,7 @@ def value_of(field: Field) -> str:
 
 def contact(law: Law) -> str:
     """Return a contact in which the law has what its role needs beside it."""
-    numbers = "".join(f", {own.name}: {get_output(own)}" for own in law.parameters if own.required)
+    numbers = "".join(f", {own.name}: {value_of(own)}" for own in law.parameters if own.required)
     own = f"{law.role}: {{law: {law.name}{numbers}}}"
     return {
         "normal": own,
@@ -80,20 +80,20 @@ def contact(law: Law) -> str:
 
 def discs() -> str:
     """Return a mechanism with a disc for each law that is known now, "J_<law>" its joint."""
-    play = ", ".join(f"J_{name}: {{bearing: b, contact: {name}}}" for name in laws())
+    play = ", ".join(f"J_{name}: {{bearing: b, contact: {name}}}" for name in find_all_laws())
     measures = "radius: 15 mm, clearance: 0.2 mm, length: 20 mm, bearing_material: steel, journal_material: steel"
     return f"""format: gudgeon/1
 name: discs
 materials: {{steel: {{E: 206 GPa, nu: 0.3}}}}
-bodies: {{{", ".join(f"{name}: {{mass: {MASS}, inertia: {INERTIA}}}" for name in laws())}}}
+bodies: {{{", ".join(f"{name}: {{mass: {MASS}, inertia: {INERTIA}}}" for name in find_all_laws())}}}
 ground: {{O: [0, 0]}}
-joints: {{{", ".join(f"J_{name}: {{revolute: [ground.O, {name}.com]}}" for name in laws())}}}
+joints: {{{", ".join(f"J_{name}: {{revolute: [ground.O, {name}.com]}}" for name in find_all_laws())}}}
 bearings: {{b: {{{measures}}}}}
 contacts:
-{"".join(f"  {name}: {{{contact(law)}}}{chr(10)}" for name, law in laws().items())}
+{"".join(f"  {name}: {{{contact(law)}}}{chr(10)}" for name, law in find_all_laws().items())}
 start:
-  rates: {{{", ".join(f"{name}.omega: {SPIN}" for name in laws())}}}
-  play: {{{", ".join(f"J_{name}: {{e: [0.18 mm, 0], rate: [{SPEED}, 0]}}" for name in laws())}}}
+  rates: {{{", ".join(f"{name}.omega: {SPIN}" for name in find_all_laws())}}}
+  play: {{{", ".join(f"J_{name}: {{e: [0.18 mm, 0], rate: [{SPEED}, 0]}}" for name in find_all_laws())}}}
 scenes: {{all: {{play: {{{play}}}}}}}
 """
 
@@ -111,7 +111,7 @@ def test_every_law_works_in_a_joint(made_up: Law, tmp_path: Path) -> None:
     file.write_text(discs())
     run = gudgeon.load(file, "all").simulate(2e-3, output=41)
     assert np.isfinite(run.q).all() and np.isfinite(run.a).all()
-    for name, law in laws().items():
+    for name, law in find_all_laws().items():
         along, spin = run[f"{name}.vx"], run[f"{name}.omega"]
         energy = 0.5 * MASS * (along**2 + run[f"{name}.vy"] ** 2) + 0.5 * INERTIA * spin**2
         assert (energy <= energy[0] * (1.0 + 1e-9)).all(), name

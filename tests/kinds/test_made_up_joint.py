@@ -13,18 +13,18 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.assembly.failures import lengths_text
-from gudgeon.drawing.failures import gaps
-from gudgeon.drawing.picture import as_bytes, figure_of
+from gudgeon.assembly.failures import format_length
+from gudgeon.drawing.failures import draw_gaps
+from gudgeon.drawing.picture import build_figure, encode_figure
 from gudgeon.drawing.shapes import Disc, Line
 from gudgeon.drawing.sketch import make_sketch
 from gudgeon.generator.kinds import joints
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.pipeline import derive
-from gudgeon.generator.targets.format_tables import tables
-from gudgeon.generator.targets.json_schema import schema
+from gudgeon.generator.pipeline import derive_scene
+from gudgeon.generator.targets.format_tables import print_format_tables
+from gudgeon.generator.targets.json_schema import make_schema
 from gudgeon.generator.targets.latex import equations_tex, equations_text
-from gudgeon.simulation.newton_euler import newton_euler
+from gudgeon.simulation.newton_euler import compute_newton_euler_residuals
 from tests.drawing.drawn import drawn
 
 LENGTH, RADIUS, OMEGA, MASS, GRAVITY = 0.04, 0.01, 20.0, 0.3, 9.81
@@ -72,7 +72,7 @@ def test_it_runs_by_its_closed_form(tmp_path: Path, formulation: str) -> None:
     np.testing.assert_allclose(run["face.Fy"], force, rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(run["face.M"], 0.0, atol=1e-12)
     assert run.compiled is not None
-    assert newton_euler(run.compiled, run.p, run.q, run.evaluation, np.arange(21)).max() < 1e-9
+    assert compute_newton_euler_residuals(run.compiled, run.p, run.q, run.evaluation, np.arange(21)).max() < 1e-9
     assert run.meaning("face.Fy").endswith("on push at the pin, ground axes")
 
 
@@ -81,36 +81,36 @@ def test_it_is_drawn_by_its_own_symbol_or_by_squares() -> None:
     sketch = make_sketch(found.posture)
     (roller,) = (shape for shape in sketch.of("joint face") if shape.role == "roller")
     assert isinstance(roller, Disc) and roller.radius == RADIUS
-    np.testing.assert_allclose(roller.centre, found.posture.place("crank.head"))
+    np.testing.assert_allclose(roller.centre, found.posture.get_position("crank.head"))
     (face,) = (shape for shape in sketch.of("joint face") if shape.role == "rail")
     assert isinstance(face, Line)
-    np.testing.assert_allclose(face.points[:, 1], found.posture.place("push.origin")[1])
+    np.testing.assert_allclose(face.points[:, 1], found.posture.get_position("push.origin")[1])
     assert [shape.role for shape in sketch.of("joint even")] == ["block", "block"]
-    svg = as_bytes(figure_of([sketch], [""], "x"), ".svg").decode()
+    svg = encode_figure(build_figure([sketch], [""], "x"), ".svg").decode()
     assert all(f'id="{kind}joint-{name}"' in svg for kind in ("", "name-") for name in ("face", "even"))
 
 
 def test_its_gap_is_what_its_row_lacks() -> None:
     """Of the roller a line along the normal, of the other one a number: the distance of its points means nothing."""
     found = drawn(OPEN)
-    residual = dict(zip(found.closure.names, found.closure.residual(found.posture.q), strict=True))
-    shapes, labels = gaps(found.closure, found.posture)
+    residual = dict(zip(found.closure.names, found.closure.compute_residual(found.posture.q), strict=True))
+    shapes, labels = draw_gaps(found.closure, found.posture)
     texts = {label.part: label.text for label in labels}
     lines = {shape.part: shape for shape in shapes}
     face, even = residual["face.distance"], residual["even.height"]
     assert min(abs(face), abs(even)) > 1e-3
     line = lines["gap face"]
     assert isinstance(line, Line)
-    tilt = found.posture.theta("push")
+    tilt = found.posture.get_angle("push")
     np.testing.assert_allclose(line.points[1] - line.points[0], [-face * np.sin(tilt), face * np.cos(tilt)], atol=1e-15)
-    assert texts["gap face"] == f"face: {lengths_text(abs(face))}"
-    assert "gap even" not in lines and texts["gap even"] == f"even: {lengths_text(even)}"
+    assert texts["gap face"] == f"face: {format_length(abs(face))}"
+    assert "gap even" not in lines and texts["gap even"] == f"even: {format_length(even)}"
 
 
 def test_documents_and_tables_have_it() -> None:
-    model = derive(MACHINE.encode(), "made_up.yaml", "ideal")
+    model = derive_scene(MACHINE.encode(), "made_up.yaml", "ideal")
     for text in (equations_text(model), equations_tex(model)):
         assert "roller on a flat face" in text and "points at one height" in text
         assert "a point of the first body keeps a distance from a line of the second" in text
     assert "=====---=====>" in equations_text(model)
-    assert "radius of the roller" in str(tables()) and "radius of the roller" in str(schema())
+    assert "radius of the roller" in str(print_format_tables()) and "radius of the roller" in str(make_schema())

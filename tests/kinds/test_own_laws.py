@@ -19,12 +19,12 @@ import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import InputError, LawError, UnknownNameError
 from gudgeon.generator.kinds.laws import registered
-from gudgeon.generator.kinds.laws.law import Law, called, laws
-from gudgeon.generator.pipeline import derive, generate
-from gudgeon.generator.targets.json_schema import schema
+from gudgeon.generator.kinds.laws.law import Law, find_all_laws, find_laws_of_role
+from gudgeon.generator.pipeline import derive_scene, generate
+from gudgeon.generator.targets.json_schema import make_schema
 from gudgeon.generator.targets.latex import equations_text
-from gudgeon.loading.shipped import shipped_file
-from gudgeon.studies.show.map import files_of_laws
+from gudgeon.loading.shipped import find_shipped_file
+from gudgeon.studies.show.map import list_law_files
 from tests.kinds.own import example_text, forgotten
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
@@ -69,7 +69,7 @@ def law_file(folder: Path, old: str = "", new: str = "") -> Path:
 
 def test_without_it_the_name_is_unknown_and_what_to_do_is_told(disc: Path) -> None:
     with pytest.raises(UnknownNameError, match=r"unknown normal law 'dashpot'\n(.*\n)*.*--laws FILE.py") as error:
-        derive(disc.read_bytes(), str(disc), "wall")
+        derive_scene(disc.read_bytes(), str(disc), "wall")
     assert error.value.where is not None and error.value.where.line == 11
 
 
@@ -94,32 +94,32 @@ def test_names_of_emitted_code_do_not_change_a_number(name: str, disc: Path) -> 
 def test_a_name_that_ends_as_those_of_emitted_code_is_refused(disc: Path) -> None:
     with pytest.raises(LawError, match="'a_' ends in '_'") as error:
         gudgeon.register(law_file(disc.parent, BUILD, '    return {"a_": K, "F_n": K * s.variables["delta"]}\n'))
-        derive(disc.read_bytes(), str(disc), "wall")
+        derive_scene(disc.read_bytes(), str(disc), "wall")
     assert error.value.hint.startswith("write a;")
 
 
 def test_among_the_laws_it_is_the_last(disc: Path) -> None:
-    before = list(called("normal"))
+    before = list(find_laws_of_role("normal"))
     gudgeon.register(law_file(disc.parent))
-    assert list(called("normal")) == [*before, "dashpot"] and "dashpot" not in before
+    assert list(find_laws_of_role("normal")) == [*before, "dashpot"] and "dashpot" not in before
 
 
 def test_everything_follows_from_it(disc: Path) -> None:
     law = gudgeon.register(law_file(disc.parent))
-    assert laws()["dashpot"] is law
+    assert find_all_laws()["dashpot"] is law
     source = generate(disc.read_bytes(), str(disc), "wall")
     text = "".join(source.files.values())
     assert "static inline void own_dashpot__(double delta, double ratio, double deltadot, double stiffness__" in text
     assert {slot.address for slot in source.slots} >= {"contacts.wall.normal.stiffness", "contacts.wall.normal.damping"}
     assert next(s for s in source.slots if s.address.endswith("damping")).unit == "kg/s"
-    shown = equations_text(derive(disc.read_bytes(), str(disc), "wall"))
+    shown = equations_text(derive_scene(disc.read_bytes(), str(disc), "wall"))
     assert "any book on vibrations" in shown and "F_n = δ·K + δ̇·D" in shown
-    assert "dashpot" in json.dumps(schema()) and files_of_laws() == [str(disc.parent / "dashpot.py")]
+    assert "dashpot" in json.dumps(make_schema()) and list_law_files() == [str(disc.parent / "dashpot.py")]
 
 
 def test_a_number_without_a_symbol_is_called_by_its_name(disc: Path) -> None:
     gudgeon.register(law_file(disc.parent, ', symbol="K"'))
-    assert "F_n = δ·stiffness + δ̇·D" in equations_text(derive(disc.read_bytes(), str(disc), "wall"))
+    assert "F_n = δ·stiffness + δ̇·D" in equations_text(derive_scene(disc.read_bytes(), str(disc), "wall"))
 
 
 WRONG = [
@@ -202,7 +202,7 @@ def test_what_it_may_not_be_is_told(
     file.write_text(text.replace("import POSITIVE, number", "import POSITIVE, Bound, number, word"), encoding="utf-8")
     with pytest.raises(LawError, match=message) as error:
         gudgeon.register("dashpot.py")
-        derive(disc.read_bytes(), str(disc), "wall")
+        derive_scene(disc.read_bytes(), str(disc), "wall")
     assert error.value.exit_code == 2 and "dashpot.py" in str(error.value)
 
 
@@ -218,11 +218,11 @@ def test_names_of_two_laws(tmp_path: Path) -> None:
     """Edited it may be registered again; another file's, or one that is made here, is another law."""
     (tmp_path / "other").mkdir()
     first = gudgeon.register(law_file(tmp_path))
-    key = registered.key_of("dashpot")
+    key = registered.find_law_key("dashpot")
     gudgeon.register(law_file(tmp_path, "D * s", "2 * D * s"))
-    assert registered.key_of("dashpot") != key
+    assert registered.find_law_key("dashpot") != key
     gudgeon.register(law_file(tmp_path))
-    assert registered.key_of("dashpot") == key
+    assert registered.find_law_key("dashpot") == key
     for other in (law_file(tmp_path / "other"), first):
         with pytest.raises(LawError, match="another law of this name is registered, that of .*dashpot.py"):
             gudgeon.register(other)
@@ -237,12 +237,12 @@ def test_the_key_of_a_law_is_what_it_derives_to() -> None:
         def build(s: object) -> dict[str, object]:
             return {"F_n": factor * s.parameters["stiffness"] * s.variables["delta"]}  # type: ignore[attr-defined]
 
-        return replace(laws()["kelvin_voigt"], name="made", build=build)
+        return replace(find_all_laws()["kelvin_voigt"], name="made", build=build)
 
     keys = []
     for factor in (2, 3, 2):
         gudgeon.register(made(factor))
-        keys.append(registered.key_of("made"))
+        keys.append(registered.find_law_key("made"))
     assert keys[0] == keys[2] != keys[1] and len(keys[0]) == 64
 
 
@@ -254,14 +254,14 @@ def test_what_a_file_imports_from_beside_it_counts(tmp_path: Path, monkeypatch: 
         (tmp_path / "beside_a_law.py").write_text(text, encoding="utf-8")
         sys.modules.pop("beside_a_law", None)
         gudgeon.register(law)
-        keys.append(registered.key_of("dashpot"))
+        keys.append(registered.find_law_key("dashpot"))
     sys.modules.pop("beside_a_law")
     assert keys[0] != keys[1]
 
 
 def test_scenes_without_it_are_as_they_were(tmp_path: Path) -> None:
     """Its states and keys are nobody's names elsewhere."""
-    data = shipped_file("slider_crank").read_bytes().replace(b"parameters:\n", b"parameters:\n  spam: 1 m\n", 1)
+    data = find_shipped_file("slider_crank").read_bytes().replace(b"parameters:\n", b"parameters:\n  spam: 1 m\n", 1)
     data += b"  more: spam\n"
     before = generate(data, "f.yaml", "dry")
     text = (
@@ -288,9 +288,9 @@ def test_numbers_that_are_called_as_its_abbreviations(disc: Path) -> None:
     )
     gudgeon.register(law_file(disc.parent, BUILD, steps))
     text = disc.read_text(encoding="utf-8").replace("50 N*s/m", "speed * 50 kg/m")
-    model = derive(text.encode(), "disc.yaml", "wall")
+    model = derive_scene(text.encode(), "disc.yaml", "wall")
     law = model.clearances[0].normal
-    assert law is not None and "speed" not in {symbol.name for symbol in model.slots.members()}
+    assert law is not None and "speed" not in {symbol.name for symbol in model.parameter_table.list_symbols()}
     assert law.steps["speed__"] == 2 * law.variables[2]
 
 
@@ -317,7 +317,7 @@ def test_two_laws_of_one_contact_keep_their_abbreviations_apart(disc: Path) -> N
     gudgeon.register(disc.parent / "rubs.py")
     text = TEXT.replace("N*s/m}}", "N*s/m}, friction: {law: rubs, stiffness: 1 N/m, damping: 1 N*s/m}}")
     with pytest.raises(LawError, match="law dashpot: 'a1' names something in the contact's other law, rubs, too"):
-        derive(text.encode(), "disc.yaml", "wall")
+        derive_scene(text.encode(), "disc.yaml", "wall")
 
 
 @needs_compiler

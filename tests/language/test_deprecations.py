@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 import gudgeon
 from gudgeon.cli import app
-from gudgeon.language.deprecations import DEPRECATIONS, STRESS, Deprecation, deprecated
+from gudgeon.language.deprecations import DEPRECATIONS, STRESS, Deprecation, warn_deprecated
 
 CHANGES = (Path(__file__).parents[2] / "CHANGELOG.md").read_text(encoding="utf-8")
 
@@ -26,7 +26,7 @@ def test_each_is_in_the_changes_and_not_overdue(one: Deprecation) -> None:
 
 def test_a_call_is_told_where_it_stands() -> None:
     def old() -> None:
-        deprecated(STRESS)
+        warn_deprecated(STRESS)
 
     with pytest.warns(
         DeprecationWarning, match=r"since gudgeon 0\.1\.0 \(2026-11-26\) and gone from 0\.3\.0"

@@ -9,9 +9,9 @@ import pytest
 
 from gudgeon.errors import ExpressionError, InputError, Location, UnitError
 from gudgeon.language.parser import check_dimension, parse
-from gudgeon.language.quantities import number_of_text
+from gudgeon.language.quantities import parse_quantity
 from gudgeon.language.tree import to_json
-from gudgeon.language.units import DIMENSIONLESS, LENGTH, MASS, RATE, TIME, VELOCITY, Dimension, dimension
+from gudgeon.language.units import DIMENSIONLESS, LENGTH, MASS, RATE, TIME, VELOCITY, Dimension, make_dimension
 
 HERE = Location("file.yaml", 3, 10)
 NAMES = {"t": TIME, "l": LENGTH, "m1": MASS, "omega": RATE, "free": None}
@@ -27,10 +27,10 @@ def dimension_of(text: str, expected: Dimension | None = None) -> Dimension | No
         ("80 mm", LENGTH),
         ("l * omega", VELOCITY),
         ("2 * l + 3", LENGTH),
-        ("l**2", dimension(2)),
+        ("l**2", make_dimension(2)),
         ("sqrt(l**2 + (3 mm)**2)", LENGTH),
         ("l**(1/2)", Dimension(Fraction(1, 2))),
-        ("l**-1", dimension(-1)),
+        ("l**-1", make_dimension(-1)),
         ("atan2(l, 3 mm) + 5 deg", DIMENSIONLESS),
         ("omega * t + 10 deg", DIMENSIONLESS),
         ("smooth_step(t, 0, 0.5 s) * 90 deg", DIMENSIONLESS),
@@ -115,10 +115,10 @@ def test_units_called_otherwise(text: str, hint: str) -> None:
 
 
 def test_number_of_text() -> None:
-    assert number_of_text(" 0.5 mm ", "bearings.pin.clearance", (1, 0, 0)) == 0.0005
-    assert number_of_text("2*pi rad/s", "parameters.omega", (0, 0, -1)) == math.tau
-    assert number_of_text("-3e-4", "parameters.c", (1, 0, 0)) == -3e-4
-    assert number_of_text("0.5mm", "parameters.c", (1, 0, 0)) == 0.0005
+    assert parse_quantity(" 0.5 mm ", "bearings.pin.clearance", (1, 0, 0)) == 0.0005
+    assert parse_quantity("2*pi rad/s", "parameters.omega", (0, 0, -1)) == math.tau
+    assert parse_quantity("-3e-4", "parameters.c", (1, 0, 0)) == -3e-4
+    assert parse_quantity("0.5mm", "parameters.c", (1, 0, 0)) == 0.0005
     for text in ("1 kg", "c", "", "0.5mmm", "2 * omega"):
         with pytest.raises(InputError, match="value of parameters.c:1:"):
-            number_of_text(text, "parameters.c", (1, 0, 0))
+            parse_quantity(text, "parameters.c", (1, 0, 0))

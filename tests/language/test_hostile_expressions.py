@@ -9,9 +9,9 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, InputError, LimitError
-from gudgeon.generator.pipeline import derive, generate
+from gudgeon.generator.pipeline import derive_scene, generate
 from gudgeon.loading.compiler import find_compiler
-from gudgeon.loading.engine import include_flags
+from gudgeon.loading.engine import build_include_flags
 
 FILE = """format: gudgeon/1
 name: n
@@ -89,7 +89,7 @@ DEEPER = [
 
 @pytest.mark.parametrize("texts", [COMPILED, pytest.param(DEEPER, marks=pytest.mark.slow)], ids=["each", "deeper"])
 def test_compiled(texts: list[str], tmp_path: Path) -> None:
-    flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", include_flags()[-1]]
+    flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", build_include_flags()[-1]]
     for number, text in enumerate(texts):
         source = generate(text.encode(), "f", "ideal")
         folder = tmp_path / str(number)
@@ -110,6 +110,6 @@ def test_thousands_of_parameters_may_be_defined_through_each_other() -> None:
     text = (Path(gudgeon.__file__).resolve().parents[1] / "mechanisms" / "pendulum.yaml").read_text(encoding="utf-8")
     chain = "".join(f"  p{k}: 1 * p{k + 1}\n" for k in range(1500)) + "  p1500: 1 m\n"
     text = text.replace("  length: 1 m\n", f"  length: p0\n{chain}")
-    slots = derive(text.encode(), "x.yaml", "ideal").slots
+    slots = derive_scene(text.encode(), "x.yaml", "ideal").parameter_table
     assert slots.entries["parameters.length"].default == 1.0
     assert list(slots.entries)[:3] == ["parameters.g", "parameters.p1500", "parameters.p1499"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from gudgeon.language.names import near, nearest, unknown
+from gudgeon.language.names import find_near_names, find_nearest_name, make_unknown_error
 
 ADDRESSES = (
     "omega",
@@ -35,9 +35,9 @@ ADDRESSES = (
 )
 def test_the_near_address_stands_first(name: str, first: str) -> None:
     """By the whole of it and by its last parts; capitals decide nothing."""
-    assert nearest(name, ADDRESSES) == near(name, ADDRESSES)[0] == first
+    assert find_nearest_name(name, ADDRESSES) == find_near_names(name, ADDRESSES)[0] == first
 
 
 def test_what_is_far_from_all_is_told_as_that() -> None:
-    assert near("tappet.lift", ADDRESSES) == near("", ADDRESSES) == []
-    assert "there are: omega, c" in str(unknown("no number 'tappet.lift'", "tappet.lift", ADDRESSES))
+    assert find_near_names("tappet.lift", ADDRESSES) == find_near_names("", ADDRESSES) == []
+    assert "there are: omega, c" in str(make_unknown_error("no number 'tappet.lift'", "tappet.lift", ADDRESSES))

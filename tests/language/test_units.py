@@ -18,11 +18,11 @@ from gudgeon.language.units import (
     UNITS,
     VISCOSITY,
     Dimension,
-    describe,
-    dimension,
+    describe_dimension,
+    find_si_unit,
+    find_unit,
+    make_dimension,
     parse_unit,
-    si_unit,
-    unit,
 )
 
 pint = pytest.importorskip("pint")
@@ -44,7 +44,7 @@ def test_unit_is_pints(token: str, registry) -> None:  # type: ignore[no-untyped
     exponents = [0, 0, 0]
     for base, exponent in quantity.dimensionality.items():
         exponents[BASES[base]] = exponent
-    assert of == dimension(*exponents)
+    assert of == make_dimension(*exponents)
 
 
 def test_the_list_is_closed() -> None:
@@ -67,15 +67,15 @@ def test_the_list_is_closed() -> None:
         "m^0",
         "m^10",
     ):
-        assert unit(token) is None
+        assert find_unit(token) is None
 
 
 def test_rounding_is_done_once() -> None:
-    found = unit("mm")
+    found = find_unit("mm")
     assert found is not None
     for micrometres in range(1, 2000):
         assert found.to_si(Fraction(micrometres, 1000)) == float(f"{micrometres}e-6")
-    degree = unit("deg")
+    degree = find_unit("deg")
     assert degree is not None
     assert [degree.to_si(Fraction(n)) for n in (90, 180, -360)] == [math.pi / 2, math.pi, -2 * math.pi]
 
@@ -86,7 +86,7 @@ def test_rounding_is_done_once() -> None:
 def test_products_multiply(factors: list[tuple[str, int]]) -> None:
     factors = [(symbol, power or 1) for symbol, power in factors]
     token = "*".join(f"{symbol}^{power}" if power != 1 else symbol for symbol, power in factors)
-    found = unit(token)
+    found = find_unit(token)
     assert found is not None
     expected, of = 1.0, DIMENSIONLESS
     for symbol, power in factors:
@@ -124,31 +124,31 @@ def test_a_unit_ends_where_the_expression_goes_on() -> None:
     ],
 )
 def test_units_as_people_write_them(token: str, same: str) -> None:
-    found, other = unit(token), unit(same)
+    found, other = find_unit(token), find_unit(same)
     assert found is not None and found == other
 
 
 def test_halves_of_powers() -> None:
-    stiff = unit("N/mm^1.5")
-    assert stiff is not None and stiff.dimension == dimension(1, 1, -2) * LENGTH ** Fraction(-3, 2)
+    stiff = find_unit("N/mm^1.5")
+    assert stiff is not None and stiff.dimension == make_dimension(1, 1, -2) * LENGTH ** Fraction(-3, 2)
     assert stiff.to_si(Fraction(1)) == pytest.approx(1000.0**1.5, rel=1e-15)
-    assert unit("deg^1.5") is None and unit("m^1.3") is None and unit("m^(2/3)") is None
+    assert find_unit("deg^1.5") is None and find_unit("m^1.3") is None and find_unit("m^(2/3)") is None
 
 
-@given(st.builds(dimension, st.integers(-4, 4), st.integers(-4, 4), st.integers(-4, 4)))
+@given(st.builds(make_dimension, st.integers(-4, 4), st.integers(-4, 4), st.integers(-4, 4)))
 def test_si_unit_reads_back(of: Dimension) -> None:
-    written = si_unit(of)
+    written = find_si_unit(of)
     if of == DIMENSIONLESS:
         assert written == ""
         return
-    found = unit(written)
+    found = find_unit(written)
     assert found is not None and found.dimension == of and found.to_si(Fraction(1)) == 1.0
 
 
 def test_words() -> None:
-    assert describe(LENGTH) == "a length (m)"
-    assert describe(VISCOSITY) == "a viscosity (Pa*s)"
-    assert describe(dimension(1, 1, 1)) == "a quantity (kg*m*s)"
+    assert describe_dimension(LENGTH) == "a length (m)"
+    assert describe_dimension(VISCOSITY) == "a viscosity (Pa*s)"
+    assert describe_dimension(make_dimension(1, 1, 1)) == "a quantity (kg*m*s)"
 
 
 def test_a_divisor_with_the_wanted_unit_is_told_how_to_write_it() -> None:
@@ -209,4 +209,4 @@ def test_signs_that_look_like_a_minus_are_named(text: str, sign: str) -> None:
 
 
 def test_both_signs_of_micro_are_one() -> None:
-    assert unit("\u00b5m") == unit("\u03bcm") == unit("um")
+    assert find_unit("\u00b5m") == find_unit("\u03bcm") == find_unit("um")

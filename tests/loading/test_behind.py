@@ -12,10 +12,10 @@ import pytest
 
 import gudgeon
 from gudgeon.integrators import batch as many
-from gudgeon.loading import behind, build
-from gudgeon.loading.behind import OptimizedLibrary, is_allowed
+from gudgeon.loading import build, optimized_library
 from gudgeon.loading.build import compile_kernels
-from gudgeon.loading.cache import Cache, private_cache
+from gudgeon.loading.cache import Cache, get_private_cache
+from gudgeon.loading.optimized_library import OptimizedLibrary, may_compile_in_background
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 
@@ -37,7 +37,7 @@ FAILS = "raise SystemExit(1)"
 def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Cache:
     """An empty one; nothing is loaded yet."""
     monkeypatch.setattr(build, "_libraries", {})
-    monkeypatch.setattr(behind, "_begun", [])
+    monkeypatch.setattr(optimized_library, "_begun", [])
     monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path / "cache"))
     monkeypatch.setenv("GUDGEON_QUICK", "1")
     return Cache(tmp_path / "cache")
@@ -46,7 +46,7 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Cache:
 @pytest.fixture
 def nobody(monkeypatch: pytest.MonkeyPatch) -> None:
     """No other process: what it makes is still to come."""
-    monkeypatch.setattr(OptimizedLibrary, "begin", lambda *given: True)
+    monkeypatch.setattr(OptimizedLibrary, "start", lambda *given: True)
 
 
 def loaded(file: Path | str = "pendulum", quick: bool = True) -> Simulation:
@@ -100,7 +100,7 @@ def test_the_other_process_makes_it(cache: Cache) -> None:
     file.write_text(ROD)
     simulation = loaded(file)
     before = simulation.simulate(0.5, output=5)
-    simulation.compiled.lib.best()
+    simulation.compiled.lib.wait_for_optimized()
     assert (made(cache, "quick"), made(cache, "libraries"), libraries(simulation)) == (1, 1, 2)
     again = loaded(file)
     assert libraries(again) == 1 and again.compiled.lib._behind is None
@@ -112,15 +112,15 @@ def test_where_the_other_process_is_killed_it_is_made_here(cache: Cache, monkeyp
     simulation = loaded()
     other = simulation.compiled.lib._behind
     assert isinstance(other, OptimizedLibrary) and other._process is not None
-    monkeypatch.setattr(behind, "MOST", 1)
-    assert not is_allowed(cache)  # a second one at the same time
+    monkeypatch.setattr(optimized_library, "MOST", 1)
+    assert not may_compile_in_background(cache)  # a second one at the same time
     os.killpg(other._process.pid, signal.SIGKILL)
-    simulation.compiled.lib.best()
+    simulation.compiled.lib.wait_for_optimized()
     assert libraries(simulation) == 2 and simulation.simulate(0.1, output=2)
 
 
 def test_where_the_other_process_fails_the_next_start_makes_it(cache: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(behind, "OTHER", FAILS)
+    monkeypatch.setattr(optimized_library, "OTHER", FAILS)
     simulation = loaded()
     other = simulation.compiled.lib._behind
     assert isinstance(other, OptimizedLibrary) and other._process is not None and other._process.wait() == 1
@@ -148,24 +148,24 @@ def test_a_process_is_left_behind_only_where_what_it_makes_is_kept(
 ) -> None:
     """Nor by a program that has Python inside, which would begin anew. Root may write everywhere: access() is asked."""
     access = os.access
-    assert is_allowed(cache) and not is_allowed(private_cache())
+    assert may_compile_in_background(cache) and not may_compile_in_background(get_private_cache())
     with monkeypatch.context() as now:
         now.setattr(os, "access", lambda path, mode: mode != os.W_OK and access(path, mode))
-        assert not is_allowed(cache)
+        assert not may_compile_in_background(cache)
     with monkeypatch.context() as now:
         now.setattr(sys, "executable", "/usr/bin/program")
-        assert not is_allowed(cache)
+        assert not may_compile_in_background(cache)
     with monkeypatch.context() as now:
         now.setattr(sys, "frozen", True, raising=False)
-        assert not is_allowed(cache)
+        assert not may_compile_in_background(cache)
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork")
 def test_a_fork_waits_for_no_thread_that_it_has_not(tmp_path: Path) -> None:
     """A thread of the parent was compiling: its lock, held by nobody there, held the child for good."""
     behind = OptimizedLibrary(Cache(tmp_path), "key", lambda _: None, lambda _: None)  # type: ignore[arg-type, return-value]
-    with behind._own_lock():
+    with behind._get_lock():
         child = os.fork()
         if child == 0:
-            os._exit(0 if behind._own_lock().acquire(timeout=20.0) else 1)
+            os._exit(0 if behind._get_lock().acquire(timeout=20.0) else 1)
         assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0

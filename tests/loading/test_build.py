@@ -18,8 +18,8 @@ import pytest
 
 from gudgeon.errors import BadValueError, BuildError
 from gudgeon.loading import build, compiler
-from gudgeon.loading.build import LIBRARY, compile_kernels, library_key
-from gudgeon.loading.cache import Cache, private_cache
+from gudgeon.loading.build import LIBRARY, compile_kernels, compute_library_key
+from gudgeon.loading.cache import Cache, get_private_cache
 from gudgeon.loading.library import Library
 from tests.tiny import SEEN, tiny
 
@@ -117,11 +117,11 @@ def key(portable: bool = False, **changes: object) -> str:
     requested = {
         "source": tiny(),
         "command": ("cc",),
-        "flags": compiler.flags(portable),
+        "flags": compiler.build_flags(portable),
         "identity": "gcc 12",
         **changes,
     }
-    return library_key(**requested, portable=portable)  # type: ignore[arg-type]
+    return compute_library_key(**requested, portable=portable)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
@@ -148,11 +148,11 @@ def test_the_key_does_not_change_with_what_does_not() -> None:
 
 def test_only_native_code_is_bound_to_the_cpu(monkeypatch: pytest.MonkeyPatch) -> None:
     native, portable = key(), key(portable=True)
-    monkeypatch.setattr(compiler, "cpu", lambda: "another")
+    monkeypatch.setattr(compiler, "describe_cpu", lambda: "another")
     assert key() != native
     assert key(portable=True) == portable
-    assert not any("native" in flag for flag in compiler.flags(True))
-    assert any("native" in flag for flag in compiler.flags(False))
+    assert not any("native" in flag for flag in compiler.build_flags(True))
+    assert any("native" in flag for flag in compiler.build_flags(False))
 
 
 def test_no_flag_breaks_isnan(cache: Cache) -> None:
@@ -258,12 +258,14 @@ def test_the_wheel_is_a_compiler_where_there_is_none(monkeypatch: pytest.MonkeyP
     monkeypatch.setenv("PATH", str(tmp_path / "bin"))
     command = compiler.find_compiler()
     assert command[:2] == (str(zig), "cc")
-    assert set(compiler.FLAGS) - set(compiler.flags(True, command)) == compiler.GCCS
-    assert "-ffp-contract=off" in compiler.flags(True, command) and not any(map(compiler.INEXACT.__contains__, command))
+    assert set(compiler.FLAGS) - set(compiler.build_flags(True, command)) == compiler.GCCS
+    assert "-ffp-contract=off" in compiler.build_flags(True, command) and not any(
+        map(compiler.INEXACT.__contains__, command)
+    )
     system = tmp_path / "bin" / "clang"
     system.parent.mkdir()
     system.touch(0o755)
-    assert compiler.find_compiler() == (str(system),) and compiler.flags(True, (str(system),)) == compiler.FLAGS
+    assert compiler.find_compiler() == (str(system),) and compiler.build_flags(True, (str(system),)) == compiler.FLAGS
     system.unlink()
     zig.unlink()  # a wheel that is not whole
     with pytest.raises(BuildError, match="no C compiler"):
@@ -349,8 +351,8 @@ def test_a_folder_that_forbids_running_code(
             monkeypatch.setattr(build, "_libraries", {})
             library = compile_kernels(tiny(7))
             assert library.lib.scale(1.0) == 7.0
-            shutil.rmtree(private_cache().root / "libraries")  # as in a new process
-    assert library.file.is_relative_to(private_cache().root)
+            shutil.rmtree(get_private_cache().root / "libraries")  # as in a new process
+    assert library.file.is_relative_to(get_private_cache().root)
     assert len(message) == 1
     assert log.read_text().split() == ["V", "C"]
 

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from gudgeon.errors import BuildError, CacheError
 from gudgeon.loading import cache as cache_module
-from gudgeon.loading.cache import LIST, Cache, default_cache, digest, is_whole, private_cache
+from gudgeon.loading.cache import LIST, Cache, compute_digest, get_default_cache, get_private_cache, is_complete
 
 
 @pytest.fixture
@@ -42,7 +42,7 @@ def snapshot(root: Path) -> dict[str, tuple[int, int]]:
 @settings(deadline=None)
 @given(st.lists(st.binary(max_size=4), max_size=4), st.lists(st.binary(max_size=4), max_size=4))
 def test_digest_tells_lists_apart(one: list[bytes], two: list[bytes]) -> None:
-    assert (digest(one) == digest(two)) == (one == two)
+    assert (compute_digest(one) == compute_digest(two)) == (one == two)
 
 
 def test_made_once_then_only_read(folder: Cache) -> None:
@@ -66,7 +66,7 @@ def test_not_visible_until_whole(folder: Cache) -> None:
         (work / "a").write_text("half")
         assert not (folder.root / "kind" / "key").exists()
 
-    assert is_whole(folder.fetch("kind", "key", make))
+    assert is_complete(folder.fetch("kind", "key", make))
 
 
 def test_a_failed_make_leaves_nothing(folder: Cache) -> None:
@@ -95,7 +95,7 @@ def flip(path: Path) -> None:
 def test_a_damaged_entry_is_made_again(folder: Cache, name: str, damage: Callable[[Path], None]) -> None:
     make = Writer()
     damage(folder.fetch("kind", "key", make) / name)
-    assert is_whole(folder.fetch("kind", "key", make))
+    assert is_complete(folder.fetch("kind", "key", make))
     # the newline at the end of the list is the one byte that nothing depends on
     assert make.calls == (1 if (name, damage) == (LIST, cut) else 2)
 
@@ -105,19 +105,19 @@ def test_a_list_cut_anywhere_is_noticed(folder: Cache) -> None:
     text = path.read_bytes().rstrip()
     for length in range(len(text)):
         path.write_bytes(text[:length])
-        assert not is_whole(path.parent), text[:length]
+        assert not is_complete(path.parent), text[:length]
 
 
 def test_a_file_in_place_of_an_entry_is_replaced(folder: Cache) -> None:
     (folder.root / "kind").mkdir(parents=True)
     (folder.root / "kind" / "key").write_text("in the way")
-    assert is_whole(folder.fetch("kind", "key", Writer()))
+    assert is_complete(folder.fetch("kind", "key", Writer()))
 
 
 def test_leftovers_of_dead_processes_are_swept_and_those_at_work_are_not(folder: Cache) -> None:
     folder.fetch("kind", "first", Writer())
     aside = folder.root / "aside"
-    dead, second, alive = (digest([name]) for name in ("dead", "second", "alive"))
+    dead, second, alive = (compute_digest([name]) for name in ("dead", "second", "alive"))
     for name in (f"{dead}.abcdefg1", f"{dead}.abcdefg2.old", f"{second}.abcdefg3", f"{alive}.abcdefg4"):
         (aside / name).mkdir()
         (aside / name / "half.so").write_bytes(b"half")
@@ -129,7 +129,7 @@ def test_leftovers_of_dead_processes_are_swept_and_those_at_work_are_not(folder:
 def test_the_sweep_removes_nothing_that_was_not_made_there(folder: Cache, tmp_path: Path) -> None:
     """Neither what a link leads to, nor what somebody else put aside."""
     precious = tmp_path / "precious"
-    own = f"{digest(['dead'])}.abcdefgh"
+    own = f"{compute_digest(['dead'])}.abcdefgh"
     for path in (precious, precious / own):
         path.mkdir()
     (precious / "file").write_text("precious")
@@ -169,15 +169,15 @@ def test_a_folder_that_cannot_be_made_falls_back_with_a_warning(tmp_path: Path) 
     (tmp_path / "file").write_text("")
     with pytest.warns(RuntimeWarning, match="GUDGEON_CACHE"):
         entry = Cache(tmp_path / "file" / "cache").fetch("kind", "key", Writer())
-    assert is_whole(entry)
-    assert entry.is_relative_to(private_cache().root)
+    assert is_complete(entry)
+    assert entry.is_relative_to(get_private_cache().root)
 
 
 def test_a_name_that_the_system_has_not_falls_back(tmp_path: Path) -> None:
     cache = Cache(tmp_path / ("a" * 300))
-    assert not cache.holds("kind", "key") and not cache.has("kind", "key")
+    assert not cache.has_folder("kind", "key") and not cache.has("kind", "key")
     with pytest.warns(RuntimeWarning, match="GUDGEON_CACHE"):
-        assert is_whole(cache.fetch("kind", "key", Writer()))
+        assert is_complete(cache.fetch("kind", "key", Writer()))
 
 
 def test_a_limit_on_the_size_of_files_is_told_with_what_set_it(folder: Cache) -> None:
@@ -196,7 +196,7 @@ def test_a_full_disk_falls_back_and_leaves_nothing(folder: Cache) -> None:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
     with pytest.warns(RuntimeWarning, match="No space left"):
-        assert is_whole(folder.fetch("kind", "full", make))
+        assert is_complete(folder.fetch("kind", "full", make))
     assert list((folder.root / "aside").iterdir()) == []
 
 
@@ -212,12 +212,12 @@ def test_a_lock_held_too_long_falls_back(folder: Cache, monkeypatch: pytest.Monk
     folder.fetch("kind", "other", Writer())
     monkeypatch.setattr(cache_module, "LOCK_SECONDS", 0.0)
     with FileLock(folder.root / "locks" / "held.lock"), pytest.warns(RuntimeWarning, match="cannot be used"):
-        assert is_whole(folder.fetch("kind", "held", Writer()))
+        assert is_complete(folder.fetch("kind", "held", Writer()))
 
 
 def test_the_environment_names_the_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path / "mine"))
-    assert default_cache().root == tmp_path / "mine"
+    assert get_default_cache().root == tmp_path / "mine"
     monkeypatch.setenv("GUDGEON_CACHE", "")
-    assert default_cache().root.name == "gudgeon"
-    assert default_cache().root.is_absolute()
+    assert get_default_cache().root.name == "gudgeon"
+    assert get_default_cache().root.is_absolute()

@@ -29,10 +29,10 @@ def carries_the_pendulum(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
     source = read_scene(GENERATED / "pendulum", "ideal")
     assert source is not None
     (tmp_path / "made").mkdir()
-    folder = tmp_path / "carried" / library.platform(sys.platform, os.uname().machine)
+    folder = tmp_path / "carried" / library.format_platform(sys.platform, os.uname().machine)
     folder.mkdir(parents=True)
-    made = build.build_into(tmp_path / "made", source, Cache(tmp_path / "cache"))
-    made.rename(folder / library.file_name(source))
+    made = build.build_portable_library(tmp_path / "made", source, Cache(tmp_path / "cache"))
+    made.rename(folder / library.compute_file_name(source))
     monkeypatch.setattr(library, "CARRIED", tmp_path / "carried")
     monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path / "empty"))
     monkeypatch.setenv("PATH", "")
@@ -59,9 +59,9 @@ def test_a_shipped_mechanism_runs_without_a_compiler(
 def test_what_differs_is_not_taken(wheel: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """An edited text, another engine, a library that is none; and a compiler that the user names is never passed by."""
     source = read_scene(GENERATED / "pendulum", "ideal")
-    assert source is not None and library.carried(source) is not None
+    assert source is not None and library.open_bundled_library(source) is not None
     edited = replace(source, files={**source.files, "dynamics.c": source.files["dynamics.c"] + "\n"})
-    assert library.carried(edited) is None
+    assert library.open_bundled_library(edited) is None
     with pytest.raises(BuildError, match="no C compiler"):
         build.compile_kernels(edited)
     with pytest.raises(BuildError, match="no C compiler"):  # asked to compile anew
@@ -71,11 +71,11 @@ def test_what_differs_is_not_taken(wheel: Path, monkeypatch: pytest.MonkeyPatch)
         with pytest.raises(BuildError, match="no-such-cc"):
             build.compile_kernels(source)
     with monkeypatch.context() as other:
-        other.setattr(library, "engine_digest", lambda: "another")
-        assert library.carried(source) is None
-    (wheel / library.file_name(source)).write_bytes(b"of another C library")
-    assert library.carried(source) is None
-    assert not compiler.is_there()
+        other.setattr(library, "compute_engine_digest", lambda: "another")
+        assert library.open_bundled_library(source) is None
+    (wheel / library.compute_file_name(source)).write_bytes(b"of another C library")
+    assert library.open_bundled_library(source) is None
+    assert not compiler.has_compiler()
 
 
 @pytest.mark.slow

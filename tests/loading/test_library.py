@@ -12,7 +12,7 @@ from cffi import FFI
 
 import gudgeon
 from gudgeon.loading import declared, library
-from gudgeon.loading.engine import all_declarations, declarations
+from gudgeon.loading.engine import list_all_declarations, select_declarations
 from tests.programs import needs_compiler
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -27,7 +27,7 @@ def test_what_is_kept_is_what_cffi_makes_of_the_engines_declarations() -> None:
     for path, text in tool.FILES.items():
         assert path.read_text(encoding="utf-8") == text(), path
     parsed = FFI()
-    parsed.cdef(all_declarations())
+    parsed.cdef(list_all_declarations())
     kept, message = declared.ffi.typeof("Batch"), parsed.typeof("Batch")
     assert [(name, field.offset, field.type.cname) for name, field in kept.fields] == [
         (name, field.offset, field.type.cname) for name, field in message.fields
@@ -39,8 +39,8 @@ def test_what_is_kept_is_what_cffi_makes_of_the_engines_declarations() -> None:
 def test_a_library_has_what_is_declared_and_misses_the_rest(scene: str) -> None:
     simulation = gudgeon.load(scene)
     lib = simulation.compiled.lib
-    expected = set(re.findall(r"\b(gudgeon_\w+)\(", declarations(simulation.source)))
-    every = set(re.findall(r"\b(gudgeon_\w+)\(", all_declarations()))
+    expected = set(re.findall(r"\b(gudgeon_\w+)\(", select_declarations(simulation.source)))
+    every = set(re.findall(r"\b(gudgeon_\w+)\(", list_all_declarations()))
     assert expected < every and {name for name in every if hasattr(lib, name)} == expected
     with pytest.raises(AttributeError, match="gudgeon_chains"):
         lib.gudgeon_chains  # noqa: B018
@@ -54,7 +54,7 @@ def test_a_path_that_is_no_utf8_cannot_be_opened(tmp_path: Path) -> None:
     there = tmp_path / os.fsdecode(b"x\xff.so")
     there.write_bytes(file.read_bytes())
     with pytest.raises(ImportError):
-        library.opened(there)
+        library.open_library(there)
 
 
 @needs_compiler
@@ -65,7 +65,7 @@ def test_declarations_that_are_being_edited_are_parsed(monkeypatch: pytest.Monke
     monkeypatch.setattr(declared, "OF", "another")
     library._get_engine_interface.cache_clear()
     try:
-        parsed = library.opened(file)
+        parsed = library.open_library(file)
     finally:
         monkeypatch.undo()
         library._get_engine_interface.cache_clear()

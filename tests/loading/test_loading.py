@@ -23,9 +23,16 @@ from gudgeon.errors import BadValueError, InputError, LimitError, UnknownNameErr
 from gudgeon.files.reading import MAX_BYTES
 from gudgeon.loading import shipped
 from gudgeon.loading.cache import Cache
-from gudgeon.loading.find import derived, find_mechanism, generator_hash, kernel_source, model_key, read_bytes
 from gudgeon.loading.generated_scenes import ARCHIVE, read_scene, read_scenes, write_scenes
-from gudgeon.loading.shipped import PACKAGE, shipped_file
+from gudgeon.loading.kernel_sources import (
+    compute_generator_hash,
+    compute_model_key,
+    derive_kernel_source,
+    find_kernel_source,
+    find_mechanism,
+    read_bytes,
+)
+from gudgeon.loading.shipped import PACKAGE, find_shipped_file
 from tests.tiny import tiny
 
 DATA = b"name: tiny\n"
@@ -43,12 +50,12 @@ def generator(monkeypatch: pytest.MonkeyPatch) -> list[tuple[bytes, str, str, Ma
         requested.append((data, file, scene, overrides))
         return scene, sha256(data).hexdigest()
 
-    def in_c(read: tuple[str, str], formulation: str, seconds: object, begun: object) -> KernelSource:
+    def generate_c(read: tuple[str, str], formulation: str, seconds: object, begun: object) -> KernelSource:
         return tiny(scene=read[0], sha256=read[1])
 
     stands_in: dict[str, dict[str, Any]] = {
         "reader.read": {"read_scene": read_scene, "overrides_change_scene": lambda *_: True},
-        "pipeline": {"equations": lambda read, seconds: read, "in_c": in_c},
+        "pipeline": {"derive_equations": lambda read, seconds: read, "generate_c": generate_c},
     }
     for name, functions in stands_in.items():
         module = ModuleType(f"gudgeon.generator.{name}")
@@ -84,13 +91,13 @@ def test_an_unknown_name_is_told_the_nearest_and_all() -> None:
     with pytest.raises(
         UnknownNameError, match=r"(?s)did you mean 'nine_bar_press'\?.*there are: .*nine_bar_press"
     ) as e:
-        shipped_file("nine_bar_pres")
+        find_shipped_file("nine_bar_pres")
     assert e.value.exit_code == 2
 
 
 def test_a_name_never_leaves_the_folder() -> None:
     with pytest.raises(UnknownNameError):
-        shipped_file("../mechanisms/nine_bar_press")
+        find_shipped_file("../mechanisms/nine_bar_press")
 
 
 def test_a_file_that_cannot_be_read_is_bad_input(tmp_path: Path) -> None:
@@ -147,35 +154,39 @@ def test_a_pipe_in_place_of_a_file_is_refused(tmp_path: Path) -> None:
 
 
 def test_the_key_changes_with_every_question() -> None:
-    base = model_key(DATA, "dry", {"a": 1.0}, "full")
+    base = compute_model_key(DATA, "dry", {"a": 1.0}, "full")
     others = [
-        model_key(DATA + b" ", "dry", {"a": 1.0}, "full"),
-        model_key(DATA, "wet", {"a": 1.0}, "full"),
-        model_key(DATA, "dry", {"a": 2.0}, "full"),
-        model_key(DATA, "dry", {"a": "1.0"}, "full"),
-        model_key(DATA, "dry", {"b": 1.0}, "full"),
-        model_key(DATA, "dry", {}, "full"),
-        model_key(DATA, "dry", {"a": 1.0}, "reduced"),
+        compute_model_key(DATA + b" ", "dry", {"a": 1.0}, "full"),
+        compute_model_key(DATA, "wet", {"a": 1.0}, "full"),
+        compute_model_key(DATA, "dry", {"a": 2.0}, "full"),
+        compute_model_key(DATA, "dry", {"a": "1.0"}, "full"),
+        compute_model_key(DATA, "dry", {"b": 1.0}, "full"),
+        compute_model_key(DATA, "dry", {}, "full"),
+        compute_model_key(DATA, "dry", {"a": 1.0}, "reduced"),
     ]
     assert len({base, *others}) == 1 + len(others)
 
 
 def test_the_order_of_overrides_does_not_matter() -> None:
-    assert model_key(DATA, "dry", {"a": 1.0, "b": 2.0}, "full") == model_key(DATA, "dry", {"b": 2.0, "a": 1.0}, "full")
+    assert compute_model_key(DATA, "dry", {"a": 1.0, "b": 2.0}, "full") == compute_model_key(
+        DATA, "dry", {"b": 2.0, "a": 1.0}, "full"
+    )
 
 
 def test_overrides_that_a_scene_does_not_read_derive_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Another scene's law; and what is derived with them would be the same to the byte."""
     file = find_mechanism("nine_bar_press")
     data, law = read_bytes(file), {"contacts.oil.film.as_printed": "true"}
-    plainly = derived(data, file, "dry", law)
+    plainly = derive_kernel_source(data, file, "dry", law)
     with monkeypatch.context() as patched:
-        patched.setattr("gudgeon.loading.find.derived", lambda *_, **__: pytest.fail("it was derived"))
-        source, origin = kernel_source(data, file, "dry", overrides=law, cache=Cache(tmp_path))
+        patched.setattr(
+            "gudgeon.loading.kernel_sources.derive_kernel_source", lambda *_, **__: pytest.fail("it was derived")
+        )
+        source, origin = find_kernel_source(data, file, "dry", overrides=law, cache=Cache(tmp_path))
         assert origin == "generated" and source.overrides == tuple(sorted(law.items()))
         assert replace(source, overrides=()) == plainly
         with pytest.raises(pytest.fail.Exception, match="it was derived"):
-            kernel_source(data, file, "lubricated", overrides=law, cache=Cache(tmp_path))
+            find_kernel_source(data, file, "lubricated", overrides=law, cache=Cache(tmp_path))
 
 
 @pytest.fixture
@@ -188,54 +199,54 @@ def package(tmp_path: Path) -> Path:
 
 
 def test_a_byte_of_generator_or_template_changes_the_key(package: Path) -> None:
-    base = generator_hash(package)
-    assert base == generator_hash()
+    base = compute_generator_hash(package)
+    assert base == compute_generator_hash()
     files = [*package.joinpath("generator").rglob("*.py"), *package.rglob("*.jinja")]
     files += [*package.joinpath("language").glob("*.py"), *package.joinpath("contract").glob("*.py")]
     assert len(files) > 10
     for path in files:
         text = path.read_bytes()
         path.write_bytes(text + b"\n")
-        assert generator_hash(package) != base, path
+        assert compute_generator_hash(package) != base, path
         path.write_bytes(text)
     first = next(package.rglob("*.jinja"))
     first.rename(first.with_name("renamed.jinja"))
-    assert generator_hash(package) != base
+    assert compute_generator_hash(package) != base
 
 
 def test_what_the_generator_does_not_read_leaves_the_key(package: Path) -> None:
-    base = generator_hash(package)
+    base = compute_generator_hash(package)
     (package / "generator" / "__pycache__").mkdir()
     (package / "generator" / "__pycache__" / "x.cpython-311.pyc").write_bytes(b"x")
     (package / "generator" / "notes.txt").write_text("x")
     for path in package.rglob("*.py"):
         path.touch()
-    assert generator_hash(package) == base
+    assert compute_generator_hash(package) == base
 
 
 def test_an_installation_without_mechanisms_says_that_it_is_not_whole(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gudgeon.loading.shipped.shipped", lambda: ())
+    monkeypatch.setattr("gudgeon.loading.shipped.list_shipped", lambda: ())
     with pytest.raises(InputError, match=r"not whole.*\n.*make run"):
-        shipped_file("four_bar")
+        find_shipped_file("four_bar")
 
 
 # where it comes from
 
 
 def test_derived_once_then_from_the_cache(cache: Cache, generator: list[object], kept: None) -> None:
-    first = kernel_source(b"other", Path("other.yaml"), "dry", overrides={"a": 1.0}, cache=cache)
-    again = kernel_source(b"other", Path("other.yaml"), "dry", overrides={"a": 1.0}, cache=cache)
+    first = find_kernel_source(b"other", Path("other.yaml"), "dry", overrides={"a": 1.0}, cache=cache)
+    again = find_kernel_source(b"other", Path("other.yaml"), "dry", overrides={"a": 1.0}, cache=cache)
     assert (first[1], again[1]) == ("derived", "cache")
     assert first[0] == again[0]
     assert generator == [(b"other", "other.yaml", "dry", {"a": 1.0})]
 
 
 def test_the_scene_by_default_is_ideal(cache: Cache, generator: list[object]) -> None:
-    assert kernel_source(DATA, Path("x.yaml"), cache=cache)[0].scene == "ideal"
+    assert find_kernel_source(DATA, Path("x.yaml"), cache=cache)[0].scene == "ideal"
 
 
 def test_committed_kernels_need_no_generator(cache: Cache, generator: list[object], kept: None) -> None:
-    source, origin = kernel_source(DATA, Path("tiny.yaml"), cache=cache)
+    source, origin = find_kernel_source(DATA, Path("tiny.yaml"), cache=cache)
     assert (source.title, origin, generator) == ("committed", "generated", [])
 
 
@@ -252,20 +263,20 @@ def test_committed_kernels_need_no_generator(cache: Cache, generator: list[objec
 def test_committed_kernels_are_for_exactly_what_they_were_made_from(
     cache: Cache, generator: list[object], kept: None, data: bytes, scene: str, requested: dict[str, object]
 ) -> None:
-    _, origin = kernel_source(data, Path("tiny.yaml"), scene, cache=cache, **requested)  # type: ignore[arg-type]
+    _, origin = find_kernel_source(data, Path("tiny.yaml"), scene, cache=cache, **requested)  # type: ignore[arg-type]
     assert (origin, len(generator)) == ("derived", 1)
 
 
 def test_regenerate_replaces_what_the_cache_has(cache: Cache, generator: list[object]) -> None:
     for _ in range(2):
-        assert kernel_source(DATA, Path("x.yaml"), cache=cache, regenerate=True)[1] == "derived"
+        assert find_kernel_source(DATA, Path("x.yaml"), cache=cache, regenerate=True)[1] == "derived"
     assert len(generator) == 2
-    assert kernel_source(DATA, Path("x.yaml"), cache=cache)[1] == "cache"
+    assert find_kernel_source(DATA, Path("x.yaml"), cache=cache)[1] == "cache"
 
 
 def test_an_unknown_formulation_is_bad_input(cache: Cache) -> None:
     with pytest.raises(BadValueError, match="formulation"):
-        kernel_source(DATA, Path("x.yaml"), formulation="minimal", cache=cache)
+        find_kernel_source(DATA, Path("x.yaml"), formulation="minimal", cache=cache)
 
 
 # the committed form
@@ -333,9 +344,9 @@ def test_a_stored_source_of_another_version_is_made_anew(
     cache: Cache, generator: list[object], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The hash of kernel_source.py is in the key, so the same key never holds another version's form."""
-    kernel_source(DATA, Path("x.yaml"), cache=cache)
-    monkeypatch.setattr("gudgeon.loading.find.generator_hash", lambda: "another")
-    assert kernel_source(DATA, Path("x.yaml"), cache=cache)[1] == "derived"
+    find_kernel_source(DATA, Path("x.yaml"), cache=cache)
+    monkeypatch.setattr("gudgeon.loading.kernel_sources.compute_generator_hash", lambda: "another")
+    assert find_kernel_source(DATA, Path("x.yaml"), cache=cache)[1] == "derived"
 
 
 # the front door
@@ -358,7 +369,7 @@ def test_importing_gudgeon_imports_nothing_else() -> None:
         check=True,
         env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
     ).stdout
-    heavy = {"typing", "numpy", "json", "pathlib", "gudgeon.errors", "gudgeon.loading.find", "sympy"}
+    heavy = {"typing", "numpy", "json", "pathlib", "gudgeon.errors", "gudgeon.loading.kernel_sources", "sympy"}
     assert heavy & set(out.split()) == set()
 
 

@@ -12,7 +12,7 @@ import pytest
 import gudgeon
 from gudgeon.commands.assembly_report import assemble_scenes
 from gudgeon.generator.reader.read import read_mechanism
-from gudgeon.loading.shipped import generated, shipped, shipped_file
+from gudgeon.loading.shipped import find_shipped_file, list_generated, list_shipped
 from gudgeon.results.results import Result
 from tests.mechanisms.circles import Array, Points, meet, point, smooth
 from tests.programs import needs_compiler
@@ -20,7 +20,7 @@ from tests.slow import slow_but
 
 pytestmark = needs_compiler
 ROOT = Path(__file__).resolve().parents[2]
-GALLERY = sorted(set(shipped()) - set(generated()))
+GALLERY = sorted(set(list_shipped()) - set(list_generated()))
 
 
 @cache
@@ -134,7 +134,7 @@ def test_it_moves_as_its_closed_form_says(name: str) -> None:
 
 @pytest.mark.parametrize("name", slow_but(["landing_gear", "scotch_yoke", "cylinder_boom"], GALLERY))
 def test_nothing_is_free_and_guesses_are_followed(name: str) -> None:
-    scenes = assemble_scenes(read_mechanism(shipped_file(name).read_bytes(), name), branches=False).scenes
+    scenes = assemble_scenes(read_mechanism(find_shipped_file(name).read_bytes(), name), branches=False).scenes
     assert (scenes["ideal"].closed.freedoms, scenes["ideal"].closed.loose, scenes["ideal"].off) == (0, (), {})
 
 

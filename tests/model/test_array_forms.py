@@ -173,7 +173,7 @@ def compiled_arguments(simulation: gudgeon.Simulation, y: Numbers, whole: Number
     yield argument("prepare is_given", mask, 1 - mask, lambda x: model.prepare(given, x))
     yield argument("mass p", p, ones, model.mass)
     yield argument("start_values p", p, ones, model.start_values)
-    yield argument("close p", p, ones, lambda x: model.close(0.0, x, 1.0) or ())
+    yield argument("close p", p, ones, lambda x: model.close_linkage(0.0, x, 1.0) or ())
     for name in ("closed_phi", "closed_phi_q", "closed_nu", "phi", "phi_q", "nu"):
         function = getattr(model, name)
         yield argument(f"{name} q", y[:n], whole[:n], at_half(function, None, p))
@@ -188,7 +188,7 @@ def compiled_arguments(simulation: gudgeon.Simulation, y: Numbers, whole: Number
     yield argument("evaluate v", v.copy(), others[:, n:].copy(), lambda x: model.evaluate(t, q, x, memory, p))
     yield argument("evaluate p", p, ones, lambda x: model.evaluate(t, q, v, memory, x))
     if model.n_memory:
-        yield argument("memory_array", one, one, model.memory_array)
+        yield argument("memory_array", one, one, model.as_discrete_states)
         yield argument("evaluate memory", memory + 0, memory + 1, lambda x: model.evaluate(t, q, v, x, p))
     if not hasattr(model.lib, "gudgeon_rhs"):
         return

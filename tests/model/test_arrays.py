@@ -33,7 +33,7 @@ def test_no_other_place_asks_an_array_where_it_lies() -> None:
 def test_the_array_itself_where_it_is_as_c_reads_it() -> None:
     plain = np.arange(4.0)
     assert as_c_array(plain, "x", (4,)) is plain
-    copy = as_c_array(plain, "x", (None,), own=True)
+    copy = as_c_array(plain, "x", (None,), always_copy=True)
     assert copy is not plain and not np.shares_memory(copy, plain)
 
 
@@ -132,7 +132,7 @@ def lengths(model: CompiledModel, p: Any) -> dict[str, tuple[int, Callable[[Any]
         "is_given": (slots, lambda x: model.prepare(np.zeros(slots), x)),
         "mass": (len(p), model.mass),
         "start_values": (len(p), model.start_values),
-        "close": (len(p), lambda x: model.close(0.0, x, 1.0)),
+        "close": (len(p), lambda x: model.close_linkage(0.0, x, 1.0)),
         "phi q": (model.n, lambda x: model.phi(0.0, x, p)),
         "phi p": (len(p), lambda x: model.phi(0.0, q, x)),
         "phi_q q": (model.n, lambda x: model.phi_q(0.0, x, p)),
@@ -147,7 +147,7 @@ def lengths(model: CompiledModel, p: Any) -> dict[str, tuple[int, Callable[[Any]
         "evaluate q": (model.n, lambda x: model.evaluate(t, np.tile(x, (2, 1)), rows, latched, p)),
         "evaluate v": (model.n, lambda x: model.evaluate(t, rows, np.tile(x, (2, 1)), latched, p)),
         "evaluate memory": (model.n_memory, lambda x: model.evaluate(t, rows, rows, np.tile(x, (2, 1)), p)),
-        "memory_array": (model.n_memory, model.memory_array),
+        "memory_array": (model.n_memory, model.as_discrete_states),
     }
 
 

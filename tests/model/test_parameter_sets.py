@@ -11,9 +11,15 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import InputError, UnitError
-from gudgeon.model.compiled import AT_ONCE
-from gudgeon.model.parameter_sets import Columns, each_of, given_each, read_uniform_rows, rows_of
-from gudgeon.model.parameters import GAINS, given_slots, without_baumgarte
+from gudgeon.model.compiled import RUNS_PER_CALL
+from gudgeon.model.parameter_sets import (
+    Columns,
+    read_each_run,
+    read_given_parameters_of_runs,
+    read_parameter_rows,
+    read_uniform_rows,
+)
+from gudgeon.model.parameters import GAINS, prepare_without_baumgarte, read_given_parameters
 from tests.programs import needs_compiler
 from tests.scenes import loader
 
@@ -33,8 +39,8 @@ ALONE: dict[str, list[dict[Any, Any]]] = {
 
 def test_plain_numbers_are_read_at_once() -> None:
     source = gudgeon.load("nine_bar_press", "dry").source
-    found, mask = given_each(source, PLAIN)
-    one_by_one = each_of(PLAIN, lambda _, row: given_slots(source, row))
+    found, mask = read_given_parameters_of_runs(source, PLAIN)
+    one_by_one = read_each_run(PLAIN, lambda _, row: read_given_parameters(source, row))
     assert found.tobytes() == one_by_one[0].tobytes() and (mask == one_by_one[1]).all() and mask.sum() == 4
 
 
@@ -77,12 +83,16 @@ def test_columns_are_read_as_their_rows_are(name: str) -> None:
     source, (columns, at_once) = gudgeon.load("nine_bar_press", "dry").source, COLUMNS[name]
     whole = {key: one.tolist() if isinstance(one, np.ndarray) and one.ndim else one for key, one in columns.items()}
     every = [{key: one[i] if isinstance(one, list) else one for key, one in whole.items()} for i in range(3)]
-    (rows, bad), (plain, plain_bad) = rows_of(columns), rows_of(every)
+    (rows, bad), (plain, plain_bad) = read_parameter_rows(columns), read_parameter_rows(every)
     assert isinstance(rows, Columns) and isinstance(plain, list) and len(rows) == 3
     assert [*rows] == plain and rows[-1] == plain[2] and rows[1:] == plain[1:]
     assert [(i, str(error)) for i, error in bad.items()] == [(i, str(error)) for i, error in plain_bad.items()]
-    one_by_one = message(lambda: each_of(plain, lambda _, row: given_slots(source, row)))
-    assert message(lambda: given_each(source, rows)) == one_by_one == message(lambda: given_each(source, plain))
+    one_by_one = message(lambda: read_each_run(plain, lambda _, row: read_given_parameters(source, row)))
+    assert (
+        message(lambda: read_given_parameters_of_runs(source, rows))
+        == one_by_one
+        == message(lambda: read_given_parameters_of_runs(source, plain))
+    )
     assert (read_uniform_rows(source, rows) is not None) == at_once
 
 
@@ -94,13 +104,13 @@ def test_a_run_of_columns_that_there_is_not() -> None:
 @pytest.mark.parametrize("scene", ["dry", "lubricated"])
 def test_runs_prepared_together_are_those_prepared_alone(scene: str) -> None:
     compiled = gudgeon.load("nine_bar_press", scene).compiled
-    columns: dict[str, Any] = {"c": np.linspace(3e-4, 5e-4, AT_ONCE + 3), "omega": 3.0, GAINS[0]: "5 1/s"}
-    given, is_given = given_each(compiled.source, rows_of(columns)[0])
+    columns: dict[str, Any] = {"c": np.linspace(3e-4, 5e-4, RUNS_PER_CALL + 3), "omega": 3.0, GAINS[0]: "5 1/s"}
+    given, is_given = read_given_parameters_of_runs(compiled.source, read_parameter_rows(columns)[0])
     before = given.tobytes(), is_given.tobytes()
-    together, free = compiled.prepare_each(given, is_given), without_baumgarte(compiled, given, is_given)
-    for i in (0, 1, AT_ONCE - 1, AT_ONCE, AT_ONCE + 2):
+    together, free = compiled.prepare_each(given, is_given), prepare_without_baumgarte(compiled, given, is_given)
+    for i in (0, 1, RUNS_PER_CALL - 1, RUNS_PER_CALL, RUNS_PER_CALL + 2):
         assert together[i].tobytes() == compiled.prepare(given[i], is_given[i]).tobytes()
-        assert free[i].tobytes() == without_baumgarte(compiled, given[i], is_given[i]).tobytes()
+        assert free[i].tobytes() == prepare_without_baumgarte(compiled, given[i], is_given[i]).tobytes()
     assert (given.tobytes(), is_given.tobytes()) == before and together.tobytes() != free.tobytes()
 
 

@@ -33,7 +33,7 @@ def read(folder: Path, curve: str, value: str = "lift(t)", **overrides: str) -> 
 def test_points_have_the_units_of_their_columns(tmp_path: Path) -> None:
     curve = read(tmp_path, f"{POINTS}, x: deg, y: deg", "lift(1 rad/s * t)").curves["lift"]
     np.testing.assert_allclose(curve.x, np.radians([0, 90, 180, 270]), rtol=1e-16)
-    assert curve.at(np.pi / 2) == np.radians(1.0)
+    assert curve.evaluate(np.pi / 2) == np.radians(1.0)
     assert (curve.ends, curve.extrapolate, curve.unit) == ("natural", "none", "rad")
 
 

@@ -22,11 +22,11 @@ from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.kinds.laws import law
 from gudgeon.generator.mechanism import Mechanism
-from gudgeon.generator.pipeline import derive
+from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.reader.read import read_mechanism
-from gudgeon.generator.targets.format_tables import tables
-from gudgeon.generator.targets.json_schema import schema
-from gudgeon.language.quantities import number_of_text
+from gudgeon.generator.targets.format_tables import print_format_tables
+from gudgeon.generator.targets.json_schema import make_schema
+from gudgeon.language.quantities import parse_quantity
 from gudgeon.language.tree import evaluate
 from gudgeon.model.default_step import T_END
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
@@ -52,7 +52,7 @@ MAPPINGS = dict(below(FILE))
 
 
 def test_every_place_is_looked_at() -> None:
-    kinds = [*joint_types(), *element_types(), *law.laws(), "angle", "coordinate", "distance"]
+    kinds = [*joint_types(), *element_types(), *law.find_all_laws(), "angle", "coordinate", "distance"]
     assert [kind for kind in kinds if not any(f"({kind})" in path for path in MAPPINGS)] == []
     assert {"", ".start", ".scenes.NAME.simulate", ".scenes.NAME.play.NAME", ".bodies.NAME"} <= set(MAPPINGS)
 
@@ -72,16 +72,16 @@ def test_declarations_are_whole(path: str) -> None:
         assert not field.bounds or field.kind in (NUMBER, VECTOR)
         assert (field.kind in (WORD, FLAG)) == bool(field.values) and (field.kind in (KINDS, LAW)) == bool(field.kinds)
         if field.kind in (WORD, FLAG) and not field.required:
-            assert field.choice in field.values
+            assert field.default_option in field.values
         elif field.kind == BODY:
-            assert field.choice == "ground"
+            assert field.default_option == "ground"
 
 
 def test_what_is_said_to_hold_otherwise_does() -> None:
     specified = {field.name: field.otherwise for field in (*SIMULATE.fields, *CONTACT.fields)}
-    assert number_of_text(specified["t_end"], "t_end", (0, 0, 1)) == T_END
+    assert parse_quantity(specified["t_end"], "t_end", (0, 0, 1)) == T_END
     assert float(specified["output"]) == DEFAULT_OUTPUT
-    assert number_of_text(specified["velocity_floor"], "velocity_floor", (1, 0, -1)) == VELOCITY_FLOOR
+    assert parse_quantity(specified["velocity_floor"], "velocity_floor", (1, 0, -1)) == VELOCITY_FLOOR
 
 
 def test_the_page_is_current() -> None:
@@ -146,7 +146,7 @@ LAW = Law(
 @pytest.fixture
 def one_file_each(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """A joint, a force element and a law more: a file in the folder of each, and nothing else."""
-    caches = (joint_types, element_types, law.bundled_laws)
+    caches = (joint_types, element_types, law.find_bundled_laws)
     for package, name, text in (joints, "strut", JOINT), (forces, "fan", FORCE), (laws, "lossy_spring", LAW_FILE):
         folder = tmp_path / name
         folder.mkdir()
@@ -204,7 +204,7 @@ def test_overrides_resolve_by_it() -> None:
 
 @pytest.mark.usefixtures("one_file_each")
 def test_schema_and_page_show_it() -> None:
-    text, page = json.dumps(schema()), tables()
+    text, page = json.dumps(make_schema()), print_format_tables()
     for words in ("how far it reaches", "whether it is", "how hard it pushes", "which way", "force by penetration"):
         assert words in text and words in page
     assert "| `loss` | number, no unit or an angle | `0.25` | >= 0 | of what is lost |" in page
@@ -212,7 +212,7 @@ def test_schema_and_page_show_it() -> None:
 
 @pytest.mark.usefixtures("one_file_each")
 def test_equations_follow() -> None:
-    model = derive(WITH.encode(), "f", "dry")
+    model = derive_scene(WITH.encode(), "f", "dry")
     assert [clearance.normal.law.name for clearance in model.clearances if clearance.normal] == ["lossy_spring"]
     assert "wind" in model.elements
 

@@ -17,7 +17,7 @@ from gudgeon.errors import (
 )
 from gudgeon.generator.format.sections import FILE
 from gudgeon.generator.mechanism import Mechanism
-from gudgeon.generator.reader.materials import EXAMPLE
+from gudgeon.generator.reader.materials import EXAMPLE_SECTION
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.units import INERTIA
 from tests.scenes import patched
@@ -284,5 +284,5 @@ def test_a_decimal_comma_and_an_equals_sign() -> None:
 def test_a_material_where_there_is_none() -> None:
     with pytest.raises(InputErrors) as caught:
         read("materials: {steel: {E: 207 GPa, nu: 0.3}}\n", "")
-    assert [str(e.hint) for e in caught.value.errors] == [f"write it: {EXAMPLE}"] * 2
-    read("materials: {steel: {E: 207 GPa, nu: 0.3}}", EXAMPLE)
+    assert [str(e.hint) for e in caught.value.errors] == [f"write it: {EXAMPLE_SECTION}"] * 2
+    read("materials: {steel: {E: 207 GPa, nu: 0.3}}", EXAMPLE_SECTION)

@@ -13,8 +13,8 @@ from ruamel.yaml import YAML
 from gudgeon.generator.format.sections import DRIVES
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.kinds.laws.law import laws
-from gudgeon.generator.targets.json_schema import schema
+from gudgeon.generator.kinds.laws.law import find_all_laws
+from gudgeon.generator.targets.json_schema import make_schema
 from gudgeon.generator.yaml import Items, Map, Text, parse_yaml
 from tests.mechanisms.invalid import MISTAKES
 
@@ -32,7 +32,7 @@ def plain(node: Any) -> Any:
     if isinstance(node, Items):
         return [plain(value) for value in node]
     assert isinstance(node, Text)
-    return None if node.is_nothing else str(node)
+    return None if node.is_null else str(node)
 
 
 def read(path: Path) -> Any:
@@ -41,12 +41,12 @@ def read(path: Path) -> Any:
 
 @pytest.fixture(scope="module")
 def validator() -> Any:
-    return jsonschema.Draft202012Validator(schema())
+    return jsonschema.Draft202012Validator(make_schema())
 
 
 def test_it_is_a_schema() -> None:
-    jsonschema.Draft202012Validator.check_schema(schema())
-    assert json.loads(json.dumps(schema())) == schema()
+    jsonschema.Draft202012Validator.check_schema(make_schema())
+    assert json.loads(json.dumps(make_schema())) == make_schema()
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
@@ -79,8 +79,8 @@ def test_wrong_shapes_are_invalid(name: str, validator: Any) -> None:
 
 def test_every_kind_is_in_it() -> None:
     """What a new file in joints/, force_elements/ or forces/ declares is in the schema without further ado."""
-    text = json.dumps(schema())
-    for kind in (*joint_types(), *element_types(), *laws(), *DRIVES):
+    text = json.dumps(make_schema())
+    for kind in (*joint_types(), *element_types(), *find_all_laws(), *DRIVES):
         assert f'"{kind}"' in text
-    for role in (law.role for law in laws().values()):
-        assert f"{role}_whole" in schema()["$defs"]
+    for role in (law.role for law in find_all_laws().values()):
+        assert f"{role}_whole" in make_schema()["$defs"]

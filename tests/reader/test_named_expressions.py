@@ -24,9 +24,9 @@ from gudgeon.errors import (
 from gudgeon.generator.pipeline import generate
 from gudgeon.generator.reader.expressions import MAX_LEVELS, MAX_PARTS
 from gudgeon.generator.reader.read import read_mechanism
-from gudgeon.language.tree import names
-from gudgeon.model.parameters import as_parameter
-from gudgeon.model.written import reason
+from gudgeon.language.tree import iterate_names
+from gudgeon.model.parameters import explain_address
+from gudgeon.model.written import explain_undefined_ahead
 from tests.scenes import patched
 
 LED = """\
@@ -93,7 +93,7 @@ def test_a_name_is_one_tree_wherever_it_stands() -> None:
     mechanism = read_mechanism(LED.encode(), "led.yaml")
     error = mechanism.expressions["error"].value
     assert mechanism.outputs["miss"].value is error
-    assert {name.path for name in names(mechanism.forces["u"].quantities["value"].value)} == {
+    assert {name.path for name in iterate_names(mechanism.forces["u"].quantities["value"].value)} == {
         "K",
         "rod.omega",
         "reach",
@@ -177,13 +177,13 @@ def test_what_is_no_number_in_a_run_is_told_where_it_stands() -> None:
     p, n = np.array([slot.default for slot in source.slots]), np.zeros(len(source.coordinates))
     place = re.escape(f"(line {line_of(bad, 'target:')}, column 11)")
     message = f"forces.u.value .* is not finite at t = 0.2 s, nan: in expressions.target {place}, sqrt of -0.1$"
-    assert re.match(message, reason(source, p, 0.2, n, n))
+    assert re.match(message, explain_undefined_ahead(source, p, 0.2, n, n))
 
 
 def test_an_expression_is_no_number_that_can_be_set() -> None:
     source = KernelSource.from_json(generate(LED.encode(), "led.yaml", "ideal").to_json())
     for name in ("expressions.rate", "rate"):
-        message, hint = as_parameter(source, name)
+        message, hint = explain_address(source, name)
         assert message == "expressions.rate is an expression, compiled as it stands: it is no number that can be set"
         assert hint.startswith("set what it is made of: reach, pace;")
     with pytest.raises(UnknownNameError) as raised:

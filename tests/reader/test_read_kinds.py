@@ -23,11 +23,11 @@ from gudgeon.generator.format.sections import DRIVES
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import Mechanism, PointRef, Quantity
-from gudgeon.generator.pipeline import derive
-from gudgeon.generator.reader.parameters import parameter_values
+from gudgeon.generator.pipeline import derive_scene
+from gudgeon.generator.reader.parameters import evaluate_parameters
 from gudgeon.generator.reader.read import read_mechanism
-from gudgeon.language.tree import Number, evaluate, names
-from gudgeon.language.units import DIMENSIONLESS, FORCE, LENGTH, TORQUE, dimension
+from gudgeon.language.tree import Number, evaluate, iterate_names
+from gudgeon.language.units import DIMENSIONLESS, FORCE, LENGTH, TORQUE, make_dimension
 
 VALID = Path(__file__).resolve().parents[1] / "mechanisms" / "valid"
 TEXT = (VALID / "every_kind.yaml").read_text()
@@ -39,7 +39,7 @@ def machine() -> Mechanism:
 
 
 def value(mechanism: Mechanism, quantity: Quantity) -> float:
-    return float(evaluate(quantity.value, parameter_values(mechanism.parameters).__getitem__))
+    return float(evaluate(quantity.value, evaluate_parameters(mechanism.parameters).__getitem__))
 
 
 def ends(refs: tuple[PointRef, ...]) -> list[tuple[str, str]]:
@@ -87,11 +87,11 @@ def test_forces(machine: Mechanism) -> None:
     coil, band, twist = (machine.forces[name] for name in ("coil", "band", "twist"))
     assert ends(coil.targets) == [("ground", "C"), ("L3", "D")]
     assert coil.quantities["stiffness"].address == "forces.coil.stiffness" and coil.quantities["damping"].is_zero
-    assert coil.quantities["stiffness"].dimension == dimension(mass=1, time=-2)
+    assert coil.quantities["stiffness"].dimension == make_dimension(mass=1, time=-2)
     assert set(band.quantities) == {"stiffness"}  # what is left out is absent
     assert ends(twist.targets) == [("ground", ""), ("L1", "com")]
     assert ends(machine.forces["brake"].targets) == [("rod", "com"), ("L3", "com")]
-    assert {name.path for name in names(machine.forces["brake"].quantities["value"].value)} == {
+    assert {name.path for name in iterate_names(machine.forces["brake"].quantities["value"].value)} == {
         "drag",
         "rod.omega",
         "L3.omega",
@@ -122,7 +122,7 @@ def test_results_of_drives_and_forces(machine: Mechanism) -> None:
 def test_results_are_those_that_the_elements_build() -> None:
     """`results` of an element's file against what its `build` returns, name by name and unit by unit."""
     units = {"N": FORCE, "N*m": TORQUE, "m": LENGTH}
-    model = derive(TEXT.encode(), "f", "ideal")
+    model = derive_scene(TEXT.encode(), "f", "ideal")
     for name, applied in model.elements.items():
         built = {what: units[unit] for what, (_, unit) in applied.loads.series.items()}
         assert built == dict(element_types()[model.scene.mechanism.forces[name].kind].results)

@@ -9,7 +9,7 @@ import pytest
 
 from gudgeon.errors import BadValueError, InputError, InputErrors, Location, UnknownNameError
 from gudgeon.generator.mechanism import Mechanism, Quantity, make_scene
-from gudgeon.generator.reader.parameters import parameter_values
+from gudgeon.generator.reader.parameters import evaluate_parameters
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.tree import Number, evaluate
 from gudgeon.language.units import ACCELERATION, DIMENSIONLESS, INERTIA, LENGTH, RATE, TORQUE
@@ -26,7 +26,7 @@ def read(name: str, **kwargs: object) -> Mechanism:
 
 def value(mechanism: Mechanism, quantity: Quantity | None) -> float:
     assert quantity is not None
-    return float(evaluate(quantity.value, parameter_values(mechanism.parameters).__getitem__))
+    return float(evaluate(quantity.value, evaluate_parameters(mechanism.parameters).__getitem__))
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +50,7 @@ def test_press_in_figures(press: Mechanism) -> None:
     assert press.gravity is not None and press.gravity[0].is_zero and value(press, press.gravity[1]) == -9.81
     assert press.gravity[1].dimension == ACCELERATION
     assert value(press, press.ground["O4"][1]) == -0.3 and not press.ground["O4"][1].is_zero
-    assert parameter_values(press.parameters) == {"omega": math.tau, "omega4": -math.tau, "l5": 0.3, "c": 0.0003}
+    assert evaluate_parameters(press.parameters) == {"omega": math.tau, "omega4": -math.tau, "l5": 0.3, "c": 0.0003}
 
 
 def test_press_scenes(press: Mechanism) -> None:
@@ -125,7 +125,7 @@ def test_law_defaults_are_filled_in(press: Mechanism) -> None:
 def test_scene_puts_its_parameters_in(slider: Mechanism) -> None:
     scene = make_scene(slider, "oiled")
     assert scene.parameters["speed"].address == "parameters.speed"
-    assert parameter_values(scene.parameters)["speed"] == pytest.approx(6 * math.pi, rel=1e-15)
+    assert evaluate_parameters(scene.parameters)["speed"] == pytest.approx(6 * math.pi, rel=1e-15)
     assert list(scene.parameters) == list(slider.parameters)
     assert make_scene(slider, "ideal").parameters == slider.parameters
     assert value(slider, make_scene(slider, "ideal").simulate["output"]) == 200
@@ -181,7 +181,7 @@ def test_overrides_in_every_voice() -> None:
 def test_override_leaves_an_anchored_twin_alone() -> None:
     changed = read("slider_crank", overrides={"materials.steel_too.nu": 0.2})
     bearing = changed.scenes["knock"].play["pin"].bearing
-    (followed,) = bearing.journal_material.numbers["nu"].of
+    (followed,) = bearing.journal_material.numbers["nu"].operands
     assert followed.address == "materials.steel_too.nu"
     assert value(changed, followed) == 0.2
     twin = read("slider_crank", overrides={"materials.steel.nu": 0.2})

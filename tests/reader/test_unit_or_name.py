@@ -8,7 +8,7 @@ import re
 import pytest
 
 from gudgeon.errors import ExpressionError, InputError, UnitError
-from gudgeon.generator.reader.parameters import parameter_values
+from gudgeon.generator.reader.parameters import evaluate_parameters
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.tree import evaluate
 
@@ -27,13 +27,13 @@ freedoms: 1
 def torque(parameters: str, value: str, **motion: float) -> float:
     """The torque of the file's only force, in N m."""
     mechanism = read_mechanism(FILE.format(parameters=parameters, value=value).encode(), "f.yaml")
-    known = {**parameter_values(mechanism.parameters), **{name.replace("_", "."): x for name, x in motion.items()}}
+    known = {**evaluate_parameters(mechanism.parameters), **{name.replace("_", "."): x for name, x in motion.items()}}
     return float(evaluate(mechanism.forces["brake"].quantities["value"].value, known.__getitem__))
 
 
 def parameter(parameters: str, name: str) -> float:
     mechanism = read_mechanism(FILE.format(parameters=parameters, value="0").encode(), "f.yaml")
-    return parameter_values(mechanism.parameters)[name]
+    return evaluate_parameters(mechanism.parameters)[name]
 
 
 FRICTION = "N: 25 N, mu: 0.3, r: 0.1 m"

@@ -13,7 +13,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.pipeline import generate
 from gudgeon.loading.build import compile_kernels
 from gudgeon.loading.compiler import find_compiler
-from gudgeon.loading.engine import include_flags
+from gudgeon.loading.engine import build_include_flags
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.simulation.simulation import Simulation
 from tests.slow import slow_but
@@ -37,7 +37,7 @@ def test_emits_without_warnings(of: tuple[str, str], tmp_path: Path) -> None:
     source = emitted(*of)
     for file, text in source.files.items():
         (tmp_path / file).write_text(text, encoding="utf-8")
-    flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", *include_flags()]
+    flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", *build_include_flags()]
     lanes = [source.lanes] if source.lanes else []
     done = subprocess.run(
         [*find_compiler(), *flags, source.main, *lanes], cwd=tmp_path, capture_output=True, text=True, check=False

@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 
 from gudgeon.errors import InputError, LimitError, Location, NotYamlError
 from gudgeon.generator.reader.read import read_mechanism
-from gudgeon.generator.yaml import MAX_BYTES, MAX_NODES, MAX_TAG, MOST_TWICE, Map, Text, parse_yaml
+from gudgeon.generator.yaml import MAX_BYTES, MAX_DUPLICATES, MAX_NODES, MAX_TAG, Map, Text, parse_yaml
 
 
 def test_places_count_characters() -> None:
     tree = parse_yaml("title: \u00fc\u00df\nk: {\u00e9: 'quoted', b: [1, \"2\"]}\n".encode(), "f")
     assert tree["title"].where == Location("f", 1, 8)
-    assert tree["k"].key("b").where == Location("f", 2, 18)
+    assert tree["k"].find_key("b").where == Location("f", 2, 18)
     assert tree["k"]["\u00e9"].where == Location("f", 2, 9)  # behind the quote
     assert [item.where.column for item in tree["k"]["b"]] == [22, 26]
 
@@ -24,11 +24,11 @@ def test_places_count_characters() -> None:
 def test_scalars_stay_text() -> None:
     tree = parse_yaml(b"a: 1e-4\nb: on\nc: 012\nd: 2020-01-01\ne: ~\nf: '~'\n", "f")
     assert [tree[key] for key in "abcd"] == ["1e-4", "on", "012", "2020-01-01"]
-    assert tree["e"].is_nothing and not tree["f"].is_nothing
+    assert tree["e"].is_null and not tree["f"].is_null
 
 
 def test_byte_order_mark_is_no_character() -> None:
-    assert parse_yaml(b"\xef\xbb\xbfa: 1", "f").key("a").where == Location("f", 1, 1)
+    assert parse_yaml(b"\xef\xbb\xbfa: 1", "f").find_key("a").where == Location("f", 1, 1)
 
 
 @pytest.mark.parametrize(
@@ -64,7 +64,7 @@ def test_as_many_commas_as_a_long_expression_may_have() -> None:
 def test_commas_keep_their_place_in_the_source() -> None:
     tree = parse_yaml("k: {\u00fc: 1, a: f(t,  0 , 1 s), b: x}\n".encode(), "f")
     assert (tree["k"]["a"], tree["k"]["a"].where) == ("f(t,  0 , 1 s)", Location("f", 1, 14))
-    assert tree["k"].key("b").where == Location("f", 1, 30)
+    assert tree["k"].find_key("b").where == Location("f", 1, 30)
 
 
 def test_alias_is_its_anchor() -> None:
@@ -106,7 +106,7 @@ def test_what_is_told_is_short() -> None:
         parse_yaml(b"a: *" + b"a" * 900_000, "f")
     twice: list[InputError] = []
     parse_yaml(b"{" + b"a: 1, " * 3000 + b"b: 1}", "f", twice)
-    assert len(str(alias.value)) < 300 and len(twice) == MOST_TWICE
+    assert len(str(alias.value)) < 300 and len(twice) == MAX_DUPLICATES
 
 
 def test_too_many_bytes() -> None:

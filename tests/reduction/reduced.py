@@ -9,7 +9,7 @@ import numpy as np
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.reduction.reduction import TreeSystem, reduce
+from gudgeon.generator.reduction.reduction import TreeSystem, reduce_model
 from gudgeon.model.compiled import Array, CompiledModel
 
 # steps by name: SymPy would write each as a case distinction, simplified at great length
@@ -106,13 +106,13 @@ class Numbers:
 
     def __init__(self, model: Model, p: Array) -> None:
         self.model, self.p = model, p
-        self.system: TreeSystem = reduce(model.thawed())
+        self.system: TreeSystem = reduce_model(model.copy_mutable())
         self.chains = np.zeros(0), np.zeros((3, 0))
 
     def __call__(self, expressions: Sequence[sp.Expr], t: float, s: Array, rate: Array) -> Array:
         system, symbols = self.system, self.system.model.symbols
-        slots = [entry.symbol for entry in self.model.slots.entries.values()]
-        known = [x for k in system.known for x in (k.q, k.rate, k.second, k.third)]
+        slots = [entry.symbol for entry in self.model.parameter_table.entries.values()]
+        known = [x for k in system.dependent for x in (k.q, k.rate, k.second, k.third)]
         steps = [(x, symbols.definitions[x]) for x in symbols.info if x in symbols.definitions]
         arguments = [[system.model.t], list(system.q), list(system.v), slots, known]
         function = sp.lambdify(arguments, list(expressions), MODULES, cse=lambda e: (steps, list(e)))

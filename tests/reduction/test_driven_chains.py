@@ -10,9 +10,9 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import SingularError, SolverError
-from gudgeon.generator.pipeline import derive, in_c
+from gudgeon.generator.pipeline import derive_scene, generate_c
 from gudgeon.generator.reduction.driven_chains import find_blocks
-from gudgeon.generator.reduction.reduction import reduce
+from gudgeon.generator.reduction.reduction import reduce_model
 from gudgeon.loading import compiler
 from gudgeon.loading.build import compile_kernels
 from gudgeon.model.compiled import CompiledModel
@@ -130,7 +130,7 @@ APART = "a drive with corners", "friction on what is free", "play"
 @pytest.mark.parametrize("name", [name for name in VARIANTS if name not in APART])
 def test_what_is_evaluated_and_what_stays_solved(name: str) -> None:
     changed, chain = VARIANTS[name]
-    found = reduce(derive(changed_four_bar(**changed).encode(), "f", "ideal").thawed()).chain
+    found = reduce_model(derive_scene(changed_four_bar(**changed).encode(), "f", "ideal").copy_mutable()).chain
     assert sorted(found.names if found else ()) == sorted(chain)
 
 
@@ -222,8 +222,8 @@ def with_chain(text: str, seed: int) -> str:
 def test_random_mechanisms_beside_a_driven_chain(seed: int) -> None:
     """Accelerations, powers and remaining multipliers at the start and at states around it."""
     text = with_chain(to_yaml(random_mechanism(seed)), seed)
-    model = derive(text.encode(), f"random_{seed}.yaml", "ideal")
-    source = in_c(model)
+    model = derive_scene(text.encode(), f"random_{seed}.yaml", "ideal")
+    source = generate_c(model)
     simulation = Simulation(CompiledModel(source, compile_kernels(source)), Path("random.yaml"))
     start = simulation.start()
     reduced, numbers = Reduced(simulation.compiled, simulation.p), Numbers(model, simulation.p)

@@ -12,9 +12,9 @@ import pytest
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.kernels.reduced import DYNAMICS, reduced_kernels
-from gudgeon.generator.pipeline import derive, in_c
-from gudgeon.generator.reduction.reduction import reduce
+from gudgeon.generator.kernels.reduced import DYNAMICS, make_reduced_kernels
+from gudgeon.generator.pipeline import derive_scene, generate_c
+from gudgeon.generator.reduction.reduction import reduce_model
 from gudgeon.loading import compiler
 from gudgeon.loading.build import compile_kernels
 from gudgeon.model.compiled import CompiledModel
@@ -65,8 +65,8 @@ def not_optimised(monkeypatch: pytest.MonkeyPatch) -> None:
 @cache
 def shipped(name: str, scene: str) -> tuple[Model, Simulation]:
     data = resources.files("gudgeon.mechanisms").joinpath(f"{name}.yaml").read_bytes()
-    model = derive(data, f"{name}.yaml", scene)
-    source = in_c(model)
+    model = derive_scene(data, f"{name}.yaml", scene)
+    source = generate_c(model)
     return model, Simulation(CompiledModel(source, compile_kernels(source)), Path(f"{name}.yaml"))
 
 
@@ -97,7 +97,7 @@ def check_state(
         got[i] += value * a[k]
     assert close(got, want.a[0], 1e-9, 1.0)
     index = {row.name: r for r, row in enumerate(library.source.rows)}
-    shares = [numbers.system.tree.multiplier(name) for name in library.source.closures]
+    shares = [numbers.system.tree.find_multiplier_terms(name) for name in library.source.closures]
     carried = [sum(sign * want.multipliers[0][index[row]] for row, sign in share.items()) for share in shares]
     assert close(multipliers, np.array(carried), 1e-8, float(abs(want.multipliers).max(initial=0.1)))
     assert close(power, want.power[0], 1e-9, max(1.0, float(abs(want.multipliers).max(initial=0.0))))
@@ -127,8 +127,8 @@ def test_shipped_mechanisms(name: str, scene: str) -> None:
 
 
 def reduced_case(case: Case) -> tuple[Model, Reduced]:
-    model = derive(to_yaml(case).encode(), f"random_{case.seed}.yaml", "ideal")
-    source = in_c(model)
+    model = derive_scene(to_yaml(case).encode(), f"random_{case.seed}.yaml", "ideal")
+    source = generate_c(model)
     library = CompiledModel(source, compile_kernels(source))
     slots = len(source.slots)
     return model, Reduced(library, library.prepare(np.zeros(slots), np.zeros(slots, dtype=bool)))
@@ -178,7 +178,9 @@ def test_rules_are_the_derivatives_of_the_definitions(name: str) -> None:
     s, rate = reduced.reduce(0.0, start.q, start.v)
     s, rate, t, h = s + 0.1, rate + 0.3, 0.2, 1e-5
     ruled = [x for x in symbols.rules if x in symbols.definitions]
-    rules = numbers([symbols.diff(x, by) for x in ruled for by in (*system.q, *system.v, system.model.t)], t, s, rate)
+    rules = numbers(
+        [symbols.differentiate(x, by) for x in ruled for by in (*system.q, *system.v, system.model.t)], t, s, rate
+    )
     rules = rules.reshape(len(ruled), -1)
     y = np.concatenate([s, rate, [t]])
     for k in range(len(y)):
@@ -210,7 +212,7 @@ joints:
   high: {{translational: [ground.P, b.origin], axis: [1, 0]}}
   pin: {{point_on_line: [{pair}], direction: [0, 1]}}
 """
-    system = reduce(derive(text.encode(), "slides.yaml", "ideal").thawed())
+    system = reduce_model(derive_scene(text.encode(), "slides.yaml", "ideal").copy_mutable())
     assert len(system.unknowns) == 1 and not system.rows
     assert [[row.get(0, 0) for row in system.motions[body].jacobian] for body in "ab"] == [[1, 0, 0], [1, 0, 0]]
 
@@ -220,7 +222,7 @@ def test_a_chain_is_cut_where_that_is_cheaper() -> None:
     """M of a hanging chain is full in its angles: a long one is cut, so that operations grow with its length."""
     operations = {}
     for n in (16, 32):
-        kernels, *_ = reduced_kernels(reduce(chain(n).thawed()))
+        kernels, *_ = make_reduced_kernels(reduce_model(chain(n).copy_mutable()))
         operations[n] = next(kernel.operations for kernel in kernels if kernel.name == DYNAMICS)
     assert operations[32] < 2.4 * operations[16]
 
@@ -230,7 +232,7 @@ def chain(n: int) -> Model:
     lines += [f"  c{k}: {{length: 1 m, mass: 1 kg, inertia: 0.1 kg*m^2}}" for k in range(n)]
     lines += ["joints:", "  j0: {revolute: [ground.O, c0.tail]}"]
     lines += [f"  j{k}: {{revolute: [c{k - 1}.head, c{k}.tail]}}" for k in range(1, n)]
-    return derive("\n".join(lines).encode(), "chain.yaml", "ideal")
+    return derive_scene("\n".join(lines).encode(), "chain.yaml", "ideal")
 
 
 def test_sines_and_cosines() -> None:

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gudgeon.assembly.rank import rank
+from gudgeon.assembly.rank import compute_rank
 from gudgeon.contract import reduction_log as message
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.reduction_log import ReductionLog
-from gudgeon.contract.reduction_words import outcome
-from gudgeon.generator.pipeline import derive, in_c
+from gudgeon.contract.reduction_words import describe_outcome
+from gudgeon.generator.pipeline import derive_scene, generate_c
 from gudgeon.generator.reduction.tree import Estimate, choose_tree
-from gudgeon.loading.shipped import shipped_file
+from gudgeon.loading.shipped import find_shipped_file
 from gudgeon.simulation.simulation import Simulation
 from tests.oracles import numpy_linkage
 from tests.oracles.linkage_yaml import to_yaml
@@ -40,7 +40,7 @@ def replay(source: KernelSource) -> tuple[set[str], set[str]]:
     """Coordinates and rows after the last step; each step takes only what is there and brings only what is not."""
     story = source.story
     coordinates, rows = set(story.coordinates), set(story.rows)
-    for step, n, m in story.ledger():
+    for step, n, m in story.iterate_steps():
         assert set(step.gone) <= coordinates and set(step.rows_gone) <= rows
         coordinates, rows = coordinates - set(step.gone), rows - set(step.rows_gone)
         assert not set(step.come) & coordinates and not set(step.rows_come) & rows
@@ -83,7 +83,7 @@ def test_freedom_of_shipped_scenes(name: str, scene: str) -> None:
     check_ledger(source)
     closed, _ = near(simulation, 0)
     phi_q = simulation.compiled.phi_q(0.0, closed, simulation.p)
-    assert len(source.tree) - len(source.closures) == len(closed) - (rank(phi_q) if len(phi_q) else 0)
+    assert len(source.tree) - len(source.closures) == len(closed) - (compute_rank(phi_q) if len(phi_q) else 0)
     if len(phi_q):
         check_known_angles(source, phi_q)
 
@@ -92,10 +92,10 @@ def test_freedom_of_shipped_scenes(name: str, scene: str) -> None:
 def test_freedom_of_random_mechanisms(seed: int) -> None:
     """Every joint and drive; Φ_q is that of the NumPy linkage."""
     case = random_mechanism(seed)
-    source = in_c(derive(to_yaml(case).encode(), f"random_{seed}.yaml", "ideal"))
+    source = generate_c(derive_scene(to_yaml(case).encode(), f"random_{seed}.yaml", "ideal"))
     check_ledger(source)
     phi_q = numpy_linkage.rows(case.linkage, 0.0, case.q, case.v).phi_q
-    assert len(source.tree) - len(source.closures) == len(case.q) - rank(phi_q)
+    assert len(source.tree) - len(source.closures) == len(case.q) - compute_rank(phi_q)
     check_known_angles(source, phi_q)
 
 
@@ -216,8 +216,8 @@ def test_groups_are_solved_one_after_the_other(name: str) -> None:
 
 
 def test_full_formulation_opens_what_has_play_and_takes_nothing_else() -> None:
-    model = derive(shipped_file("slider_crank").read_bytes(), "slider_crank.yaml", "dry")
-    source = in_c(model, "full")
+    model = derive_scene(find_shipped_file("slider_crank").read_bytes(), "slider_crank.yaml", "dry")
+    source = generate_c(model, "full")
     assert [step.kind for step in source.story.steps] == [message.PLAY]
     coordinates, rows = replay(source)
     assert coordinates == set(source.coordinates) and rows == {row.name for row in source.rows}
@@ -231,7 +231,7 @@ def test_redundant_rows_are_told() -> None:
         "ground: {O: [0, 0], P: [0, 0]}\n"
         "joints: {one: {revolute: [ground.O, a.tail]}, two: {revolute: [ground.P, a.tail]}}\n"
     )
-    source = in_c(derive(text.encode(), "twice.yaml", "ideal"))
+    source = generate_c(derive_scene(text.encode(), "twice.yaml", "ideal"))
     check_ledger(source)
     (step,) = (step for step in source.story.steps if step.kind == message.REDUNDANT)
     assert step.rows_gone == ("two.x", "two.y") and step.owners == ("two",)
@@ -247,10 +247,10 @@ def test_contradictory_drives_are_followed_in_absolute_coordinates() -> None:
         "joints: {one: {revolute: [ground.O, a.tail]}, two: {revolute: [ground.P, b.head]}}\n"
         "drives: {m: {angle: a, value: 60 deg}, n: {coordinate: a.x, value: 0.1 m}}\n"
     )
-    source = in_c(derive(text.encode(), "contrary.yaml", "ideal"))
+    source = generate_c(derive_scene(text.encode(), "contrary.yaml", "ideal"))
     story = source.story
     assert not story.groups and story.after is not None and story.after.coordinates == len(source.coordinates)
-    lines = dict(outcome(source))
+    lines = dict(describe_outcome(source))
     assert lines["operations"].endswith(f"in absolute coordinates, {source.operations['project']}")
 
 

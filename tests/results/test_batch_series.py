@@ -15,7 +15,7 @@ from gudgeon.errors import UnknownNameError
 from gudgeon.model.evaluation import PARTS
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import EvaluatedSamples, Result
-from gudgeon.results.series import catalogue
+from gudgeon.results.series import get_catalogue
 from tests.programs import needs_compiler
 from tests.pump import TEXT as PUMP
 from tests.valve import valve
@@ -43,7 +43,7 @@ def batch(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFacto
 
 
 def test_every_series_has_the_bits_of_the_run(batch: Batch) -> None:
-    for name in catalogue(batch.source):
+    for name in get_catalogue(batch.source):
         values = batch[name]
         assert values.shape == (len(batch), batch.t.shape[-1])
         for i in range(len(batch)):
@@ -56,7 +56,7 @@ def test_every_series_has_the_bits_of_the_run(batch: Batch) -> None:
 def test_what_is_not_needed_is_not_evaluated(batch: Batch, monkeypatch: pytest.MonkeyPatch) -> None:
     """Neither a whole result nor, of a position, anything in C; of the rest no other part is touched."""
     monkeypatch.setattr(type(batch.result), "__call__", None)
-    known, requested = catalogue(batch.source), list[frozenset[str]]()
+    known, requested = get_catalogue(batch.source), list[frozenset[str]]()
     plain = EvaluatedSamples.evaluation.func  # type: ignore[attr-defined]
 
     def noted(run: EvaluatedSamples) -> object:
@@ -64,7 +64,7 @@ def test_what_is_not_needed_is_not_evaluated(batch: Batch, monkeypatch: pytest.M
         return plain(run)
 
     monkeypatch.setattr(EvaluatedSamples, "evaluation", property(noted))
-    first = batch.result.bare(0, PARTS)
+    first = batch.result.evaluate_samples(0, PARTS)
     stored = set() if first is None or first.accelerations is None else {"a"}  # by a method that Python drives
     for name in known:
         requested.clear()
@@ -94,16 +94,16 @@ def test_a_name_that_there_is_not(batch: Batch) -> None:
 
 def test_a_catalogue_is_made_once_a_source_and_goes_with_it() -> None:
     first, second = gudgeon.load("four_bar"), gudgeon.load("four_bar")
-    assert catalogue(first.source) is catalogue(first.source)
-    assert list(catalogue(first.source)) == list(catalogue(second.source))
+    assert get_catalogue(first.source) is get_catalogue(first.source)
+    assert list(get_catalogue(first.source)) == list(get_catalogue(second.source))
     from gudgeon.results.series import _catalogues
 
     third = replace(second.source)  # one that no thread that compiles it knows
-    assert list(catalogue(third)) == list(catalogue(first.source))
+    assert list(get_catalogue(third)) == list(get_catalogue(first.source))
     key = id(third)
     assert key in _catalogues
     del third
-    catalogue(gudgeon.load("pendulum").source)  # whoever comes next sees that it is gone
+    get_catalogue(gudgeon.load("pendulum").source)  # whoever comes next sees that it is gone
     assert key not in _catalogues or _catalogues[key][0]() is not None
 
 

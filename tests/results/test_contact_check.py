@@ -10,7 +10,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, SolverError
-from gudgeon.results.contact_check import check_samples, penetrations
+from gudgeon.results.contact_check import check_samples, compute_penetrations
 from tests.integrators.test_forces_within_steps import JOURNAL, MASS, G
 from tests.random_contacts import text_of
 
@@ -23,7 +23,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> gudgeon.Result:
 
 
 def test_penetrations_of_journals_and_corners_are_those_of_the_engine(run: gudgeon.Result) -> None:
-    found = penetrations(run)
+    found = compute_penetrations(run)
     assert found.shape == (4001, 5)
     for k, joint in enumerate(run.source.clearances):
         np.testing.assert_allclose(found[:, k], run[f"{joint.name}.delta"], rtol=0.0, atol=1e-15)

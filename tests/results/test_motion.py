@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from gudgeon.results.motion import DRAWS, classify, zero_one
+from gudgeon.results.motion import DRAWS, classify_motion, compute_zero_one_test
 
 
 def logistic(r: float, count: int = 600) -> np.ndarray:
@@ -26,22 +26,22 @@ def turning(share: float, count: int = 600) -> np.ndarray:
 
 @pytest.mark.parametrize(("r", "period", "rate"), [(2.8, 1, math.log(0.8)), (3.2, 2, -0.9163), (3.5, 4, -0.8725)])
 def test_the_logistic_map_doubles_its_period(r: float, period: int, rate: float) -> None:
-    found = classify(logistic(r), 0.3, rate, 0.01)
+    found = classify_motion(logistic(r), 0.3, rate, 0.01)
     assert (found.kind, found.period) == ("periodic", period) and found.confidence > 0.99
-    assert (classify(logistic(r), 0.3).kind, found.nearest) == ("periodic", period)
+    assert (classify_motion(logistic(r), 0.3).kind, found.nearest) == ("periodic", period)
 
 
 def test_at_four_it_is_chaotic() -> None:
-    found = classify(logistic(4.0), 0.3, math.log(2.0), 0.02)
+    found = classify_motion(logistic(4.0), 0.3, math.log(2.0), 0.02)
     assert found.kind == "chaotic" and found.period == 0 and found.K > 0.9
     assert "chaotic, confidence" in repr(found)
-    assert classify(logistic(4.0), 0.3).kind == "chaotic"
+    assert classify_motion(logistic(4.0), 0.3).kind == "chaotic"
 
 
 def test_a_turn_by_the_golden_section_is_quasi_periodic() -> None:
-    found = classify(turning((math.sqrt(5.0) - 1.0) / 2.0), 1.0, 1e-4, 1e-3)
+    found = classify_motion(turning((math.sqrt(5.0) - 1.0) / 2.0), 1.0, 1e-4, 1e-3)
     assert found.kind == "quasi-periodic" and abs(found.K) < 0.1
-    assert classify(turning(3.0 / 7.0), 1.0, 0.0, 1e-3).period == 7
+    assert classify_motion(turning(3.0 / 7.0), 1.0, 0.0, 1e-3).period == 7
 
 
 def henon(a: float, x: float, count: int) -> tuple[np.ndarray, float, float]:
@@ -61,9 +61,9 @@ def test_chaos_in_narrow_bands_is_no_torus() -> None:
     """Hénon's map at a = 1.06: points go from band to band in turn, λ = .046; at 1.4 (λ = .419) there is one band."""
     for x in (-0.09, -0.05, 0.0, 0.03, 0.06, 0.1):
         points, rate, error = henon(1.06, x, 150)
-        assert classify(points, 1.0, rate, error).kind in ("undecided", "chaotic")
+        assert classify_motion(points, 1.0, rate, error).kind in ("undecided", "chaotic")
         points, rate, error = henon(1.4, x, 150)
-        assert abs(rate - 0.419) < 4.0 * error and classify(points, 1.0, rate, error).kind == "chaotic"
+        assert abs(rate - 0.419) < 4.0 * error and classify_motion(points, 1.0, rate, error).kind == "chaotic"
 
 
 def test_what_signs_do_not_agree_on_is_undecided() -> None:
@@ -75,16 +75,16 @@ def test_what_signs_do_not_agree_on_is_undecided() -> None:
         (logistic(4.0, 30), 0.69, 0.01),
         (logistic(4.0), 0.2, 0.4),
     ):
-        found = classify(points, 1.0, rate, error)
+        found = classify_motion(points, 1.0, rate, error)
         assert found.kind == "undecided" and found.period == 0
 
 
 def test_the_0_1_test_is_that_of_gottwald_and_melbourne() -> None:
     """r from 3.5 to 4: 0 in windows of periods, 1 in chaos (their figure 2)."""
-    assert abs(zero_one(logistic(3.55)[:, 0])) < 0.1
-    assert zero_one(logistic(3.97, 2000)[:, 0]) > 0.95
-    assert abs(zero_one(turning(math.sqrt(2.0), 2000)[:, 0])) < 0.1
-    assert math.isnan(zero_one(np.arange(39.0)))
+    assert abs(compute_zero_one_test(logistic(3.55)[:, 0])) < 0.1
+    assert compute_zero_one_test(logistic(3.97, 2000)[:, 0]) > 0.95
+    assert abs(compute_zero_one_test(turning(math.sqrt(2.0), 2000)[:, 0])) < 0.1
+    assert math.isnan(compute_zero_one_test(np.arange(39.0)))
 
 
 def test_the_0_1_test_written_in_loops() -> None:
@@ -99,4 +99,4 @@ def test_the_0_1_test_written_in_loops() -> None:
             M = sum((p[j + n] - p[j]) ** 2 + (q[j + n] - q[j]) ** 2 for j in range(N - most)) / (N - most)
             D.append(M - x.mean() ** 2 * (1.0 - math.cos(n * c)) / (1.0 - math.cos(c)))
         found.append(np.corrcoef(range(1, most + 1), D)[0, 1])
-    assert zero_one(x) == pytest.approx(np.median(found), rel=1e-10)
+    assert compute_zero_one_test(x) == pytest.approx(np.median(found), rel=1e-10)

@@ -20,9 +20,9 @@ pytest.importorskip("matplotlib")
 from matplotlib.figure import Figure  # noqa: E402
 
 from gudgeon.errors import GudgeonError  # noqa: E402
-from gudgeon.language.plot_units import PREFIXES, pretty, quantity, scale  # noqa: E402
+from gudgeon.language.plot_units import PREFIXES, choose_prefix, format_quantity, format_unit  # noqa: E402
 from gudgeon.results.figures import plots  # noqa: E402
-from gudgeon.results.reports.comparison import compare  # noqa: E402
+from gudgeon.results.reports.comparison import compute_scene_report  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 from tests.slow import slow_but  # noqa: E402
 
@@ -32,7 +32,7 @@ def labels(picture: Any) -> list[str]:
 
 
 def test_the_picture_has_errors_forces_and_orbits(run: Result, ideal: Result, tmp_path: Path) -> None:
-    picture: Any = plots.figure({"ideal": ideal, "dry": run}, ideal, ["S9.y"])
+    picture: Any = plots.draw_run_figure({"ideal": ideal, "dry": run}, ideal, ["S9.y"])
     found = labels(picture)
     assert found[:4] == ["error of S9.y [mm]", "error of S9.vy [mm/s]", "error of S9.ay [m/s²]", "force at A [N]"]
     drawn = picture.get_axes()[0].lines[0].get_ydata()
@@ -76,28 +76,28 @@ def test_any_number_of_scenes_can_be_drawn(
     scenes: tuple[str, ...], make: Callable[..., Result], tmp_path: Path
 ) -> None:
     runs = {scene: make(scene) for scene in scenes}
-    plots.save_figure(plots.figure(runs, make("ideal"), ["S9.y", "lift"]), tmp_path / "x.png")
-    plots.save_figure(plots.figure(runs, {}, ["A.F"]), tmp_path / "y.png")  # nothing to compare with
+    plots.save_figure(plots.draw_run_figure(runs, make("ideal"), ["S9.y", "lift"]), tmp_path / "x.png")
+    plots.save_figure(plots.draw_run_figure(runs, {}, ["A.F"]), tmp_path / "y.png")  # nothing to compare with
     assert (tmp_path / "x.png").stat().st_size > 10_000
 
 
 def test_scenes_of_different_length_share_one_axis(make: Callable[..., Result]) -> None:
     runs = {"dry": make("dry"), "short": make("short", t_end=0.25)}
     references = {scene: make("ideal", t_end=run.t[-1]) for scene, run in runs.items()}
-    assert plots.figure(runs, references, ["S9.y"]).get_axes()[0].get_xlim() == (0.0, 1.0)
+    assert plots.draw_run_figure(runs, references, ["S9.y"]).get_axes()[0].get_xlim() == (0.0, 1.0)
 
 
 def test_a_series_of_nan_and_a_run_of_one_sample_can_be_drawn(run: Result, make: Callable[..., Result]) -> None:
     lost = replace(run, accelerations=np.full_like(run.a, np.nan), stored={})
-    plots.figure({"dry": lost}, make("ideal"), ["S9.y"])
+    plots.draw_run_figure({"dry": lost}, make("ideal"), ["S9.y"])
     one = make("dry", samples=1)
-    plots.figure({"dry": one}, make("ideal", samples=1), ["S9.y"])
+    plots.draw_run_figure({"dry": one}, make("ideal", samples=1), ["S9.y"])
 
 
 def test_a_failed_write_leaves_the_older_picture(run: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "x.png"
     path.write_bytes(b"older")
-    picture = plots.figure({"dry": run}, {}, ["S9.y"])
+    picture = plots.draw_run_figure({"dry": run}, {}, ["S9.y"])
 
     def fail(*_: object, **__: object) -> None:
         raise OSError(28, "No space left on device")
@@ -111,8 +111,8 @@ def test_a_failed_write_leaves_the_older_picture(run: Result, tmp_path: Path, mo
 @settings(deadline=None)
 @given(st.floats(1e-11, 1e11), st.sampled_from(["m", "N", "m/s", "N*m", "J"]))
 def test_a_prefix_brings_a_number_near_one_and_does_not_change_it(size: float, unit: str) -> None:
-    factor, text = scale(size, unit)
-    prefix = text.removesuffix(pretty(unit))
+    factor, text = choose_prefix(size, unit)
+    prefix = text.removesuffix(format_unit(unit))
     power = next(exponent for exponent, name in PREFIXES.items() if name == prefix)
     assert math.isclose(factor * 10.0**power, 1.0)
     assert 0.099 <= size * factor < 3000
@@ -135,13 +135,13 @@ def test_a_prefix_brings_a_number_near_one_and_does_not_change_it(size: float, u
     ],
 )
 def test_quantities_as_people_write_them(value: float, unit: str, text: str) -> None:
-    assert quantity(value, unit) == text
+    assert format_quantity(value, unit) == text
 
 
 def test_long_labels_stay_beside_their_axes(run: Result, ideal: Result) -> None:
     """Names of bodies are up to their owner: a label is folded until it is no taller than its row."""
     name = "the_rocker_of_the_second_stage.theta"
-    picture = plots.figure({"dry": run}, ideal, ["S9.y"])
+    picture = plots.draw_run_figure({"dry": run}, ideal, ["S9.y"])
     folded = plots._wrap_label(picture.subfigs[0].axes[0], f"error of {name} [mrad]")
     assert folded.replace("\n", " ").replace(". theta", ".theta") == f"error of {name} [mrad]"
     axes = picture.subfigs[0].axes[:3]
@@ -155,7 +155,7 @@ def test_long_labels_stay_beside_their_axes(run: Result, ideal: Result) -> None:
 
 def test_a_long_title_leaves_the_legend_its_place(run: Result, ideal: Result) -> None:
     long = replace(run, source=replace(run.source, title="a word and " * 12), stored={})
-    picture = plots.figure({"dry": long}, ideal, ["S9.y"])
+    picture = plots.draw_run_figure({"dry": long}, ideal, ["S9.y"])
     picture.draw_without_rendering()
     title: Any = picture._suptitle  # type: ignore[attr-defined]
     title, legend = title.get_window_extent(), picture.legends[0].get_window_extent()
@@ -166,7 +166,7 @@ def test_what_lies_beyond_the_horizon_is_marked_and_told(run: Result, ideal: Res
     """Grey over time with a word in the legend, grey in the orbits; nothing where it holds to the end."""
     short = replace(run, diagnostics=replace(run.diagnostics, horizon=0.4), stored={})
     for shown, marked in ((short, True), (run, False)):
-        picture = plots.figure({"dry": shown}, ideal, ["S9.y"])
+        picture = plots.draw_run_figure({"dry": shown}, ideal, ["S9.y"])
         message = [text.get_text() for text in picture.legends[0].get_texts()]
         assert ("not to be trusted" in message) == marked
         lines: Any = picture.subfigs[1].axes[0].lines
@@ -223,7 +223,7 @@ def test_angles_are_in_degrees_for_people(run: Result, ideal: Result) -> None:
     assert ax.get_ylabel() == "L1.theta [°]"
     np.testing.assert_allclose(ax.lines[0].get_ydata(), np.degrees(run["L1.theta"]))
     assert run.plot.series("L1.omega").get_ylabel() == "L1.omega [°/s]"
-    assert labels(plots.figure({"ideal": ideal}, {}, ["L1.theta"]))[:3] == [
+    assert labels(plots.draw_run_figure({"ideal": ideal}, {}, ["L1.theta"]))[:3] == [
         "L1.theta [°]",
         "L1.omega [°/s]",
         "L1.alpha [°/s²]",
@@ -233,8 +233,8 @@ def test_angles_are_in_degrees_for_people(run: Result, ideal: Result) -> None:
 def test_ten_scenes_are_told_apart(make: Callable[..., Result]) -> None:
     """A colour and a circle each, the legend within the picture and beside nothing."""
     runs = {f"a_scene_{k}": make(f"a_scene_{k}") for k in range(10)}
-    picture: Any = plots.figure(runs, make("ideal"), ["S9.y"])
-    assert len({*plots.cycle(10)}) == 10 and len({*plots.cycle(20)}) == 20
+    picture: Any = plots.draw_run_figure(runs, make("ideal"), ["S9.y"])
+    assert len({*plots.choose_colours(10)}) == 10 and len({*plots.choose_colours(20)}) == 20
     assert len(picture.subfigs[1].axes) == 10
     picture.canvas.draw()
     legend = picture.legends[0].get_window_extent()
@@ -246,16 +246,16 @@ def test_ten_scenes_are_told_apart(make: Callable[..., Result]) -> None:
 
 
 def test_a_rate_that_is_watched_too_is_shown_once(run: Result, ideal: Result) -> None:
-    found = labels(plots.figure({"ideal": ideal, "dry": run}, ideal, ["S9.y", "S9.vy", "S9.y"]))
+    found = labels(plots.draw_run_figure({"ideal": ideal, "dry": run}, ideal, ["S9.y", "S9.vy", "S9.y"]))
     shown = [name.removeprefix("error of S9.") for name in found if "S9." in name]
     assert shown == ["y [mm]", "vy [mm/s]", "ay [m/s²]"]
-    names = [extreme.name for extreme in compare(run, ideal, ("S9.y", "S9.vy")).motion]
+    names = [extreme.name for extreme in compute_scene_report(run, ideal, ("S9.y", "S9.vy")).motion]
     assert names == ["S9.y", "S9.vy", "S9.ay"]
 
 
 def test_what_turns_by_rounding_alone_is_noise_where_nothing_turns(ideal: Result) -> None:
     """Beside speeds v over an extent r, what turned as far would have ω = v/r; 1e-9 of it is none."""
-    report = compare(ideal, None, ("S9.y",))
+    report = compute_scene_report(ideal, None, ("S9.y",))
     extent = report.scales["m"]
     assert report.scales["rad/s"] >= report.scales["m/s"] / extent and report.scales["rad"] >= 1.0
     assert extent == max(np.abs(ideal.q[:, k]).max() for k in range(ideal.q.shape[1]) if k % 3 < 2)
@@ -264,5 +264,5 @@ def test_what_turns_by_rounding_alone_is_noise_where_nothing_turns(ideal: Result
 def test_signs_without_a_font_are_told_once(ideal: Result, tmp_path: Path) -> None:
     named = replace(ideal, source=replace(ideal.source, title="機構"), stored={})
     with pytest.warns(UserWarning) as message:
-        plots.save_figure(plots.figure({"機": named}, named, ["S9.y"]), tmp_path / "x.png")
+        plots.save_figure(plots.draw_run_figure({"機": named}, named, ["S9.y"]), tmp_path / "x.png")
     assert len(message) == 1 and "機" in str(message[0].message)

@@ -9,9 +9,9 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import GudgeonError, UnknownNameError
-from gudgeon.language.output_units import parse, unit_of
+from gudgeon.language.output_units import derive_unit, parse_exponents
 from gudgeon.language.tree import from_json
-from gudgeon.loading.shipped import shipped_file
+from gudgeon.loading.shipped import find_shipped_file
 from gudgeon.results.results import Result
 
 
@@ -155,17 +155,17 @@ def test_without_a_compiled_model_forces_are_refused_with_a_reason(stripped: Res
 )
 def test_units_of_expressions(tree: object, unit: str) -> None:
     units = {"x": "m", "t": "s", "F": "N", "a": "rad", "w": "rad/s"}
-    assert unit_of(from_json(tree), units.get) == unit
+    assert derive_unit(from_json(tree), units.get) == unit
 
 
 def test_units_are_read_as_products_of_powers() -> None:
-    assert parse("kg*m^2/s^2") == parse("N*m") == parse("J")
+    assert parse_exponents("kg*m^2/s^2") == parse_exponents("N*m") == parse_exponents("J")
     with pytest.raises(ValueError):
-        parse("furlong")
+        parse_exponents("furlong")
 
 
 def test_an_output_of_play_is_left_out_where_there_is_none(tmp_path: Path) -> None:
-    text = shipped_file("slider_crank").read_text(encoding="utf-8")
+    text = find_shipped_file("slider_crank").read_text(encoding="utf-8")
     joint = next(iter(gudgeon.load("slider_crank", "dry").source.clearances)).name
     file = tmp_path / "slider.yaml"
     file.write_text(text.partition("\noutputs:")[0] + f"\noutputs: {{press: 2 * {joint}.Fn, twice: 2 * t}}\n")

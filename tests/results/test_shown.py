@@ -44,9 +44,9 @@ def test_a_scene_is_what_it_is_made_of() -> None:
 
 
 def test_text_of_a_file_is_no_markup(tmp_path: Path) -> None:
-    from gudgeon.loading.shipped import shipped_file
+    from gudgeon.loading.shipped import find_shipped_file
 
-    text = shipped_file("pendulum").read_text("utf-8")
+    text = find_shipped_file("pendulum").read_text("utf-8")
     file = tmp_path / "marked.yaml"
     file.write_text(re.sub(r"^title: .*$", "title: <b>$x_1$</b>", text, flags=re.MULTILINE))
     assert "&lt;b&gt;" in (html := gudgeon.load(file)._repr_html_()) and "<b>" not in html

@@ -13,9 +13,9 @@ pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
 from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
-from gudgeon.loading.find import find_mechanism  # noqa: E402
+from gudgeon.loading.kernel_sources import find_mechanism  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
-from gudgeon.results.series import WINDOWS, low_pass, spectrum  # noqa: E402
+from gudgeon.results.series import WINDOWS, compute_spectrum, low_pass  # noqa: E402
 from tests.programs import needs_compiler  # noqa: E402
 
 RATE, N = 1000.0, 2000
@@ -27,7 +27,7 @@ T = np.arange(N) / RATE
 def test_a_sine_is_a_line_of_its_amplitude(window: str, n: int) -> None:
     """On a line of the spectrum, whatever the window, and above a mean that is left out."""
     line = 80 * RATE / n
-    f, found = spectrum(T[:n], 3.0 + 0.7 * np.sin(2 * np.pi * line * T[:n] + 0.4), window)
+    f, found = compute_spectrum(T[:n], 3.0 + 0.7 * np.sin(2 * np.pi * line * T[:n] + 0.4), window)
     assert f[found.argmax()] == pytest.approx(line, rel=1e-12)
     assert found.max() == pytest.approx(0.7, rel=1e-6) and found[-300:].max() < 1e-3
 
@@ -35,7 +35,7 @@ def test_a_sine_is_a_line_of_its_amplitude(window: str, n: int) -> None:
 def test_the_power_of_a_spectrum_is_the_signals() -> None:
     """Parseval, of white noise without a window: the line at half the rate is not doubled."""
     values = np.random.default_rng(3).normal(size=N)
-    _, found = spectrum(T, values, "boxcar")
+    _, found = compute_spectrum(T, values, "boxcar")
     power = found[0] ** 2 + (found[1:-1] ** 2).sum() / 2 + found[-1] ** 2
     assert power == pytest.approx(values.var(), rel=1e-12)
 
@@ -71,11 +71,11 @@ def test_what_cannot_be_filtered_is_refused(cutoff: float) -> None:
     with pytest.raises(BadValueError, match="cutoff"):
         low_pass(T, T, cutoff)
     with pytest.raises(BadValueError, match="even times"):
-        spectrum(T**2, T)
+        compute_spectrum(T**2, T)
     with pytest.raises(BadValueError, match="no numbers"):
-        spectrum(T, np.where(T == 0.5, np.nan, T))
+        compute_spectrum(T, np.where(T == 0.5, np.nan, T))
     with pytest.raises(BadValueError, match="one of boxcar"):
-        spectrum(T, T, "kaiser")
+        compute_spectrum(T, T, "kaiser")
 
 
 def test_a_run_is_drawn_in_its_units(run: Result) -> None:
@@ -85,7 +85,7 @@ def test_a_run_is_drawn_in_its_units(run: Result) -> None:
     x, y = ax.lines[0].get_data()
     np.testing.assert_allclose(x, run["S9.y"] * 1e3)
     np.testing.assert_allclose(y, run["S9.vy"] * (1 if ax.get_ylabel().endswith("[m/s]") else 1e3))
-    f, found = spectrum(run.t, run["S9.y"])
+    f, found = compute_spectrum(run.t, run["S9.y"])
     drawn: Any = run.plot.spectrum("S9.y")
     np.testing.assert_array_equal(drawn.lines[0].get_xdata(), f)
     np.testing.assert_allclose(drawn.lines[0].get_ydata(), found * 1e3)

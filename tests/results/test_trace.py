@@ -11,7 +11,7 @@ import pytest
 import gudgeon
 from gudgeon.integrators.trajectory import TRACE_ROWS
 from gudgeon.results.figures import joint_curves
-from gudgeon.results.figures.plots import figure
+from gudgeon.results.figures.plots import draw_run_figure
 from gudgeon.results.results import Result
 from tests.programs import needs_compiler
 
@@ -55,14 +55,14 @@ def test_curve_and_mark_agree(options: dict[str, Any]) -> None:
     run = gudgeon.load("nine_bar_press", "dry").simulate(0.1, output=100, **options)
     for k, joint in enumerate(run.source.clearances):
         peak = run.diagnostics.peak(joint.name)
-        t, F = joint_curves.force(run, joint.name)
+        t, F = joint_curves.get_force_curve(run, joint.name)
         assert (np.diff(t) >= 0.0).all()
         assert F.max() == peak.F > run[f"{joint.name}.F"].max()
         assert t[F.argmax()] == peak.t
         for impact in run.impacts[run.impacts["joint"] == k]:
             during = (t >= impact["t_on"]) & ~(t > impact["t_off"])
             assert F[during].max() >= impact["F_peak"] * (1.0 - 1e-12)
-    lines = figure({"dry": run}, gudgeon.load("nine_bar_press").simulate(0.1, output=100), ["S9.y"])
+    lines = draw_run_figure({"dry": run}, gudgeon.load("nine_bar_press").simulate(0.1, output=100), ["S9.y"])
     axes = [ax for part in lines.subfigs for ax in part.axes if ax.get_ylabel().startswith("force at A")]
     drawn = max(np.nanmax(y) for y in (np.asarray(line.get_ydata()) for line in axes[0].lines) if len(y) > 2)
     assert drawn == run.diagnostics.peak("A").F
@@ -72,7 +72,7 @@ def test_the_path_turns_round_where_the_journal_does() -> None:
     """Hundred samples miss how deep contacts go; the steps do not."""
     run = gudgeon.load("nine_bar_press", "dry").simulate(0.1, output=100)
     for joint in ("A", "B"):
-        t, x, y = joint_curves.path(run, joint)
+        t, x, y = joint_curves.get_journal_path(run, joint)
         deepest, c = run.diagnostics.peak(joint).e_max, run.constants[f"{joint}.c"]
         assert (np.diff(t) >= 0.0).all()
         assert run[f"{joint}.e"].max() - c < 0.9 * (deepest - c)
@@ -84,9 +84,9 @@ def test_without_a_trace_peaks_are_drawn_all_the_same() -> None:
     press = gudgeon.load("nine_bar_press", "dry")
     run = press.simulate_many({"omega": [6.0, 6.2]}, 0.1, output=100)[1]
     assert run.trace is None
-    t, F = joint_curves.force(run, "A")
+    t, F = joint_curves.get_force_curve(run, "A")
     assert F.max() == run.diagnostics.peak("A").F and t[F.argmax()] == run.diagnostics.peak("A").t
-    assert len(joint_curves.path(run, "A")[0]) == 101
+    assert len(joint_curves.get_journal_path(run, "A")[0]) == 101
 
 
 def test_a_file_keeps_the_trace(tmp_path: Path) -> None:

@@ -19,11 +19,11 @@ from typer.testing import CliRunner
 import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import BadValueError
-from gudgeon.generator.kinds.laws.law import Limits, laws
+from gudgeon.generator.kinds.laws.law import Limits, find_all_laws
 from gudgeon.generator.pipeline import generate
-from gudgeon.loading.find import find_mechanism
+from gudgeon.loading.kernel_sources import find_mechanism
 from gudgeon.results.diagnostics import Diagnostics
-from gudgeon.results.reports.run_report import beyond, laws_of
+from gudgeon.results.reports.run_report import find_exceeded_limits, read_laws
 from gudgeon.results.results import Result
 from tests.programs import needs_compiler
 
@@ -191,7 +191,7 @@ def test_films_say_where_they_are_left(press: tuple[Result, Result]) -> None:
 def test_films_that_grow_thin_are_told(press: tuple[Result, Result], monkeypatch: pytest.MonkeyPatch) -> None:
     run, _ = press
     film = run.p[run.source.clearances[0].constants["film_clearance"]]
-    law = replace(laws()["finite_length"], limits=Limits(epsilon=float(np.quantile(run["A.e"] / film, 0.75))))
+    law = replace(find_all_laws()["finite_length"], limits=Limits(epsilon=float(np.quantile(run["A.e"] / film, 0.75))))
     monkeypatch.setattr("gudgeon.results.reports.run_report._find_film_law", lambda source, joint: law)
     notes = [note for note in run.report().to_dict()["warnings"] if note.startswith("A: ")]
     assert len(notes) == 1 and float(notes[0].split()[2]) == pytest.approx(25.0, abs=0.5)  # 401 samples
@@ -199,9 +199,9 @@ def test_films_that_grow_thin_are_told(press: tuple[Result, Result], monkeypatch
     assert notes[0].endswith(f"; it reaches {most:.4g}")
     between = replace(law, limits=Limits(epsilon=1.01 * most))
     monkeypatch.setattr("gudgeon.results.reports.run_report._find_film_law", lambda source, joint: between)
-    assert not beyond(run)
+    assert not find_exceeded_limits(run)
     peaks = tuple(replace(peak, e_max=1.02 * peak.e_max) for peak in run.diagnostics.peaks)  # of steps, which see more
-    (note, *_) = beyond(replace(run, diagnostics=replace(run.diagnostics, peaks=peaks)))
+    (note, *_) = find_exceeded_limits(replace(run, diagnostics=replace(run.diagnostics, peaks=peaks)))
     assert note.startswith("A: between samples ε is over") and note.endswith(f"; it reaches {1.02 * most:.4g}")
 
 
@@ -249,9 +249,9 @@ scenes: {oil: {play: {A: {bearing: b, contact: oil}}}}
 
 def test_every_law_is_told_with_its_conventions() -> None:
     """However long its source and validity are, and that of mixed lubrication, which is no function of C, too."""
-    message = laws_of(generate(LAWS.encode(), "disc.yaml", "oil"))
+    message = read_laws(generate(LAWS.encode(), "disc.yaml", "oil"))
     assert [law["title"].split(":")[0] for law in message] == ["ESDU 78035", "Ocvirk", "Greenwood and Tripp"]
     for law, name in zip(message, ("esdu_78035", "ocvirk", "greenwood_tripp"), strict=True):
-        own = laws()[name]
+        own = find_all_laws()[name]
         assert (law["title"], law["source"], law["valid"]) == (own.title, own.source, own.validity)
     assert "cavitation: full" in message[1]["options"] and "angular_velocity: relative" in message[1]["options"]

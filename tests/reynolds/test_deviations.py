@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from gudgeon.errors import InputError
-from gudgeon.generator.kinds.laws.law import called
+from gudgeon.generator.kinds.laws.law import find_laws_of_role
 from gudgeon.reynolds import deviation
 from tests.oracles import film
 
@@ -40,7 +40,7 @@ def test_the_long_film_is_the_limit_of_long_bearings() -> None:
     assert shares[1] / shares[2] == pytest.approx(2.0, rel=0.1)
 
 
-@pytest.mark.parametrize("law", sorted(called("film")))
+@pytest.mark.parametrize("law", sorted(find_laws_of_role("film")))
 def test_every_film_law_can_be_held_against_it(law: str) -> None:
     found = deviation(law, 0.5, eps=[0.6], motion=[0.0, 1.5, 3.0], cells=(64, 8))
     assert np.isfinite(found.law_force).all() and (found.share >= 0.0).all()
@@ -80,7 +80,7 @@ def test_the_map_is_drawn() -> None:
 def test_the_pages_table_is_of_every_law() -> None:
     """`make deviations` writes it; looked at in one column."""
     rows = re.findall(r"^\| `(\w+)`, ([\d.]+) \| .* \| .* \| ([\d.]+) % \| .* \| .* \|$", PAGE, re.MULTILINE)
-    assert sorted({law for law, _, _ in rows}) == sorted(called("film"))
+    assert sorted({law for law, _, _ in rows}) == sorted(find_laws_of_role("film"))
     solved = {ratio: deviation("ocvirk", float(ratio), eps=[0.5]) for ratio in {ratio for _, ratio, _ in rows}}
     for law, ratio, shown in rows:
         worst = 100.0 * float(solved[ratio].of(law).share.max())

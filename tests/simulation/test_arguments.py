@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.contract.kernel_source import Slot
+from gudgeon.contract.kernel_source import RuntimeParameter
 from gudgeon.errors import BadValueError, UnknownNameError
-from gudgeon.language.quantities import number_of_text
-from gudgeon.model.parameters import number, plain_number, spaced
+from gudgeon.language.quantities import parse_quantity
+from gudgeon.model.parameters import insert_space_before_unit, parse_plain_number, read_parameter_value
 from gudgeon.studies.runs import Setting
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
@@ -51,7 +51,7 @@ def test_a_unit_may_follow_its_number_at_once() -> None:
     pendulum = gudgeon.load("pendulum")
     glued, apart, number = (pendulum.simulate("0.01s", step=step, output=5) for step in ("500us", "500 us", 5e-4))
     assert (glued.q == apart.q).all() and (glued.q == number.q).all()
-    assert [spaced(text) for text in ("0.5mm", "0.5 mm", "2*pi rad/s", "1e-3m", "7")] == [
+    assert [insert_space_before_unit(text) for text in ("0.5mm", "0.5 mm", "2*pi rad/s", "1e-3m", "7")] == [
         "0.5 mm",
         "0.5 mm",
         "2*pi rad/s",
@@ -63,7 +63,7 @@ def test_a_unit_may_follow_its_number_at_once() -> None:
 def test_a_long_text_is_looked_at_once() -> None:
     """Not once for each pair of its digits, which a million of them would not end in years."""
     for text in ("9" * 10**6, "1." + "0" * 10**6 + "!", "1" + " " * 10**6 + "2"):
-        assert spaced(text) == text
+        assert insert_space_before_unit(text) == text
 
 
 def test_a_scene_without_freedom_takes_any_tolerance() -> None:
@@ -81,8 +81,8 @@ def test_a_value_outside_its_range_is_told_the_range() -> None:
 
 
 def test_finer_settings_stop_where_rounding_begins() -> None:
-    assert Setting("auto", 1e-13).finer(100.0).value == 1e-14
-    assert Setting("rk4", 1e-13).finer(100.0).value == pytest.approx(1e-15)
+    assert Setting("auto", 1e-13).refine(100.0).value == 1e-14
+    assert Setting("rk4", 1e-13).refine(100.0).value == pytest.approx(1e-15)
 
 
 def test_numbers_are_texts_too() -> None:
@@ -149,14 +149,14 @@ def test_an_end_and_times_that_end_elsewhere_are_refused() -> None:
 
 def test_a_number_is_what_the_file_makes_of_it() -> None:
     """The quick way of a bare number and the file's parser have one opinion."""
-    rng, slot = np.random.default_rng(5), Slot("x", "", 0.0, False, (0, 0, 0))
+    rng, slot = np.random.default_rng(5), RuntimeParameter("x", "", 0.0, False, (0, 0, 0))
     pieces = ["0", "1", "9", "00", ".", "e", "E", "-", "+", "400", "308", "1e-324", "5e-324", "_", " ", "1.5", "٣"]
     count = 0
     for _ in range(1500):
         text = "".join(rng.choice(pieces, rng.integers(1, 6)))
-        quick = plain_number(text)
+        quick = parse_plain_number(text)
         try:
-            slow: float | None = number_of_text(spaced(text), slot.address, slot.dimension)
+            slow: float | None = parse_quantity(insert_space_before_unit(text), slot.address, slot.dimension)
         except gudgeon.InputError:
             slow = None
         if quick is not None:
@@ -164,7 +164,7 @@ def test_a_number_is_what_the_file_makes_of_it() -> None:
             assert slow is not None and quick.hex() == slow.hex(), text
         if slow is None:
             with pytest.raises(gudgeon.InputError):
-                number(text, slot)
+                read_parameter_value(text, slot)
     assert count > 200
 
 

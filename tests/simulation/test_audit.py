@@ -134,7 +134,9 @@ def test_other_levels_are_refused() -> None:
 def test_a_batch_counts_failed_audits(tmp_path: Path) -> None:
     """A run that fails its audit is a failed row with the reason; what is right beside it is not."""
     broken = mutant(
-        gudgeon.load("pendulum"), tmp_path, ("engine/scalar_simd/motion.h", "dy[k] = y[N_X + k]", "dy[k] = 1.1 * y[N_X + k]")
+        gudgeon.load("pendulum"),
+        tmp_path,
+        ("engine/scalar_simd/motion.h", "dy[k] = y[N_X + k]", "dy[k] = 1.1 * y[N_X + k]"),
     )
     batch = broken.simulate_many({}, np.array([0.5, 1.0]), output=20, side_by_side=False)
     assert len(batch.failures) == 2
@@ -167,7 +169,11 @@ def test_a_contact_that_is_missed(tmp_path: Path) -> None:
     wrong = mutant(
         right,
         tmp_path,
-        ("engine/watch/events.c", "is_gap ? has_zero(run", "is_gap ? run->contacts.onsets % 3 != 2 && has_zero(run"),
+        (
+            "engine/watch/events.c",
+            "is_gap ? has_gap_zero(run",
+            "is_gap ? run->contacts.onsets % 3 != 2 && has_gap_zero(run",
+        ),
         ("engine/methods/step_length.c", "!run->discrete.contact[i].closed && joint->deltadot < 0.0)", "0)"),
     )
     found = reported(wrong, 0.05)
@@ -192,7 +198,11 @@ def test_film_forces_between_the_ends_of_steps(tmp_path: Path) -> None:
         right,
         tmp_path,
         ("engine/methods/radau.c", "i < N_X && !has_films()", "i < N_X"),
-        ("engine/scalar_simd/radau_step.h", "& (falls * force_change <= run->newton.force_found * (1.0 - falls))", ""),
+        (
+            "engine/scalar_simd/radau_step.h",
+            "& (convergence_rate * force_change <= run->newton.force_found * (1.0 - convergence_rate))",
+            "",
+        ),
         NO_FILM_ERROR,
     )
     assert "check force" in reported(wrong, 0.05, method="radau5")
@@ -220,7 +230,11 @@ def test_taylor_whose_steps_are_endless(rtol: float, tmp_path: Path) -> None:
             "return real_exp2(-real_max(real_log2(most) / n, real_log2(most_before) / (n - 1)));",
             "(void)most, (void)most_before, (void)n;\n    return real_of(0.9);",
         ),
-        ("engine/scalar_simd/taylor.h", "status ? real_of(INFINITY) : taylor_compute_defect(run, step, rate)", "real_of(0.0)"),
+        (
+            "engine/scalar_simd/taylor.h",
+            "status ? real_of(INFINITY) : taylor_compute_defect(run, step, rate)",
+            "real_of(0.0)",
+        ),
     )
     found = reported(wrong, 10.0, method="taylor", rtol=rtol)
     assert any(x in found for x in ("check defect", "check rate", "check step", "no step is small enough")), found

@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.loading.shipped import shipped_file
+from gudgeon.loading.shipped import find_shipped_file
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.evaluation import Evaluation
 from gudgeon.model.reference import check_reference
-from gudgeon.simulation.newton_euler import newton_euler
+from gudgeon.simulation.newton_euler import compute_newton_euler_residuals
 from tests.audit_mutants import mutant
 from tests.programs import needs_compiler
 from tests.scenes import loader, patched
@@ -181,7 +181,11 @@ def test_a_step_control_that_is_too_loose(tmp_path: Path) -> None:
     """The estimate of order 3 in other units: steps become so long that they err by many tolerances."""
     right = gudgeon.load("slider_crank", "dry")
     assert not reported(right, 0.02, audit="full")
-    edit = ("engine/scalar_simd/dop853.h", "three = real_max(real_abs(of_3) * by", "three = real_max(real_abs(of_3) + by")
+    edit = (
+        "engine/scalar_simd/dop853.h",
+        "three = real_max(real_abs(of_3) * by",
+        "three = real_max(real_abs(of_3) + by",
+    )
     assert "check step" in reported(mutant(right, tmp_path, edit), 0.02, audit="full")
 
 
@@ -189,14 +193,21 @@ def test_a_step_control_that_is_too_loose(tmp_path: Path) -> None:
     "method, edit",
     [
         ("rodas5p", ("engine/scalar_simd/rodas5p.h", "real_abs(step->k[7][i])", "1e-4 * real_abs(step->k[7][i])")),
-        ("dop853", ("engine/scalar_simd/dop853.h", "five = real_max(real_abs(of_5)", "five = real_max(1e-4 * real_abs(of_5)")),
+        (
+            "dop853",
+            ("engine/scalar_simd/dop853.h", "five = real_max(real_abs(of_5)", "five = real_max(1e-4 * real_abs(of_5)"),
+        ),
     ],
 )
 def test_an_error_estimate_that_is_too_small(method: str, edit: tuple[str, str, str], tmp_path: Path) -> None:
     right = gudgeon.load("andrews_squeezer")
     assert not reported(right, 0.03, method=method)
     # the distance from the constraint equations would refuse the worst of these steps
-    also = ("engine/scalar_simd/distance.h", "#define MAX_CONSTRAINT_DRIFT 10.0", "#define MAX_CONSTRAINT_DRIFT INFINITY")
+    also = (
+        "engine/scalar_simd/distance.h",
+        "#define MAX_CONSTRAINT_DRIFT 10.0",
+        "#define MAX_CONSTRAINT_DRIFT INFINITY",
+    )
     assert "audit: check" in reported(mutant(right, tmp_path, edit, also), 0.03, method=method)
 
 
@@ -246,12 +257,12 @@ def test_equations_of_single_bodies(part: str) -> None:
         run = gudgeon.load(name, scene).simulate(0.02, output=20)
         values, rows = run.evaluation, np.arange(len(run.t))
         assert run.compiled is not None
-        assert newton_euler(run.compiled, run.p, run.q, values, rows).max() < 1e-12
+        assert compute_newton_euler_residuals(run.compiled, run.p, run.q, values, rows).max() < 1e-12
         changed = np.array(getattr(values, part))
         if changed.size == 0 or not changed.any():
             continue
         changed *= 1.01
-        other = newton_euler(run.compiled, run.p, run.q, replace(values, **{part: changed}), rows)
+        other = compute_newton_euler_residuals(run.compiled, run.p, run.q, replace(values, **{part: changed}), rows)
         shown = max(shown, other.max())
     assert shown > 1e-6
 
@@ -259,7 +270,7 @@ def test_equations_of_single_bodies(part: str) -> None:
 def test_moments_of_forces_without_an_arm(tmp_path: Path) -> None:
     """All forces on the slider act at its centre of mass: the rounding of its moments does not fail the audit."""
     file = tmp_path / "slider_first.yaml"
-    text = shipped_file("slider_crank").read_text(encoding="utf-8")
+    text = find_shipped_file("slider_crank").read_text(encoding="utf-8")
     other_order = ("[rod.head, slider.origin]", "[slider.origin, rod.head]")
     file.write_text(patched(text, other_order, ("play: {wristpin:", "play: {crankpin:")), encoding="utf-8")
     scene = gudgeon.load(file, "dry")
@@ -277,9 +288,9 @@ def test_the_check_of_bodies_names_the_body(body: str, monkeypatch: pytest.Monke
 
     def shifted(compiled: CompiledModel, p: Array, q: Array, evaluation: Evaluation, at: Any) -> Array:
         a = evaluation.a + 10.0 * (np.arange(q.shape[1]) == 3 * k)
-        return newton_euler(compiled, p, q, replace(evaluation, a=a), at)
+        return compute_newton_euler_residuals(compiled, p, q, replace(evaluation, a=a), at)
 
-    monkeypatch.setattr("gudgeon.simulation.audit.newton_euler", shifted)
+    monkeypatch.setattr("gudgeon.simulation.audit.compute_newton_euler_residuals", shifted)
     with pytest.raises(gudgeon.AuditError, match=f"check body of .* at body {body}"):
         scene.simulate(0.1, audit="full")
     with pytest.raises(gudgeon.AuditError, match=f"check body of .* at body {body}"):

@@ -29,10 +29,10 @@ from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.mechanisms.n_four_bar import text as n_four_bar
 from gudgeon.model import evaluation
 from gudgeon.results.results import Result
-from gudgeon.simulation import conclusion
+from gudgeon.simulation import result_builder
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.waiting import asking
-from gudgeon.waiting.ctrl_c import CtrlC
+from gudgeon.waiting import cancellation
+from gudgeon.waiting.ctrl_c import DelayedCtrlC
 from gudgeon.waiting.programs import Programs
 from tests.programs import needs_compiler
 from tests.simulation.kept import check_kept
@@ -106,7 +106,7 @@ PLAIN = pytest.param("lubricated", "scipy:DOP853", 331, marks=pytest.mark.plain)
 
 @pytest.mark.parametrize(("name", "method", "stride"), [*slow_rows_but(USUAL, STRIDES), PLAIN])
 def test_what_is_kept_is_the_whole_run_s(name: str, method: str, stride: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(asking, "EVERY", 0.0)
+    monkeypatch.setattr(cancellation, "EVERY", 0.0)
     simulation, options = case(name, method)
     number, cut = 1, 0
     while True:
@@ -126,7 +126,7 @@ def test_what_is_kept_is_the_whole_run_s(name: str, method: str, stride: int, mo
 @pytest.mark.parametrize(("name", "method"), [("lubricated", "dop853"), ("lubricated", "rodas5p"), ("dry", "rk4")])
 def test_the_last_sample_is_a_state_to_go_on_from(name: str, method: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """The state when Ctrl-C came is that of the run at that time, and leads to the same end."""
-    monkeypatch.setattr(asking, "EVERY", 0.0)
+    monkeypatch.setattr(cancellation, "EVERY", 0.0)
     simulation, options = case(name, method)
     options["t_end"] = 0.006 if name == "dry" else options["t_end"]
     run, t_end = simulation.simulate(progress=signal_at(200), **options), options.pop("t_end")
@@ -145,8 +145,8 @@ def test_the_last_sample_is_a_state_to_go_on_from(name: str, method: str, monkey
 @pytest.mark.parametrize(("name", "number"), [("dry", 700), ("four_bar", 250)])
 def test_what_follows_from_the_samples_can_wait(name: str, number: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """After Ctrl-C nothing is evaluated that takes long; asked for later it is the whole run's."""
-    monkeypatch.setattr(asking, "EVERY", 0.0)
-    monkeypatch.setattr(conclusion, "AFTER_CTRL_C", 0.0)
+    monkeypatch.setattr(cancellation, "EVERY", 0.0)
+    monkeypatch.setattr(result_builder, "AFTER_CTRL_C", 0.0)
     simulation, options = case(name, "auto")
     run, complete = simulation.simulate(progress=signal_at(number), **options), whole(name, "auto")
     assert run.diagnostics.interrupted and math.isnan(run.diagnostics.energy_residual)
@@ -162,7 +162,7 @@ def test_what_follows_from_the_samples_can_wait(name: str, number: int, monkeypa
 @pytest.mark.parametrize("look", [1, 2, 4])
 def test_ctrl_c_while_the_energy_is_balanced(look: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """All samples are there, and their accelerations are found when they are asked for."""
-    monkeypatch.setattr(conclusion, "EVERY", -1.0)
+    monkeypatch.setattr(result_builder, "EVERY", -1.0)
     monkeypatch.setattr(evaluation, "FIRST", 1)
     simulation, options = case("dry", "auto")
     looks = 0
@@ -181,17 +181,17 @@ def test_ctrl_c_while_the_energy_is_balanced(look: int, monkeypatch: pytest.Monk
 
 def test_ctrl_c_while_rows_left_out_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
     """A contradiction is told of an interrupted run too."""
-    real = conclusion.contradiction
+    real = result_builder.find_contradiction
     calls: list[int] = []
 
     def contradiction(problem: Problem, trajectory: Trajectory) -> SolverError | None:
         if not calls:
             signal.raise_signal(signal.SIGINT)
         calls.append(trajectory.interrupted)
-        problem.take()
+        problem.poll_cancellation()
         return real(problem, trajectory)
 
-    monkeypatch.setattr(conclusion, "contradiction", contradiction)
+    monkeypatch.setattr(result_builder, "find_contradiction", contradiction)
     run = press("dry").simulate(0.01, output=5)
     assert calls == [False, True] and run.diagnostics.interrupted and len(run.t) == 6
 
@@ -200,12 +200,12 @@ def test_a_signal_that_waits_is_raised_only_where_it_is_asked_for() -> None:
     """Not between the call of C and the note of what it did."""
     heard = []
     before = signal.getsignal(signal.SIGINT)
-    with CtrlC() as ctrl_c:
+    with DelayedCtrlC() as ctrl_c:
         signal.raise_signal(signal.SIGINT)
         heard.append("computed")
         with pytest.raises(KeyboardInterrupt):
-            ctrl_c.take()
-        ctrl_c.take()  # once only
+            ctrl_c.raise_delayed()
+        ctrl_c.raise_delayed()  # once only
     assert heard and signal.getsignal(signal.SIGINT) is before
 
 
@@ -238,7 +238,7 @@ def test_in_another_thread_progress_ends_a_run() -> None:
 
 def test_ctrl_c_in_a_dense_solve(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """At its singular position, where each right-hand side takes the dense way: between its rows, the state unhurt."""
-    monkeypatch.setattr(asking, "EVERY", 0.0)
+    monkeypatch.setattr(cancellation, "EVERY", 0.0)
     file = tmp_path / "bars.yaml"
     file.write_text(n_four_bar(1), encoding="utf-8")
     bars = gudgeon.load(file, formulation="full")
@@ -271,7 +271,7 @@ def test_what_a_batch_compiles_meanwhile_ends_with_it(monkeypatch: pytest.Monkey
 
     def compiled(_: Any) -> lanes.Lanes:
         with Programs() as programs:
-            begun.append(programs.begin([sys.executable, "-c", "import time; time.sleep(60)"], None, dict(os.environ)))
+            begun.append(programs.start([sys.executable, "-c", "import time; time.sleep(60)"], None, dict(os.environ)))
             programs.wait(begun[0])
         raise AssertionError("nobody had given it up")
 
@@ -344,4 +344,4 @@ def test_an_end_that_nobody_lives_to_see(simulation: str) -> None:
 
 def test_glances_are_short() -> None:
     """Ctrl-C is answered within half a second: these are the longest waits that are built in."""
-    assert max(asking.EVERY, POLL_INTERVAL_S) <= 0.1
+    assert max(cancellation.EVERY, POLL_INTERVAL_S) <= 0.1

@@ -97,9 +97,9 @@ def test_a_step_for_all_runs_is_that_of_each(method: str) -> None:
 
 def test_ends_of_runs() -> None:
     same = Times(np.array([0.0, 1.0, 2.0]), np.full(2, 3), np.zeros(2, int))
-    own = Times.of_runs({1: (np.array([0.0, 3.0]), True), 2: (np.array([0.0, 1.0, 4.0]), True)}, 3)
-    np.testing.assert_array_equal(same.ends(), [2.0, 2.0])
-    np.testing.assert_array_equal(own.ends(), [np.nan, 3.0, 4.0])
+    own = Times.from_runs({1: (np.array([0.0, 3.0]), True), 2: (np.array([0.0, 1.0, 4.0]), True)}, 3)
+    np.testing.assert_array_equal(same.get_ends(), [2.0, 2.0])
+    np.testing.assert_array_equal(own.get_ends(), [np.nan, 3.0, 4.0])
 
 
 def test_a_number_that_is_none_fails_its_own_run() -> None:

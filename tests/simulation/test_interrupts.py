@@ -14,11 +14,11 @@ import pytest
 
 import gudgeon
 from gudgeon.integrators.peers import driver as python_driver
-from gudgeon.simulation.horizon import UNFINISHED
+from gudgeon.simulation.predictability_horizon import UNFINISHED
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies import bench as benches
 from gudgeon.studies import map as maps
-from gudgeon.studies.bench import bench
+from gudgeon.studies.bench import measure_scene
 from gudgeon.studies.box import Range
 from gudgeon.studies.map import verdict_box, verdict_map
 from gudgeon.studies.verdicts import Status
@@ -179,7 +179,7 @@ def test_bench_keeps_its_rows(monkeypatch: pytest.MonkeyPatch) -> None:
     """The references, then two rows, then Ctrl-C."""
     monkeypatch.setattr(benches, "_measure_row", ctrl_c_at(3, benches._measure_row))
     pendulum = gudgeon.load(PENDULUM, scene="ideal")
-    found = bench(pendulum, [1e-3, 2e-3, 5e-3], [1e-6], t_end=0.1, quick=True)
+    found = measure_scene(pendulum, [1e-3, 2e-3, 5e-3], [1e-6], t_end=0.1, quick=True)
     assert [row.setting.value for row in found.rows] == [5e-3, 2e-3]
     assert found.interrupted and found.done == (2, 7)
 

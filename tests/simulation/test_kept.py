@@ -15,7 +15,7 @@ import gudgeon
 from gudgeon.errors import GudgeonError, SingularError, UnknownNameError
 from gudgeon.integrators import lanes
 from gudgeon.results.batch import Batch
-from gudgeon.simulation import simulate_many
+from gudgeon.simulation import stored_series
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
 from tests.valve import valve
@@ -153,7 +153,7 @@ def test_events_of_runs_are_there(tmp_path: Path) -> None:
 
 def test_a_sample_that_has_no_accelerations_is_a_failure_of_its_own_run(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of several runs that are evaluated at once nobody says which one it is."""
-    many, speeds = simulate_many.evaluate_runs, np.linspace(20.0, 30.0, 17)
+    many, speeds = stored_series.evaluate_runs, np.linspace(20.0, 30.0, 17)
     seen = list[int]()
 
     def singular(compiled: Any, counts: list[int], *rest: Any) -> Any:
@@ -161,7 +161,7 @@ def test_a_sample_that_has_no_accelerations_is_a_failure_of_its_own_run(monkeypa
         assert many(compiled, counts, *rest).a.shape == (sum(counts), compiled.n)
         raise SingularError("a pivot vanished", 0.0, "A.x")
 
-    monkeypatch.setattr(simulate_many, "evaluate_runs", singular)
+    monkeypatch.setattr(stored_series, "evaluate_runs", singular)
     monkeypatch.setattr(lanes, "MIN_REMAINING_S", 0.0)
     kept, whole = (
         press().simulate_many({"omega": speeds}, 0.004, output=9, keep=keep) for keep in (["S9.ay"], "states")

@@ -12,9 +12,9 @@ from scipy.integrate import solve_ivp
 
 import gudgeon
 from gudgeon.errors import BadValueError, InputError, UnknownNameError
-from gudgeon.simulation.horizon import start_of_run
-from gudgeon.simulation.lyapunov import reason_without_tangent
-from gudgeon.simulation.neighbours import Neighbours
+from gudgeon.simulation.lyapunov import explain_invalid_tangent
+from gudgeon.simulation.neighbours import DifferenceNorm
+from gudgeon.simulation.predictability_horizon import build_start_state
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.simulation.tangent import Flow, Tangent
 from tests.programs import needs_compiler
@@ -73,16 +73,16 @@ def test_the_growth_is_that_of_the_variational_equation(duffing: Simulation) -> 
     """Ueda's oscillator: ln of the growth from the same first difference on, beside scipy's."""
     ends = (10.0, 20.0)
     run = duffing.simulate(ends[1], output=1000, rtol=1e-12)
-    measure, y0 = Neighbours.of(run, duffing.compiled), np.concatenate([run.q[0], run.v[0]])
-    first = measure.drawn(0.0, y0) - y0
-    x, v = (measure.weights[0], measure.weights[3])
+    measure, y0 = DifferenceNorm.from_run(run, duffing.compiled), np.concatenate([run.q[0], run.v[0]])
+    first = measure.draw_neighbour(0.0, y0) - y0
+    x, v = (measure.scales[0], measure.scales[3])
 
     def rates(t: float, y: np.ndarray) -> list[float]:
         pull = 3.0 * y[0] ** 2
         return [y[1], 7.5 * math.cos(t) - 0.05 * y[1] - y[0] ** 3, y[3], -0.05 * y[3] - pull * y[2]]
 
     known = solve_ivp(rates, (0.0, ends[1]), [1.0, 0.0, *first[[0, 3]]], "DOP853", ends, rtol=1e-12, atol=1e-13)
-    expected = np.log(np.hypot(known.y[2] / x, known.y[3] / v) / measure.apart(first))
+    expected = np.log(np.hypot(known.y[2] / x, known.y[3] / v) / measure.compute_norm(first))
     for by in ("tangent", "twin"):
         found = duffing.lyapunov(ends[1], by=by)
         logs = np.interp(ends, found.t, np.concatenate([[0.0], np.cumsum(found.growth)]))
@@ -149,16 +149,16 @@ def ball(scene: str, folder: Path | None = None) -> Simulation:
 def carried(simulation: Simulation, t: float, difference: Any) -> tuple[np.ndarray, np.ndarray]:
     """A difference of y at the start as the tangent has it at t, and ẏ there; `difference` of ẏ at the start."""
     run = simulation.simulate(t, output=4, rtol=1e-12)
-    flow, start = Flow(simulation.compiled, run), start_of_run(run)
-    pair = Tangent(simulation, Neighbours.of(run, simulation.compiled), {"rtol": 1e-12}, start, False, flow)
-    y, chain = flow.reduced(0.0, np.concatenate([start.q, start.v]))
-    pair.z = np.append(difference(flow.rates(0.0, y, chain, start.memory)), [0.0, 0.0])
+    flow, start = Flow(simulation.compiled, run), build_start_state(run)
+    pair = Tangent(simulation, DifferenceNorm.from_run(run, simulation.compiled), {"rtol": 1e-12}, start, False, flow)
+    y, chain = flow.reduce_state(0.0, np.concatenate([start.q, start.v]))
+    pair.z = np.append(difference(flow.compute_rates(0.0, y, chain, start.memory)), [0.0, 0.0])
     pair.distance = scale = pair._compute_tangent_norm(start, pair.z)
     ended = pair.advance(t, True)
     assert ended is not None
     run, grown = ended
-    y, chain = flow.reduced(t, np.concatenate([run.q[-1], run.v[-1]]))
-    return pair.z[:-2] * math.exp(grown) * scale, flow.rates(t, y, chain, run.memory[-1])
+    y, chain = flow.reduce_state(t, np.concatenate([run.q[-1], run.v[-1]]))
+    return pair.z[:-2] * math.exp(grown) * scale, flow.compute_rates(t, y, chain, run.memory[-1])
 
 
 @pytest.mark.parametrize("scene", ["elastic", "damped", "kelvin_voigt"])
@@ -241,7 +241,7 @@ def test_what_cannot_be_given_is_refused(duffing: Simulation) -> None:
             duffing.lyapunov(1.0, **odd)
     with pytest.raises(BadValueError, match="no section"):
         _ = duffing.lyapunov(1.0).motion
-    assert reason_without_tangent(duffing.source) == ""
+    assert explain_invalid_tangent(duffing.source) == ""
 
 
 def test_a_scene_that_sticks_is_followed_by_a_twin() -> None:

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.assembly.linkage import mechanism_size
-from gudgeon.assembly.start import assemble, search
+from gudgeon.assembly.linkage import compute_mechanism_size
+from gudgeon.assembly.start import assemble_start, search_start
 from gudgeon.contract.boundary import IMPACT_COLUMN_NAMES, N_IMPACT_COLUMNS
 from gudgeon.errors import BadValueError, GudgeonError, SolverError, UnknownNameError
 from gudgeon.integrators import stored
@@ -21,7 +21,7 @@ from gudgeon.integrators.batch import Runs
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.results.batch import Batch
-from gudgeon.results.peaks import is_rigid_impact, peaks_of
+from gudgeon.results.peaks import build_peak_records, is_rigid_impact
 from gudgeon.results.results import Result
 from tests.programs import needs_compiler
 
@@ -125,16 +125,16 @@ def test_contacts_that_come_in_any_order_are_each_runs_own_by_onset(monkeypatch:
         own["joint"], own["F_peak"] = rng.integers(0, 3, len(own)), rng.random(len(own))
         own["t_on"] = len(each[i]) if i < 4 else rng.integers(0, 5, len(own))
         own["t_off"] = own["t_on"] + rng.integers(0, 2, len(own))
-        threads[i % 2].submit(fetched.fetch, i, list(own), True).result()
+        threads[i % 2].submit(fetched.fetch_contacts, i, list(own), True).result()
         each[i].append(own)
     assert len(fetched.all) == 2 and all(own.full for own in fetched.all)
-    runs.driven = {}  # none by a method in Python
-    runs.contacts, runs.cuts = fetched.joined(9)
+    runs.python_lists = {}  # none by a method in Python
+    runs.contacts, runs.first_contact_indices = fetched.join_contacts(9)
     whole = [np.concatenate([np.zeros(0, IMPACT_DTYPE), *several]) for several in each]
     expected = [own[np.argsort(own["t_on"], kind="stable")] for own in whole]
-    assert [x.tobytes() for x in runs.all_impacts()] == [x.tobytes() for x in expected]
-    assert [runs.impacts_of(i).tobytes() for i in range(9)] == [x.tobytes() for x in expected]
-    peaks = peaks_of(np.zeros((9, 4, 3)), runs.contacts, np.diff(runs.cuts))
+    assert [x.tobytes() for x in runs.list_contacts()] == [x.tobytes() for x in expected]
+    assert [runs.get_contacts(i).tobytes() for i in range(9)] == [x.tobytes() for x in expected]
+    peaks = build_peak_records(np.zeros((9, 4, 3)), runs.contacts, np.diff(runs.first_contact_indices))
     for i, k in np.ndindex(9, 4):
         first = expected[i][expected[i]["joint"] == k][:1]
         force = np.where(is_rigid_impact(first), np.nan, first["F_peak"])
@@ -249,9 +249,11 @@ def test_to_xarray() -> None:
 def test_the_start_closed_in_c_is_that_of_the_search(name: str) -> None:
     simulation = gudgeon.load(name)
     compiled, p = simulation.compiled, simulation.p
-    assert compiled.close(0.0, p, mechanism_size(compiled, p)) is not None
-    quick, sought = assemble(compiled, p), search(compiled, p)
-    size = np.where([c.endswith(".theta") for c in simulation.source.coordinates], 1.0, mechanism_size(compiled, p))
+    assert compiled.close_linkage(0.0, p, compute_mechanism_size(compiled, p)) is not None
+    quick, sought = assemble_start(compiled, p), search_start(compiled, p)
+    size = np.where(
+        [c.endswith(".theta") for c in simulation.source.coordinates], 1.0, compute_mechanism_size(compiled, p)
+    )
     assert np.abs((quick.q - sought.q) / size).max() < 1e-13
     assert np.abs(quick.v - sought.v).max() <= 1e-12 * np.abs(sought.v).max(initial=0.0)
 
@@ -259,6 +261,6 @@ def test_the_start_closed_in_c_is_that_of_the_search(name: str) -> None:
 def test_a_start_with_dependent_rows_is_left_to_the_search() -> None:
     simulation = gudgeon.load("pendulum")  # what holds the bob sideways and what holds its distance agree there
     compiled, p = simulation.compiled, simulation.p
-    assert compiled.close(0.0, p, mechanism_size(compiled, p)) is None
+    assert compiled.close_linkage(0.0, p, compute_mechanism_size(compiled, p)) is None
     batch = simulation.simulate_many({"g": [9.81, 5.0]}, 0.5, output=3)
     assert_same(batch[1], simulation.simulate(0.5, output=3, parameters={"g": 5.0}))

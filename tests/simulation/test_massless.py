@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 import gudgeon
-from gudgeon.commands.check import check_file
+from gudgeon.commands.check import check_mechanism
 from gudgeon.errors import MissingKeyError, UnknownNameError
 from gudgeon.results import results
 from tests.slow import slow_but
@@ -144,7 +144,7 @@ def test_all_that_is_missing_is_told_at_once(tmp_path: Path, capsys: pytest.Capt
     listed = rf"bodies crank, rod \(line {line['rod']}\), slider \(line {line['slider']}\) have no mass and no inertia"
     with pytest.raises(MissingKeyError, match=listed):
         gudgeon.load(file, scene="dry")
-    assert check_file(str(file), verbose=False, as_json=False) == 2  # as run has it
+    assert check_mechanism(str(file), verbose=False, as_json=False) == 2  # as run has it
     message = " ".join(capsys.readouterr().out.split())
     assert message.startswith("valid, but scene dry cannot be run: 3 bodies,")
     assert "masses: scene dry moves by forces and cannot be run: crank has no mass and no inertia" in message

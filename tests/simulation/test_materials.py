@@ -14,12 +14,12 @@ from typer.testing import CliRunner
 import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import BadValueError, UnknownNameError
-from gudgeon.model.parameters import prepare
+from gudgeon.model.parameters import prepare_values
 from gudgeon.results.batch import Batch
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.axes import axis, typed
-from gudgeon.studies.ensemble.notes import gathered
-from gudgeon.studies.show.map import value
+from gudgeon.studies.axes import make_axis, parse_axis
+from gudgeon.studies.ensemble.notes import group_notes
+from gudgeon.studies.show.map import format_axis_value
 
 STEEL, BRONZE = (206e9, 0.3, 7850.0), (110e9, 0.34, 8800.0)
 R, C, DISC, THICK = 10e-3, 0.3e-3, 12e-3, 15e-3
@@ -76,7 +76,7 @@ def weight(density: float) -> tuple[float, float]:
 
 def found(simulation: Simulation, parameters: dict[str, Any]) -> tuple[float, float, float]:
     """K, and the body's mass and moment of inertia."""
-    p = prepare(simulation.compiled, parameters)[0]
+    p = prepare_values(simulation.compiled, parameters)[0]
     mass = simulation.compiled.mass(p)
     return float(p[simulation.source.clearances[0].constants["K"]]), float(mass[0]), float(mass[2])
 
@@ -133,7 +133,7 @@ def test_a_scene_a_run_and_the_file_say_the_same(scenes: Scenes) -> None:
         np.testing.assert_array_equal(run.q, runs[0].q)
         assert run.impacts.tobytes() == runs[0].impacts.tobytes()
     assert f"{JOURNAL} is bronze (the scene's is steel)" in runs[0].diagnostics.notes
-    message = [note.text for note in gathered([(0, (*runs[0].diagnostics.notes, "another"))]).values()]
+    message = [note.text for note in group_notes([(0, (*runs[0].diagnostics.notes, "another"))]).values()]
     assert "another" in message and JOURNAL not in " ".join(message)  # a study's coordinates say what it chooses
     assert all(run.parameters[JOURNAL] == "bronze" and run.parameters[HOLE] == "steel" for run in runs)
 
@@ -192,18 +192,18 @@ def test_what_is_no_choice_is_told(scenes: Scenes) -> None:
     with pytest.raises(BadValueError, match="Young's modulus is positive"):
         scenes.dry.simulate(parameters={f"{JOURNAL}.E": -1.0})
     with pytest.raises(BadValueError, match="expected a list of names, of steel, bronze, glue"):
-        axis(scenes.dry, JOURNAL, [0.0, 1.0])
+        make_axis(scenes.dry, JOURNAL, [0.0, 1.0])
     with pytest.raises(BadValueError, match="its values are names, there is none between"):
-        typed(scenes.dry, f"{JOURNAL}=steel..glue")
+        parse_axis(scenes.dry, f"{JOURNAL}=steel..glue")
     with pytest.raises(UnknownNameError, match="bronse"):
-        typed(scenes.dry, f"{JOURNAL}=steel,bronse")
+        parse_axis(scenes.dry, f"{JOURNAL}=steel,bronse")
 
 
 def test_an_axis_of_names(scenes: Scenes, tmp_path: Path) -> None:
     """As columns of a map: each cell is run with its material, which is what is told of it."""
-    one = typed(scenes.dry, f"{JOURNAL}=glue, steel")
+    one = parse_axis(scenes.dry, f"{JOURNAL}=glue, steel")
     assert [one.parameters(x) for x in one.values] == [{JOURNAL: "steel"}, {JOURNAL: "glue"}]
-    assert [value(one, x) for x in one.values] == ["steel", "glue"]
+    assert [format_axis_value(one, x) for x in one.values] == ["steel", "glue"]
     message = ["map", str(scenes.file), "--scene", "dry", "--quick", "--t-end", "0.2 ms", "--out", str(tmp_path)]
     ran = CliRunner().invoke(app, [*message, "--axis", f"{JOURNAL}=glue,steel", "--axis", "rtol=1e-6"])
     assert ran.exit_code == 0, ran.output
@@ -223,11 +223,11 @@ def test_an_axis_of_names(scenes: Scenes, tmp_path: Path) -> None:
 def test_equations_in_numpy_take_names(scenes: Scenes, scene: str, parameters: dict[str, Any]) -> None:
     simulation = getattr(scenes, scene)
     model = simulation.model.numpy()
-    given, here = prepare(simulation.compiled, parameters)[0], model.prepare(parameters)
-    slots = model.model.slots
+    given, here = prepare_values(simulation.compiled, parameters)[0], model.prepare(parameters)
+    slots = model.model.parameter_table
     for k, slot in enumerate(simulation.source.slots):
         if not slot.words:
-            assert getattr(here, slots.field(slots.entries[slot.address].symbol)) == given[k], slot.address
+            assert getattr(here, slots.find_field_name(slots.entries[slot.address].symbol)) == given[k], slot.address
     np.testing.assert_array_equal(model.mass(here), simulation.compiled.mass(given))
     with pytest.raises(UnknownNameError, match="bronse"):
         model.prepare({JOURNAL: "bronse"})
@@ -235,10 +235,10 @@ def test_equations_in_numpy_take_names(scenes: Scenes, scene: str, parameters: d
 
 def test_a_stiffness_axis_moves_what_the_run_has(scenes: Scenes) -> None:
     """The first of them by its value, others by their ratio; not what nothing is of."""
-    assert axis(scenes.dry, "stiffness", [1e9]).ratios == (("materials.steel.E", 1.0),)
-    moved = dict(axis(scenes.dry, "stiffness", [1e9], {JOURNAL: "bronze"}).ratios)
+    assert make_axis(scenes.dry, "stiffness", [1e9]).ratios == (("materials.steel.E", 1.0),)
+    moved = dict(make_axis(scenes.dry, "stiffness", [1e9], {JOURNAL: "bronze"}).ratios)
     assert moved == {"materials.steel.E": 1.0, "materials.bronze.E": BRONZE[0] / STEEL[0]}
-    only = axis(scenes.dry, "stiffness", [1e9], {JOURNAL: "bronze", HOLE: "bronze"}).ratios
+    only = make_axis(scenes.dry, "stiffness", [1e9], {JOURNAL: "bronze", HOLE: "bronze"}).ratios
     assert only == (("materials.bronze.E", 1.0),)
 
 

@@ -38,7 +38,7 @@ def test_a_scene_without_memory_loses_no_other(
 
 @needs_compiler
 def test_a_command_without_memory_says_so(call: Gudgeon, pump: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gudgeon.commands.check.check_file", none_left)
+    monkeypatch.setattr("gudgeon.commands.check.check_mechanism", none_left)
     done = call("check", pump)
     assert done.exit_code == 1 and done.stderr.startswith("error: not enough memory: Unable")
 

@@ -206,7 +206,7 @@ COMPILED: dict[str, tuple[str, ...]] = {
     "closed_phi": ("t", "q", "p"),
     "closed_gamma": ("t", "q", "v", "p"),
     "start_values": ("p",),
-    "close": ("t", "p", "size"),
+    "close_linkage": ("t", "p", "size"),
 }
 
 
@@ -329,7 +329,7 @@ def test_bench(pendulum: Simulation, name: str, monkeypatch: pytest.MonkeyPatch)
     found = bench.SceneBench("", 1.0, "", (), (), Error(), 0.0, ())
     monkeypatch.setattr(bench, "_measure_settings", lambda *_: found)
     good: dict[str, Any] = {"t_end": 0.01, "quick": True}
-    refused_or_used(lambda value: bench.bench(pendulum, **(good | {name: value})))
+    refused_or_used(lambda value: bench.measure_scene(pendulum, **(good | {name: value})))
 
 
 STRESS = ("axes", "method", "value", "t_long", "t_short", "parameters", "limits", "quick", "progress")
@@ -370,10 +370,10 @@ def test_stress_box(pendulum: Simulation, name: str, monkeypatch: pytest.MonkeyP
 
 def test_axes(pendulum: Simulation) -> None:
     address = pendulum.source.slots[0].address
-    refused_or_used(lambda value: axes.axis(pendulum, value, [1.0]))
-    refused_or_used(lambda value: axes.axis(pendulum, address, value))
-    refused_or_used(lambda value: axes.axis(pendulum, address, [1.0], value))
-    refused_or_used(lambda value: axes.typed(pendulum, value))
+    refused_or_used(lambda value: axes.make_axis(pendulum, value, [1.0]))
+    refused_or_used(lambda value: axes.make_axis(pendulum, address, value))
+    refused_or_used(lambda value: axes.make_axis(pendulum, address, [1.0], value))
+    refused_or_used(lambda value: axes.parse_axis(pendulum, value))
     refused_or_used(lambda value: box.Range(address, value, 1.0))
 
 

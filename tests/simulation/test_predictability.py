@@ -13,11 +13,11 @@ import pytest
 
 import gudgeon
 from gudgeon.results.diagnostics import Diagnostics
-from gudgeon.results.figures.plots import figure
+from gudgeon.results.figures.plots import draw_run_figure
 from gudgeon.results.figures.run_plots import Plot
-from gudgeon.results.reports.comparison import compare, tables
+from gudgeon.results.reports.comparison import build_tables, compute_scene_report
 from gudgeon.results.results import Result
-from gudgeon.simulation.horizon import horizon
+from gudgeon.simulation.predictability_horizon import compute_horizon
 from tests.programs import needs_compiler
 
 compiled = needs_compiler
@@ -47,7 +47,7 @@ def test_the_dry_press_is_chaotic() -> None:
     contact = loose.diagnostics.peak("A").first_contact
     assert contact < loose.diagnostics.horizon < tight.diagnostics.horizon
     assert 0.2 < tight.diagnostics.horizon < 0.4
-    assert contact < horizon(press, tight, apart=0.01) < tight.diagnostics.horizon
+    assert contact < compute_horizon(press, tight, max_difference=0.01) < tight.diagnostics.horizon
 
 
 @compiled
@@ -121,7 +121,7 @@ def test_it_is_stored_and_shown(make: Callable[..., Result], tmp_path: Path) -> 
     assert Diagnostics.from_json(with_horizon(run, math.inf).diagnostics.to_json()).horizon == math.inf
     for value, text in ((0.28, "0.28 s"), (math.inf, "to the end"), (math.nan, None)):
         shown = with_horizon(run, value)
-        table = tables("", [compare(shown, None, ["S9.y"])], 200)[0]
+        table = build_tables("", [compute_scene_report(shown, None, ["S9.y"])], 200)[0]
         names = list(table.columns[0].cells)
         if text is None:
             assert "  trusted until" not in names
@@ -134,6 +134,6 @@ def test_figures_mark_it(make: Callable[..., Result]) -> None:
     plain, marked = Plot(run).series("S9.y"), Plot(with_horizon(run, 0.28)).series("S9.y")
     assert len(marked.lines) == len(plain.lines) + 1 and len(marked.patches) == len(plain.patches) + 1
     assert np.asarray(marked.lines[-1].get_xdata())[0] == 0.28
-    pictures = [figure({"dry": shown}, ideal, ["S9.y"]) for shown in (run, with_horizon(run, 0.28))]
+    pictures = [draw_run_figure({"dry": shown}, ideal, ["S9.y"]) for shown in (run, with_horizon(run, 0.28))]
     spans = [sum(len(ax.patches) for part in picture.subfigs for ax in part.axes) for picture in pictures]
     assert spans[1] - spans[0] == 4  # three of the motion, one of the force

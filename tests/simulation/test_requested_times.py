@@ -14,7 +14,7 @@ import gudgeon
 from gudgeon.errors import BadValueError, InputError, SolverError
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import Result
-from gudgeon.simulation.horizon import horizon
+from gudgeon.simulation.predictability_horizon import compute_horizon
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
 
@@ -209,7 +209,7 @@ def test_horizon_and_report_count_from_the_start() -> None:
     simulation = scene("nine_bar_press", "dry")
     run = simulation.simulate(output=[0.003, 0.006])
     whole = simulation.simulate(output=[0.0, 0.003, 0.006])
-    assert horizon(simulation, run) == horizon(simulation, whole)
+    assert compute_horizon(simulation, run) == compute_horizon(simulation, whole)
     reports = [one.report().to_dict()["joints"]["A"] for one in (run, whole)]
     assert reports[0] == reports[1]
 

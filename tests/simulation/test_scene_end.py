@@ -14,10 +14,10 @@ import gudgeon
 from gudgeon.cli import app
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, GudgeonError
-from gudgeon.model.default_step import plain_end, scene_end, scene_step
+from gudgeon.model.default_step import evaluate_end, evaluate_scene_end, evaluate_scene_step
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.bench import bench
-from gudgeon.studies.runs import Setting, window
+from gudgeon.studies.bench import measure_scene
+from gudgeon.studies.runs import Setting, find_comparison_window
 from tests.programs import needs_compiler
 from tests.pump import TEXT as PUMP
 
@@ -89,11 +89,11 @@ def test_a_value_that_does_not_fit_is_told_where_it_was_written(worn: Simulation
 
 
 def test_studies_take_the_numbers_that_they_are_given(worn: Simulation, plain: Simulation) -> None:
-    assert plain_end(worn.compiled, {"omega": 40.0}) == pytest.approx(end(40.0), rel=1e-15)
-    assert scene_end(worn.source, worn.p) == pytest.approx(end(20.0), rel=1e-15)
-    assert scene_step(worn.compiled, worn.p, 1.0) == pytest.approx(5e-6, rel=1e-15)
-    assert window(worn, 1.0, Setting("dop853", 1e-8), {"omega": 200.0}).t_end <= end(200.0)
-    assert bench(plain, parameters={"omega": 40.0}, quick=True).t_end == pytest.approx(end(40.0), rel=1e-15)
+    assert evaluate_end(worn.compiled, {"omega": 40.0}) == pytest.approx(end(40.0), rel=1e-15)
+    assert evaluate_scene_end(worn.source, worn.p) == pytest.approx(end(20.0), rel=1e-15)
+    assert evaluate_scene_step(worn.compiled, worn.p, 1.0) == pytest.approx(5e-6, rel=1e-15)
+    assert find_comparison_window(worn, 1.0, Setting("dop853", 1e-8), {"omega": 200.0}).t_end <= end(200.0)
+    assert measure_scene(plain, parameters={"omega": 40.0}, quick=True).t_end == pytest.approx(end(40.0), rel=1e-15)
 
 
 def test_a_source_is_stored_with_it(worn: Simulation, tmp_path: Path) -> None:

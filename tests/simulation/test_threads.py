@@ -16,7 +16,7 @@ import pytest
 import gudgeon
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.waiting import asking
+from gudgeon.waiting import cancellation
 from tests.programs import needs_compiler
 
 pytestmark = needs_compiler
@@ -108,9 +108,9 @@ def test_python_goes_on_while_a_run_is_in_c(
 def test_two_runs_are_in_c_at_once(options: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
     """Each waits, asked from within its loop, until the other one is asked from within its own."""
     both, waited = threading.Barrier(2, timeout=60.0), threading.local()
-    plain = asking.Asker.answer
+    plain = cancellation.CancellationPoll.poll_from_c
 
-    def answer(self: asking.Asker) -> int:
+    def answer(self: cancellation.CancellationPoll) -> int:
         if not getattr(waited, "once", False):
             waited.once = True
             both.wait()
@@ -118,8 +118,8 @@ def test_two_runs_are_in_c_at_once(options: dict[str, Any], monkeypatch: pytest.
 
     press = gudgeon.load("nine_bar_press", "dry")
     alone = [press.simulate(0.02, output=20, parameters={"c": c}, **options) for c in (4e-4, 5e-4)]
-    monkeypatch.setattr(asking, "EVERY", 0.0)
-    monkeypatch.setattr(asking.Asker, "answer", answer)
+    monkeypatch.setattr(cancellation, "EVERY", 0.0)
+    monkeypatch.setattr(cancellation.CancellationPoll, "poll_from_c", answer)
 
     def one(c: float) -> Result:
         return press.simulate(0.02, output=20, parameters={"c": c}, **options)

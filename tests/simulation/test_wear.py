@@ -11,8 +11,8 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, UnknownNameError
-from gudgeon.results.wear import arc, spread
-from gudgeon.simulation.wear import check_rubs
+from gudgeon.results.wear import compute_shortest_arc, distribute_loads
+from gudgeon.simulation.wear import check_joint_can_wear
 from tests.programs import needs_compiler
 
 R, C, L, M, G = 10e-3, 0.2e-3, 20e-3, 2.0, 9.81
@@ -60,12 +60,12 @@ def test_loads_on_arcs_are_integrals_over_cells() -> None:
     parabolas = 5.0 * sum(np.diff(((2 + 3 * x - x**3) / 4).mean(axis=1)) for x in s)
     for away in 2 * np.pi * np.array([-3, 0, 2]):
         arcs = np.array([low + away]), np.array([high + away]), np.array([[5.0]])
-        np.testing.assert_allclose(spread(100, *arcs)[0], box, atol=1e-12)
-        np.testing.assert_allclose(spread(100, *arcs, np.array([half]))[0], parabolas, atol=1e-7)
+        np.testing.assert_allclose(distribute_loads(100, *arcs)[0], box, atol=1e-12)
+        np.testing.assert_allclose(distribute_loads(100, *arcs, np.array([half]))[0], parabolas, atol=1e-7)
     same = np.array([3.0])
-    point = spread(100, same, same, np.array([[2.0], [7.0]]))
+    point = distribute_loads(100, same, same, np.array([[2.0], [7.0]]))
     assert point.sum(axis=1).tolist() == [2.0, 7.0] and (point[0] > 0).sum() == 1
-    one = spread(1000, same, same, np.array([[2.0]]), np.array([half]))[0]
+    one = distribute_loads(1000, same, same, np.array([[2.0]]), np.array([half]))[0]
     x = (np.arange(1000) + 0.5) * 2 * np.pi / 1000
     exact = 2.0 * 0.75 * np.maximum(1 - ((x - 3.0) / half) ** 2, 0.0) / half * 2 * np.pi / 1000
     np.testing.assert_allclose(one, exact, atol=2e-3 * exact.max())
@@ -75,11 +75,15 @@ def test_the_worn_arc_is_the_shortest() -> None:
     """Of a box over the end of the circle 90 % of it; of two heaps what spans the way between them."""
     worn = np.zeros(360)
     worn[350:], worn[:30] = 1.0, 1.0
-    assert arc(worn) == pytest.approx(math.radians(36)) and arc(worn, 1.0) == pytest.approx(math.radians(40))
+    assert compute_shortest_arc(worn) == pytest.approx(math.radians(36)) and compute_shortest_arc(
+        worn, 1.0
+    ) == pytest.approx(math.radians(40))
     two = np.zeros(360)
     two[[10, 300]] = 1.0
-    assert arc(two) == pytest.approx(math.radians(71)) and arc(two, 0.5) == pytest.approx(math.radians(1))
-    assert math.isnan(arc(np.zeros(8)))
+    assert compute_shortest_arc(two) == pytest.approx(math.radians(71)) and compute_shortest_arc(
+        two, 0.5
+    ) == pytest.approx(math.radians(1))
+    assert math.isnan(compute_shortest_arc(np.zeros(8)))
 
 
 @needs_compiler
@@ -212,7 +216,7 @@ def test_oil_wears_nothing(tmp_path: Path) -> None:
     rubbed = gudgeon.wear(simulation, run, "J", k=1.0, law="reye").journal.volume
     assert message.friction == pytest.approx(rubbed, rel=1e-5)
     with pytest.raises(BadValueError, match="what its film bears is known where all laws are gudgeon's own"):
-        check_rubs(replace(run.source, laws=(("syrup", "0"),)), "J")
+        check_joint_can_wear(replace(run.source, laws=(("syrup", "0"),)), "J")
 
 
 @pytest.fixture(scope="module")

@@ -11,9 +11,9 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, UnknownNameError
-from gudgeon.simulation.wear_loop import means_on_slots, smoothed
+from gudgeon.simulation.wear_loop import average_over_slots, smooth_depths
 from gudgeon.studies.ensemble.block import run_block
-from gudgeon.studies.ensemble.study import plans_of
+from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
 from tests.simulation.test_wear import PENDULUM, TURNING, C, G, L, M, R
 
@@ -87,12 +87,12 @@ def test_cells_are_laid_on_slots_with_their_sum() -> None:
     rng = np.random.default_rng(8)
     for points, slots in ((3600, 64), (3600, 120), (50, 64), (8, 512)):
         depth = rng.uniform(0.0, 1.0, points)
-        found = means_on_slots(depth, slots)
+        found = average_over_slots(depth, slots)
         assert found.mean() == pytest.approx(depth.mean(), rel=1e-12)
-        assert smoothed(found, 3).mean() == pytest.approx(depth.mean(), rel=1e-12)
+        assert smooth_depths(found, 3).mean() == pytest.approx(depth.mean(), rel=1e-12)
     even = np.zeros(3600)
     even[:15], even[-15:] = 1.0, 1.0
-    assert means_on_slots(even, 120).tolist() == pytest.approx([1.0, *[0.0] * 119], abs=1e-9)
+    assert average_over_slots(even, 120).tolist() == pytest.approx([1.0, *[0.0] * 119], abs=1e-9)
 
 
 @needs_compiler
@@ -144,8 +144,8 @@ def test_a_study_measures_runs_on_what_was_worn(tmp_path: Path) -> None:
         run = simulation.simulate(0.1, output=5, parameters=one, contour={"J": own})
         assert found[k] == run["J.e"][-1]
     assert found[1] > found[0] > C
-    plan, message = plans_of(study).each[""], list[float]()
-    run_block(plan.job(plan.blocks[0], 1), lambda fraction, _: message.append(fraction), simulation)
+    plan, message = resolve_plans(study).each[""], list[float]()
+    run_block(plan.make_block_job(plan.blocks[0], 1), lambda fraction, _: message.append(fraction), simulation)
     assert message == sorted(message) and {1 / 3, 2 / 3, 1.0} <= {*message}  # a round of wear is told as the runs are
     for name, wrong, words in (("joints", "O", "no scene has"), ("k", "1 mm", "wear.k"), ("rounds", 0, "rounds")):
         with pytest.raises(gudgeon.InputError, match=words):

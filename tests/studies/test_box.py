@@ -15,14 +15,21 @@ import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import BadValueError
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.box import Range, _count_predictable_samples, corners, judge_point, predictable_times, sobol
+from gudgeon.studies.box import (
+    Range,
+    _count_predictable_samples,
+    choose_comparison_times,
+    judge_point,
+    list_corners,
+    sample_sobol_points,
+)
 from gudgeon.studies.map import VerdictBox, verdict_box
-from gudgeon.studies.runs import ONSETS, Error, Setting, Work, difference
-from gudgeon.studies.show.box import WORST, count, group_cells, kind, worst_cells
-from gudgeon.studies.show.box_figure import box_figure, rank_ranges
-from gudgeon.studies.show.map import compared
-from gudgeon.studies.show.tables import seconds
-from gudgeon.studies.verdicts import STRICT, Cell, Limits, Status, limits_of
+from gudgeon.studies.runs import ONSETS, Error, Setting, Work, compare_runs
+from gudgeon.studies.show.box import WORST, count_verdicts, group_cells, remove_numbers, select_worst_cells
+from gudgeon.studies.show.box_figure import draw_box_figure, rank_ranges
+from gudgeon.studies.show.map import describe_comparison
+from gudgeon.studies.show.tables import format_seconds
+from gudgeon.studies.verdicts import STRICT, Cell, Limits, Status, select_limits
 from tests.programs import needs_compiler
 
 AUTO = Setting("auto", 1e-8)
@@ -35,10 +42,12 @@ def press(scene: str) -> Simulation:
 
 def test_corners_and_sobol_points_fill_the_box_and_are_the_same_every_time() -> None:
     edges = [Range("a", 1e-3, 1.0), Range("b", 2.0, 3.0), Range("c", 1.0, 1.0)]
-    found = corners(edges)
+    found = list_corners(edges)
     assert len(found) == 8 and found[0] == {"a": 1e-3, "b": 2.0, "c": 1.0} and found[-1]["b"] == 3.0
-    points = sobol(edges, 100)
-    assert points == sobol(edges, 100) and points[:30] == sobol(edges, 30)  # a sample is the beginning of the whole
+    points = sample_sobol_points(edges, 100)
+    assert points == sample_sobol_points(edges, 100) and points[:30] == sample_sobol_points(
+        edges, 30
+    )  # a sample is the beginning of the whole
     logs = np.log10([point["a"] for point in points])
     assert all(-3 <= x <= 0 for x in logs)
     assert np.histogram(logs, 4, (-3, 0))[0] == pytest.approx([25] * 4, abs=3)  # uniform on its scale
@@ -58,7 +67,7 @@ def test_box_judges_every_corner_and_point() -> None:
 
 @needs_compiler
 def test_tolerance_is_held_to_what_it_promises() -> None:
-    assert limits_of(Setting("auto", 1e-8)) is STRICT and limits_of(Setting("rk4", 1e-6)) == Limits()
+    assert select_limits(Setting("auto", 1e-8)) is STRICT and select_limits(Setting("rk4", 1e-6)) == Limits()
     assert judge_point(press("dry"), {}, 0.02, Setting("dop853", 1e-8)).status is Status.STABLE
     loose = judge_point(press("dry"), {}, 0.02, Setting("auto", 0.03))  # energy is off by 7 to 20 times its limit
     assert loose.status is Status.INACCURATE and "energy" in loose.reason
@@ -68,8 +77,8 @@ def test_tolerance_is_held_to_what_it_promises() -> None:
 def test_comparison_ends_between_two_contacts_after_the_fourth() -> None:
     run = press("dry").simulate(0.05, output=10)
     onsets = np.sort(run.impacts["t_on"])
-    assert onsets[ONSETS - 1] < predictable_times(run)[-1] < onsets[ONSETS]
-    assert predictable_times(press("lubricated").simulate(0.01, output=10))[-1] == pytest.approx(0.01)
+    assert onsets[ONSETS - 1] < choose_comparison_times(run)[-1] < onsets[ONSETS]
+    assert choose_comparison_times(press("lubricated").simulate(0.01, output=10))[-1] == pytest.approx(0.01)
 
 
 @needs_compiler
@@ -80,28 +89,31 @@ def test_errors_are_told_with_the_time_that_was_compared() -> None:
     times = np.linspace(0.0, cell.compared, 1001)
     assert (
         times[-1]
-        == predictable_times(dry.simulate(output=np.linspace(0.0, 0.1, 10_001), method="rodas5p", rtol=1e-6))[-1]
+        == choose_comparison_times(dry.simulate(output=np.linspace(0.0, 0.1, 10_001), method="rodas5p", rtol=1e-6))[-1]
     )
     coarse, fine = (dry.simulate(output=times, method="rodas5p", rtol=rtol) for rtol in (1e-6, 1e-8))
-    assert cell.error == difference(coarse, fine)
+    assert cell.error == compare_runs(coarse, fine)
     found = VerdictBox("dry", loose, (), (), (cell,), 0.1)
-    assert compared(found) == f"errors over the first {seconds(cell.compared)}, against a 100× tighter tolerance"
+    assert (
+        describe_comparison(found)
+        == f"errors over the first {format_seconds(cell.compared)}, against a 100× tighter tolerance"
+    )
 
 
 @needs_compiler
 def test_horizon_lies_where_tight_runs_come_apart_by_more_than_their_tolerance_allows() -> None:
     """Dry motion multiplies differences: a late sample says nothing of a run, the first contacts do."""
     work, times = Work(press("dry"), 0.5), np.linspace(0.0, 0.5, 1001)
-    fine = work.sampled(Setting("auto", 1e-10), times)
+    fine = work.run_at_times(Setting("auto", 1e-10), times)
     known = _count_predictable_samples(work, fine, STRICT)
     assert 0.01 < times[known] < 0.45
     work = Work(press("lubricated"), 0.05)
-    assert _count_predictable_samples(work, work.sampled(Setting("auto", 1e-10), times[:100]), STRICT) > 100
+    assert _count_predictable_samples(work, work.run_at_times(Setting("auto", 1e-10), times[:100]), STRICT) > 100
 
 
 @needs_compiler
 def test_run_that_takes_too_long_is_ended_and_fails() -> None:
-    cell = judge_point(press("dry"), {}, 1.0, Setting("auto", 1e-10), limit=0.0)
+    cell = judge_point(press("dry"), {}, 1.0, Setting("auto", 1e-10), cpu_limit=0.0)
     assert cell.status is Status.DIVERGED and "processor time" in cell.reason
 
 
@@ -139,7 +151,7 @@ def cell(status: Status, reason: str = "", error: float = math.nan) -> Cell:
 
 def made(verdict: list[tuple[Status, float]], edges: tuple[Range, ...]) -> VerdictBox:
     """Points of a box with given verdicts and errors."""
-    points = (*corners(edges), *sobol(edges, len(verdict) - 2 ** len(edges)))
+    points = (*list_corners(edges), *sample_sobol_points(edges, len(verdict) - 2 ** len(edges)))
     return VerdictBox("made", AUTO, edges, points, tuple(cell(s, "why", e) for s, e in verdict), 1.0)
 
 
@@ -159,23 +171,23 @@ def test_reasons_are_grouped_without_their_numbers() -> None:
         (Status.INACCURATE, "joint force off by … of its peak", 2),
         (Status.STABLE, "", 1),
     ]
-    assert kind("more than 120 s of processor time") == "more than … s of processor time"
-    worst = [c.reason for c in worst_cells(cells)]
+    assert remove_numbers("more than 120 s of processor time") == "more than … s of processor time"
+    worst = [c.reason for c in select_worst_cells(cells)]
     assert worst[:3] == [cells[0].reason, cells[5].reason, cells[3].reason] and len(worst) == 5  # one of each first
-    assert len(worst_cells(cells * 9)) == WORST
-    message = count([*cells, cell(Status.MISSING)])
+    assert len(select_worst_cells(cells * 9)) == WORST
+    message = count_verdicts([*cells, cell(Status.MISSING)])
     assert message.startswith("7 points: 1 stable, 2 inaccurate, 3 diverged, 1 not judged")
 
 
 def test_where_nothing_failed_the_largest_errors_are_the_worst() -> None:
     cells = [cell(Status.STABLE, error=e) for e in (1e-9, 1e-5, math.nan, 1e-7)]
-    assert [c.error.motion for c in worst_cells(cells)] == [1e-5, 1e-7, 1e-9]
+    assert [c.error.motion for c in select_worst_cells(cells)] == [1e-5, 1e-7, 1e-9]
 
 
 def test_the_ranges_that_tell_most_are_those_that_decide() -> None:
     """Runs with a large b fail and nothing else counts; where all are stable the error, which follows c, decides."""
     edges = (Range("a", 1.0, 10.0), Range("b", 1.0, 100.0), Range("c", 1e-3, 1.0))
-    points = (*corners(edges), *sobol(edges, 32))
+    points = (*list_corners(edges), *sample_sobol_points(edges, 32))
     failing = made([(Status.DIVERGED if p["b"] > 10 else Status.STABLE, math.nan) for p in points], edges)
     assert rank_ranges(failing)[0] == 1
     stable = made([(Status.STABLE, 1e-9 * p["c"]) for p in points], edges)
@@ -187,9 +199,9 @@ def test_the_ranges_that_tell_most_are_those_that_decide() -> None:
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_every_judged_point_is_in_the_figure(count: int) -> None:
     edges = tuple(Range(name, 1e-3, 1.0, "m") for name in ("a.b.c", "d", "e"))[:count]
-    points = (*corners(edges), *sobol(edges, 5))
+    points = (*list_corners(edges), *sample_sobol_points(edges, 5))
     box = made([(list(Status)[k % 4], 1e-6) for k in range(len(points))], edges)
-    axes: Any = box_figure("A box", [box, box]).axes
+    axes: Any = draw_box_figure("A box", [box, box]).axes
     assert len(axes) == 2 * (2 if count > 2 else 1)
     assert len(axes[0].collections) == len(points)
     assert axes[0].get_xscale() == axes[0].get_yscale() == "log"

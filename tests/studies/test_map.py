@@ -15,12 +15,12 @@ import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.axes import Axis, axis, clearances, typed
-from gudgeon.studies.map import VerdictMap, default_clearances, default_steps, verdict_map
+from gudgeon.studies.axes import Axis, make_axis, make_clearance_axis, parse_axis
+from gudgeon.studies.map import VerdictMap, list_default_clearances, list_default_steps, verdict_map
 from gudgeon.studies.runs import Attempt, Error, Setting, Work
-from gudgeon.studies.show.map import command, verdict
-from gudgeon.studies.show.tables import seconds, share
-from gudgeon.studies.verdicts import Cell, Limits, Status, judge
+from gudgeon.studies.show.map import describe_marked_step, format_run_command
+from gudgeon.studies.show.tables import format_fraction, format_seconds
+from gudgeon.studies.verdicts import Cell, Limits, Status, judge_runs
 from tests.programs import needs_compiler
 
 PENDULUM = str(Path(__file__).parents[1] / "mechanisms" / "valid" / "double_pendulum.yaml")
@@ -34,7 +34,7 @@ def press(scene: str) -> Simulation:
 
 def by_step(scene: str, steps: list[float], play: list[float], **options: Any) -> VerdictMap:
     """Steps of rk4 × clearance."""
-    axes = [axis(press(scene), "step", steps), clearances(press(scene), play)]
+    axes = [make_axis(press(scene), "step", steps), make_clearance_axis(press(scene), play)]
     return verdict_map(press(scene), axes, method="rk4", **options)
 
 
@@ -55,8 +55,8 @@ def test_film_is_lost_with_the_papers_step_and_not_with_a_short_one() -> None:
         assert found.cell(1e-4, c).status is not Status.STABLE
         assert found.cell(5e-6, c).status is Status.STABLE
     assert found.cell(2e-5, 0.2e-3).status is not Status.STABLE
-    assert found.largest_stable(0.2e-3) == 5e-6
-    assert found.largest_stable(C) in (5e-6, 2e-5)  # at the brink: 2e-5 s times 1.4e5 1/s is 2.8
+    assert found.find_largest_stable_row(0.2e-3) == 5e-6
+    assert found.find_largest_stable_row(C) in (5e-6, 2e-5)  # at the brink: 2e-5 s times 1.4e5 1/s is 2.8
 
 
 @needs_compiler
@@ -71,9 +71,9 @@ def test_every_verdict_but_stable_has_its_reason() -> None:
     for cell in lubricated().cells:
         assert bool(cell.reason) == (cell.status is not Status.STABLE)
         assert cell.label
-    line = verdict([lubricated()], 1e-4)
+    line = describe_marked_step([lubricated()], 1e-4)
     assert len(line) == 1 and "2 inaccurate" in line[0] and "5 µs" in line[0]
-    assert not verdict([lubricated()], None)
+    assert not describe_marked_step([lubricated()], None)
 
 
 @needs_compiler
@@ -91,7 +91,7 @@ def test_limits_decide() -> None:
     long, fine = work.run(rk4(1e-5)), work.run(rk4(1e-6))
 
     def status(**limits: float) -> Status:
-        return judge({}, long, [(long, fine)], Limits(**limits)).status
+        return judge_runs({}, long, [(long, fine)], Limits(**limits)).status
 
     assert status() is Status.STABLE
     assert status(force=1e-6) is Status.INACCURATE
@@ -110,8 +110,8 @@ def test_run_that_nothing_vouches_for_is_not_stable() -> None:
     work = Work(press("dry"), 2e-3)
     run = work.run(rk4(1e-5))
     failed = Attempt(rk4(1e-6), None, "no longer finite", 1e-4)
-    assert judge({}, run, [(run, failed)]).status is Status.INACCURATE
-    assert judge({}, failed, [(run, run)]).status is Status.DIVERGED
+    assert judge_runs({}, run, [(run, failed)]).status is Status.INACCURATE
+    assert judge_runs({}, failed, [(run, run)]).status is Status.DIVERGED
 
 
 @needs_compiler
@@ -123,7 +123,7 @@ def test_lost_contact_is_seen() -> None:
     run = work.run(rk4(1e-5))
     assert run.run is not None and run.run.state.any()
     blind = replace(run, run=replace(run.run, state=0 * run.run.state, stored={}))
-    cell = judge({}, blind, [(run, run)])
+    cell = judge_runs({}, blind, [(run, run)])
     assert cell.status is Status.DIVERGED and "lost contact" in cell.reason
 
 
@@ -135,14 +135,14 @@ def made(statuses: list[Status]) -> VerdictMap:
 
 def test_largest_stable_step_has_only_stable_ones_below() -> None:
     good, bad = Status.STABLE, Status.INACCURATE
-    assert made([good, good, bad, good]).largest_stable(C) == pytest.approx(1e-5)
-    assert math.isnan(made([bad, good]).largest_stable(C))
-    assert made([good, good]).largest_stable(C) == pytest.approx(1e-5)
+    assert made([good, good, bad, good]).find_largest_stable_row(C) == pytest.approx(1e-5)
+    assert math.isnan(made([bad, good]).find_largest_stable_row(C))
+    assert made([good, good]).find_largest_stable_row(C) == pytest.approx(1e-5)
 
 
 @pytest.mark.parametrize("c", [0.3e-3, 0.5e-3, 1e-3, 7.7e-5])
 def test_axis_of_clearances_holds_the_files_own(c: float) -> None:
-    found = default_clearances(c)
+    found = list_default_clearances(c)
     assert c in [pytest.approx(x) for x in found]
     assert list(found) == sorted(set(found)) and len(found) >= 4
     assert c / 10 < found[0] and found[-1] < 5 * c
@@ -150,7 +150,7 @@ def test_axis_of_clearances_holds_the_files_own(c: float) -> None:
 
 @needs_compiler
 def test_axis_of_steps_starts_at_the_shortest_scene() -> None:
-    steps = default_steps([press("lubricated"), press("dry")])
+    steps = list_default_steps([press("lubricated"), press("dry")])
     assert steps[0] == pytest.approx(1e-6) and any(math.isclose(x, 1e-4) for x in steps)
 
 
@@ -169,7 +169,7 @@ def test_clearance_beyond_the_radius_is_refused() -> None:
 @needs_compiler
 def test_scene_without_play_has_one_column() -> None:
     pendulum = gudgeon.load(PENDULUM, scene="ideal")
-    found = verdict_map(pendulum, [axis(pendulum, "step", [1e-3, 2e-1])], method="rk4", t_long=2.0)
+    found = verdict_map(pendulum, [make_axis(pendulum, "step", [1e-3, 2e-1])], method="rk4", t_long=2.0)
     assert len(found.columns.values) == 1 and math.isnan(found.columns.values[0])
     assert found.cell(1e-3, math.nan).status is Status.STABLE
     assert found.cell(2e-1, math.nan).status is not Status.STABLE
@@ -189,7 +189,7 @@ def test_interruption_ends_all_threads() -> None:
 @needs_compiler
 def test_tolerance_times_clearance_is_the_usual_map() -> None:
     found = verdict_map(press("lubricated"), t_long=0.01, quick=True)
-    assert found.rows.name == "rtol" and found.columns.name == "clearance" and not found.setting.fixed
+    assert found.rows.name == "rtol" and found.columns.name == "clearance" and not found.setting.has_fixed_step
     assert all(cell.status is Status.STABLE for cell in found.cells)
     assert found.cell(1e-8, C).error.path < found.cell(1e-6, C).error.path
     assert found.cell(1e-8, C).parameters == {"bearings.pin.clearance": C}
@@ -198,7 +198,7 @@ def test_tolerance_times_clearance_is_the_usual_map() -> None:
 @needs_compiler
 def test_two_axes_of_numbers_take_one_tolerance_and_give_what_runs_them_again() -> None:
     dry = press("dry")
-    axes = [typed(dry, "omega=20,60"), typed(dry, "stiffness=1GPa..400GPa:2")]
+    axes = [parse_axis(dry, "omega=20,60"), parse_axis(dry, "stiffness=1GPa..400GPa:2")]
     found = verdict_map(dry, axes, t_long=0.02)
     assert found.columns.values == (20.0, 60.0) and found.rows.values == (1e9, 4e11)
     soft, hard = found.cell(1e9, 60.0), found.cell(4e11, 20.0)
@@ -206,39 +206,42 @@ def test_two_axes_of_numbers_take_one_tolerance_and_give_what_runs_them_again() 
     assert (
         hard.parameters == {"parameters.omega": 20.0, "materials.aluminium.E": 4e11} and hard.setting == found.setting
     )
-    message = command("nine_bar_press", "dry", hard, 0.02)
+    message = format_run_command("nine_bar_press", "dry", hard, 0.02)
     assert "--rtol 1e-08" in message and "--set parameters.omega=20.0" in message and message.endswith("--t-end 0.02")
-    assert command("x.yaml", "dry", hard, 0.02, laws=["my laws/soft.py"]).count(" --laws 'my laws/soft.py' ") == 1
+    assert (
+        format_run_command("x.yaml", "dry", hard, 0.02, laws=["my laws/soft.py"]).count(" --laws 'my laws/soft.py' ")
+        == 1
+    )
 
 
 @needs_compiler
 def test_axes_that_do_not_fit_are_refused() -> None:
     dry = press("dry")
     for axes, method in (
-        ([axis(dry, "step", [1e-5])], "auto"),
-        ([axis(dry, "rtol", [1e-5])], "rk4"),
-        ([axis(dry, "rtol", [1e-5])] * 2, "auto"),
-        ([axis(dry, "rtol", [0.0])], "auto"),
+        ([make_axis(dry, "step", [1e-5])], "auto"),
+        ([make_axis(dry, "rtol", [1e-5])], "rk4"),
+        ([make_axis(dry, "rtol", [1e-5])] * 2, "auto"),
+        ([make_axis(dry, "rtol", [0.0])], "auto"),
     ):
         with pytest.raises(BadValueError, match="axis|axes"):
             verdict_map(dry, axes, method=method)
     for text in ("omega", "omega=2..1", "omega=1..2:x"):
         with pytest.raises(BadValueError, match="expected"):
-            typed(dry, text)
+            parse_axis(dry, text)
     with pytest.raises(BadValueError, match="no such number"):
-        typed(dry, "viscosity=1,2")
+        parse_axis(dry, "viscosity=1,2")
     with pytest.raises(UnknownNameError):
-        typed(dry, "omegga=1,2")
+        parse_axis(dry, "omegga=1,2")
 
 
 @needs_compiler
 def test_groups_keep_the_ratios_of_their_numbers() -> None:
-    gains = axis(press("dry"), "gains", [10.0])
+    gains = make_axis(press("dry"), "gains", [10.0])
     p = press("dry").p
     place = {slot.address: k for k, slot in enumerate(press("dry").source.slots)}
     first, second = p[place["baumgarte.alpha"]], p[place["baumgarte.beta"]]
     assert gains.parameters(10.0) == {"baumgarte.alpha": 10.0, "baumgarte.beta": pytest.approx(10.0 * second / first)}
-    assert typed(press("dry"), "clearance=.05mm..1mm:3").values == pytest.approx(
+    assert parse_axis(press("dry"), "clearance=.05mm..1mm:3").values == pytest.approx(
         (5e-5, math.sqrt(5e-8), 1e-3), rel=1e-5
     )
 
@@ -259,9 +262,9 @@ def test_command_writes_map(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
     ("value", "text"), [(0.5, "50 %"), (0.049, "4.9 %"), (2e-3, "0.20 %"), (4e-7, "4e-7"), (math.nan, "–")]
 )
 def test_shares_in_words(value: float, text: str) -> None:
-    assert share(value) == text
+    assert format_fraction(value) == text
 
 
 @pytest.mark.parametrize(("value", "text"), [(1e-4, "100 µs"), (2.5e-8, "25 ns"), (0.0098, "9.8 ms"), (2.0, "2 s")])
 def test_steps_in_words(value: float, text: str) -> None:
-    assert seconds(value) == text
+    assert format_seconds(value) == text

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from gudgeon.language.shown import in_spreadsheet
+from gudgeon.language.text_output import escape_for_spreadsheet
 from gudgeon.studies.show.tables import write_csv
 
 
@@ -19,9 +19,9 @@ def test_a_text_is_not_a_formula(text: str, tmp_path: Path) -> None:
 
 
 def test_a_carriage_return_begins_no_row() -> None:
-    assert in_spreadsheet("\r=1") == r"\r=1"
+    assert escape_for_spreadsheet("\r=1") == r"\r=1"
 
 
 @pytest.mark.parametrize("value", ["-1.5", "+3", "-1e-3", "-inf", "rk4", "a=b", "", -1.5, None, True])
 def test_numbers_and_other_texts_stay(value: object) -> None:
-    assert in_spreadsheet(value) == value
+    assert escape_for_spreadsheet(value) == value

@@ -20,9 +20,9 @@ import gudgeon
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble import final, resolve
-from gudgeon.studies.ensemble.final import slabs
-from gudgeon.studies.ensemble.notes import kind_of
-from gudgeon.studies.ensemble.study import plans_of
+from gudgeon.studies.ensemble.final import split_into_boxes
+from gudgeon.studies.ensemble.notes import reduce_to_kind
+from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
 
@@ -346,7 +346,7 @@ def test_failures_are_rows_with_their_reason(call: Gudgeon, tmp_path: Path, monk
 )
 def test_runs_that_failed_of_the_same_are_one_kind(message: str, kind: str) -> None:
     """Without the numbers of each; digits of names and units stay."""
-    assert kind_of(message) == kind
+    assert reduce_to_kind(message) == kind
 
 
 def test_a_run_that_leaves_its_laws_domain_is_a_row_up_to_there() -> None:
@@ -427,7 +427,7 @@ def test_slabs_are_boxes_that_cover_a_range_once() -> None:
         for first in range(size):
             for last in range(first + 1, size + 1):
                 hit = np.full(shape, -1)
-                for at, rows in slabs(shape, first, last):
+                for at, rows in split_into_boxes(shape, first, last):
                     assert (hit[at] == -1).all()
                     hit[at] = np.arange(rows.start, rows.stop).reshape(np.shape(hit[at]))
                 expected = np.where((np.arange(size) >= first) & (np.arange(size) < last), np.arange(size), -1)
@@ -438,6 +438,6 @@ def test_a_block_holds_as_many_samples_as_fit(monkeypatch: pytest.MonkeyPatch) -
     """However many runs there are: memory is that of a block."""
     monkeypatch.setattr(resolve, "BYTES", 100_000)
     draw = {"count": 1000, "parameters": {"g": {"from": 5, "to": 10}}}
-    plan = plans_of({"mechanism": "pendulum", "draw": draw, "output": 99, "keep": ["bob.x"]}).each[""]
+    plan = resolve_plans({"mechanism": "pendulum", "draw": draw, "output": 99, "keep": ["bob.x"]}).each[""]
     assert plan.runs == 1000 and plan.parts[0].block == 100_000 // (8 * 3 * 100)
     assert sum(block.runs for block in plan.blocks) == 1000

@@ -15,10 +15,10 @@ from ruamel.yaml import YAML
 
 import gudgeon
 from gudgeon.errors import GudgeonError, InputError, InputErrors
-from gudgeon.generator.study.schema import schema
+from gudgeon.generator.study.schema import make_schema
 from gudgeon.studies.ensemble import claims
-from gudgeon.studies.ensemble.claimed import Claimed
-from gudgeon.studies.ensemble.study import plans_of
+from gudgeon.studies.ensemble.claim_tables import Claimed
+from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
 from tests.scenes import patched
@@ -216,7 +216,7 @@ def test_a_mistake_is_told_at_its_place(old: str, new: str, place: str, words: s
     path = tmp_path / "s.yaml"
     path.write_text(patched(TEXT, (old, new)))
     with pytest.raises(InputError) as message:
-        plans_of(path)
+        resolve_plans(path)
     assert str(message.value).startswith(f"{path}:{place}") and words in str(message.value), str(message.value)
 
 
@@ -241,10 +241,10 @@ def test_a_claim_compares_no_more_than_can_be_judged(some: int, most: int, monke
         row = {"from": 1, "to": 2, "count": count}
         given = study | {"parameters": {"g": row}, "claims": {"source": "s", "trends": {"T": trend}}}
         if not words:
-            assert plans_of(given).runs == count
+            assert resolve_plans(given).runs == count
             continue
         with pytest.raises(InputError, match=words):
-            plans_of(given)
+            resolve_plans(given)
 
 
 @needs_compiler
@@ -256,13 +256,13 @@ def test_all_mistakes_of_claims_at_once(tmp_path: Path) -> None:
         .replace("-9.81 m/s^2", "-9.81 m")
     )
     with pytest.raises(InputErrors) as message:
-        plans_of(path)
+        resolve_plans(path)
     assert [str(error).split(":")[1] for error in message.value.errors] == ["19", "25", "30"], str(message.value)
 
 
 def test_the_schema_takes_what_is_read() -> None:
     jsonschema = pytest.importorskip("jsonschema")
-    check = jsonschema.Draft202012Validator(schema())
+    check = jsonschema.Draft202012Validator(make_schema())
     study = YAML(typ="safe").load(TEXT)
     assert not list(check.iter_errors(study))
     wrong: list[dict[str, Any]] = [

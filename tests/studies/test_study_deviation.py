@@ -13,7 +13,7 @@ import gudgeon
 from gudgeon.errors import InputError
 from gudgeon.model.compiled import Array
 from gudgeon.studies.ensemble import origins
-from gudgeon.studies.ensemble.study import plans_of
+from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
 
 pytestmark = needs_compiler
@@ -193,7 +193,7 @@ def test_mistakes_are_told_at_their_place(measure: str, place: str, words: str, 
     path = tmp_path / "s.yaml"
     path.write_text(f"format: gudgeon-study/1\nmechanism: slider_crank\nscenes: dry\nmeasures: {{a: {measure}}}\n")
     with pytest.raises(InputError) as message:
-        plans_of(path)
+        resolve_plans(path)
     assert str(message.value).startswith(f"{path}:{place}: ") and words in str(message.value), str(message.value)
 
 

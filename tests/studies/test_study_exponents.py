@@ -12,7 +12,7 @@ import pytest
 import gudgeon
 from gudgeon.errors import InputError
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.ensemble.study import plans_of
+from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
 from tests.simulation.test_lyapunov import DUFFING, LINEAR, RAIL, on_a_rail
 
@@ -148,5 +148,5 @@ def test_what_cannot_be_followed_is_told(
 ) -> None:
     statistic, of = measure.strip("{}").split(": ")
     with pytest.raises(InputError) as message:
-        plans_of(own | {"t_end": "1 s", "measures": {"m": {statistic: of}}} | more)
+        resolve_plans(own | {"t_end": "1 s", "measures": {"m": {statistic: of}}} | more)
     assert words in str(message.value) and f"measures.m.{statistic}" in str(message.value), str(message.value)

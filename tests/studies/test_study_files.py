@@ -11,7 +11,7 @@ import pytest
 import gudgeon
 from gudgeon.errors import InputError, InputErrors, NotYamlError, UnknownNameError
 from gudgeon.generator.study.read import read_study
-from gudgeon.studies.ensemble.study import plans_of
+from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
 from tests.scenes import patched
@@ -112,7 +112,7 @@ def test_what_a_choice_varies_is_not_set_for_all_runs(tmp_path: Path) -> None:
     path.write_text(GOOD.replace("t_end: 1 s", "t_end: 1 s\nchoices: {bodies.bob.mass: [1 kg, 2 kg]}"))
     words = "s.yaml:6:11: choices: bodies.bob.mass varies what --set bodies.bob.mass gives to all runs\n  leave one of"
     with pytest.raises(InputError, match=words):
-        plans_of(path, {"bodies.bob.mass": "3 kg"})
+        resolve_plans(path, {"bodies.bob.mass": "3 kg"})
 
 
 @pytest.mark.parametrize(("old", "new", "place", "words"), BAD, ids=[f"{k}" for k in range(len(BAD))])
@@ -120,7 +120,7 @@ def test_a_mistake_is_told_at_its_place(old: str, new: str, place: str, words: s
     path = tmp_path / "s.yaml"
     path.write_text(patched(GOOD, (old, new)))
     with pytest.raises(InputError) as message:
-        plans_of(path)
+        resolve_plans(path)
     assert str(message.value).startswith(f"{path}:{place}: "), str(message.value)
     assert words in str(message.value), str(message.value)
     assert message.value.hint or "expected" in str(message.value), str(message.value)
@@ -129,7 +129,7 @@ def test_a_mistake_is_told_at_its_place(old: str, new: str, place: str, words: s
 def test_all_mistakes_of_a_file_at_once(call: Gudgeon, tmp_path: Path) -> None:
     (tmp_path / "s.yaml").write_text(GOOD.replace("final", "finale").replace("[9.81, 20]", "{}").replace("1 s", "1 z"))
     with pytest.raises(InputErrors) as message:
-        plans_of("s.yaml" if Path("s.yaml").exists() else tmp_path / "s.yaml")
+        resolve_plans("s.yaml" if Path("s.yaml").exists() else tmp_path / "s.yaml")
     assert len(message.value.errors) >= 3 and re.findall(r"s.yaml:(\d+):", str(message.value)) == sorted(
         re.findall(r"s.yaml:(\d+):", str(message.value))
     )
@@ -171,26 +171,26 @@ def test_a_link_out_of_the_folder_is_not_followed(tmp_path: Path) -> None:
     study.write_text(GOOD.replace("pendulum", "p.yaml"))
     (study.parent / "p.yaml").symlink_to(tmp_path / "there" / "p.yaml")
     with pytest.raises(InputError, match="s.yaml:2:12: .*link"):
-        plans_of(study)
+        resolve_plans(study)
     (study.parent / "p.yaml").unlink()
     (study.parent / "p.yaml").write_bytes((tmp_path / "there" / "p.yaml").read_bytes())
-    assert plans_of(study).runs == 2
+    assert resolve_plans(study).runs == 2
 
 
 @needs_compiler
 def test_a_study_that_comes_with_gudgeon_is_found_by_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """As mechanisms are; a file of that name in the folder counts before it."""
     monkeypatch.chdir(tmp_path)
-    plans = plans_of("lubricated_10000")
+    plans = resolve_plans("lubricated_10000")
     assert plans.each[""].runs == 10_000
     with pytest.raises(UnknownNameError, match="did you mean 'chen_2022'"):
-        plans_of("chen_2023")
+        resolve_plans("chen_2023")
     with pytest.raises(UnknownNameError, match="no study 'jansen_leg_play'"):  # a mechanism that one brings along
-        plans_of("jansen_leg_play")
+        resolve_plans("jansen_leg_play")
     with pytest.raises(InputError, match="cannot read"):
-        plans_of("chen_2022.yaml")
+        resolve_plans("chen_2022.yaml")
     Path("lubricated_10000").write_text("format: gudgeon-study/1\nmechanism: pendulum\nmeasures: {x: {final: bob.x}}\n")
-    assert plans_of("lubricated_10000").each[""].runs == 1
+    assert resolve_plans("lubricated_10000").each[""].runs == 1
 
 
 @needs_compiler
@@ -228,7 +228,10 @@ def test_what_is_set_goes_over_rows_zips_and_draws() -> None:
         },
         "titles": {"g": "gravity"},
     }
-    own, less = plans_of(study).each[""], plans_of(study, {"parameters.g": "3 m/s^2", "length": "5 m"}).each[""]
+    own, less = (
+        resolve_plans(study).each[""],
+        resolve_plans(study, {"parameters.g": "3 m/s^2", "length": "5 m"}).each[""],
+    )
     assert own.dims == ("g", "draw") and less.dims == ("draw",) and less.fixed == {"parameters.g": 3.0, "length": 5.0}
     assert set(less.numbers[0].columns) == {"bodies.bob.mass"}
     assert (less.numbers[0].columns["bodies.bob.mass"] == own.numbers[1].columns["bodies.bob.mass"]).all()
@@ -236,8 +239,8 @@ def test_what_is_set_goes_over_rows_zips_and_draws() -> None:
         "g is set for all runs, over the 3 values that the file has for it",
         "length is set for all runs, over the 4 values that the file has for it",
     )
-    assert plans_of(study, {"length": 5, "bodies.bob.mass": 3}).each[""].dims == ("g",)
+    assert resolve_plans(study, {"length": 5, "bodies.bob.mass": 3}).each[""].dims == ("g",)
     both = {key: value for key, value in study.items() if key not in ("parameters", "draw", "titles")}
     both["zip"] = {"pair": {"g": [1, 2], "length": [3, 4]}}
-    assert plans_of(both, {"g": 3}).each[""].dims == ("pair",)
-    assert plans_of(both, {"g": 3, "length": 1}).each[""].dims == ()
+    assert resolve_plans(both, {"g": 3}).each[""].dims == ("pair",)
+    assert resolve_plans(both, {"g": 3, "length": 1}).each[""].dims == ()

@@ -13,7 +13,7 @@ import xarray as xr
 
 import gudgeon
 from gudgeon.errors import InputError
-from gudgeon.loading.find import is_known
+from gudgeon.loading.kernel_sources import is_source_cached
 from gudgeon.studies.ensemble import libraries
 from gudgeon.studies.ensemble.libraries import Structure, compile_in_second_process
 from gudgeon.waiting.programs import Programs
@@ -39,8 +39,8 @@ def begun(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[subprocess.Po
     found: list[subprocess.Popen[str]] = []
 
     class Noted(Programs):
-        def begin(self, line: list[str], folder: Path | None, environment: dict[str, str]) -> Any:
-            process = super().begin(line, folder, environment | {"TMPDIR": str(tmp_path / "under_way")})
+        def start(self, line: list[str], folder: Path | None, environment: dict[str, str]) -> Any:
+            process = super().start(line, folder, environment | {"TMPDIR": str(tmp_path / "under_way")})
             found.append(process)
             return process
 
@@ -52,7 +52,7 @@ def begun(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[subprocess.Po
 
 
 def known() -> list[bool]:
-    return [is_known(one.mechanism, one.scene, dict(one.overrides)) for one in STRUCTURES]
+    return [is_source_cached(one.mechanism, one.scene, dict(one.overrides)) for one in STRUCTURES]
 
 
 def check_nothing_is_left(begun: list[subprocess.Popen[str]], folder: Path) -> None:

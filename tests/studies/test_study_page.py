@@ -14,11 +14,11 @@ from ruamel.yaml import YAML
 import gudgeon
 from gudgeon.errors import InputError
 from gudgeon.generator.study.read import KEYS, read_studies, read_study
-from gudgeon.generator.study.schema import schema
-from gudgeon.generator.study.spec import COUNTED, DRAWN, KINDS, STATISTICS
-from gudgeon.studies.ensemble.names import as_people_write, names_of
+from gudgeon.generator.study.schema import make_schema
+from gudgeon.generator.study.spec import COUNTED_PARTS, KINDS, SAMPLING_METHODS, STATISTICS
+from gudgeon.studies.ensemble.names import collect_names, format_typographically
 from gudgeon.studies.ensemble.resolve import BLOCK
-from gudgeon.studies.ensemble.study import plans_of
+from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
 
 jsonschema = pytest.importorskip("jsonschema")
@@ -49,13 +49,13 @@ def test_its_file_and_its_python(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 
 def test_every_key_statistic_and_method_is_on_the_page() -> None:
     words = set(re.findall(r"[A-Za-z_]\w*", PAGE))
-    assert {*KEYS, *STATISTICS, *DRAWN, *KINDS, *COUNTED} <= words
+    assert {*KEYS, *STATISTICS, *SAMPLING_METHODS, *KINDS, *COUNTED_PARTS} <= words
     assert f"{BLOCK} at most" in PAGE
 
 
 def test_the_schema_takes_its_file_and_refuses_others() -> None:
     """All keys of the reader, its words, and nothing beside them."""
-    whole = schema()
+    whole = make_schema()
     jsonschema.Draft202012Validator.check_schema(whole)
     assert set(whole["properties"]) == set(KEYS)
     study = YAML(typ="safe").load(block("yaml"))
@@ -93,7 +93,7 @@ def test_its_fragments_are_read() -> None:
 def test_what_it_quotes_is_read() -> None:
     quoted = [text for text in re.findall(r"`((?:zip|draw|choices): \{[^`]*\})`", PAGE) if "…" not in text]
     quoted.append("starts: {count: 2, " + re.findall(r"`(ensembles: \{[^`]*\})`", PAGE)[0] + "}")
-    assert len(quoted) == 4
+    assert len(quoted) == 5
     for text in quoted:
         read_study(f"format: gudgeon-study/1\nmechanism: pendulum\nkeep: [bob.x]\n{text}\n".encode(), "quoted.yaml")
 
@@ -148,7 +148,7 @@ def test_people_read_titles_and_numbers_as_they_are_written(tmp_path: Path) -> N
     ],
 )
 def test_a_number_as_people_write_it(text: str, shown: str) -> None:
-    assert as_people_write(text) == shown
+    assert format_typographically(text) == shown
 
 
 @pytest.mark.parametrize(
@@ -167,8 +167,8 @@ def test_a_number_as_people_write_it(text: str, shown: str) -> None:
 def test_a_row_is_shown_in_the_unit_of_its_ends(row: dict[str, Any], shown: tuple[str, ...]) -> None:
     """What is between is that of the runs; without a unit that both have in SI."""
     study = {"mechanism": "slider_crank", "parameters": {"omega": row}, "measures": {"x": {"max": "slider.x"}}}
-    plans = plans_of(study)
-    assert names_of(plans).values[""].get("omega", ()) == shown
+    plans = resolve_plans(study)
+    assert collect_names(plans).values[""].get("omega", ()) == shown
     for text, omega in zip(shown, plans.each[""].numbers[0].columns["omega"], strict=False):
         message = text.replace("2.4·10²", "240").replace("π", "*pi")
         number, _, unit = message.partition(" ")

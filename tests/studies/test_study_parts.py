@@ -10,7 +10,7 @@ import xarray as xr
 
 import gudgeon
 from gudgeon.errors import GudgeonError, InputError, InputErrors
-from gudgeon.studies.ensemble.study import plans_of
+from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
 
@@ -115,20 +115,20 @@ def test_mistakes_of_all_parts_at_once(tmp_path: Path) -> None:
         .replace("    keep", "    kept")
     )
     with pytest.raises(InputErrors) as message:
-        plans_of(path)
+        resolve_plans(path)
     places = [str(error).removeprefix(f"{path}:").split(": ")[0] for error in message.value.errors]
     assert places == ["8:3", "15:5"], places
     path.write_text(TEXT.replace("bob.y}", "bob.q}").replace("20 ms", "20 kg").replace("g: [1.62", "gg: [1.62"))
     with pytest.raises(InputErrors) as message:
-        plans_of(path)
+        resolve_plans(path)
     assert [str(error).split(":")[1] for error in message.value.errors] == ["9", "13"], str(message.value)
     for text, words in (("parts: {}", "parts is empty"), ("parts: [a]", "a list"), ("parts: {a: 3}", "parts.a is '3'")):
         path.write_text(TEXT.partition("parts:")[0] + text)
         with pytest.raises(InputError, match=words):
-            plans_of(path)
+            resolve_plans(path)
     path.write_text("format: gudgeon-study/1\nparts: {a: {keep: [bob.x]}, b: {mechanism: pendulum}}\n")
     with pytest.raises(InputErrors, match=r"(?s)2:12: parts.a has no mechanism.*2:32: parts.b measures nothing"):
-        plans_of(path)
+        resolve_plans(path)
 
 
 def test_the_command(tmp_path: Path, call: Gudgeon) -> None:

@@ -14,8 +14,8 @@ pytest.importorskip("matplotlib")
 import gudgeon  # noqa: E402
 from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
 from gudgeon.studies.show import study_plots  # noqa: E402
-from gudgeon.studies.show.study_data import changes  # noqa: E402
-from gudgeon.studies.show.study_signals import alike, crossings, over_shares  # noqa: E402
+from gudgeon.studies.show.study_data import describe_changes  # noqa: E402
+from gudgeon.studies.show.study_signals import find_section_crossings, have_equal_times, resample_over_fractions  # noqa: E402
 from tests.programs import needs_compiler  # noqa: E402
 
 pytestmark = needs_compiler
@@ -88,17 +88,19 @@ def test_over_words_there_are_bars_and_no_line(study: gudgeon.Study) -> None:
 def test_a_long_zip_is_told_by_what_differs() -> None:
     """From what most of its places have; by all of its numbers where there is no such value."""
     columns: dict[tuple[str, ...], str] = {("1 kg", "1 kg", "2 kg", "1 kg"): "m", ("3 N", "3 N", "3 N", "5 N"): "F"}
-    assert changes(columns) == ["unchanged", "unchanged", "m = 2 kg", "F = 5 N"]
-    assert changes(columns | {("a", "a", "b", "b"): "c"}) == []
+    assert describe_changes(columns) == ["unchanged", "unchanged", "m = 2 kg", "F = 5 N"]
+    assert describe_changes(columns | {("a", "a", "b", "b"): "c"}) == []
 
 
 def test_samples_a_hundredth_apart_are_alike() -> None:
     """Ends that follow a number a millionth off; amplitudes of such runs stand over the same frequencies."""
     t = np.linspace(0.0, 2.0, 401)
-    assert alike(np.array([t, t * (1 + 2e-6), t])) and alike(np.array([t, t * (1 + 2.4e-5)]))
-    assert not alike(np.array([t, t * (1 + 2.6e-5)])) and not alike(np.array([t, np.append(t[:-1], np.nan)]))
+    assert have_equal_times(np.array([t, t * (1 + 2e-6), t])) and have_equal_times(np.array([t, t * (1 + 2.4e-5)]))
+    assert not have_equal_times(np.array([t, t * (1 + 2.6e-5)])) and not have_equal_times(
+        np.array([t, np.append(t[:-1], np.nan)])
+    )
     stopped = np.where(t < 1.0, t, np.nan)
-    assert alike(np.array([stopped, stopped]))
+    assert have_equal_times(np.array([stopped, stopped]))
 
 
 def test_bands_are_quantiles_by_hand(study: gudgeon.Study) -> None:
@@ -130,7 +132,7 @@ def test_bands_over_shares_are_of_the_same_share_of_each_run(tmp_path: Path) -> 
         s, x = line.get_data()
         assert len(s) == samples and s[0] == 0.0 and s[-1] == 1.0
         np.testing.assert_allclose(x, 1.0 + 0.1 * np.cos(2 * np.pi * s), atol=atol)
-    found: Any = over_shares(turn.dataset["t"].values, turn.dataset["load.x"])
+    found: Any = resample_over_fractions(turn.dataset["t"].values, turn.dataset["load.x"])
     runs = found[1].values
     assert np.ptp(runs[:, 0], axis=0).max() < 2 * atol and np.isnan(runs[:, 1]).all()
     with pytest.raises(BadValueError, match="no run has a length"):
@@ -174,11 +176,11 @@ def test_a_section_of_an_oscillator_is_a_point_a_run(study: gudgeon.Study) -> No
 
 def test_crossings_are_found_between_samples() -> None:
     t = np.linspace(0.0, 10.0, 401)
-    (rising,) = crossings(t, np.sin(t), [t], 0.5, False, 0.0)
+    (rising,) = find_section_crossings(t, np.sin(t), [t], 0.5, False, 0.0)
     np.testing.assert_allclose(rising, [np.pi / 6, np.pi / 6 + 2 * np.pi], atol=1e-4)
-    (falling,) = crossings(t, np.sin(t), [t], 0.5, True, 3.0)
+    (falling,) = find_section_crossings(t, np.sin(t), [t], 0.5, True, 3.0)
     np.testing.assert_allclose(falling, [5 * np.pi / 6 + 2 * np.pi], atol=1e-4)
-    assert crossings(t, np.full(401, np.nan), [t], 0.0, False, 0.0)[0].size == 0
+    assert find_section_crossings(t, np.full(401, np.nan), [t], 0.0, False, 0.0)[0].size == 0
 
 
 def test_curves_and_phases_have_a_colour_a_value(study: gudgeon.Study, tmp_path: Path) -> None:

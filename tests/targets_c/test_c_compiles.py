@@ -16,18 +16,18 @@ import gudgeon
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.pipeline import generate
 from gudgeon.generator.reader.read import read_mechanism
-from gudgeon.loading.engine import declarations, include_flags, sizes
-from gudgeon.loading.shipped import generated, shipped_file
+from gudgeon.loading.engine import build_include_flags, parse_sizes, select_declarations
+from gudgeon.loading.shipped import find_shipped_file, list_generated
 from tests.slow import slow_but
 
 METHODS, VALID = (Path(__file__).parents[1] / "mechanisms" / folder for folder in ("methods", "valid"))
-FLAGS = ["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", *include_flags()]
+FLAGS = ["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", *build_include_flags()]
 WIDTHS = ([], ["-mavx2"], ["-mavx512f"]) if platform.machine() in ("x86_64", "AMD64") else ([],)  # 2, 4, 8 lanes
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
 SCENES = [
     (name, scene)
-    for name in generated()
-    for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
+    for name in list_generated()
+    for scene in read_mechanism(find_shipped_file(name).read_bytes(), name, None).scenes
 ]
 WIDEST = ("nine_bar_press", "lubricated")  # under every width of vectors; the others under the first
 # Friction, a motion without freedom; and under the sanitizers play and what hangs on a driven chain.
@@ -146,11 +146,11 @@ def test_no_warning_about_any_shipped_scene(name: str, scene: str, tmp_path: Pat
 @pytest.mark.parametrize("formulation", ["reduced", "full"])
 def test_declarations_are_what_the_scene_defines(name: str, scene: str, formulation: str, tmp_path: Path) -> None:
     """Python sees only what cffi is told: prototypes and structs must be the library's."""
-    file = shipped_file(name)
+    file = find_shipped_file(name)
     source = generate(file.read_bytes(), file.name, scene, None, formulation)
     write(source, tmp_path)
     ffi = FFI()
-    calls = declarations(source)
+    calls = select_declarations(source)
     ffi.cdef(calls)
     fields = [field for field, _ in ffi.typeof("Batch").fields] if "} Batch;" in calls else []
     same = [f'_Static_assert(offsetof(Batch, {f}) == offsetof(Told, {f}), "{f}");' for f in fields]
@@ -198,7 +198,7 @@ def test_clean_under_the_sanitizers(of: tuple[str, str], tmp_path: Path) -> None
     state = np.concatenate([simulation.p, start.q, start.v, np.zeros(3)])
     (tmp_path / "start.bin").write_bytes(state.tobytes())
     write(simulation.source, tmp_path)
-    go = INTEGRATE if sizes(simulation.source)["INTEGRATES"] else FOLLOW
+    go = INTEGRATE if parse_sizes(simulation.source)["INTEGRATES"] else FOLLOW
     driver = tmp_path / "driver.c"
     driver.write_text(f"{WHOLE}#define STEP 2e-6\n{go}{MAIN}", encoding="utf-8")
     sanitize = ["-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-fno-omit-frame-pointer"]

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gudgeon.generator.targets.c.curves import curves_code
-from gudgeon.language.curves import Curve, even_pieces, spline
+from gudgeon.generator.targets.c.curves import print_curve_tables
+from gudgeon.language.curves import Curve, compute_spline, make_even_pieces
 from gudgeon.loading.compiler import find_compiler
-from gudgeon.loading.engine import include_flags
+from gudgeon.loading.engine import build_include_flags
 from tests.slow import slow_but
 
 _HEAD = """#include <math.h>
@@ -35,9 +35,9 @@ void bounds(int order, double lo, double hi, double side, double *out)
 
 
 def compiled(curve: Curve, folder: Path) -> ctypes.CDLL:
-    text = curves_code({"c": curve}, ["curve(CURVE_c_, 0, x)"])
+    text = print_curve_tables({"c": curve}, ["curve(CURVE_c_, 0, x)"])
     (folder / "c.c").write_text(_HEAD + text + _CALLS)
-    line = [*find_compiler(), "-O1", "-std=c11", "-fPIC", "-shared", *include_flags(), "c.c", "-lm", "-o", "c.so"]
+    line = [*find_compiler(), "-O1", "-std=c11", "-fPIC", "-shared", *build_include_flags(), "c.c", "-lm", "-o", "c.so"]
     subprocess.run(line, cwd=folder, check=True)
     library = ctypes.CDLL(str(folder / "c.so"))
     library.value.restype = library.knot.restype = ctypes.c_double
@@ -50,7 +50,11 @@ def test_values_and_slopes_lie_within(ends: str, tmp_path: Path) -> None:
     x = np.cumsum(rng.uniform(0.3, 2.0, 8)).tolist()
     y = rng.normal(size=8).tolist()
     y[-1] = y[0]
-    knots, pieces = even_pieces(x, spline(x, y, ends)) if ends == "periodic" else (tuple(x), spline(x, y, ends))
+    knots, pieces = (
+        make_even_pieces(x, compute_spline(x, y, ends))
+        if ends == "periodic"
+        else (tuple(x), compute_spline(x, y, ends))
+    )
     curve = Curve("c", knots, pieces, ends)
     library, number = compiled(curve, tmp_path), ctypes.c_double
     length, wide, out = x[-1] - x[0], [], (ctypes.c_double * 4)()
@@ -74,7 +78,7 @@ def test_values_and_slopes_lie_within(ends: str, tmp_path: Path) -> None:
                 rises = np.diff(found) / np.maximum(np.diff(at), 1e-300)
                 assert out[2] - 1e-6 <= rises.min(initial=np.inf) and rises.max(initial=-np.inf) <= out[3] + 1e-6
                 if side == 0.0 and order >= 0:
-                    np.testing.assert_allclose(found, curve.at(at, order), atol=1e-13)
+                    np.testing.assert_allclose(found, curve.evaluate(at, order), atol=1e-13)
                     wide.append((out[1] - out[0]) / max(np.ptp(found), 1e-9))
     assert np.median(wide) < 1.01
 
@@ -85,7 +89,7 @@ def test_beyond_a_knot_the_polynomial_goes_on(tmp_path: Path) -> None:
     for ends, y in (("natural", [0.0, 1.0, -1.0, 2.0, 0.5]), ("periodic", [0.0, 1.0, -1.0, 2.0, 0.0])):
         folder = tmp_path / ends
         folder.mkdir()
-        curve = Curve("c", tuple(x), spline(x, y, ends), ends)
+        curve = Curve("c", tuple(x), compute_spline(x, y, ends), ends)
         library, number = compiled(curve, folder), ctypes.c_double
         for knot in (1.0, 2.0, 3.0, *([4.0, 8.0] if ends == "periodic" else [])):
             side = np.sign(library.knot(number(knot - 0.1)))

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.pipeline import in_c
+from gudgeon.generator.pipeline import generate_c
 from gudgeon.loading.build import compile_kernels
 from gudgeon.model.compiled import CompiledModel
 from tests.equations.models import press, random_model, random_state
@@ -28,7 +28,7 @@ NAN = float("nan")
 def compiled(which: str | int) -> tuple[Model, CompiledModel, np.ndarray]:
     """Model, library and the default numbers of a scene of the press, or of a random linkage."""
     model = press(which) if isinstance(which, str) else random_model(which)[1]
-    source = in_c(model)
+    source = generate_c(model)
     library = CompiledModel(source, compile_kernels(source))
     slots = len(source.slots)
     return model, library, library.prepare(np.zeros(slots), np.zeros(slots, dtype=bool))

@@ -17,11 +17,11 @@ import pytest
 import gudgeon
 from gudgeon.errors import BadNameError
 from gudgeon.generator.kernels.program import make_program
-from gudgeon.generator.pipeline import derive, generate, in_c
-from gudgeon.generator.symbols.symbols import made_name
-from gudgeon.generator.targets.javascript.module import equations_script
+from gudgeon.generator.pipeline import derive_scene, generate, generate_c
+from gudgeon.generator.symbols.symbols import make_identifier
+from gudgeon.generator.targets.javascript.module import print_equations_script
 from gudgeon.language.names import check_name
-from gudgeon.loading.engine import engine_files
+from gudgeon.loading.engine import read_engine_files
 from tests.slow import slow_but
 from tests.targets_c.test_names_in_c import THINGS, TRIED, VALID
 from tests.web.node import node
@@ -94,10 +94,13 @@ def accepted(name: str) -> bool:
 def vocabulary() -> tuple[str, ...]:
     """Every identifier of the C, JavaScript and Python of some scenes, of the engine and of the languages."""
     neutral = [f"n{k}" for k in range(ROLES + 10)]
-    texts = [*generate(smooth(neutral), "f", "swing", formulation="taylor").files.values(), *engine_files().values()]
+    texts = [
+        *generate(smooth(neutral), "f", "swing", formulation="taylor").files.values(),
+        *read_engine_files().values(),
+    ]
     for file, of in (("slider_crank", "oiled"), ("double_pendulum", "dry")):
-        model = derive((VALID / f"{file}.yaml").read_bytes(), "f", of)
-        texts += [*in_c(model).files.values(), equations_script(make_program(model)), model.numpy().source]
+        model = derive_scene((VALID / f"{file}.yaml").read_bytes(), "f", of)
+        texts += [*generate_c(model).files.values(), print_equations_script(make_program(model)), model.numpy().source]
     words = {word for text in texts for word in re.findall(r"[A-Za-z]\w*", text)}
     words |= {word.rstrip("_") for word in words} | {*THINGS, *TRIED, *FOUND_BEFORE}
     return tuple(sorted(filter(accepted, words)))
@@ -140,17 +143,19 @@ def test_the_vocabulary_holds_what_code_has() -> None:
 
 
 def test_no_fixed_name_has_the_form_of_those_that_are_made() -> None:
-    """What `made_name` returns ends in one underscore; no identifier of the engine and of the templates does."""
+    """What `make_identifier` returns ends in one underscore; no identifier of the engine and of the templates does."""
     templates = [
         one.read_text(encoding="utf-8")
         for one in resources.files("gudgeon.templates").joinpath("c").iterdir()
         if one.name.endswith(".jinja")
     ]
-    code = [re.sub(r"/\*.*?\*/|\w+##\w*", " ", text, flags=re.S) for text in (*engine_files().values(), *templates)]
+    code = [
+        re.sub(r"/\*.*?\*/|\w+##\w*", " ", text, flags=re.S) for text in (*read_engine_files().values(), *templates)
+    ]
     words = {word for text in code for word in re.findall(r"\b[A-Za-z]\w*", text)}
-    assert not [word for word in words if made_name(word) == word]
+    assert not [word for word in words if make_identifier(word) == word]
     for expected in ("k", "k_", "A.x", "a__b", "é"):
-        assert re.fullmatch(r"[A-Za-zé0-9]+(_[A-Za-z0-9]+)*_", made_name(expected))
+        assert re.fullmatch(r"[A-Za-zé0-9]+(_[A-Za-z0-9]+)*_", make_identifier(expected))
 
 
 @pytest.mark.parametrize("seed", slow_but([0], range(40)))
@@ -174,7 +179,7 @@ def test_series_under_names_of_emitted_code(seed: int, tmp_path: Path) -> None:
 def test_javascript_under_names_of_emitted_code(seed: int, tmp_path: Path) -> None:
     hostile, found = drawn(seed), []
     for names in ([f"q{k:03}z" for k in range(len(hostile))], hostile):
-        script = equations_script(make_program(derive(smooth(names), "f", "swing")))
+        script = print_equations_script(make_program(derive_scene(smooth(names), "f", "swing")))
         (tmp_path / "ask.js").write_text(ASKED.replace("SCRIPT", script), encoding="utf-8")
         done = subprocess.run([str(node()), str(tmp_path / "ask.js")], capture_output=True, text=True, timeout=60)
         assert done.returncode == 0, done.stderr

@@ -25,7 +25,7 @@ from gudgeon.generator.pipeline import generate
 from gudgeon.language.functions import FUNCTIONS
 from gudgeon.language.names import RESERVED, WORDS, YAML_NULL, check_name
 from gudgeon.loading.compiler import find_compiler
-from gudgeon.loading.engine import engine_files, include_flags
+from gudgeon.loading.engine import build_include_flags, read_engine_files
 from tests.slow import slow_but
 
 VALID = Path(__file__).resolve().parents[1] / "mechanisms" / "valid"
@@ -89,7 +89,7 @@ def check_c(source: KernelSource, folder: Path) -> None:
     units = "".join(f'#include "{name}"\n' for name in (source.main, "engine/engine.c"))
     (folder / "names.c").write_text(INCLUDES + units, encoding="utf-8")
     flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", f"-I{sysconfig.get_paths()['include']}"]
-    command = [*find_compiler(), *flags, *include_flags(), "names.c"]
+    command = [*find_compiler(), *flags, *build_include_flags(), "names.c"]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     errors = [line for line in done.stderr.splitlines() if "error:" in line]
     assert done.returncode == 0, "\n".join(errors[:20])
@@ -101,7 +101,7 @@ def vocabulary() -> frozenset[str]:
     scenes = [("slider_crank", "oiled"), ("slider_crank", "ideal"), ("double_pendulum", "dry"), ("every_kind", "ideal")]
     sources = [generate((VALID / f"{f}.yaml").read_bytes(), "f", scene) for f, scene in scenes]
     texts = [text for source in sources for name, text in source.files.items() if name.endswith((".c", ".h"))]
-    texts += engine_files().values()
+    texts += read_engine_files().values()
     words = re.findall(r"[A-Za-z]\w*", re.sub(r"/\*.*?\*/", " ", "\n".join(texts), flags=re.S))
     return frozenset(filter(accepted, words))
 

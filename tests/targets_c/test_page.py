@@ -21,10 +21,10 @@ from gudgeon.generator.pipeline import generate
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.targets import line_breaks
 from gudgeon.generator.targets.c import printer
-from gudgeon.generator.targets.c.model_header import unit_text
-from gudgeon.generator.targets.c.printer import WIDTH, broken, within
+from gudgeon.generator.targets.c.model_header import format_unit
+from gudgeon.generator.targets.c.printer import WIDTH, break_code, wrap_file
 from gudgeon.language import units
-from gudgeon.loading.shipped import committed
+from gudgeon.loading.shipped import read_committed_source
 from tests.slow import slow_but
 
 SHIPPED = Path(str(resources.files("gudgeon.mechanisms")))
@@ -62,7 +62,7 @@ IN_KERNELS = {
 def emitted(name: str, scene: str) -> KernelSource:
     """A shipped one as it is committed: tests/test_generated.py says that it is what is generated."""
     data = FILES[name].read_bytes()
-    return committed(name, scene, sha256(data).hexdigest()) or generate(data, name, scene)
+    return read_committed_source(name, scene, sha256(data).hexdigest()) or generate(data, name, scene)
 
 
 def c_files(name: str, scene: str) -> dict[str, str]:
@@ -144,7 +144,7 @@ def test_units_as_people_write_them(name: str, unit: str) -> None:
     ],
 )
 def test_units_of_every_kind(of: units.Dimension, unit: str) -> None:
-    assert unit_text(of) == unit
+    assert format_unit(of) == unit
 
 
 def test_a_law_says_the_unit_that_hangs_on_an_exponent() -> None:
@@ -169,18 +169,18 @@ def test_a_law_says_the_unit_that_hangs_on_an_exponent() -> None:
 def test_pi_by_name_to_the_bit(number: float, text: str) -> None:
     """And in a product as one number."""
     x, one = sp.Symbol("x"), sp.Float(number, 17)
-    assert printer.expression(one) == text
+    assert printer.print_expression(one) == text
     assert float(eval(text, {"PI": math.pi})) == number
-    product = printer.expression(one * x)
+    product = printer.print_expression(one * x)
     sign, size = ("-" if number < 0 else ""), text.removeprefix("-")
     assert product == f"{sign}({size})*x" if "/" in text or "*" in text else f"{text}*x"
     assert eval(product, {"PI": math.pi, "x": 0.7}) == number * 0.7
-    assert eval(printer.expression(x + one), {"PI": math.pi, "x": 0.7}) == 0.7 + number
+    assert eval(printer.print_expression(x + one), {"PI": math.pi, "x": 0.7}) == 0.7 + number
 
 
 def test_a_ratio_of_pi_is_one_number() -> None:
-    assert printer.expression(sp.pi / 2) == "PI/2.0" and printer.expression(-3 * sp.pi / 4) == "-3.0*PI/4.0"
-    with_x = printer.expression(sp.pi * sp.Symbol("x") / 2)
+    assert printer.print_expression(sp.pi / 2) == "PI/2.0" and printer.print_expression(-3 * sp.pi / 4) == "-3.0*PI/4.0"
+    with_x = printer.print_expression(sp.pi * sp.Symbol("x") / 2)
     assert eval(with_x, {"PI": math.pi, "x": 0.7}) == 0.5 * math.pi * 0.7
 
 
@@ -272,17 +272,17 @@ def readme_names_every_file(name: str, scene: str) -> None:
 
 def test_long_lines_are_broken_where_the_fewest_brackets_are_open() -> None:
     line = "    x = " + " + ".join(f"a{k}*(b{k} - c{k})" for k in range(12)) + ";"
-    lines = broken(line)
+    lines = break_code(line)
     assert max(map(len, lines)) <= WIDTH and all(part.startswith("        + ") for part in lines[1:])
     assert "".join(part.strip() + " " for part in lines).split() == line.split()
     number = f"    y = a*{'9' * 150}.0*(b + c);"
-    assert "".join(broken(number)).replace(" ", "") == number.replace(" ", "")
+    assert "".join(break_code(number)).replace(" ", "") == number.replace(" ", "")
 
 
 def test_comments_are_wrapped_and_code_in_front_of_them_is_not() -> None:
     words = "word " * 40
     text = f"/*\n * {words}\n */\nint a;  /* {words}*/\n    * 1{'0' * 150}.0;\n"
-    fitted = within(text)
+    fitted = wrap_file(text)
     assert re.sub(r"[\s*]", "", fitted).count("word") == 80 and f"    * 1{'0' * 150}.0;\n" in fitted
     assert [line for line in fitted.split("\n") if len(line) > WIDTH] == [f"    * 1{'0' * 150}.0;"]
 
@@ -299,5 +299,5 @@ def test_a_line_of_a_megabyte_is_read_a_few_times_over(monkeypatch: pytest.Monke
 
     monkeypatch.setattr(line_breaks, "_find_possible_breaks", counted)
     terms = 100_000
-    lines = broken("    y = " + " + ".join(f"x_{k}" for k in range(terms)) + ";")
+    lines = break_code("    y = " + " + ".join(f"x_{k}" for k in range(terms)) + ";")
     assert max(map(len, lines)) <= WIDTH and looked < 3 * terms

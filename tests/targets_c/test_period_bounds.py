@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gudgeon.loading.compiler import find_compiler
-from gudgeon.loading.engine import include_flags
+from gudgeon.loading.engine import build_include_flags
 
 _TEXT = """#include <float.h>
 #include <math.h>
@@ -32,7 +32,7 @@ PERIODS = 2.0  # in place of a side: the function that tells sides
 def library(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     folder = tmp_path_factory.mktemp("periods")
     (folder / "m.c").write_text(_TEXT)
-    line = [*find_compiler(), "-O1", "-std=c11", "-fPIC", "-shared", *include_flags(), "m.c", "-lm", "-o", "m.so"]
+    line = [*find_compiler(), "-O1", "-std=c11", "-fPIC", "-shared", *build_include_flags(), "m.c", "-lm", "-o", "m.so"]
     subprocess.run(line, cwd=folder, check=True)
     found = ctypes.CDLL(str(folder / "m.so"))
     found.value.restype, found.value.argtypes = ctypes.c_double, [ctypes.c_double] * 3

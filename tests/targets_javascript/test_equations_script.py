@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.generator.pipeline import derive
-from gudgeon.generator.targets.javascript.module import equations_script
-from gudgeon.generator.targets.latex.trace import trace
-from gudgeon.loading.find import find_mechanism
+from gudgeon.generator.pipeline import derive_scene
+from gudgeon.generator.targets.javascript.module import print_equations_script
+from gudgeon.generator.targets.latex.trace import make_trace
+from gudgeon.loading.kernel_sources import find_mechanism
 from gudgeon.model.evaluation import CLEARANCE_COLUMNS
 from tests.equations.models import random_state
 from tests.slow import slow_but
@@ -53,7 +53,7 @@ def test_values_are_those_of_the_compiled_scene(case: tuple[str, str], tmp_path:
     program, (mechanism, scene) = node(), case
     assert program
     file = find_mechanism(mechanism)
-    found = trace(derive(file.read_bytes(), str(file), scene))
+    found = make_trace(derive_scene(file.read_bytes(), str(file), scene))
     compiled = gudgeon.load(mechanism, scene).compiled
     source = compiled.source
     p = compiled.prepare(np.zeros(len(source.slots)), np.zeros(len(source.slots), dtype=bool))
@@ -62,7 +62,7 @@ def test_values_are_those_of_the_compiled_scene(case: tuple[str, str], tmp_path:
     states = [random_state(found.model, seed) for seed in range(4)]
     given = [{"t": t, "q": q.tolist(), "v": v.tolist(), "p": p.tolist()} for t, q, v in states]
     gaps = [f"clearance_{joint.name}_.{of}" for joint in found.model.clearances for of in ("delta", "deltadot")]
-    script = ASKED % (equations_script(found.program), json.dumps(given), json.dumps(gaps))
+    script = ASKED % (print_equations_script(found.program), json.dumps(given), json.dumps(gaps))
     (tmp_path / "ask.js").write_text(script, encoding="utf-8")
     done = subprocess.run([program, str(tmp_path / "ask.js"), str(LIVE)], capture_output=True, text=True, timeout=60)
     assert done.returncode == 0, done.stderr

@@ -5,8 +5,8 @@ from __future__ import annotations
 import subprocess
 
 from gudgeon.generator.kernels.program import make_program
-from gudgeon.generator.pipeline import derive
-from gudgeon.generator.targets.javascript.module import equations_script
+from gudgeon.generator.pipeline import derive_scene
+from gudgeon.generator.targets.javascript.module import print_equations_script
 from tests.web.node import needs_node, node
 
 TEXT = b"""
@@ -20,6 +20,6 @@ joints: {pin: {revolute: [ground.O, disc.origin]}}
 
 @needs_node
 def test_equations_are_a_script() -> None:
-    text = equations_script(make_program(derive(TEXT, "disc.yaml", "ideal")))
+    text = print_equations_script(make_program(derive_scene(TEXT, "disc.yaml", "ideal")))
     done = subprocess.run([node() or "", "--check", "-"], input=text, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr

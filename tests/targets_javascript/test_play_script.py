@@ -14,10 +14,10 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.generator.pipeline import derive
-from gudgeon.generator.targets.javascript.module import equations_script
-from gudgeon.generator.targets.latex.trace import Trace, trace
-from gudgeon.loading.find import find_mechanism
+from gudgeon.generator.pipeline import derive_scene
+from gudgeon.generator.targets.javascript.module import print_equations_script
+from gudgeon.generator.targets.latex.trace import Trace, make_trace
+from gudgeon.loading.kernel_sources import find_mechanism
 from gudgeon.model.evaluation import CLEARANCE_COLUMNS
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
@@ -92,9 +92,9 @@ class Case:
 def derived(scene: str, folder: Path) -> tuple[Simulation, Trace]:
     if scene in OWN:
         simulation = loader(folder)(OWN[scene], scene)
-        return simulation, trace(simulation.model)
+        return simulation, make_trace(simulation.model)
     file = find_mechanism("nine_bar_press")
-    return gudgeon.load("nine_bar_press", scene), trace(derive(file.read_bytes(), str(file), scene))
+    return gudgeon.load("nine_bar_press", scene), make_trace(derive_scene(file.read_bytes(), str(file), scene))
 
 
 @pytest.fixture(scope="module", params=SCENES)
@@ -119,7 +119,7 @@ def case(request: Any, tmp_path_factory: pytest.TempPathFactory) -> Case:
         for a, b, m in zip(q.tolist(), v.tolist(), memory.tolist(), strict=True)
     ]
     names = sorted(set(found.values["clearance.c"].values()))
-    script = ASKED % (equations_script(found.program), *map(json.dumps, (states, joints, names)))
+    script = ASKED % (print_equations_script(found.program), *map(json.dumps, (states, joints, names)))
     (folder / "ask.js").write_text(script, encoding="utf-8")
     program = node()
     assert program
@@ -130,7 +130,7 @@ def case(request: Any, tmp_path_factory: pytest.TempPathFactory) -> Case:
 
 def forces(case: Case, joint: str, message: dict[str, Any]) -> tuple[float, float]:
     """Along n and t, from the lines that say so last."""
-    pin = next(pin for pin in case.found.program.pins if pin.clearance.label == joint)
+    pin = next(pin for pin in case.found.program.joints if pin.clearance.label == joint)
     along = {role: f"law.{part}_{joint}_.F_{of}" for role, part, of in (("normal", "dry", "n"), ("film", "film", "r"))}
     blended = message.get(f"law.clearance_{joint}_.F.n")
     if blended is not None:
@@ -160,7 +160,7 @@ def test_forces_are_those_of_the_compiled_scene(case: Case) -> None:
             assert (slip or 0.0) == pytest.approx(want["vt"][k], rel=1e-9, abs=1e-12)
             closed = bool(np.isfinite(case.memory[k, list(case.columns).index(joint)]))
             met.add((slip is not None, closed, message.get(f"law.clearance_{joint}_.F.n") is not None))
-    has_transition = any(pin.has_transition for pin in case.found.program.pins)
+    has_transition = any(pin.has_transition for pin in case.found.program.joints)
     assert {(False, False, False), (True, True, False), (True, False, False)} <= met
     assert has_transition == any(blended for _, _, blended in met)
 

@@ -15,10 +15,10 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.generator.pipeline import derive
-from gudgeon.generator.targets.javascript.module import equations_script
-from gudgeon.generator.targets.latex.trace import Trace, trace
-from gudgeon.loading.find import find_mechanism
+from gudgeon.generator.pipeline import derive_scene
+from gudgeon.generator.targets.javascript.module import print_equations_script
+from gudgeon.generator.targets.latex.trace import Trace, make_trace
+from gudgeon.loading.kernel_sources import find_mechanism
 from gudgeon.model.evaluation import Evaluation
 from gudgeon.results.results import Result
 from tests.programs import needs_compiler
@@ -75,7 +75,7 @@ class Asked:
             for t, at, v, memory, a in samples
         ]
         message = json.dumps(states).replace("null", "NaN")
-        script = ASKED % (equations_script(self.found.program), message, json.dumps(names))
+        script = ASKED % (print_equations_script(self.found.program), message, json.dumps(names))
         (self.folder / "ask.js").write_text(script, encoding="utf-8")
         line = [str(node()), str(self.folder / "ask.js"), str(LIVE)]
         done = subprocess.run(line, capture_output=True, text=True, timeout=60)
@@ -85,7 +85,7 @@ class Asked:
 
 def requested(mechanism: str, scene: str | None, t_end: float, folder: Path) -> Asked:
     simulation, file = gudgeon.load(mechanism, scene), find_mechanism(mechanism)
-    found = trace(derive(file.read_bytes(), str(file), simulation.source.scene))
+    found = make_trace(derive_scene(file.read_bytes(), str(file), simulation.source.scene))
     return Asked(found, simulation.simulate(t_end, output=40), folder)
 
 

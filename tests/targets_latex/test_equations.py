@@ -13,11 +13,11 @@ import sympy as sp
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kernels.program import make_program
-from gudgeon.generator.pipeline import derive
+from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.targets.latex import equations_text
-from gudgeon.generator.targets.latex.letters import Name, of_latex
+from gudgeon.generator.targets.latex.letters import Name, make_name
 from gudgeon.generator.targets.latex.notation import make_notation
-from gudgeon.generator.targets.latex.to_html import mathml
+from gudgeon.generator.targets.latex.to_html import convert_to_mathml
 from tests.equations.models import numeric, random_model, random_state
 from tests.slow import slow_but
 from tests.targets_latex.equations_reader import (
@@ -76,7 +76,7 @@ def model_of(which: str) -> Model:
     if name == "random":
         return random_model(int(scene))[1]
     text = {"press": PRESS, "slider": SLIDER, "zoo": ZOO}[name]
-    return derive(text.encode(), f"{name}.yaml", scene or "ideal")
+    return derive_scene(text.encode(), f"{name}.yaml", scene or "ideal")
 
 
 EVERY = ("press ideal", "press dry", "press lubricated", "slider ideal", "slider oiled", "zoo", *RANDOM)
@@ -188,7 +188,7 @@ def test_friction_read_back_is_the_models() -> None:
     model, (friction,) = model_of("zoo"), model_of("zoo").frictions
     t, q, v = random_state(model, 3)
     known = evaluate(read("zoo")["Force elements"], given_numbers("zoo", t, q, v))
-    explicit = model.symbols.explicit
+    explicit = model.symbols.expand_definitions
     columns = [explicit(sp.sympify(friction.jacobian.get(x, 0))) for x in model.q]
     J = numeric(model, sp.Matrix([columns]))(t, q, v)[0]
     slip, gamma = numeric(model, sp.Matrix([explicit(friction.slip.v), explicit(friction.gamma)]))(t, q, v)[:, 0]
@@ -201,7 +201,7 @@ def test_masses_of_shapes_follow_from_what_the_tables_say() -> None:
     """A density, whose a material is too, a thickness, widths and radii, lengths of sides."""
     text = (VALID / "shapes.yaml").read_text(encoding="utf-8").replace("density: 2700 kg/m^3", "material: alloy")
     text += "materials: {alloy: {E: 70 GPa, nu: 0.3, density: 2700 kg/m^3}}\n"
-    model = derive(text.encode(), "shapes.yaml", "ideal")
+    model = derive_scene(text.encode(), "shapes.yaml", "ideal")
     lines = sections(equations_text(model))["Bodies"]
     known = numbers(lines)
     of_rows = [cell.split(" = ") for row in rows(lines) for cell in row]
@@ -216,7 +216,7 @@ def test_masses_of_shapes_follow_from_what_the_tables_say() -> None:
 def test_a_number_is_a_joints_own_by_what_it_is_and_not_by_its_name() -> None:
     """A joint called "inverse" does not take 1/M of a body; its own number is called after it."""
     text = SHIPPED.joinpath("pendulum.yaml").read_text(encoding="utf-8")
-    model = derive(text.replace("  rod: {distance", "  inverse: {distance").encode(), "pendulum.yaml", "ideal")
+    model = derive_scene(text.replace("  rod: {distance", "  inverse: {distance").encode(), "pendulum.yaml", "ideal")
     program = make_program(model, "full")  # which derives what the right-hand side needs
     names = {symbol.name: name.text for symbol, name in make_notation(program.model).names.items()}
     assert names["inverse_bob_mass_"] == "inverse_bob_mass"
@@ -234,11 +234,11 @@ def test_a_number_is_a_joints_own_by_what_it_is_and_not_by_its_name() -> None:
     ],
 )
 def test_letters_that_are_given_in_latex(latex: str, text: str) -> None:
-    assert of_latex(latex) == Name(latex, text)
+    assert make_name(latex) == Name(latex, text)
 
 
 def test_a_space_stands_between_a_function_and_what_it_is_of() -> None:
     """Not between it and its power."""
     pytest.importorskip("latex2mathml")
-    space, found = '<mspace width=".17em"/>', mathml(r"\sin{\theta} + \cos^{2}{x}")
+    space, found = '<mspace width=".17em"/>', convert_to_mathml(r"\sin{\theta} + \cos^{2}{x}")
     assert f"<mi>sin</mi>{space}<mi>θ</mi>" in found and f"<mi>cos</mi>{space}" not in found and found.count(space) == 1

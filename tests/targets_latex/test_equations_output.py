@@ -17,11 +17,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.pipeline import derive
+from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.targets.latex import equations_html, equations_tex, equations_text, pictures, plots
-from gudgeon.generator.targets.latex.letters import letter, of_latex, word
+from gudgeon.generator.targets.latex.letters import make_letter, make_name, make_word
 from gudgeon.generator.targets.latex.notation import make_notation
-from gudgeon.generator.targets.latex.render import _MATH, _SPECIAL, sketch_line, tex
+from gudgeon.generator.targets.latex.render import _MATH, _SPECIAL, escape_latex, escape_sketch_line
 from tests.slow import slow_but
 from tests.targets_latex.equations_reader import sections, width
 from tests.targets_latex.test_equations import EVERY, SLIDER, WITH_ROWS, model_of
@@ -49,7 +49,7 @@ def titled(model: Model, title: str) -> Model:
 
 
 def test_a_hostile_title_is_only_text() -> None:
-    model = titled(derive(PENDULUM, "pendulum.yaml", "ideal"), HOSTILE)
+    model = titled(derive_scene(PENDULUM, "pendulum.yaml", "ideal"), HOSTILE)
     source = equations_tex(model)
     assert r"\input" not in source and source.count(r"\end{document}") == 1
     (line,) = [line for line in source.splitlines() if line.startswith(r"{\Large")]
@@ -63,15 +63,17 @@ def test_a_hostile_title_is_only_text() -> None:
 @given(st.text(max_size=40))
 @settings(derandomize=True, max_examples=300, deadline=None)
 def test_any_text_becomes_harmless_latex(text: str) -> None:
-    assert SAFE.fullmatch(tex(text)), tex(text)
-    assert tex(text).isascii() and sketch_line(text).isascii()
+    assert SAFE.fullmatch(escape_latex(text)), escape_latex(text)
+    assert escape_latex(text).isascii() and escape_sketch_line(text).isascii()
 
 
 @pytest.mark.parametrize("sign", [*_SPECIAL, *_MATH])
 def test_every_sign_with_a_command_of_its_own(sign: str) -> None:
     """Random text meets few of them."""
-    assert SAFE.fullmatch(tex(sign)), tex(sign)
-    assert tex(sign) and tex(sign).isascii() and tex(f"a{sign}b") == f"a{tex(sign)}b"
+    assert SAFE.fullmatch(escape_latex(sign)), escape_latex(sign)
+    assert (
+        escape_latex(sign) and escape_latex(sign).isascii() and escape_latex(f"a{sign}b") == f"a{escape_latex(sign)}b"
+    )
 
 
 @given(st.text(alphabet=st.characters(min_codepoint=32, max_codepoint=126), max_size=40))
@@ -87,7 +89,7 @@ def test_ascii_is_kept_to_the_letter(text: str) -> None:
         "bar": "|",
         "quoteleft": "`",
     }
-    back = re.sub(r"\\text([a-z]+)\{\}|\\([{}$&#%_])", lambda m: names[m[1]] if m[1] else m[2], tex(text))
+    back = re.sub(r"\\text([a-z]+)\{\}|\\([{}$&#%_])", lambda m: names[m[1]] if m[1] else m[2], escape_latex(text))
     assert back == text.replace('"', "''")
 
 
@@ -134,16 +136,16 @@ def test_every_symbol_has_a_name_of_its_own(which: str) -> None:
 
 
 def test_letters() -> None:
-    assert letter("theta", "L7").latex == r"\theta_{\text{L7}}" and letter("theta", "L7").text == "θ_L7"
-    assert letter("x", "my_bar", dots=1).latex == r"\dot{x}_{\text{my\_bar}}"
-    assert [word(name).text for name in ("omega4", "l5", "v_max", "speed", "omega_in_2")] == [
+    assert make_letter("theta", "L7").latex == r"\theta_{\text{L7}}" and make_letter("theta", "L7").text == "θ_L7"
+    assert make_letter("x", "my_bar", dots=1).latex == r"\dot{x}_{\text{my\_bar}}"
+    assert [make_word(name).text for name in ("omega4", "l5", "v_max", "speed", "omega_in_2")] == [
         "ω_4",
         "l_5",
         "v_max",
         "speed",
         "ω_in_2",
     ]
-    assert [of_latex(sign).text for sign in ("c_e", r"\mu", r"\sigma_{0}", r"v_{\mathrm{s}}")] == [
+    assert [make_name(sign).text for sign in ("c_e", r"\mu", r"\sigma_{0}", r"v_{\mathrm{s}}")] == [
         "c_e",
         "μ",
         "σ_0",
@@ -154,14 +156,14 @@ def test_letters() -> None:
 def test_the_same_bytes_under_another_hash_seed() -> None:
     code = (
         "import hashlib\n"
-        "from gudgeon.generator.pipeline import derive\n"
+        "from gudgeon.generator.pipeline import derive_scene\n"
         "from gudgeon.generator.targets.latex import equations_tex, equations_text\n"
-        f"m = derive({BOB!r}.encode(), 'bob.yaml', 'lubricated')\n"
+        f"m = derive_scene({BOB!r}.encode(), 'bob.yaml', 'lubricated')\n"
         "print(hashlib.sha256((equations_tex(m) + equations_text(m)).encode()).hexdigest())"
     )
     env = {**os.environ, "PYTHONHASHSEED": "1"}
     other = subprocess.run([sys.executable, "-c", code], env=env, check=True, capture_output=True, text=True).stdout
-    model = derive(BOB.encode(), "bob.yaml", "lubricated")
+    model = derive_scene(BOB.encode(), "bob.yaml", "lubricated")
     assert other.strip() == hashlib.sha256((equations_tex(model) + equations_text(model)).encode()).hexdigest()
 
 
@@ -182,12 +184,14 @@ def test_html_tells_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setitem(sys.modules, "latex2mathml.converter", None)
     with pytest.raises(GudgeonError, match=r"gudgeon\[docs\]"):
-        equations_html(derive(PENDULUM, "pendulum.yaml", "ideal"))
+        equations_html(derive_scene(PENDULUM, "pendulum.yaml", "ideal"))
 
 
 def test_a_free_body_without_gravity() -> None:
     """No joint, no drive, no gravity, no parameter."""
-    model = derive(b"format: gudgeon/1\nname: stone\nbodies: {b: {mass: 1 kg, inertia: 1 kg*m^2}}\n", "s.yaml", "ideal")
+    model = derive_scene(
+        b"format: gudgeon/1\nname: stone\nbodies: {b: {mass: 1 kg, inertia: 1 kg*m^2}}\n", "s.yaml", "ideal"
+    )
     document = sections(equations_text(model))
     text = equations_text(model)
     assert "Constraints" not in document and "Jacobian" not in document and "Drives" not in document
@@ -197,16 +201,16 @@ def test_a_free_body_without_gravity() -> None:
 
 
 def test_without_gravity_nothing_of_it_is_shown() -> None:
-    text = equations_text(derive(SLIDER.replace("gravity: [0, -9.81 m/s^2]\n", "").encode(), "s.yaml", "ideal"))
+    text = equations_text(derive_scene(SLIDER.replace("gravity: [0, -9.81 m/s^2]\n", "").encode(), "s.yaml", "ideal"))
     assert "g_y" not in text and "9.81" not in text and "No gravity" in text
 
 
 @pytest.mark.parametrize("name", FILES)
 def test_every_shipped_mechanism_and_scene(name: str) -> None:
     data = SHIPPED.joinpath(name).read_bytes()
-    first = derive(data, name, "ideal")
+    first = derive_scene(data, name, "ideal")
     for scene in first.scene.mechanism.scenes:
-        model = derive(data, name, scene)
+        model = derive_scene(data, name, scene)
         assert equations_text(model).count("Φ_1 = ") == bool(model.rows)
         check_latex(equations_tex(model))
 
@@ -221,7 +225,7 @@ joints: {g: {translational: [ground.o, a.origin], axis: [1, 0]}}
 drives: {d: {coordinate: a.x, value: 1 m/(1 + exp(5000 - 10000*t/(1 s)))}}
 forces: {f: {force: a.origin, value: ["1 N*(0.01*a.x/(1 m))**161", 0]}}
 """
-    model = derive(text.encode(), "f", "ideal")
+    model = derive_scene(text.encode(), "f", "ideal")
     source, plain = equations_tex(model), equations_text(model)
     assert r"\left(0.01 \, x_{\text{a}}\right)^{161}" in source and "= (0.01·x_a)^161" in plain
     assert "10000·exp(5000 - 10000·t)/(exp(5000 - 10000·t) + 1)^2" in plain
@@ -230,7 +234,7 @@ forces: {f: {force: a.origin, value: ["1 N*(0.01*a.x/(1 m))**161", 0]}}
 
 def test_small_matrices_are_large_enough_for_their_names() -> None:
     """The fewer columns, the larger an entry; never smaller than before."""
-    sides = [pictures.cell_side(columns, pictures.SMALL) for columns in (3, 9, 30, 150)]
+    sides = [pictures.compute_cell_side(columns, pictures.SMALL) for columns in (3, 9, 30, 150)]
     assert sides == sorted(sides, reverse=True) and sides[1] == pictures.LARGE and sides[-1] == pictures.SMALL
 
 
@@ -238,6 +242,6 @@ def test_axes_of_laws_have_units_that_suit_their_range() -> None:
     """1e-05 m is 10 µm, 4200 N are 4.2 kN; a letter's index is lowered, markup stays text."""
     curve = plots.Curve(np.array([0.0, 4200.0]), "F_n < 1")
     plot = plots.Plot(np.array([0.0, 1e-5]), (curve,), ("δ", "m"), ("F_n", "N"), ("clearance", "delta"), "")
-    shown = plots.drawn(plot, {})
+    shown = plots.print_plot_svg(plot, {})
     assert ">δ [µm]<" in shown and ">10<" in shown and ">4.2<" in shown and "[kN]" in shown and "e-05" not in shown
     assert "F_n<" not in shown and 'F<tspan class="small" dy="3">n</tspan>' in shown and "&lt; 1" in shown

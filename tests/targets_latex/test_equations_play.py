@@ -10,8 +10,8 @@ import pytest
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.field import NUMBER, Field
-from gudgeon.generator.kinds.laws.law import RESULTS, Law, called, laws
-from gudgeon.generator.pipeline import derive, in_c
+from gudgeon.generator.kinds.laws.law import RESULTS, Law, find_all_laws, find_laws_of_role
+from gudgeon.generator.pipeline import derive_scene, generate_c
 from gudgeon.generator.targets.latex import equations_tex, equations_text
 from gudgeon.loading.build import compile_kernels
 from gudgeon.model.compiled import CompiledModel
@@ -65,7 +65,7 @@ def changed(variant: str) -> str:
 
 @cache
 def model_of(variant: str, scene: str) -> Model:
-    return derive(changed(variant).encode(), "press.yaml", scene)
+    return derive_scene(changed(variant).encode(), "press.yaml", scene)
 
 
 @cache
@@ -80,7 +80,7 @@ def read(variant: str, scene: str) -> dict[str, list[str]]:
 
 @cache
 def library_of(variant: str, scene: str) -> tuple[CompiledModel, np.ndarray]:
-    source = in_c(model_of(variant, scene))
+    source = generate_c(model_of(variant, scene))
     library = CompiledModel(source, compile_kernels(source))
     return library, library.prepare(np.zeros(len(source.slots)), np.zeros(len(source.slots), dtype=bool))
 
@@ -153,7 +153,7 @@ def test_what_is_read_is_what_is_computed(case: tuple[str, str]) -> None:
 def test_the_printed_sign_is_shown() -> None:
     """Parting surfaces: the paper's sign pushes where the film pulls; approaching ones do not differ."""
     right, printed = (
-        sections(equations_text(derive(BOB.replace(FILM, film).encode(), "bob.yaml", "lubricated")))
+        sections(equations_text(derive_scene(BOB.replace(FILM, film).encode(), "bob.yaml", "lubricated")))
         for film in (FILM, FILM[:-1] + ", as_printed: true}")
     )
     text = [" ".join(document["Joint A: film"]) for document in (right, printed)]
@@ -185,13 +185,13 @@ def test_a_dry_scene_shows_no_film() -> None:
 
 
 def test_every_number_of_a_law_is_in_its_table() -> None:
-    model = derive(BOB.encode(), "bob.yaml", "lubricated")
+    model = derive_scene(BOB.encode(), "bob.yaml", "lubricated")
     lines = sections(equations_text(model))["Joint A: numbers"]
     shown = {cells[2]: cells for cells in rows(lines) if len(cells) == 5}
     play = model.scene.play["A"]
     for use in (play.contact.normal, play.contact.friction, play.contact.film):
         assert use is not None
-        for parameter in laws()[use.law].parameters:
+        for parameter in find_all_laws()[use.law].parameters:
             letter, meaning, *_ = shown.pop(use.quantities[parameter.name].address)
             assert letter == parameter.symbol.replace(r"\mu", "μ") and meaning == parameter.meaning
     roles = ("bearing_material.E", "journal_material.nu", "radius")
@@ -201,7 +201,7 @@ def test_every_number_of_a_law_is_in_its_table() -> None:
 
 def uses() -> list[tuple[str, bool]]:
     """Every law by every name that it has; those with a number that they can do without, with it and without."""
-    found = [(name, law.fields_as(name)) for role in RESULTS for name, law in called(role).items()]
+    found = [(name, law.fields_as(name)) for role in RESULTS for name, law in find_laws_of_role(role).items()]
     return [(name, left) for name, fields in found for left in sorted({False, any(map(may_lack, fields))})]
 
 
@@ -210,7 +210,7 @@ def may_lack(own: Field) -> bool:
 
 
 def bob_with(name: str, left_out: bool) -> tuple[Law, Model]:
-    law = next(some[name] for role in RESULTS if name in (some := called(role)))
+    law = next(some[name] for role in RESULTS if name in (some := find_laws_of_role(role)))
     needed = [own for own in law.fields_as(name) if own.kind == NUMBER and own.default is None]
     kept = [(k, own) for k, own in enumerate(needed) if not (left_out and may_lack(own))]
     given = [f"{own.name}: {'1 N/m * delta' if own.varies else f'{(k + 1) * 0.1:.1f}'}" for k, own in kept]
@@ -221,7 +221,7 @@ def bob_with(name: str, left_out: bool) -> tuple[Law, Model]:
     film, transition = f"    film: {FILM}\n", "    transition: 5 um\n"
     for other in {"normal": (FRICTION, film, transition), "friction": (film, transition)}.get(law.role, (FRICTION,)):
         text = text.replace(other, "")  # which it does not need
-    return law, derive(text.encode(), "bob.yaml", "lubricated")
+    return law, derive_scene(text.encode(), "bob.yaml", "lubricated")
 
 
 @pytest.mark.parametrize(("name", "left_out"), uses())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gudgeon.generator.pipeline import derive
+from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.targets.latex import equations_tex, equations_text
 
 TEXT = b"""
@@ -16,6 +16,6 @@ joints: {pin: {revolute: [ground.O, disc.origin]}}
 
 
 def test_a_document_has_its_title() -> None:
-    model = derive(TEXT, "disc.yaml", "ideal")
+    model = derive_scene(TEXT, "disc.yaml", "ideal")
     for document in (equations_text(model), equations_tex(model)):
         assert "A disc on a pin" in document

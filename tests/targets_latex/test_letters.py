@@ -8,10 +8,10 @@ from functools import cache
 import pytest
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.pipeline import derive
+from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.targets.latex import equations_html, equations_tex, equations_text
-from gudgeon.generator.targets.latex.theory import letters_of
-from gudgeon.teaching.notebook import notebook
+from gudgeon.generator.targets.latex.theory import find_letters
+from gudgeon.teaching.notebook import write_notebook
 from tests.slow import slow_but
 from tests.targets_latex.equations_reader import NAME, rows, sections
 from tests.targets_latex.test_equations import SLIDER, model_of
@@ -76,7 +76,7 @@ PRIMED = {"ideal": ALWAYS, "dry": ALWAYS | OF_PLAY, "oiled": ALWAYS | OF_PLAY | 
 def clash(scene: str, twin: bool = False) -> Model:
     """The scene; its twin has parameters of which no document speaks."""
     called = {name: f"zz{chr(97 + k // 26)}{chr(97 + k % 26)}" if twin else name for k, name in enumerate(NAMES)}
-    return derive(re.sub(r"<(\w+)>", lambda m: called[m[1]], FILE).encode(), "clash.yaml", scene)
+    return derive_scene(re.sub(r"<(\w+)>", lambda m: called[m[1]], FILE).encode(), "clash.yaml", scene)
 
 
 @pytest.mark.parametrize("scene", slow_but(["ideal", "oiled"], PRIMED))
@@ -95,9 +95,9 @@ def test_no_parameter_has_a_letter_of_the_document(scene: str) -> None:
 def test_every_target_tells_of_its_primes() -> None:
     model, message = clash("dry"), "tells apart what would have the letter of something else"
     pytest.importorskip("latex2mathml")
-    for text in (equations_tex(model), equations_html(model), notebook(model, "clash.yaml")):
+    for text in (equations_tex(model), equations_html(model), write_notebook(model, "clash.yaml")):
         assert " ".join(text.split()).count(message) == 1
-    assert "{\\\\gamma}'" in notebook(model, "clash.yaml")
+    assert "{\\\\gamma}'" in write_notebook(model, "clash.yaml")
     assert r"${\Phi_{1}}'$ & parameters.Phi\_1" in equations_tex(model)
 
 
@@ -106,10 +106,10 @@ def test_a_file_whose_letters_are_its_own_is_told_of_none() -> None:
     assert "Letters" not in sections(equations_text(model_of("press ideal")))
     dry = sections(equations_text(model_of("press dry")))
     assert [cells[:3] for cells in rows(dry["Letters"])][2:] == [["c'", "parameters.c", "c"]]
-    assert "Letters" not in sections(equations_text(derive(SLIDER.encode(), "slider.yaml", "ideal")))
+    assert "Letters" not in sections(equations_text(derive_scene(SLIDER.encode(), "slider.yaml", "ideal")))
 
 
 def test_letters_of_a_sketch() -> None:
     """Words, initials, articles and corners of a drawing are none; what has a dot is told without it too."""
     lines = ["A force at a point  o--[=--o Q   F = k (l − l_0) + d l̇²", "L. C. Bo, ‖r_P‖ sgn v/v_s"]
-    assert set(letters_of(lines)) == {"Q", "F", "k", "l", "l_0", "d", "l\u0307", "r_P", "v", "v_s"}
+    assert set(find_letters(lines)) == {"Q", "F", "k", "l", "l_0", "d", "l\u0307", "r_P", "v", "v_s"}

@@ -22,9 +22,9 @@ import pytest
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.pipeline import derive, in_c
+from gudgeon.generator.pipeline import derive_scene, generate_c
 from gudgeon.generator.targets.latex import equations_html
-from gudgeon.generator.targets.latex.trace import Trace, trace, yaml_tokens
+from gudgeon.generator.targets.latex.trace import Trace, list_yaml_tokens, make_trace
 from tests.equations.models import random_state
 from tests.slow import slow_but
 from tests.web.node import browser
@@ -45,12 +45,12 @@ FUNCTIONS: dict[str, Any] = {
 
 @cache
 def model_of(scene: str) -> Model:
-    return derive(FILE.read_bytes(), str(FILE), scene)
+    return derive_scene(FILE.read_bytes(), str(FILE), scene)
 
 
 @cache
 def traced(scene: str) -> Trace:
-    return trace(model_of(scene))
+    return make_trace(model_of(scene))
 
 
 @cache
@@ -160,7 +160,10 @@ def test_lit_lines_of_the_textbooks_function(scene: str) -> None:
         name = row.name.replace(".", "_")
         alone = run(own, lit, state)
         assert {f"phi_{name}_", f"phi_dot_{name}_", f"rhs_{name}_"} <= set(alone)
-        numbers = {s: state["p"][found.model.slots.field(s)] for s in found.model.slots.members()}
+        numbers = {
+            s: state["p"][found.model.parameter_table.find_field_name(s)]
+            for s in found.model.parameter_table.list_symbols()
+        }
         at = {**dict(zip(found.model.q, state["q"], strict=True)), **numbers, found.model.t: state["t"]}
         explicit = found.model.symbols.definitions
         value = row.phi
@@ -171,14 +174,14 @@ def test_lit_lines_of_the_textbooks_function(scene: str) -> None:
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_names_and_numbers_are_those_of_the_scene_that_runs(scene: str) -> None:
-    source: KernelSource = in_c(derive(FILE.read_bytes(), str(FILE), scene))
+    source: KernelSource = generate_c(derive_scene(FILE.read_bytes(), str(FILE), scene))
     assert traced(scene).source == replace(source, reference={})
 
 
 def test_lines_of_the_file() -> None:
     """A number's line lights what hangs on it, a joint's its rows: told by hand for the press."""
     found, text = traced("lubricated"), FILE.read_text(encoding="utf-8").splitlines()
-    tokens = yaml_tokens(found.model, found)
+    tokens = list_yaml_tokens(found.model, found)
 
     def line(start: str) -> frozenset[str]:
         (number,) = [k for k, own in enumerate(text, 1) if own.strip().startswith(start)]
@@ -302,7 +305,7 @@ def test_light_in_a_browser(tmp_path: Path) -> None:
         }
         own = {
             f"{FILE.name}:{line}"
-            for line, of in yaml_tokens(found.model, found).items()
+            for line, of in list_yaml_tokens(found.model, found).items()
             if row in of or any(token.startswith(f"entry-{k}-") for token in of)
         }
         assert {one for one in message[row] if FILE.name not in one} == expected and own <= set(message[row])

@@ -12,12 +12,12 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import ArrayError, BadValueError, UnitError, UnknownNameError
-from gudgeon.generator.kernels.closed_linkage import row_kernels
-from gudgeon.generator.pipeline import derive
+from gudgeon.generator.kernels.closed_linkage import make_row_kernels
+from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.targets.latex.write import equations_text
 from gudgeon.generator.targets.numpy import printer
-from gudgeon.loading.shipped import generated, shipped_file
+from gudgeon.loading.shipped import find_shipped_file, list_generated
 from gudgeon.simulation.simulation import Simulation
 from tests.oracles.linkage_yaml import to_yaml
 from tests.oracles.random_linkage import random_case
@@ -27,8 +27,8 @@ from tests.slow import slow_but
 pytestmark = needs_compiler
 SCENES = [
     (name, scene)
-    for name in generated()
-    for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
+    for name in list_generated()
+    for scene in read_mechanism(find_shipped_file(name).read_bytes(), name, None).scenes
 ]
 
 
@@ -69,8 +69,8 @@ def check(simulation: Simulation) -> None:
     model, c, p = simulation.model.numpy(), simulation.compiled, simulation.p
     joints, frictions = len(simulation.source.clearances), len(simulation.source.frictions)
     numbers = model.prepare()
-    slots = model.model.slots
-    names = [slots.field(slots.entries[slot.address].symbol) for slot in simulation.source.slots]
+    slots = model.model.parameter_table
+    names = [slots.find_field_name(slots.entries[slot.address].symbol) for slot in simulation.source.slots]
     in_c = dict(zip([*names, *(f"{name}_" for name in simulation.source.derived)], p.tolist(), strict=True))
     shared = [name for name in vars(numbers) if name in in_c]
     assert set(names) <= set(shared)
@@ -101,8 +101,8 @@ def test_random_linkages(seed: int, tmp_path: Path) -> None:
 
 def test_a_number_that_is_given() -> None:
     model = load("pendulum", "ideal").model.numpy()
-    address = next(iter(model.model.slots.entries))
-    name = printer.name(model.model.slots.entries[address].symbol.name)
+    address = next(iter(model.model.parameter_table.entries))
+    name = printer.print_name(model.model.parameter_table.entries[address].symbol.name)
     assert getattr(model.prepare({address: 0.125}), name) == 0.125 != getattr(model.prepare(), name)
 
 
@@ -128,7 +128,7 @@ def test_a_stiffness_is_given_in_its_unit() -> None:
     """The file writes a bare number: what its unit is the law's exponent says."""
     model = load("bouncing_ball", "damped").model.numpy()
     address = "contacts.damped.normal.stiffness"
-    name = printer.name(model.model.slots.entries[address].symbol.name)
+    name = printer.print_name(model.model.parameter_table.entries[address].symbol.name)
     assert getattr(model.prepare({address: "1e5 N/mm^1.5"}), name) == pytest.approx(1e5 * 1000**1.5, rel=1e-15)
     with pytest.raises(UnitError, match=r"N/m\^1\.5"):
         model.prepare({address: "1e5 N/mm"})
@@ -194,24 +194,24 @@ def test_names_of_thresholds_and_pi() -> None:
 def test_long_lines_are_broken_within_brackets() -> None:
     value = " + ".join(f"a{k}*b{k}" for k in range(40))
     numbers = {f"{x}{k}": k + 1 for k in range(40) for x in "ab"}
-    call = printer.assigned("y", f"max({value}, {value})", is_call=True)
-    for lines in (printer.assigned("y", value), call, printer.assigned("y", value, "what it is")):
+    call = printer.print_assignment("y", f"max({value}, {value})", is_call=True)
+    for lines in (printer.print_assignment("y", value), call, printer.print_assignment("y", value, "what it is")):
         text = "\n".join(lines)
         assert max(map(len, lines)) <= printer.WIDTH - 12
         found = dict(numbers)
         exec(text, {"max": max}, found)
         assert found["y"] == sum((k + 1) ** 2 for k in range(40))
-    assert printer.assigned("y", "1", "what it is") == ["y = 1  # what it is"]
-    assert printer.docstring(['a "b" \\ c\nd']) == ['"""a \'b\' / c d"""']
+    assert printer.print_assignment("y", "1", "what it is") == ["y = 1  # what it is"]
+    assert printer.print_docstring(['a "b" \\ c\nd']) == ['"""a \'b\' / c d"""']
 
 
 def test_the_equations_can_still_be_read() -> None:
     """Functions are derived once, and documents after them are those before them."""
-    data = shipped_file("slider_crank").read_bytes()
-    first, second = (derive(data, "slider_crank.yaml", "dry") for _ in range(2))
+    data = find_shipped_file("slider_crank").read_bytes()
+    first, second = (derive_scene(data, "slider_crank.yaml", "dry") for _ in range(2))
     assert first.numpy() is first.numpy()
     assert equations_text(first) == equations_text(second)
-    assert len(row_kernels(second)) == 4
+    assert len(make_row_kernels(second)) == 4
 
 
 def test_what_a_condition_leaves_out_may_be_divided_by_zero(tmp_path: Path) -> None:

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from gudgeon.generator.pipeline import derive
+from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.targets.latex import equations_tex
-from gudgeon.loading.shipped import shipped_file
-from gudgeon.teaching.notebook import notebook
+from gudgeon.loading.shipped import find_shipped_file
+from gudgeon.teaching.notebook import write_notebook
 from tests.programs import missing, needs_compiler
 from tests.pump import Gudgeon
 from tests.slow import slow_but
@@ -41,7 +41,7 @@ SCENES = [LONG_TABLE, SMOOTH_STEP, ("four_bar", "ideal"), ("andrews_squeezer", "
 def test_equations(of: tuple[str, str], tmp_path: Path) -> None:
     """Neither a long table of numbers nor the second derivative of a smooth step runs off the page."""
     (name, scene), file = of, tmp_path / "equations.tex"
-    file.write_text(equations_tex(derive(shipped_file(name).read_bytes(), name, scene)), encoding="utf-8")
+    file.write_text(equations_tex(derive_scene(find_shipped_file(name).read_bytes(), name, scene)), encoding="utf-8")
     assert compiled(file) == ""
 
 
@@ -59,7 +59,7 @@ def test_exercises(name: str, call: Gudgeon, tmp_path: Path) -> None:
 def test_a_notebook_runs_in_a_kernel() -> None:
     nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
     pytest.importorskip("ipykernel")
-    text = notebook(derive(shipped_file("four_bar").read_bytes(), "x", "ideal"), "four_bar")
+    text = write_notebook(derive_scene(find_shipped_file("four_bar").read_bytes(), "x", "ideal"), "four_bar")
     document = nbformat.reads(text, as_version=4)
     nbformat.validate(document)
     done = nbclient.NotebookClient(document, timeout=120, kernel_name="python3").execute()

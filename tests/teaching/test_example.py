@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import gudgeon
-from gudgeon.teaching.draw_numbers import draw_numbers
+from gudgeon.teaching.draw_parameters import draw_parameters
 from tests.programs import needs_compiler
 
 pytestmark = [needs_compiler, pytest.mark.plain]
@@ -13,5 +13,5 @@ pytestmark = [needs_compiler, pytest.mark.plain]
 
 def test_a_seed_draws_the_same_numbers_again() -> None:
     simulation = gudgeon.load("four_bar")
-    first, again, other = (draw_numbers(simulation, seed, None) for seed in (3, 3, 4))
+    first, again, other = (draw_parameters(simulation, seed, None) for seed in (3, 3, 4))
     assert (first.p == again.p).all() and (first.p != other.p).any()

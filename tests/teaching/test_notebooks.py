@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.generator.pipeline import derive
-from gudgeon.loading.shipped import shipped_file
-from gudgeon.teaching.notebook import notebook
-from gudgeon.teaching.sympy_text import number_of_code
+from gudgeon.generator.pipeline import derive_scene
+from gudgeon.loading.shipped import find_shipped_file
+from gudgeon.teaching.notebook import write_notebook
+from gudgeon.teaching.sympy_text import format_number
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon, written
 from tests.teaching.test_sheets import PARALLEL, TURNING
@@ -43,8 +43,8 @@ def executed(text: str, capsys: pytest.CaptureFixture[str]) -> tuple[dict[str, A
     ],
 )
 def test_its_cells_run_and_agree(name: str, scene: str, capsys: pytest.CaptureFixture[str]) -> None:
-    model = derive(shipped_file(name).read_bytes(), name, scene)
-    names, printed = executed(notebook(model, name), capsys)
+    model = derive_scene(find_shipped_file(name).read_bytes(), name, scene)
+    names, printed = executed(write_notebook(model, name), capsys)
     assert isinstance(names["run"], gudgeon.Result)
     if model.rows:
         assert printed.count("apart at most") == 5
@@ -80,24 +80,26 @@ def test_it_is_a_notebook_and_always_the_same(call: Gudgeon, tmp_path: Path) -> 
 
 
 def test_angles_are_shares_of_pi() -> None:
-    assert [number_of_code(x) for x in (np.pi / 2, -np.pi, 3 * np.pi / 4, 1.5, 1.57)] == [
+    assert [format_number(x) for x in (np.pi / 2, -np.pi, 3 * np.pi / 4, 1.5, 1.57)] == [
         "sp.pi/2",
         "-sp.pi",
         "3*sp.pi/4",
         "1.5",
         "1.57",
     ]
-    text = notebook(derive(TURNING.encode(), "turning.yaml", "ideal"), "turning.yaml")
+    text = write_notebook(derive_scene(TURNING.encode(), "turning.yaml", "ideal"), "turning.yaml")
     assert "sp.pi/2" in text and "1.5707963" not in text
 
 
 def test_nbformat_takes_it() -> None:
     nbformat = pytest.importorskip("nbformat")
-    nbformat.validate(json.loads(notebook(derive(shipped_file("four_bar").read_bytes(), "x", "ideal"), "four_bar")))
+    nbformat.validate(
+        json.loads(write_notebook(derive_scene(find_shipped_file("four_bar").read_bytes(), "x", "ideal"), "four_bar"))
+    )
 
 
 def test_curves_are_refused(call: Gudgeon, tmp_path: Path) -> None:
-    text = shipped_file("scotch_yoke").read_text(encoding="utf-8")
+    text = find_shipped_file("scotch_yoke").read_text(encoding="utf-8")
     text = text.replace("value: omega * t", "value: lift(t)")
     text += "\ncurves:\n  lift: {points: [[0, 0], [1, 1], [2, 3]], x: s, y: rad, extrapolate: line}\n"
     (tmp_path / "cam.yaml").write_text(text, encoding="utf-8")

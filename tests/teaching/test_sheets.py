@@ -12,22 +12,22 @@ import pytest
 import sympy as sp
 
 import gudgeon
-from gudgeon.commands.exercise import make
+from gudgeon.commands.exercise import make_exercise
 from gudgeon.errors import BadValueError, Location, OutputError
-from gudgeon.generator.pipeline import derive
+from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.targets.latex import equations_tex, equations_text
 from gudgeon.generator.targets.latex.document import Document
-from gudgeon.generator.targets.latex.printers import number_text
-from gudgeon.generator.targets.latex.render import render
-from gudgeon.language.output_units import angle_power
+from gudgeon.generator.targets.latex.printers import format_number
+from gudgeon.generator.targets.latex.render import render_document
+from gudgeon.language.output_units import find_angle_power
 from gudgeon.language.parser import parse
-from gudgeon.loading.shipped import shipped_file
+from gudgeon.loading.shipped import find_shipped_file
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.teaching.draw_numbers import Drawn, draw_numbers
-from gudgeon.teaching.notebook import markdown
+from gudgeon.teaching.draw_parameters import ExerciseData, draw_parameters
+from gudgeon.teaching.notebook import format_document
 from gudgeon.teaching.questions import make_questions
 from gudgeon.teaching.sheet import Question, Subject, make_subject
-from gudgeon.web.numbers import groups
+from gudgeon.web.parameter_panel import build_parameter_sections
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon, written
 from tests.targets_latex.equations_reader import value
@@ -39,8 +39,8 @@ SCENES = [("four_bar", "ideal"), ("slider_crank", "dry"), ("scotch_yoke", "ideal
 @cache
 def subject(name: str, scene: str, seed: int = 3) -> Subject:
     simulation = gudgeon.load(name, scene)
-    drawn = draw_numbers(simulation, seed, None)
-    return make_subject(derive(shipped_file(name).read_bytes(), name, scene), simulation, drawn, seed)
+    drawn = draw_parameters(simulation, seed, None)
+    return make_subject(derive_scene(find_shipped_file(name).read_bytes(), name, scene), simulation, drawn, seed)
 
 
 @cache
@@ -50,7 +50,7 @@ def questions(name: str, scene: str, seed: int = 3) -> Mapping[str, Question]:
 
 def at(of: Subject, matrix: sp.Matrix) -> np.ndarray:
     """A matrix of q, q̇ and t as the sheet has them, by SymPy, with the numbers of the run."""
-    slots = {entry.symbol: of.drawn.p[k] for k, entry in enumerate(of.model.slots.entries.values())}
+    slots = {entry.symbol: of.drawn.p[k] for k, entry in enumerate(of.model.parameter_table.entries.values())}
     values = dict(zip((*of.model.q, *of.model.v), (*of.drawn.q, *of.drawn.v), strict=True)) | {of.model.t: of.drawn.t}
     return np.array(matrix.subs(slots | values).evalf(20), float)
 
@@ -58,7 +58,7 @@ def at(of: Subject, matrix: sp.Matrix) -> np.ndarray:
 def test_the_position_meets_the_rows_that_are_asked_for() -> None:
     """Whole turns too, which rows of drives and gears count: after 0.95 s the crank has begun another one."""
     simulation = gudgeon.load("four_bar", "ideal")
-    drawn = draw_numbers(simulation, 3, "0.95 s")
+    drawn = draw_parameters(simulation, 3, "0.95 s")
     crank = drawn.q[list(simulation.source.coordinates).index("crank.theta")]
     assert crank > np.pi
     size = np.ptp(drawn.q.reshape(-1, 3)[:, :2])
@@ -155,7 +155,7 @@ def test_dots_stand_over_the_letter_alone() -> None:
 )
 def test_numbers_without_what_a_sum_rounded(value: float, text: str) -> None:
     """Two units of the last digit at most; what differs by more is read back as it was."""
-    assert number_text(value) == text
+    assert format_number(value) == text
     assert abs(float(text) - value) <= 2.0 * np.spacing(abs(value))
 
 
@@ -190,8 +190,8 @@ start: {guess: {two.theta: 60 deg, three.theta: 60 deg, coupler.theta: 0}}
 
 def test_a_third_parallel_crank_is_one_too_many_for_gruebler(tmp_path: Path) -> None:
     (tmp_path / "parallel.yaml").write_text(PARALLEL, encoding="utf-8")
-    _, solved, _ = make(str(tmp_path / "parallel.yaml"), "ideal", 1, None)
-    shown = " ".join(render(solved, "txt").split())
+    _, solved, _ = make_exercise(str(tmp_path / "parallel.yaml"), "ideal", 1, None)
+    shown = " ".join(render_document(solved, "txt").split())
     assert "f = 12 - 13 = -1." in shown and "the rank is 12, and 0 are free." in shown
 
 
@@ -202,21 +202,21 @@ def test_a_journal_is_where_the_run_has_it() -> None:
     assert found["ratio"] == pytest.approx(run["wristpin.eps"][-1], rel=1e-3)
 
 
-def documents(name: str, seed: int) -> tuple[Document, Document, Drawn]:
-    return make(name, "ideal", seed, None)
+def documents(name: str, seed: int) -> tuple[Document, Document, ExerciseData]:
+    return make_exercise(name, "ideal", seed, None)
 
 
 def test_a_seed_is_a_sheet_and_another_is_another() -> None:
     first, again, other = (documents("four_bar", seed) for seed in (5, 5, 6))
-    assert [render(d, "txt") for d in first[:2]] == [render(d, "txt") for d in again[:2]]
-    assert render(first[0], "txt") != render(other[0], "txt")
-    assert first[2].numbers and first[2].numbers != other[2].numbers
+    assert [render_document(d, "txt") for d in first[:2]] == [render_document(d, "txt") for d in again[:2]]
+    assert render_document(first[0], "txt") != render_document(other[0], "txt")
+    assert first[2].parameters and first[2].parameters != other[2].parameters
     assert not any("Solution" in section.title for section in first[0].sections)
 
 
 def test_every_form_has_the_same_sections(call: Gudgeon, tmp_path: Path) -> None:
     """A file with no masses is asked for no force."""
-    text = re.sub(r", mass: [^,]*, inertia: [^,}]*", "", shipped_file("four_bar").read_text(encoding="utf-8"))
+    text = re.sub(r", mass: [^,]*, inertia: [^,}]*", "", find_shipped_file("four_bar").read_text(encoding="utf-8"))
     (tmp_path / "bare.yaml").write_text(text, encoding="utf-8")
     for suffix in ("txt", "tex", "html", "md"):
         done = call("exercise", "bare.yaml", "-o", f"sheet.{suffix}", "--seed", "2", "--at", "120ms")
@@ -250,12 +250,12 @@ drives: {motor: {angle: arm, value: pi/2 + speed * t}}
 def test_numbers_stand_as_people_write_them(tmp_path: Path) -> None:
     """Units of the file, angles with their whole turns, drives and units typeset, the paper by its name."""
     (tmp_path / "turning.yaml").write_text(TURNING, encoding="utf-8")
-    sheet, solved, drawn = make(str(tmp_path / "turning.yaml"), "ideal", 2, "4.1 s")
+    sheet, solved, drawn = make_exercise(str(tmp_path / "turning.yaml"), "ideal", 2, "4.1 s")
     assert np.abs(drawn.q[2]) > np.pi and drawn.q[2] == pytest.approx(drawn.run.q[-1, 2], abs=1e-5)
-    speed = drawn.numbers["parameters.speed"]
+    speed = drawn.parameters["parameters.speed"]
     assert speed.endswith(" rpm") and drawn.run.v[-1, 2] == pytest.approx(float(speed[:-4]) * 2 * np.pi / 60)
-    text, latex = render(sheet, "txt"), render(sheet, "tex")
-    assert f"{speed} = " in text and f"parameters.speed = {speed}" in render(solved, "txt")
+    text, latex = render_document(sheet, "txt"), render_document(sheet, "tex")
+    assert f"{speed} = " in text and f"parameters.speed = {speed}" in render_document(solved, "txt")
     assert "m/s²" in text and "kg·m²" in text and "Φ_q at" not in text and "textasciicircum" not in latex
     assert r"\text{speed} \, t + \tfrac{\pi}{2}" in latex and "pi / 2" not in text
     assert "the paper" not in text and re.search(r"l_arm = [\d.]+ mm", text)
@@ -263,9 +263,9 @@ def test_numbers_stand_as_people_write_them(tmp_path: Path) -> None:
 
 
 @cache
-def clamp() -> tuple[str, str, Drawn]:
-    sheet, solved, drawn = make("toggle_clamp", "ideal", 3, None)
-    return render(sheet, "txt"), render(solved, "txt"), drawn
+def clamp() -> tuple[str, str, ExerciseData]:
+    sheet, solved, drawn = make_exercise("toggle_clamp", "ideal", 3, None)
+    return render_document(sheet, "txt"), render_document(solved, "txt"), drawn
 
 
 def test_a_sheet_gives_no_answer_away() -> None:
@@ -296,7 +296,7 @@ def test_a_step_is_written_by_how_far_it_is() -> None:
     _, solved, drawn = clamp()
     phi, gamma = (solved[solved.index(a) : solved.index(b)] for a, b in (("2. Write", "3. The"), ("4. γ", "5. Acc")))
     assert "where(" not in solved and "f_hand = " in phi and "f\u0308" not in phi and "s = t/shut" in phi
-    shut = float(drawn.numbers["parameters.shut"].split()[0])
+    shut = float(drawn.parameters["parameters.shut"].split()[0])
     known = {"s": drawn.t / shut, "shut": shut, "dead_centre": np.pi + np.arctan2(4, 3)}
     f, second = (re.search(rf"  {sign} = (.*)", text)[1] for sign, text in (("f_hand", phi), ("f\u0308_hand", gamma)))  # type: ignore[index]
     handle = drawn.run["handle.theta"][-1], drawn.run["handle.alpha"][-1]
@@ -316,7 +316,7 @@ drives: {motor: {angle: plate, value: phase + t * 1 rad/s}}
 
 def test_a_triangle_of_sides_fits_on_a_line() -> None:
     """What stands under a root that is too long for a line has a letter; names are upright; zeros have theirs."""
-    model = derive(SIDES.encode(), "sides.yaml", "ideal")
+    model = derive_scene(SIDES.encode(), "sides.yaml", "ideal")
     text, latex = equations_text(model), equations_tex(model)
     known = {"l_plate.PQ": 0.08, "l_plate.QR": 0.06, "l_plate.PR": 0.09}
     for name in ("D_plate.R", "η_plate.R"):
@@ -344,12 +344,12 @@ def test_a_triangle_of_sides_fits_on_a_line() -> None:
     ],
 )
 def test_what_is_an_angle(text: str, power: int) -> None:
-    assert angle_power(parse(text, Location("file", 1, 1))) == power
+    assert find_angle_power(parse(text, Location("file", 1, 1))) == power
 
 
 def test_text_of_a_file_is_no_markup() -> None:
     sheet, _, _ = documents("four_bar", 1)
-    shown = markdown(sheet)
+    shown = format_document(sheet)
     assert r"# Exercise: four-bar linkage, a crank-rocker" in shown and r"mechanism four\_bar" in shown
     assert shown.count("$") % 2 == 0
 
@@ -358,23 +358,23 @@ def test_a_slider_of_a_share_of_pi_is_in_degrees(tmp_path: Path) -> None:
     (tmp_path / "sides.yaml").write_text(SIDES, encoding="utf-8")
     simulation = gudgeon.load(tmp_path / "sides.yaml", "ideal")
     p = np.array([slot.default for slot in simulation.source.slots])
-    ((phase, *_), *_) = (section["numbers"] for section in groups(simulation, p))
+    ((phase, *_), *_) = (section["numbers"] for section in build_parameter_sections(simulation, p))
     assert (phase["name"], phase["unit"]) == ("phase", "deg") and np.pi / 6 / phase["factor"] == pytest.approx(30)
 
 
 def test_moments_are_before_the_event_that_ends_the_motion(tmp_path: Path) -> None:
     """The crank's 45 degrees take 0.125 s with the file's numbers; a scene runs for 1 s where it does not say."""
-    text = shipped_file("four_bar").read_text(encoding="utf-8")
+    text = find_shipped_file("four_bar").read_text(encoding="utf-8")
     file = tmp_path / "stopped.yaml"
     file.write_text(f"{text}events: {{part: {{zero: crank.theta - 135 deg, action: stop}}}}\n", encoding="utf-8")
     simulation = gudgeon.load(file)
     crank = list(simulation.source.coordinates).index("crank.theta")
     for seed in range(3):
-        drawn = draw_numbers(simulation, seed, None)
+        drawn = draw_parameters(simulation, seed, None)
         assert 0.0 < drawn.t == drawn.run.t[-1] and np.pi / 2 < drawn.q[crank] < np.radians(135)
-    assert draw_numbers(simulation, 1, "0.1 s").t == 0.1
+    assert draw_parameters(simulation, 1, "0.1 s").t == 0.1
     with pytest.raises(BadValueError, match=r"--at is 0.2 s: event part \(action: stop\) ends the motion at 0.125 s"):
-        draw_numbers(simulation, 1, "0.2 s")
+        draw_parameters(simulation, 1, "0.2 s")
 
 
 PUMP = """
@@ -400,22 +400,22 @@ def test_given_data_hold_no_rounding_and_values_no_more_digits_than_they_carry(t
     (tmp_path / "pump.yaml").write_text(PUMP, encoding="utf-8")
     simulation = gudgeon.load(tmp_path / "pump.yaml")
     for seed in range(1, 9):
-        drawn = draw_numbers(simulation, seed, None)
+        drawn = draw_parameters(simulation, seed, None)
         for values, least in ((drawn.q, 1e-8), (drawn.v, 1e-8 * np.abs(drawn.v).max())):
             assert all(x == 0.0 or abs(x) > least for x in values)
         _check_uncertainty(simulation, drawn, seed)
     of = subject("four_bar", "ideal")
     for x, off, text in ((-0.001782, 9e-6, "-0.00178"), (-0.001782, 0.0, "-0.001782"), (3e-7, 1e-6, "0")):
-        assert of.number(x, off=off).text == text
+        assert of.format_number(x, off=off).text == text
 
 
-def _check_uncertainty(simulation: Simulation, drawn: Drawn, seed: int) -> None:
+def _check_uncertainty(simulation: Simulation, drawn: ExerciseData, seed: int) -> None:
     """Of other data that would be printed the same, γ differs by no more."""
 
     def gamma(q: np.ndarray, v: np.ndarray) -> np.ndarray:
         return simulation.compiled.gamma(drawn.t, q, v, drawn.p)
 
-    off, n, rng = drawn.uncertainty(gamma), len(drawn.q), np.random.default_rng(seed)
+    off, n, rng = drawn.estimate_uncertainty(gamma), len(drawn.q), np.random.default_rng(seed)
     exact, both = gamma(drawn.q, drawn.v), np.concatenate([drawn.q, drawn.v])
     for _ in range(20):
         other = both + drawn.units * rng.uniform(-0.5, 0.5, 2 * n)

@@ -14,7 +14,7 @@ import pytest
 import gudgeon
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.web.page import write
+from gudgeon.web.page import build_page
 from tests.programs import missing
 from tests.web.node import browser
 
@@ -42,7 +42,7 @@ def chromium() -> Iterator[Any]:
 
 def written(folder: Path, simulation: Simulation) -> Path:
     file = folder / "page.html"
-    file.write_text(write(simulation), encoding="utf-8")
+    file.write_text(build_page(simulation), encoding="utf-8")
     return file
 
 

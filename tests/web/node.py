@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.web.description import description
-from gudgeon.web.module import simulator
-from gudgeon.web.page import carried, script
+from gudgeon.web.description import build_description
+from gudgeon.web.module import compile_simulator
+from gudgeon.web.page import build_script, carried
 
 RUNNER = Path(__file__).with_name("runner.js")
 
@@ -77,8 +77,11 @@ def in_node(simulation: Simulation, folder: Path, runs: list[dict[str, Any]]) ->
     """Runs {parameters, options, names of series, slices} in Node."""
     program = node()
     assert program
-    files = {"script": script(simulation.source).encode(), "description": description(simulation.compiled).encode()}
-    for name, data in (files | {"module": simulator(simulation.source)}).items():
+    files = {
+        "script": build_script(simulation.source).encode(),
+        "description": build_description(simulation.compiled).encode(),
+    }
+    for name, data in (files | {"module": compile_simulator(simulation.source)}).items():
         (folder / name).write_bytes(data)
     requested = {name: str(folder / name) for name in (*files, "module")} | {"runs": runs}
     line = [program, str(RUNNER)]
@@ -104,7 +107,11 @@ def in_browser(simulation: Simulation, folder: Path, runs: list[dict[str, Any]])
     """The same in a page that is one file, opened from disk."""
     program = browser()
     assert program
-    parts = {"carried": carried(simulation.compiled), "runner": RUNNER.read_text(), "runs": json.dumps(runs)}
+    parts = {
+        "carried": carried(simulation.compiled),
+        "runner": RUNNER.read_text(),
+        "runs": json.dumps(runs),
+    }
     page = folder / "page.html"
     page.write_text(PAGE.format(**parts), encoding="utf-8")
     done = subprocess.run([program, *HEADLESS, page.as_uri()], capture_output=True, text=True, timeout=300)

@@ -16,8 +16,8 @@ from cffi import FFI
 from numpy.typing import NDArray
 
 from gudgeon.loading import compiler
-from gudgeon.loading.cache import default_cache
-from gudgeon.loading.engine import ENGINE, include_flags
+from gudgeon.loading.cache import get_default_cache
+from gudgeon.loading.engine import ENGINE, build_include_flags
 from gudgeon.web.module import FLAGS
 from tests.web.node import needs_node, node
 
@@ -40,7 +40,7 @@ Values = Callable[[str, Array, Array], Array]
 def values(tmp_path_factory: pytest.TempPathFactory) -> Values:
     """`values` of functions.c, compiled with the flags of a scene."""
     library = tmp_path_factory.mktemp("functions") / "functions.so"
-    line = [*compiler.find_compiler(), *compiler.flags(False), *include_flags(), "-shared"]
+    line = [*compiler.find_compiler(), *compiler.build_flags(False), *build_include_flags(), "-shared"]
     subprocess.run([*line, str(HERE / "functions.c"), "-o", str(library), "-lm"], check=True)
     ffi = FFI()
     ffi.cdef("void values(int which, long n, const double *x, const double *y, double *out);")
@@ -120,10 +120,10 @@ def test_bits_are_those_of_a_page(values: Values, tmp_path: Path) -> None:
     """A hundred thousand arguments each, what Node computes beside what this machine's compiler made."""
     ziglang = pytest.importorskip("ziglang", reason="the extra web is not installed: no compiler for pages")
     zig, module = Path(ziglang.__file__).with_name("zig"), tmp_path / "functions.wasm"
-    requested = ["-Wl,--export=values", *include_flags(), str(HERE / "functions.c"), "-o", str(module)]
-    kept = {"ZIG_GLOBAL_CACHE_DIR": str(default_cache().root / "zig"), "ZIG_LOCAL_CACHE_DIR": str(tmp_path)}
+    requested = ["-Wl,--export=values", *build_include_flags(), str(HERE / "functions.c"), "-o", str(module)]
+    kept = {"ZIG_GLOBAL_CACHE_DIR": str(get_default_cache().root / "zig"), "ZIG_LOCAL_CACHE_DIR": str(tmp_path)}
     # from the test's folder, as of a scene: from one that zig lies in it takes its C library for another, a minute more
-    line, env = [str(zig), "cc", *FLAGS, *requested], {**compiler.plain(), **kept}
+    line, env = [str(zig), "cc", *FLAGS, *requested], {**compiler.build_environment(), **kept}
     subprocess.run(line, cwd=tmp_path, check=True, capture_output=True, env=env)
     for name, pairs in ranges(100_000).items():
         x, y = (np.concatenate(arrays) for arrays in zip(*pairs, strict=True))
@@ -159,14 +159,14 @@ def test_tables_are_logarithms_and_powers() -> None:
 @pytest.mark.skipif(shutil.which("objdump") is None, reason="no objdump is installed")
 def test_no_product_and_sum_are_fused(tmp_path: Path) -> None:
     """Neither in the engine nor in what is emitted for dry contacts, where gcc 12's vectorizer would."""
-    from gudgeon.loading.find import derived
-    from gudgeon.loading.shipped import shipped_file
+    from gudgeon.loading.kernel_sources import derive_kernel_source
+    from gudgeon.loading.shipped import find_shipped_file
 
-    file = shipped_file("slider_crank")
-    source = derived(file.read_bytes(), file, "dry")
+    file = find_shipped_file("slider_crank")
+    source = derive_kernel_source(file.read_bytes(), file, "dry")
     for name, text in source.files.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
-    line = [*compiler.find_compiler(), *compiler.flags(False), *include_flags(), "-c"]
+    line = [*compiler.find_compiler(), *compiler.build_flags(False), *build_include_flags(), "-c"]
     for unit, made in ((source.main, "scene.o"), (str(ENGINE / "engine.c"), "engine.o")):
         subprocess.run([*line, unit, "-o", made], cwd=tmp_path, check=True)
         done = subprocess.run(["objdump", "-d", made], cwd=tmp_path, check=True, capture_output=True, text=True)

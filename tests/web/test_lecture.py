@@ -12,10 +12,10 @@ pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
 from gudgeon.errors import AssemblyError  # noqa: E402
-from gudgeon.language.units import UNITS, dimension  # noqa: E402
-from gudgeon.model.parameters import prepare  # noqa: E402
+from gudgeon.language.units import UNITS, make_dimension  # noqa: E402
+from gudgeon.model.parameters import prepare_values  # noqa: E402
 from gudgeon.web import drift  # noqa: E402
-from gudgeon.web.numbers import groups, units  # noqa: E402
+from gudgeon.web.parameter_panel import build_parameter_sections, list_units  # noqa: E402
 from tests.web.chromium import written  # noqa: E402
 
 
@@ -24,34 +24,36 @@ def test_sliders_reach_nothing_that_is_refused() -> None:
     press = gudgeon.load("nine_bar_press", "lubricated")
     ends = [
         (one["k"], one[end])
-        for group in groups(press, press.p)
+        for group in build_parameter_sections(press, press.p)
         for one in group["numbers"]
         for end in ("low", "high")
         if end in one
     ]
     assert len(ends) > 100
     for k, end in ends:
-        prepare(press.compiled, {press.source.slots[k].address: end})
-    c = next(one for group in groups(press, press.p) for one in group["numbers"] if one["name"] == "c")
+        prepare_values(press.compiled, {press.source.slots[k].address: end})
+    c = next(
+        one for group in build_parameter_sections(press, press.p) for one in group["numbers"] if one["name"] == "c"
+    )
     assert 0.0 < c["low"] < 1e-2 * c["high"]
 
 
 def test_units_that_a_field_takes_are_those_of_its_dimension() -> None:
     source = gudgeon.load("nine_bar_press", "lubricated").source
-    used = units(source)
+    used = list_units(source)
     assert used["m"]["mm"] == 1e-3 and used["s"]["ms"] == 1e-3 and used["1/s"]["rpm"] == pytest.approx(np.pi / 30)
     for slot in source.slots:
         for name in used[slot.unit] if not slot.words else ():
-            assert UNITS[name][1] == dimension(*slot.dimension)
+            assert UNITS[name][1] == make_dimension(*slot.dimension)
 
 
 def test_python_for_a_drift_runs(capsys: pytest.CaptureFixture[str]) -> None:
     """As the page of a driven mechanism shows it, and that of a scene whose full formulation it does not carry."""
     four_bar, pendulum = gudgeon.load("four_bar"), gudgeon.load("pendulum")
-    assert drift.message(pendulum, pendulum.simulate(), 10, 10) is None
+    assert drift.explain_missing_drift(pendulum, pendulum.simulate(), 10, 10) is None
     opens = []
     for scene in (four_bar, pendulum):
-        message = drift.message(scene, scene.simulate(), 70_000, 62_000)
+        message = drift.explain_missing_drift(scene, scene.simulate(), 70_000, 62_000)
         assert message is not None and ("70 kB" in message["note"]) == (scene is pendulum)
         exec(message["code"], {})
         opens.append([float(line.split()[-1]) for line in capsys.readouterr().out.splitlines()])

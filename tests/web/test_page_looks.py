@@ -11,7 +11,7 @@ import pytest
 
 pytest.importorskip("matplotlib")
 
-from gudgeon.drawing.labels import overlapping  # noqa: E402
+from gudgeon.drawing.labels import find_overlaps  # noqa: E402
 from tests.web.chromium import DESK, PHONE, Opened  # noqa: E402
 
 
@@ -62,10 +62,10 @@ def test_names_follow_and_lie_on_no_other(seen: Opened) -> None:
     middles = (message[..., :2] + message[..., 2:4]) / 2
     fixed = 0
     for names, middle in zip(message, middles, strict=True):
-        assert overlapping(names[:, :4] + rounded, names[:, :4] + rounded).sum() == len(names)
+        assert find_overlaps(names[:, :4] + rounded, names[:, :4] + rounded).sum() == len(names)
         off = names[:, 4:6] + names[:, 6:] - middle
         planned = names[:, :4] + np.hstack([off, off]) + rounded
-        fixed += int(overlapping(planned, planned).sum() > len(names))
+        fixed += int(find_overlaps(planned, planned).sum() > len(names))
     beside = middles - message[..., 4:6]
     moves = (np.abs(np.diff(beside, axis=0)).max(axis=-1) > 0.3).sum()
     assert fixed > 0 and 0 < moves < 0.02 * beside[..., 0].size  # without following some would lie on others

@@ -8,7 +8,7 @@ import pytest
 
 import gudgeon.generator.targets.latex
 import gudgeon.web
-from gudgeon.generator.targets.javascript.module import embedded_script
+from gudgeon.generator.targets.javascript.module import compress_script
 
 FOLDERS = (gudgeon.web, gudgeon.generator.targets.latex)
 FILES = [file for folder in FOLDERS for file in sorted(Path(str(folder.__file__)).parent.glob("*.js"))]
@@ -19,7 +19,7 @@ def test_comments_and_spaces_alone_are_left_out(file: Path) -> None:
     """By the words of another reader of JavaScript; lines that end statements are the same."""
     lexers, tokens = pytest.importorskip("pygments.lexers"), pytest.importorskip("pygments.token")
     text = file.read_text(encoding="utf-8")
-    carried = embedded_script(text)
+    carried = compress_script(text)
 
     def words(of: str) -> list[tuple[object, str]]:
         every = lexers.JavascriptLexer().get_tokens(of)

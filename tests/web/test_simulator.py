@@ -13,7 +13,7 @@ import gudgeon
 from gudgeon.errors import BuildError, SolverError
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.web.module import simulator
+from gudgeon.web.module import compile_simulator
 from gudgeon.web.page import carried
 from tests.integrators.test_guide import ARM
 from tests.integrators.test_guide import HEAD as GUIDED_HEAD
@@ -308,7 +308,7 @@ def test_a_page_opened_from_disk_computes_the_same(tmp_path: Path) -> None:
 def test_without_its_compiler_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "ziglang", None)
     with pytest.raises(BuildError, match=r"pip install 'gudgeon\[web\]'"):
-        simulator(gudgeon.load("pendulum").source)
+        compile_simulator(gudgeon.load("pendulum").source)
 
 
 def test_nothing_of_a_file_ends_the_element_that_carries_it(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ import pytest
 
 import gudgeon
 from gudgeon.results.results import Result
-from gudgeon.web.description import description
+from gudgeon.web.description import build_description
 from tests.scenes import loader
 from tests.slow import slow_but
 from tests.web.node import Answer, in_node, needs_node, same_bits
@@ -84,7 +84,7 @@ def test_a_start_that_only_python_finds_is_followed(name: str, tmp_path: Path) -
     simulation = (
         gudgeon.load("mechanisms/gallery/jansen_leg.yaml") if name == "jansen_leg" else loader(tmp_path)(FAR_GUESS)
     )
-    assert '"start":null' not in description(simulation.compiled)
+    assert '"start":null' not in build_description(simulation.compiled)
     requested: list[dict[str, Any]] = [{"parameters": one, "options": BRIEF} for one in MOVED[name]]
     found = in_node(simulation, tmp_path, requested)
     for one, parameters in zip(found, MOVED[name], strict=True):

@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 
 import gudgeon
-from gudgeon.language.defined import DIVIDING, find_undefined_part
 from gudgeon.language.tree import from_json
-from gudgeon.web.page import file_text
+from gudgeon.language.undefined_parts import DIVIDING, find_undefined_part
+from gudgeon.web.page import read_file
 from tests.scenes import loader
 from tests.web.node import in_node, needs_node, node
 
@@ -43,8 +43,8 @@ def test_undefined_parts_are_those_of_python(tmp_path: Path) -> None:
     cases = [(tree, {"d": d, "e": e}) for tree in TREES for d in VALUES for e in VALUES]
     program = "\n".join(
         (
-            file_text("run.js").split("/* A run")[0],
-            file_text("undefined.js"),
+            read_file("run.js").split("/* A run")[0],
+            read_file("undefined.js"),
             f"const cases = {json.dumps(cases)}, divides = {json.dumps(sorted(DIVIDING))};",
             "const found = cases.map(([tree, known]) => undefinedPart(tree, known, divides));",
             "console.log(JSON.stringify(found.map((value) => (value === undefined ? 'defined' : String(value)))));",

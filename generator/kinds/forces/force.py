@@ -24,9 +24,9 @@ def build(targets: Any, fields: Any) -> Loads:
     (point,) = targets
     value = fields.vector("value")
     if fields.option("axes") == "body" and point.body is not None:
-        cos, sin = point.geometry.angle(point.body)
+        cos, sin = point.geometry.find_cos_and_sin(point.body)
         value = (cos * value[0] - sin * value[1], sin * value[0] + cos * value[1])
-    x, y = fields.named_vector("force", value)
+    x, y = fields.define_local_vector("force", value)
     vx, vy = point.velocity
     series = {"Fx": (x, "N"), "Fy": (y, "N"), "F": (sp.sqrt(x**2 + y**2), "N")}
     return Loads((Load(0, x, y, sp.Integer(0)),), sp.Integer(0), x * vx + y * vy, series)

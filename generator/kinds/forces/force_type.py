@@ -1,4 +1,5 @@
-"""Defines what a force element declares. Each other file of this folder is one kind and exports `ELEMENT`.
+"""Defines the interface of a force element: its keys, its forces, and what else its file declares. Each other file of
+this folder is one kind and exports `ELEMENT`.
 
 As with joints and laws, nothing here imports SymPy at the top. `build(targets, fields)` gets one PointFrame for each
 target and the element's numbers, and returns a `Loads`.
@@ -12,7 +13,7 @@ from functools import cache
 from typing import Any
 
 from gudgeon.generator.field import Field
-from gudgeon.generator.kinds import declared
+from gudgeon.generator.kinds import iterate_declarations
 from gudgeon.language.units import Dimension
 
 
@@ -83,4 +84,4 @@ class ElementType:
 @cache
 def element_types() -> Mapping[str, ElementType]:
     """Return all kinds of force elements by name."""
-    return {e.kind: e for e in declared("gudgeon.generator.kinds.forces", "ELEMENT", ElementType)}
+    return {e.kind: e for e in iterate_declarations("gudgeon.generator.kinds.forces", "ELEMENT", ElementType)}

@@ -9,7 +9,7 @@ from typing import Any
 
 from gudgeon.generator.field import NOT_NEGATIVE, number
 from gudgeon.generator.kinds.forces.force_type import ElementType, Load, Loads
-from gudgeon.language.units import DIMENSIONLESS, TORQUE, dimension
+from gudgeon.language.units import DIMENSIONLESS, TORQUE, make_dimension
 
 
 def build(targets: Any, fields: Any) -> Loads:
@@ -22,7 +22,7 @@ def build(targets: Any, fields: Any) -> Loads:
     first, second = targets
     k, theta_0, d = (fields.quantity(name) for name in ("stiffness", "free_angle", "damping"))
     theta, omega = second.theta - first.theta - theta_0, second.omega - first.omega
-    moment = fields.named("moment", k * theta + d * omega)
+    moment = fields.define_local("moment", k * theta + d * omega)
     zero = sp.Integer(0)
     loads = (Load(0, zero, zero, moment), Load(1, zero, zero, -moment))
     return Loads(loads, k * theta**2 / 2, -d * omega**2, {"M": (moment, "N*m")})
@@ -39,7 +39,7 @@ ELEMENT = ElementType(
         number(
             "damping",
             "d: moment by angular velocity",
-            dimension(mass=1, length=2, time=-1),
+            make_dimension(mass=1, length=2, time=-1),
             bounds=NOT_NEGATIVE,
             otherwise="0",
         ),

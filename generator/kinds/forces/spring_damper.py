@@ -25,8 +25,8 @@ def build(targets: Any, fields: Any) -> Loads:
     P, Q = targets
     k, l_0, d = (fields.quantity(name) for name in ("stiffness", "free_length", "damping"))
     (x, y), (vx, vy) = (
-        fields.named_vector("span", (Q.x - P.x, Q.y - P.y)),
-        fields.named_vector("span_rate", tuple(b - a for a, b in zip(P.velocity, Q.velocity, strict=True))),
+        fields.define_local_vector("span", (Q.x - P.x, Q.y - P.y)),
+        fields.define_local_vector("span_rate", tuple(b - a for a, b in zip(P.velocity, Q.velocity, strict=True))),
     )
     squared_length = x**2 + y**2
     if l_0 == 0 and d == 0:
@@ -34,10 +34,10 @@ def build(targets: Any, fields: Any) -> Loads:
         force = k * sp.sqrt(squared_length)
         power = sp.Integer(0)
     else:
-        length = fields.named("length", sp.sqrt(squared_length))
-        rate = fields.named("length_rate", (x * vx + y * vy) / length)
-        force = fields.named("force", k * (length - l_0) + d * rate)
-        force_per_length = fields.named("pull", force / length)
+        length = fields.define_local("length", sp.sqrt(squared_length))
+        rate = fields.define_local("length_rate", (x * vx + y * vy) / length)
+        force = fields.define_local("force", k * (length - l_0) + d * rate)
+        force_per_length = fields.define_local("pull", force / length)
         potential, power = k * (length - l_0) ** 2 / 2, -d * rate**2
         series = {"length": (length, "m")}
     loads = (

@@ -21,7 +21,7 @@ def build(targets: Any, fields: Any) -> Loads:
     import sympy as sp
 
     zero = sp.Integer(0)
-    moment = fields.named("torque", fields.quantity("value"))
+    moment = fields.define_local("torque", fields.quantity("value"))
     loads = [Load(0, zero, zero, moment)]
     power = moment * targets[0].omega
     if len(targets) == 2:

@@ -1,4 +1,4 @@
-r"""Cam with a translating follower: a point of the follower is where the cam's angle says.
+r"""Cam with a translating follower: the cam's angle determines the position of a point of the follower.
 
      |follower|  ^ axis (fixed in the carrier)
      '---o----'  |

@@ -26,12 +26,12 @@ def rows(first: Any, second: Any, fields: Any) -> list[Any]:
     sign = -1 if fields.option("internal") == "true" else 1
     carrier = fields.body_angle("carrier")
     arc = radius_1 * (first.theta - carrier) + sign * radius_2 * (second.theta - carrier)
-    return [arc - fields.at_guess("mesh", arc)]
+    return [arc - fields.evaluate_at_guess("mesh", arc)]
 
 
 def find_wheels(joint: Any) -> list[tuple[Any, float]]:
     """Return for each wheel where it turns on the carrier (2,) and its pitch radius (m)."""
-    return [(joint.centre(k, joint.option("carrier")), radius) for k, radius in enumerate(find_radii(joint))]
+    return [(joint.find_pivot(k, joint.option("carrier")), radius) for k, radius in enumerate(find_radii(joint))]
 
 
 def find_radii(joint: Any) -> tuple[float, float]:

@@ -1,4 +1,5 @@
-"""Defines what a joint type declares. Each other file of this folder is one joint type and exports `JOINT`.
+"""Defines the interface of a joint type: its keys, its constraint equations, and what else its file declares. Each
+other file of this folder is one joint type and exports `JOINT`.
 
 As with laws, nothing here imports SymPy at the top: the reader needs only the YAML fields.
 """
@@ -11,7 +12,7 @@ from functools import cache
 from typing import Any
 
 from gudgeon.generator.field import BODY, Field
-from gudgeon.generator.kinds import declared
+from gudgeon.generator.kinds import iterate_declarations
 
 # Corners of a slider with play: front (1) or rear along the axis; at the wall to the left of the axis (1) or the right.
 CORNERS: Mapping[str, tuple[int, int]] = {
@@ -28,22 +29,22 @@ def draw_squares(pen: Any) -> None:
         pen.box("block", point, pen.horizontal, 0.5, 0.5)
 
 
-def place_at_second(joint: Any) -> Any:
+def find_second_point(joint: Any) -> Any:
     """Return the second body's point, where a joint's name stands in drawings."""
     return joint.second
 
 
-def place_at_slider(joint: Any) -> Any:
+def find_sliding_point(joint: Any) -> Any:
     """Return the sliding point of a joint that declares `slides`, where its name stands in drawings."""
     return joint.slider
 
 
-def gap_between_points(joint: Any, residuals: Any) -> Any:
+def find_gap_between_points(joint: Any, residuals: Any) -> Any:
     """Return the two points of a joint that holds them together, as the ends of its gap."""
     return joint.first, joint.second
 
 
-def gap_to_line(joint: Any, residuals: Any) -> Any:
+def find_gap_to_line(joint: Any, residuals: Any) -> Any:
     """Return the sliding point and the nearest point of its line, as the ends of a joint's gap."""
     return joint.slider, joint.on_line + float((joint.slider - joint.on_line) @ joint.along) * joint.along
 
@@ -57,7 +58,7 @@ class Symbol:
     """
 
     draw: Callable[[Any], None] = draw_squares
-    place: Callable[[Any], Any] = place_at_second  # where the joint's name stands
+    place: Callable[[Any], Any] = find_second_point  # where the joint's name stands
     clear: float = 0.8  # how far from there its name keeps, in units of half a bar's width
     # gap(joint, residuals): the two points between which it is open where a start does not close; their
     # distance is the number next to it. None: no line shows the gap, and the numbers are the residuals of its rows
@@ -117,10 +118,10 @@ class JointType:
     @property
     def further_bodies(self) -> tuple[str, ...]:
         """Return the fields that name a third body, such as a gear's carrier."""
-        return tuple(own.name for own in self.fields if own.kind == BODY)
+        return tuple(body_field.name for body_field in self.fields if body_field.kind == BODY)
 
 
 @cache
 def joint_types() -> Mapping[str, JointType]:
     """Return all joint types of this folder by kind."""
-    return {joint.kind: joint for joint in declared("gudgeon.generator.kinds.joints", "JOINT", JointType)}
+    return {joint.kind: joint for joint in iterate_declarations("gudgeon.generator.kinds.joints", "JOINT", JointType)}

@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import vector
-from gudgeon.generator.kinds.joints.joint_type import JointType, Slide, Symbol, gap_to_line, place_at_slider
+from gudgeon.generator.kinds.joints.joint_type import JointType, Slide, Symbol, find_gap_to_line, find_sliding_point
 from gudgeon.language.units import DIMENSIONLESS
 
 
@@ -44,7 +44,7 @@ JOINT = JointType(
     ("m",),
     rows,
     __doc__,
-    Symbol(draw, place_at_slider, gap=gap_to_line),
+    Symbol(draw, find_sliding_point, gap=find_gap_to_line),
     Slide("direction", "second"),
     reaction_at="first",
     also=("slot", "pin_in_slot", "pin_slot", "line", "half_joint"),

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.joints.joint_type import JointType, Symbol, gap_between_points
+from gudgeon.generator.kinds.joints.joint_type import JointType, Symbol, find_gap_between_points
 
 
 def rows(first: Any, second: Any, fields: Any) -> list[Any]:
@@ -34,7 +34,7 @@ JOINT = JointType(
     ("m", "m"),
     rows,
     __doc__,
-    Symbol(draw, gap=gap_between_points),
+    Symbol(draw, gap=find_gap_between_points),
     carries=("x", "y"),
     also=("pin", "hinge", "pivot", "rotational", "rotation", "turning", "journal", "bearing", "ball"),
 )

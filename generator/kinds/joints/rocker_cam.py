@@ -1,4 +1,4 @@
-r"""Cam with an oscillating follower: the angle of a rocker is what the cam's angle says.
+r"""Cam with an oscillating follower: the cam's angle determines the angle of a rocker.
 
         .---.     ___---  rocker
        ( cam )---'  ψ     Φ = ψ − ψ(φ),   φ = θ_cam − θ_carrier,   ψ = θ_rocker − θ_carrier

@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import number, vector
-from gudgeon.generator.kinds.joints.joint_type import JointType, Slide, Symbol, gap_to_line, place_at_slider
+from gudgeon.generator.kinds.joints.joint_type import JointType, Slide, Symbol, find_gap_to_line, find_sliding_point
 from gudgeon.language.units import DIMENSIONLESS
 
 
@@ -43,7 +43,7 @@ JOINT = JointType(
     ("m", "rad"),
     rows,
     __doc__,
-    Symbol(draw, place_at_slider, 1.5, gap_to_line),
+    Symbol(draw, find_sliding_point, 1.5, find_gap_to_line),
     Slide("axis", "first"),
     carries=("offset",),
     also=("prismatic", "slider", "sliding", "slide", "linear", "piston", "guide"),

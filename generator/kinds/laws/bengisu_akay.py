@@ -13,7 +13,7 @@ from typing import Any
 
 from gudgeon.generator.field import Bound, number
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.generator.kinds.laws.roles import MU, MU_S, both_ways, friction, slip_of
+from gudgeon.generator.kinds.laws.roles import MU, MU_S, make_friction_force, make_odd_function, slip_field
 from gudgeon.language.units import VELOCITY
 
 
@@ -28,7 +28,7 @@ def build(s: LawInputs) -> dict[str, Any]:
         rising = mu_s * (1 - sp.Min(u / v0 - 1, 0) ** 2)
         return rising - (mu_s - mu) * (1 - sp.exp(-sp.Max(u - v0, 0) / decay))
 
-    return friction(s, both_ways(s.variables["v_t"], compute_coefficient))
+    return make_friction_force(s, make_odd_function(s.variables["v_t"], compute_coefficient))
 
 
 LAW = Law(
@@ -44,14 +44,15 @@ LAW = Law(
     reference="M. T. Bengisu, A. Akay, Stability of friction-induced vibrations in multi-degree-of-freedom systems, "
     "Journal of Sound and Vibration 171 (1994) 557-570, as in E. Pennestri et al., Nonlinear Dynamics 83 "
     "(2016) 1785-1801, doi 10.1007/s11071-015-2485-3",
-    validity="sliding; creeps below v0 where Coulomb's law would stick; a decay of 1/xi in slip",
+    validity="sliding; below the slip v0 the contact creeps where Coulomb's law would stick; the sources write"
+    " the key decay as 1/xi",
     fields=(
         MU,
         MU_S,
-        slip_of("v0", "slip of the largest friction", "v_0"),
+        slip_field("v0", "slip at which friction is largest", "v_0"),
         number(
             "decay",
-            "slip beyond v0 in which friction falls by 1/e of what it falls, 1/xi",
+            "additional slip beyond v0 at which the excess over kinetic friction has fallen to 1/e",
             VELOCITY,
             symbol="v_d",
             required=True,

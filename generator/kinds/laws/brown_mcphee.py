@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.generator.kinds.laws.roles import MU, MU_S, friction, slip_of
+from gudgeon.generator.kinds.laws.roles import MU, MU_S, make_friction_force, slip_field
 
 
 def build(s: LawInputs) -> dict[str, Any]:
@@ -20,7 +20,7 @@ def build(s: LawInputs) -> dict[str, Any]:
     mu, mu_s = s.parameters["mu"], s.parameters["mu_s"]
     x = sp.Symbol("share", real=True)
     coefficient = mu * sp.tanh(4 * x) + (mu_s - mu) * x / (x**2 / 4 + sp.Rational(3, 4)) ** 2
-    return {"share": s.variables["v_t"] / s.parameters["v0"], **friction(s, coefficient)}
+    return {"share": s.variables["v_t"] / s.parameters["v0"], **make_friction_force(s, coefficient)}
 
 
 LAW = Law(
@@ -35,7 +35,7 @@ LAW = Law(
     reference="P. Brown, J. McPhee, A continuous velocity-based friction model for dynamics and control with "
     "physically meaningful parameters, Journal of Computational and Nonlinear Dynamics 11 (2016) 054502, "
     "doi 10.1115/1.4033658, without its viscous part",
-    validity="sliding; creeps below v0, where its friction is largest",
-    fields=(MU, MU_S, slip_of("v0", "slip of the peak of friction", "v_0")),
+    validity="sliding; the contact creeps at slips below v0, the slip at which friction is largest",
+    fields=(MU, MU_S, slip_field("v0", "slip at which friction is largest", "v_0")),
     build=build,
 )

@@ -1,6 +1,6 @@
-"""What a law's `build` gives, looked at: the results of its role, made of what it was given and of what C can have.
+"""Check what a law's `build` returns: the results of its role, from given symbols, in expressions that C can print.
 
-A law alone is a function of arrays (`alone`).
+A law alone is a function of arrays (`make_law_function`).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gudgeon.errors import LawError
 from gudgeon.generator.kinds.laws.law import Law, LawInputs, PairSymbols
-from gudgeon.generator.kinds.laws.registered import ORIGINS, message, place_in, prefix
+from gudgeon.generator.kinds.laws.registered import ORIGINS, find_error_location, format_exception, format_law_prefix
 from gudgeon.language.functions import IN_SYMPY
 
 PAIR = tuple(PairSymbols.__annotations__)
@@ -35,8 +35,8 @@ class Probe:
     derived: Mapping[str, Any]
 
 
-def build(law: Law, inputs: LawInputs) -> dict[str, Any]:
-    """Return a law's abbreviations and results in SymPy, in order, after checks of what `law.build` returns.
+def build_law(law: Law, inputs: LawInputs) -> dict[str, Any]:
+    """Return a law's abbreviations and results in SymPy, in order, after checks of what `law.build_law` returns.
 
     Prints of the law go to stderr. Raises LawError for an exception in the law, names or symbols that are not allowed,
     functions that C does not have, and missing results.
@@ -77,9 +77,9 @@ def build(law: Law, inputs: LawInputs) -> dict[str, Any]:
     except (LawError, KeyboardInterrupt):
         raise
     except BaseException as error:
-        location = place_in(error, ORIGINS[law.name].typed) if law.name in ORIGINS else None
+        location = find_error_location(error, ORIGINS[law.name].typed) if law.name in ORIGINS else None
         hint = f"it is given {_list_inputs_of_law(law)}" if isinstance(error, KeyError) else ""
-        raise _make_law_error(law, f"build raised {message(error)}", hint, location) from error
+        raise _make_law_error(law, f"build raised {format_exception(error)}", hint, location) from error
     results = _check_results(law, steps)
     expressions, known_symbols = (
         {},
@@ -104,7 +104,7 @@ def build(law: Law, inputs: LawInputs) -> dict[str, Any]:
     return expressions
 
 
-def probe(law: Law, options: Mapping[str, str | bool], numbers: Iterable[str]) -> Probe:
+def probe_law(law: Law, options: Mapping[str, str | bool], numbers: Iterable[str]) -> Probe:
     """Build a law by itself, to find the names that it uses and to compute its key.
 
     `numbers` are the keys of the parameters that get a symbol. Raises LawError.
@@ -125,10 +125,10 @@ def probe(law: Law, options: Mapping[str, str | bool], numbers: Iterable[str]) -
         {name: sp.Symbol(name, real=True) for name in law.variables},
         derive,
     )
-    return Probe(build(law, inputs), derived)
+    return Probe(build_law(law, inputs), derived)
 
 
-def key_of_law(law: Law) -> str:
+def compute_law_key(law: Law) -> str:
     """Return the key of a law without a file, from its declaration and its equations for every choice of its options.
 
     It is a SHA-256 in hexadecimal digits; of a choice that fails, the message counts. The key differs in each process
@@ -153,7 +153,7 @@ def key_of_law(law: Law) -> str:
         return f"{os.getpid()} {uuid.uuid4()}"
     for options, numbers in choices:
         try:
-            probed_law = probe(law, options, numbers)
+            probed_law = probe_law(law, options, numbers)
         except LawError as error:
             digest.update(str(error).encode())
             continue
@@ -184,11 +184,11 @@ def _iterate_choices(law: Law) -> Iterator[tuple[dict[str, str | bool], tuple[st
 def _check_results(law: Law, steps: Any) -> frozenset[str]:
     """Return the names of the law's results. Raises LawError if `steps` is no mapping by name, or lacks a result."""
     results = law.results
-    expected = f"expected {{{', '.join(f'{name!r}: …' for name in results)}}}"
+    hint = f"expected {{{', '.join(f'{name!r}: …' for name in results)}}}"
     if not isinstance(steps, Mapping) or not all(isinstance(name, str) for name in steps):
-        raise _make_law_error(law, f"build returns {type(steps).__name__}, not forces by name", expected)
+        raise _make_law_error(law, f"build returns {type(steps).__name__}, not forces by name", hint)
     if missing_results := [name for name in results if name not in steps]:
-        raise _make_law_error(law, f"build returns no {', '.join(missing_results)}", expected)
+        raise _make_law_error(law, f"build returns no {', '.join(missing_results)}", hint)
     return frozenset(results)
 
 
@@ -244,7 +244,7 @@ def _check_expression(
 
 
 def _list_inputs_of_law(law: Law) -> str:
-    """Return a phrase that lists what `build` may use: variables, parameters and the pair."""
+    """Return a phrase that lists what `build_law` may use: variables, parameters and the pair."""
     numbers = ", ".join(field_of_law.name for field_of_law in law.parameters) or "none"
     return f"variables: {', '.join(law.variables)}; parameters: {numbers}; pair: {', '.join(PAIR)}"
 
@@ -254,7 +254,7 @@ def _make_law_error(law: Law, message: str, hint: str = "", location: Any = None
 
     `location` is a location in the file or None.
     """
-    prefix_of_message = prefix(law.name, None if location else ORIGINS.get(law.name))
+    prefix_of_message = format_law_prefix(law.name, None if location else ORIGINS.get(law.name))
     return LawError(f"{prefix_of_message}{message}", location, hint)
 
 
@@ -280,7 +280,7 @@ def _make_real_symbol(name: str) -> Any:
 Results = dict[str, NDArray[np.float64]]
 
 
-def alone(
+def make_law_function(
     law: Law, numbers: Mapping[str, Any], options: Mapping[str, str | bool], pair: Mapping[str, float]
 ) -> Callable[..., Results]:
     """Return a law by itself as a function of arrays: variables of its role, further ones, inner states.
@@ -301,11 +301,11 @@ def alone(
         lambda _, expression, __: expression,
     )
     arguments, functions = list(symbols.values()), []
-    for name, step in build(law, inputs).items():
+    for name, step in build_law(law, inputs).items():
         functions.append((name, sp.lambdify(arguments, step, "numpy")))
         arguments.append(sp.Symbol(name, real=True))
 
-    def results(*state: ArrayLike) -> Results:
+    def compute_results(*state: ArrayLike) -> Results:
         """Return the law's results by name for arrays of its variables, which are broadcast. Raises LawError."""
         arrays = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in state))
         values, results_by_name = list(arrays), dict[str, Any]()
@@ -317,9 +317,9 @@ def alone(
             values.append(results_by_name[name])
         return {name: results_by_name[name] for name in law.results}
 
-    return results
+    return compute_results
 
 
-def reads_besides(law: Law) -> int:
+def count_further_variables(law: Law) -> int:
     """Return the number of further variables between those of the role and the inner states."""
     return len(law.further)

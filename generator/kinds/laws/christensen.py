@@ -1,4 +1,4 @@
-"""Christensen's mixed lubrication: surfaces touch over a share of their area, and the film has what is left of it.
+"""Christensen's mixed lubrication: a fraction of the area is in contact, and the film acts on the rest.
 
     F = b F_dry + (1 − b) F_film,   b = ∫ from Λ to 3 of 35/96 (1 − (u/3)²)³ du,   Λ = 3 − δ/σ
 
@@ -15,7 +15,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.generator.kinds.laws.roles import ROUGHNESS, overlap
+from gudgeon.generator.kinds.laws.roles import ROUGHNESS, make_overlap_fraction
 
 
 def build(s: LawInputs) -> dict[str, Any]:
@@ -24,7 +24,7 @@ def build(s: LawInputs) -> dict[str, Any]:
 
     gone, left = sp.symbols("gone left", real=True)
     share = gone**4 * (gone**3 + left * (7 * gone**2 + left * (21 * gone + 35 * left)))
-    return {"gone": overlap(s, 3, -3), "left": 1 - gone, "share": share}
+    return {"gone": make_overlap_fraction(s, 3, -3), "left": 1 - gone, "share": share}
 
 
 LAW = Law(
@@ -40,8 +40,11 @@ LAW = Law(
     reference="H. Christensen, Stochastic models for hydrodynamic lubrication of rough surfaces, Proceedings of the "
     "Institution of Mechanical Engineers 184 (1969) 1013-1026; H. Christensen, A theory of mixed "
     "lubrication, the same 186 (1972) 421-430",
-    validity="heights nearly normal, of one size over both surfaces; film alone above 3 sigma, contact alone below -3 "
-    "sigma; the clearance is that of the tips, the film's larger by 3 sigma; smooth to the third derivative",
+    validity="heights of the roughness with a nearly normal distribution, uniform over both surfaces; sigma is"
+    " the combined roughness; the film acts alone where it is thicker than 3 sigma, and the dry "
+    "contact acts alone below -3 sigma; the clearance c is measured between the tips of the "
+    "asperities, and the film has the clearance c + 3 sigma; the share b of the dry contact is three "
+    "times differentiable",
     fields=(ROUGHNESS,),
     build=build,
 )

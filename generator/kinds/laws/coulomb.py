@@ -10,14 +10,14 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.generator.kinds.laws.roles import MU, friction, slip_of
+from gudgeon.generator.kinds.laws.roles import MU, make_friction_force, slip_field
 
 
 def build(s: LawInputs) -> dict[str, Any]:
     """Return the friction force F_t (N) on the journal along t: −c_f F_n tanh(v_t/v_0)."""
     import sympy as sp
 
-    return friction(s, s.parameters["mu"] * sp.tanh(s.variables["v_t"] / s.parameters["v0"]))
+    return make_friction_force(s, s.parameters["mu"] * sp.tanh(s.variables["v_t"] / s.parameters["v0"]))
 
 
 LAW = Law(
@@ -29,7 +29,7 @@ LAW = Law(
     reference="C. A. Coulomb (1785), smoothed as in E. Pennestri, V. Rossi, P. Salvini, P. P. Valentini, Review and "
     "comparison of dry friction force models, Nonlinear Dynamics 83 (2016) 1785-1801, "
     "doi 10.1007/s11071-015-2485-3",
-    validity="sliding; creeps below v0 where Coulomb's law would stick",
-    fields=(MU, slip_of("v0", "slip at which tanh 1 = .76 of the friction is there", "v_0")),
+    validity="sliding; below the slip v0 the contact creeps where Coulomb's law without smoothing would stick",
+    fields=(MU, slip_field("v0", "slip at which friction is tanh 1 = 0.76 of its largest value", "v_0")),
     build=build,
 )

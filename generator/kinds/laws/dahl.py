@@ -23,7 +23,7 @@ def build(s: LawInputs) -> dict[str, Any]:
     import sympy as sp
 
     v_t, z = s.variables["v_t"], s.variables["z"]
-    s.derive(BREAKAWAY, s.parameters["presliding"], "deflection at which it slides")
+    s.derive(BREAKAWAY, s.parameters["presliding"], "deflection of the bristles at which the surfaces slide")
     share = z * 1 / s.parameters["presliding"]
     return {"F_t": -s.parameters["mu"] * s.variables["F_n"] * share, "z_rate": v_t - sp.Abs(v_t) * share}
 
@@ -36,15 +36,15 @@ LAW = Law(
         r"F_t = -c_f F_n\, \frac{z}{z_s}",
         r"\dot z = v_t - |v_t|\, \frac{z}{z_s}",
     ),
-    source="P. R. Dahl (1968), exponent 1; load as in C. Canudas de Wit, P. Tsiotras (1999)",
+    source="P. R. Dahl (1968), exponent 1; dependence on the load as in C. Canudas de Wit, P. Tsiotras (1999)",
     reference="P. R. Dahl, A solid friction model, report TOR-0158(3107-18)-1, Aerospace Corporation (1968), exponent "
-    "1; load as in C. Canudas de Wit, P. Tsiotras (1999)",
-    validity="presliding and sliding; no difference between static and kinetic friction",
+    "1; dependence on the load as in C. Canudas de Wit, P. Tsiotras (1999)",
+    validity="presliding and sliding; the law has no difference between static and kinetic friction",
     fields=(
         MU,
         number(
             "presliding",
-            "deflection at which it slides",
+            "deflection of the bristles at which the surfaces slide",
             LENGTH,
             symbol="z_s",
             required=True,

@@ -1,4 +1,4 @@
-"""The hysteresis damping factor a in F = K δⁿ (1 + a δ̇/δ̇⁻), by its authors (physics.md, section 3).
+"""The hysteresis damping factor a in F = K δⁿ (1 + a δ̇/δ̇⁻), by several authors (physics.md, section 3).
 
 Each is a function of the coefficient of restitution c_e. What a law delivers is another number: it obeys
 a (1 + e) = ln[(1 + a)/(1 − a e)] whatever n, K and m (physics.md, section 3), and `exact` solves that for a.
@@ -22,15 +22,15 @@ FACTORS: Mapping[str, Callable[[Any], Any]] = {
     "lee_wang": lambda c_e: 3 * (1 - c_e) / 4,
     "lankarani_nikravesh": lambda c_e: 3 * (1 - c_e**2) / 4,
     "gonthier": lambda c_e: (1 - c_e**2) / c_e,
-    "zhiying_qishao": lambda c_e: 3 * (1 - c_e**2) / 4 * _exp(2 * (1 - c_e)),
+    "zhiying_qishao": lambda c_e: 3 * (1 - c_e**2) / 4 * _make_exponential(2 * (1 - c_e)),
     "flores": lambda c_e: 8 * (1 - c_e) / (5 * c_e),
     "hu_guo": lambda c_e: 3 * (1 - c_e) / (2 * c_e),
 }
 
 # Of those that were not read, and whose volume and pages nothing at hand confirms.
 _SECOND_HAND = (
-    "at second hand, not checked in print; listed in the review of M. Machado, P. Moreira, P. Flores, H. M. Lankarani, "
-    "Mechanism and Machine Theory 53 (2012) 99-121, doi 10.1016/j.mechmachtheory.2012.02.010"
+    "cited at second hand and not checked in print; listed in the review of M. Machado, P. Moreira, P. Flores, "
+    "H. M. Lankarani, Mechanism and Machine Theory 53 (2012) 99-121, doi 10.1016/j.mechmachtheory.2012.02.010"
 )
 
 SOURCES: Mapping[str, str] = {
@@ -54,9 +54,9 @@ SOURCES: Mapping[str, str] = {
     "doi 10.1007/s11044-010-9237-4",
     "hu_guo": "S. Hu, X. Guo, A dissipative contact force model for impact analysis in multibody dynamics, Multibody "
     "System Dynamics 35 (2015) 131-151, doi 10.1007/s11044-015-9453-z",
-    "exact": "a (1 + c_e) = ln[(1 + a)/(1 - a c_e)], which every factor a obeys with what it delivers, solved for a",
+    "exact": "a (1 + c_e) = ln[(1 + a)/(1 - a c_e)], solved for a: the identity of the delivered restitution",
 }
-PULLS = flag("pulls", "as printed: the force may be below 0, and pulls the surfaces together while they part fast")
+PULLS = flag("pulls", "apply the formula without max(0, ...): the force then pulls where the surfaces separate fast")
 EXACT = "exact"  # delivers the restitution that it is given
 RESTITUTION = number(
     "restitution",
@@ -66,10 +66,16 @@ RESTITUTION = number(
     default=1.0,
     bounds=(Bound(">", 0.0), Bound("<=", 1.0)),
 )
-DISSIPATION = word("dissipation", "whose hysteresis damping factor", (*FACTORS, EXACT), "hunt_crossley", SOURCES)
+DISSIPATION = word(
+    "dissipation",
+    "author of the hysteresis damping factor a; none is a = 0, exact delivers c_e",
+    (*FACTORS, EXACT),
+    "hunt_crossley",
+    SOURCES,
+)
 
 
-def hysteresis(s: LawInputs, factor: str) -> Any:
+def make_hysteresis_factor(s: LawInputs, factor: str) -> Any:
     """Return the hysteresis factor 1 + a δ̇/δ̇⁻ for a restitution.
 
     It is not negative unless the law has the option `pulls`. `factor` names the formula of a, a key of FACTORS or
@@ -84,12 +90,12 @@ def hysteresis(s: LawInputs, factor: str) -> Any:
     return factor_at_state if s.options.get("pulls") else sp.Max(factor_at_state, 0)
 
 
-def normal_force(s: LawInputs, K: Any, factor: str) -> Any:
+def make_normal_force(s: LawInputs, K: Any, factor: str) -> Any:
     """Return the normal force K δⁿ (1 + a δ̇/δ̇⁻), not negative, of Hertz's form with hysteresis damping."""
-    return K * s.variables["delta"] ** s.parameters["exponent"] * hysteresis(s, factor)
+    return K * s.variables["delta"] ** s.parameters["exponent"] * make_hysteresis_factor(s, factor)
 
 
-def delivered(a: float) -> float:
+def compute_delivered_restitution(a: float) -> float:
     """Return the restitution e of a free impact from the factor a ≥ 0 by root finding; 1 for a = 0.
 
     e solves a (1 + e) = ln[(1 + a)/(1 − a e)].
@@ -119,7 +125,7 @@ def _solve_exact_factor(s: LawInputs, c_e: Any) -> Any:
     return a
 
 
-def _exp(x: Any) -> Any:
+def _make_exponential(x: Any) -> Any:
     """Return the exponential in SymPy."""
     import sympy as sp
 

@@ -22,19 +22,20 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import Field, word
-from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, PULLS, RESTITUTION, hysteresis
+from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, PULLS, RESTITUTION, make_hysteresis_factor
 from gudgeon.generator.kinds.laws.law import DEEPEST, LawInputs
 
 GEOMETRY = word(
     "geometry",
-    "curvature of the pair: external R_i + R_j, as the press's paper prints it, hence the default; internal R_i - R_j,"
-    " of a pin in a hole (steel, 10 and 9.5 mm: 1.06e10 and 6.61e10 N/m^1.5, of which the literature has the second)",
+    "curvature of the pair: external, R_i + R_j, as Chen, Gao and Wang (2022) print it for the press; internal, "
+    "R_i - R_j, for a pin in a hole. For steel with radii of 10 and 9.5 mm, external gives 1.06e10 N/m^1.5 and "
+    "internal 6.61e10; the literature on such slider-cranks prints 6.61e10",
     ("external", "internal"),
     "external",
 )
 
 
-def pair_stiffness(s: LawInputs) -> Any:
+def make_pair_stiffness(s: LawInputs) -> Any:
     """Return the contact stiffness K (N/m^1.5) of Hertz as a derived constant, for the law's option `geometry`.
 
     A corner on a wall (R_i = ∞) has the radius R_j. Equal materials give a shorter formula.
@@ -53,7 +54,7 @@ def pair_stiffness(s: LawInputs) -> Any:
     return s.derive("K", K, "contact stiffness")
 
 
-def contact_modulus(s: LawInputs) -> Any:
+def make_contact_modulus(s: LawInputs) -> Any:
     """Return the contact modulus E* (Pa): 1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j.
 
     Equal materials give a shorter formula.
@@ -71,15 +72,17 @@ _NEVER = 1e-150  # of 4 ΔR, below every penetration: ln is finite at δ = 0
 _END = 1e-9  # beyond the end, where no run goes on, ln(…) + k − 1 tends to 0, so that a stage's force is a number
 
 
-def cylinder_force(s: LawInputs, k: int, deepest: Any) -> dict[str, Any]:
+def make_cylinder_force(s: LawInputs, k: int, deepest: Any) -> dict[str, Any]:
     """Return the steps to the normal force F_n (N) of parallel cylinders, δ > 0, by Newton's method.
 
-    `k` is the constant of the law; a run stops beyond `deepest` clearances.
+    F_n contains the hysteresis factor of the option `dissipation`. `k` is the constant in δ = u (ln(4 ΔR/u) + k). The
+    steps contain `STEPS` unrolled iterations of Newton's method, without a test of convergence. A run stops beyond the
+    penetration `deepest` times the clearance, which becomes a derived parameter, as do the stiffness and 4 ΔR.
     """
     import sympy as sp
 
     delta = s.variables["delta"]
-    K = s.derive("spring", sp.pi * s.pair.L * contact_modulus(s), "pi L E*")
+    K = s.derive("spring", sp.pi * s.pair.L * make_contact_modulus(s), "pi L E*")
     scale = s.derive("scale", 4 * s.pair.c, "4 (R_i - R_j)")
     s.derive(DEEPEST, deepest * s.pair.c, "penetration up to which the law holds")
     above, p = sp.Symbol("above", real=True), [sp.Symbol(f"p_{n}", real=True) for n in range(STEPS + 1)]
@@ -93,4 +96,4 @@ def cylinder_force(s: LawInputs, k: int, deepest: Any) -> dict[str, Any]:
     }
     for iterate, next_iterate in zip(p, p[1:], strict=False):
         steps[next_iterate.name] = iterate * (far + sp.log(iterate)) / (iterate - 1)
-    return {**steps, "F_n": K * delta / p[-1] * hysteresis(s, str(s.options["dissipation"]))}
+    return {**steps, "F_n": K * delta / p[-1] * make_hysteresis_factor(s, str(s.options["dissipation"]))}

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.laws.elastic_pair import CYLINDER_FIELDS, cylinder_force
+from gudgeon.generator.kinds.laws.elastic_pair import CYLINDER_FIELDS, make_cylinder_force
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 
 
@@ -20,7 +20,7 @@ def build(s: LawInputs) -> dict[str, Any]:
     """Return the compressive normal force F_n (N) for δ > 0."""
     import sympy as sp
 
-    return cylinder_force(s, 1, sp.Rational(37, 10))
+    return make_cylinder_force(s, 1, sp.Rational(37, 10))
 
 
 LAW = Law(
@@ -37,8 +37,9 @@ LAW = Law(
     "unlubricated elastic components (1978), as in C. Pereira, A. Ramalho, J. Ambrosio, A critical overview "
     "of internal and external cylinder contact force models, Nonlinear Dynamics 63 (2011) 681-697, doi "
     "10.1007/s11071-010-9830-3",
-    validity="a contact that is narrow beside the radii; its load has an end at penetrations of 4 clearances, and a "
-    "run that goes deeper than 3.7 stops; driven apart fast it would pull, and is 0 there unless it pulls",
+    validity="a contact that is narrow compared with the radii; the equation for F_e has no solution for a "
+    "penetration above 4 clearances, and a run stops at 3.7 clearances; where surfaces are driven "
+    "apart fast, the formula pulls, and the force is then set to 0 unless the option pulls is true",
     fields=CYLINDER_FIELDS,
     build=build,
     in_hole=True,

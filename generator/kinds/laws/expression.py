@@ -13,7 +13,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import OF_PENETRATION, Bound, number
-from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, PULLS, RESTITUTION, hysteresis
+from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, PULLS, RESTITUTION, make_hysteresis_factor
 from gudgeon.generator.kinds.laws.law import DEEPEST, SECANT_DEPTH, Law, LawInputs
 from gudgeon.language.units import FORCE, LENGTH
 
@@ -30,7 +30,7 @@ def build(s: LawInputs) -> dict[str, Any]:
         depth = SECANT_DEPTH * s.pair.c
         s.derive("spring", force.subs(delta, depth) / depth, "secant stiffness at a twentieth of the clearance")
     F_e = sp.Symbol("F_e", real=True)
-    return {"F_e": force, "F_n": F_e * hysteresis(s, str(s.options["dissipation"]))}
+    return {"F_e": force, "F_n": F_e * make_hysteresis_factor(s, str(s.options["dissipation"]))}
 
 
 LAW = Law(
@@ -39,11 +39,13 @@ LAW = Law(
     title="An elastic force as an expression of the penetration, with a choice of hysteresis damping",
     equation=(r"F_n = F_e(\delta) \max\left(0, 1 + a\,\frac{\dot\delta}{\dot\delta^{-}}\right)",),
     source="the file; the damping as K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445",
-    reference="The elastic force is the file's own; its damping has the form of K. H. Hunt, F. R. E. Crossley, Journal "
-    "of Applied Mechanics 42 (1975) 440-445, doi 10.1115/1.3423596",
-    validity="what is known of the expression; it is 0 at no penetration, which every run asks of its numbers, and not "
-    "negative up to the clearance or `deepest`, which is looked at with the numbers of the file and of its "
-    "scenes; driven apart fast it would pull, and is 0 there unless it pulls",
+    reference="The file specifies the elastic force; the damping has the form of K. H. Hunt, F. R. E. Crossley, "
+    "Journal of Applied Mechanics 42 (1975) 440-445, doi 10.1115/1.3423596",
+    validity="the range for which the user knows the elastic force; the elastic force must be 0 at zero "
+    "penetration, which every run checks with its parameter values; the elastic force must not be "
+    "negative up to the clearance, or up to `deepest` where the file gives it; that is checked with "
+    "the parameter values of the file and of its scenes; where surfaces are driven apart fast, the "
+    "formula pulls, and the force is then set to 0 unless the option pulls is true",
     fields=(
         number(
             "force",

@@ -1,4 +1,4 @@
-"""Film of a bearing of finite length under Reynolds' condition, p ≥ 0 with open ends: a potential of four terms.
+"""Oil film of a bearing of finite length with open ends and p ≥ 0: a potential with four fitted terms.
 
 Under that condition the force is the gradient of half the power that the film takes, F = −∂V/∂w, with V of the
 second degree in w. With s = √(1 − ε²), q = √(w_n² + s² w_t²), x = ε w_n/q, Λ = L/D and S = μ R_j³ L/c²
@@ -25,7 +25,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs, Limits
-from gudgeon.generator.kinds.laws.roles import OIL_FIELDS, TINY, film_clearance, shear_torque
+from gudgeon.generator.kinds.laws.roles import OIL_FIELDS, TINY, make_film_clearance, make_shear_torque
 
 # g = n0 + s (n1/(Λ + n2 s) + n3 + n4 s + n5 Λ s); n0 is the narrow gap's, which is long whatever Λ
 G0 = (0.4585, 2.3287, 2.7330, -0.3790, -0.4570, 0.0685)
@@ -34,7 +34,7 @@ G3 = 0.7670
 REST = 0.0084  # r
 
 
-def around(s: Any, ratio: Any, n: Sequence[float]) -> Any:
+def fit_function(s: Any, ratio: Any, n: Sequence[float]) -> Any:
     """Return g0 or g1 of symbols, numbers or arrays, for the ratio Λ."""
     return n[0] + s * (n[1] / (ratio + n[2] * s) + n[3] + s * (n[4] + n[5] * ratio))
 
@@ -47,7 +47,7 @@ def build(s: LawInputs) -> dict[str, Any]:
     import sympy as sp
 
     epsilon, w_n, w_t = (s.variables[name] for name in ("epsilon", "w_n", "w_t"))
-    c = film_clearance(s)
+    c = make_film_clearance(s)
     S = s.derive("S", s.parameters["viscosity"] * s.pair.R_j**3 * s.pair.L / c**2, "film factor mu R_j^3 L/c^2")
     ratio = s.derive("Lambda", s.pair.L / (2 * s.pair.R_j), "length over diameter")
     names = ("root", "q", "x", "g0", "g1", "narrow", "a0", "a1", "a2", "a3", "turn")
@@ -57,8 +57,8 @@ def build(s: LawInputs) -> dict[str, Any]:
         "root": sp.sqrt(1 - epsilon**2),
         "q": sp.sqrt(w_n**2 + square * w_t**2) + sp.Float(TINY),
         "x": epsilon * w_n / q,
-        "g0": around(root, ratio, G0),
-        "g1": around(root, ratio, G1),
+        "g0": fit_function(root, ratio, G0),
+        "g1": fit_function(root, ratio, G1),
         "narrow": ratio**2 / root**3,
         "a0": sp.pi * narrow / (square + g0 * ratio**2),
         "a1": 8 * narrow / (square + g1 * ratio**2),
@@ -67,7 +67,7 @@ def build(s: LawInputs) -> dict[str, Any]:
         "turn": 2 * a0 + x * (a1 - a3 * x**2),
         "F_r": -S * (w_n * turn + epsilon * q * (a1 + x * (2 * a2 + 3 * a3 * x))),
         "F_t": -S * square * w_t * turn,
-        "T0": shear_torque(s, c, root),
+        "T0": make_shear_torque(s, c, root),
     }
 
 
@@ -85,8 +85,10 @@ LAW = Law(
     reference="A potential of four terms, fitted to Reynolds' equation (p above 0, open ends); the impedance of short, "
     "long and finite bearings is that of D. Childs, H. Moes, H. van Leeuwen, ASME J. Lubr. Technol. 99 "
     "(1977) 198--214",
-    validity="L/D .1 to 2, epsilon to .95: within 1.2 % of the largest force at that epsilon, whatever the motion, and "
-    "steady rotation within 2 % of itself; to L/D = 3 and epsilon = .9985 within 3 % and 4 %; capped at .9999",
+    validity="for L/D from 0.1 to 2 and epsilon up to 0.95, the force deviates from Reynolds' equation by at "
+    "most 1.2 % of the largest force at that epsilon; in steady rotation it deviates by at most 2 % "
+    "of the force itself; up to L/D = 3 and epsilon = 0.9985 these limits are 3 % and 4 %; above "
+    "epsilon = 0.9999 the force is evaluated at 0.9999",
     limits=Limits(l_over_d=(0.1, 2.0), epsilon=0.95),
     fields=OIL_FIELDS,
     build=build,

@@ -15,7 +15,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.generator.kinds.laws.roles import ROUGHNESS, overlap
+from gudgeon.generator.kinds.laws.roles import ROUGHNESS, make_overlap_fraction
 
 POWER = 6.804
 
@@ -25,7 +25,7 @@ def build(s: LawInputs) -> dict[str, Any]:
     import sympy as sp
 
     part = sp.Symbol("part", real=True)
-    return {"part": overlap(s, 4, 0), "share": part ** sp.Float(POWER)}
+    return {"part": make_overlap_fraction(s, 4, 0), "share": part ** sp.Float(POWER)}
 
 
 LAW = Law(
@@ -44,8 +44,10 @@ LAW = Law(
     "Effect of surface roughness orientation on the central film thickness in EHD contacts, Proceedings of "
     "the 5th Leeds-Lyon Symposium (1978) 15-21; K. L. Johnson, J. A. Greenwood, S. Y. Poon, A simple theory "
     "of asperity contact in elastohydrodynamic lubrication, Wear 19 (1972) 91-108",
-    validity="normal heights; film alone above 4 sigma, contact alone where the mean surfaces meet; the clearance is "
-    "that of the tips, the film's larger by 4 sigma; the fit keeps the integral's share to .014",
+    validity="heights of the roughness with a normal distribution; sigma is the combined roughness; the film "
+    "acts alone where it is thicker than 4 sigma, and the dry contact acts alone where the mean "
+    "surfaces meet; the clearance c is measured between the tips of the asperities, and the film has "
+    "the clearance c + 4 sigma; the approximation of b deviates by at most 0.014",
     fields=(ROUGHNESS,),
     build=build,
 )

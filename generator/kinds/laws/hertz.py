@@ -1,4 +1,4 @@
-"""Hertz-type contact with a choice of hysteresis damping; the stiffness is given, or follows from the pair.
+"""Hertz-type contact with a choice of hysteresis damping; K is given, or follows from radii and materials.
 
     F_n = K δⁿ (1 + a δ̇/δ̇⁻),   K = 4/(3(σ_i + σ_j)) √(R_i R_j/(R_i ± R_j)),   σ = (1 − ν²)/E
 
@@ -12,8 +12,8 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import Bound, number
-from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, FACTORS, PULLS, RESTITUTION, normal_force
-from gudgeon.generator.kinds.laws.elastic_pair import GEOMETRY, pair_stiffness
+from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, FACTORS, PULLS, RESTITUTION, make_normal_force
+from gudgeon.generator.kinds.laws.elastic_pair import GEOMETRY, make_pair_stiffness
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DIMENSIONLESS
 
@@ -21,8 +21,8 @@ from gudgeon.language.units import DIMENSIONLESS
 def build(s: LawInputs) -> dict[str, Any]:
     """Return the compressive normal force F_n (N) for δ > 0, from the stiffness that is given, or that of the pair."""
     stiffness = s.parameters.get("stiffness")
-    K = pair_stiffness(s) if stiffness is None else s.derive("K", stiffness, "contact stiffness")
-    return {"F_n": normal_force(s, K, str(s.options["dissipation"]))}
+    K = make_pair_stiffness(s) if stiffness is None else s.derive("K", stiffness, "contact stiffness")
+    return {"F_n": make_normal_force(s, K, str(s.options["dissipation"]))}
 
 
 LAW = Law(
@@ -37,8 +37,9 @@ LAW = Law(
     source="H. Hertz (1881); K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445",
     reference="H. Hertz, Ueber die Beruehrung fester elastischer Koerper, Journal fuer die reine und angewandte "
     "Mathematik 92 (1882) 156-171, doi 10.1515/crll.1882.92.156",
-    validity="a point or a line contact whose stiffness is known or that of spheres; small penetrations; "
-    "driven apart fast it would pull, and is 0 there unless it pulls",
+    validity="a point or a line contact whose stiffness is known, or a contact with the stiffness of spheres, "
+    "at small penetrations; where surfaces are driven apart fast, the formula pulls, and the force is"
+    " then set to 0 unless the option pulls is true",
     fields=(
         number(
             "stiffness",

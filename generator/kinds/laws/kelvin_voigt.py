@@ -1,4 +1,4 @@
-"""A spring and a damper side by side: Kelvin and Voigt's contact, which pushes and does not pull unless it is asked to.
+"""Kelvin and Voigt's contact, a spring and a damper in parallel; an option allows the force to pull.
 
     F_n = K δ + D δ̇,   never negative unless it `pulls`
 
@@ -40,11 +40,26 @@ LAW = Law(
     reference="W. Goldsmith, Impact: the theory and physical behaviour of colliding solids, Edward Arnold, London "
     "(1960); T. Schwager, T. Poeschel, Coefficient of restitution and linear-dashpot model revisited, "
     "Granular Matter 9 (2007) 465-469",
-    validity="restitution is the same at any speed; the force begins with damping times speed at the onset; in the end "
-    "of each contact it would pull, and is 0 there unless it pulls",
+    validity="the law has the same restitution at any speed; the force begins with the damping times the "
+    "approach speed; near the end of each contact the formula pulls, and the force is then set to 0 "
+    "unless the option pulls is true",
     fields=(
-        number("stiffness", "force by penetration", STIFFNESS, symbol="K", required=True, bounds=(Bound(">", 0.0),)),
-        number("damping", "force by its rate", DAMPING, symbol="D", required=True, bounds=(Bound(">", 0.0),)),
+        number(
+            "stiffness",
+            "spring force divided by the penetration",
+            STIFFNESS,
+            symbol="K",
+            required=True,
+            bounds=(Bound(">", 0.0),),
+        ),
+        number(
+            "damping",
+            "damping force divided by the rate of the penetration",
+            DAMPING,
+            symbol="D",
+            required=True,
+            bounds=(Bound(">", 0.0),),
+        ),
         PULLS,
     ),
     build=build,

@@ -10,15 +10,15 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import Bound, number
-from gudgeon.generator.kinds.laws.dissipation import SOURCES, normal_force
-from gudgeon.generator.kinds.laws.elastic_pair import GEOMETRY, pair_stiffness
+from gudgeon.generator.kinds.laws.dissipation import SOURCES, make_normal_force
+from gudgeon.generator.kinds.laws.elastic_pair import GEOMETRY, make_pair_stiffness
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DIMENSIONLESS
 
 
 def build(s: LawInputs) -> dict[str, Any]:
     """Return the compressive normal force F_n (N) for δ > 0."""
-    return {"F_n": normal_force(s, pair_stiffness(s), LAW.name)}
+    return {"F_n": make_normal_force(s, make_pair_stiffness(s), LAW.name)}
 
 
 LAW = Law(
@@ -32,7 +32,8 @@ LAW = Law(
     ),
     source="H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369-376",
     reference=SOURCES["lankarani_nikravesh"],
-    validity="c_e near 1 (c_e = .9 delivers .91318); external spheres unless geometry is internal",
+    validity="values of c_e near 1: c_e = 0.9 delivers the restitution 0.91318; the stiffness is that of "
+    "external spheres, unless geometry is internal",
     fields=(
         number(
             "restitution",

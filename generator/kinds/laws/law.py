@@ -1,4 +1,5 @@
-"""Defines what a force law declares. Each other file of this folder is one law and exports `LAW`.
+"""Defines the interface of a force law: its parameters, its equations, and what else its file declares. Each other file
+of this folder is one law and exports `LAW`.
 
 Law files import no SymPy at the top: reading a YAML file needs a law's parameters and options, not its equations.
 """
@@ -13,7 +14,7 @@ from typing import Any
 
 from gudgeon.errors import BadValueError
 from gudgeon.generator.field import NUMBER, RELATIONS, Field
-from gudgeon.generator.kinds import declared
+from gudgeon.generator.kinds import iterate_declarations
 
 
 @dataclass(frozen=True)
@@ -57,8 +58,10 @@ VARIABLES: Mapping[str, tuple[str, ...]] = {
     "mixed": ("delta",),  # δ > 0 (m)
 }
 # Further variables of the role that a law may read.
-FURTHER: Mapping[str, tuple[str, ...]] = {"normal": ("deltadot",)}  # δ̇ (m/s)
-HELD = ("held_force",)  # N, what a law of surfaces that do not give reads in place of it: the force that keeps e = c
+FURTHER_VARIABLES: Mapping[str, tuple[str, ...]] = {"normal": ("deltadot",)}  # δ̇ (m/s)
+CONSTRAINT_VARIABLES = (
+    "held_force",
+)  # N, what a law of surfaces that do not give reads in place of it: the force that keeps e = c
 RESULTS: Mapping[str, tuple[str, ...]] = {
     "normal": ("F_n",),
     "friction": ("F_t",),
@@ -127,7 +130,7 @@ class Law:
     @property
     def further(self) -> tuple[str, ...]:
         """Return the variables that `build` may read in addition to those of its role."""
-        return HELD if self.rigid else FURTHER.get(self.role, ())
+        return CONSTRAINT_VARIABLES if self.rigid else FURTHER_VARIABLES.get(self.role, ())
 
     @property
     def results(self) -> tuple[str, ...]:
@@ -137,17 +140,17 @@ class Law:
     @property
     def parameters(self) -> tuple[Field, ...]:
         """Return the law's numbers: run-time parameters `contacts.<contact>.<role>.<name>`."""
-        return tuple(own for own in self.fields if own.kind == NUMBER)
+        return tuple(law_field for law_field in self.fields if law_field.kind == NUMBER)
 
     @property
     def expressions(self) -> tuple[Field, ...]:
         """Return the law's keys that are expressions of a variable and thus no run-time parameters."""
-        return tuple(own for own in self.parameters if own.varies)
+        return tuple(law_field for law_field in self.parameters if law_field.varies)
 
     @property
     def options(self) -> tuple[Field, ...]:
         """Return the law's structural options: words, and flags with the values False and True."""
-        return tuple(own for own in self.fields if own.kind != NUMBER)
+        return tuple(law_field for law_field in self.fields if law_field.kind != NUMBER)
 
     def check(self, numbers: Mapping[str, float]) -> None:
         """Raise BadValueError for a number that violates the law's bounds; `numbers` maps keys of the law to values.
@@ -158,8 +161,8 @@ class Law:
             for bound in field_of_law.bounds if field_of_law.name in numbers else ():
                 value, limit = numbers[field_of_law.name], numbers.get(bound.limit, bound.limit)  # type: ignore[arg-type]
                 if not isinstance(limit, str) and not RELATIONS[bound.relation](value, limit):
-                    expected = f"expected {bound.relation} {bound.limit} ({field_of_law.meaning})"
-                    raise BadValueError(f"{field_of_law.name} is {value:g}: {expected}")
+                    hint = f"expected {bound.relation} {bound.limit} ({field_of_law.meaning})"
+                    raise BadValueError(f"{field_of_law.name} is {value:g}: {hint}")
 
     def fields_as(self, name: str) -> tuple[Field, ...]:
         """Return the keys of the law under one of its names.
@@ -180,20 +183,20 @@ USER_LAWS: dict[str, Law] = {}  # user-defined laws (registered.py)
 
 
 @cache
-def bundled_laws() -> Mapping[str, Law]:
+def find_bundled_laws() -> Mapping[str, Law]:
     """Return the laws in this folder by name; the files are imported once."""
-    return {law.name: law for law in declared("gudgeon.generator.kinds.laws", "LAW", Law)}
+    return {law.name: law for law in iterate_declarations("gudgeon.generator.kinds.laws", "LAW", Law)}
 
 
-def laws() -> Mapping[str, Law]:
+def find_all_laws() -> Mapping[str, Law]:
     """Return all laws by name: those in this folder and user-defined ones."""
-    return {**bundled_laws(), **USER_LAWS}
+    return {**find_bundled_laws(), **USER_LAWS}
 
 
-def called(role: str) -> Mapping[str, Law]:
+def find_laws_of_role(role: str) -> Mapping[str, Law]:
     """Return the laws of a role by each of their names: those of this folder first, user-defined ones last."""
     laws_by_name: dict[str, Law] = {}
-    for laws_of_source in (bundled_laws(), USER_LAWS):
+    for laws_of_source in (find_bundled_laws(), USER_LAWS):
         laws_of_role = {law.name: law for law in laws_of_source.values() if law.role == role}
         laws_by_name |= laws_of_role | {name: law for law in laws_of_role.values() for name in law.also}
     return laws_by_name

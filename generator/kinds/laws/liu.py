@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, PULLS, RESTITUTION, hysteresis
-from gudgeon.generator.kinds.laws.elastic_pair import contact_modulus
+from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, PULLS, RESTITUTION, make_hysteresis_factor
+from gudgeon.generator.kinds.laws.elastic_pair import make_contact_modulus
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 
 
@@ -20,8 +20,13 @@ def build(s: LawInputs) -> dict[str, Any]:
     import sympy as sp
 
     delta = s.variables["delta"]
-    K = s.derive("K", sp.pi / 2 * s.pair.L * contact_modulus(s), "pi L E*/2")
-    return {"F_n": K * delta * sp.sqrt(delta / (2 * (s.pair.c + delta))) * hysteresis(s, str(s.options["dissipation"]))}
+    K = s.derive("K", sp.pi / 2 * s.pair.L * make_contact_modulus(s), "pi L E*/2")
+    return {
+        "F_n": K
+        * delta
+        * sp.sqrt(delta / (2 * (s.pair.c + delta)))
+        * make_hysteresis_factor(s, str(s.options["dissipation"]))
+    }
 
 
 LAW = Law(
@@ -36,8 +41,9 @@ LAW = Law(
     source="C. S. Liu, K. Zhang, R. Yang, Mechanism and Machine Theory 42 (2007) 183-197",
     reference="C. S. Liu, K. Zhang, R. Yang, The FEM analysis and approximate model for cylindrical joints with "
     "clearances, Mechanism and Machine Theory 42 (2007) 183-197, doi 10.1016/j.mechmachtheory.2006.02.006",
-    validity="a pin in a hole with parallel axes, penetrations up to some clearances; driven apart fast it would "
-    "pull, and is 0 there unless it pulls",
+    validity="a pin in a hole with parallel axes, and penetrations up to some clearances; where surfaces are "
+    "driven apart fast, the formula pulls, and the force is then set to 0 unless the option pulls is "
+    "true",
     fields=(
         RESTITUTION,
         DISSIPATION,

@@ -1,4 +1,4 @@
-"""LuGre friction: bristles that bend before the surfaces slide, with static friction and damping of their own.
+"""LuGre friction: bristles bend before the surfaces slide, with static friction and damping of the bristles.
 
     F_t = −F_n (σ0 z + σ1 ż),   ż = v_t − σ0 |v_t| z/g,   g = c_f + (c_s − c_f) e^{−(v_t/v_s)²}
 
@@ -17,8 +17,8 @@ from typing import Any
 
 from gudgeon.generator.field import Bound, number
 from gudgeon.generator.kinds.laws.law import BREAKAWAY, Law, LawInputs, State
-from gudgeon.generator.kinds.laws.roles import MU, MU_S, friction, slip_of
-from gudgeon.language.units import dimension
+from gudgeon.generator.kinds.laws.roles import MU, MU_S, make_friction_force, slip_field
+from gudgeon.language.units import make_dimension
 
 
 def build(s: LawInputs) -> dict[str, Any]:
@@ -33,7 +33,7 @@ def build(s: LawInputs) -> dict[str, Any]:
     return {
         "g_v": mu + (mu_s - mu) * sp.exp(-((v_t / v_s) ** 2)),
         "bending": v_t - sigma_0 * sp.Abs(v_t) * z / g,
-        **friction(s, sigma_0 * z + sigma_1 * rate),
+        **make_friction_force(s, sigma_0 * z + sigma_1 * rate),
         "z_rate": rate,
     }
 
@@ -50,9 +50,10 @@ LAW = Law(
     source="C. Canudas de Wit et al., IEEE Trans. Autom. Control 40 (1995) 419-425; load as in C. Canudas de Wit, "
     "P. Tsiotras (1999)",
     reference="C. Canudas de Wit, H. Olsson, K. J. Astrom, P. Lischinsky, A new model for control of systems with "
-    "friction, IEEE Transactions on Automatic Control 40 (1995) 419-425, doi 10.1109/9.376053; load as in "
-    "C. Canudas de Wit, P. Tsiotras (1999)",
-    validity="presliding and sliding; gives no energy where sigma_1 <= 4 g/|v_t|, for which c_f instead of g is enough",
+    "friction, IEEE Transactions on Automatic Control 40 (1995) 419-425, doi 10.1109/9.376053; dependence on the "
+    "load as in C. Canudas de Wit, P. Tsiotras (1999)",
+    validity="presliding and sliding; the friction force only dissipates energy where sigma_1 <= 4 g/|v_t|, "
+    "for which sigma_1 <= 4 c_f/|v_t| is sufficient",
     fields=(
         number(
             "mu",
@@ -63,19 +64,19 @@ LAW = Law(
             bounds=(Bound(">", 0.0),),
         ),
         MU_S,
-        slip_of("v_s", "slip in which static friction falls", "v_s"),
+        slip_field("v_s", "slip at which the excess over kinetic friction has fallen to 1/e", "v_s"),
         number(
             "stiffness",
-            "of the bristles, by the normal force",
-            dimension(length=-1),
+            "stiffness of the bristles divided by the normal force",
+            make_dimension(length=-1),
             symbol=r"\sigma_0",
             required=True,
             bounds=(Bound(">", 0.0),),
         ),
         number(
             "damping",
-            "of the bristles, by the normal force",
-            dimension(length=-1, time=1),
+            "damping of the bristles divided by the normal force",
+            make_dimension(length=-1, time=1),
             symbol=r"\sigma_1",
             default=0.0,
             bounds=(Bound(">=", 0.0),),

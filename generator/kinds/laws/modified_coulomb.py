@@ -45,7 +45,7 @@ LAW = Law(
     ),
     source="physics.md section 3, after J. A. C. Ambrosio",
     reference="J. A. C. Ambrosio, as in X. Chen, S. Gao, T. Wang, Nonlinear Dynamics, doi 10.1007/s11071-022-07478-4",
-    validity="sliding; creeps below v1 where Coulomb's law would stick",
+    validity="sliding; below the slip v1 the contact creeps where Coulomb's law would stick",
     fields=(
         MU,
         number(
@@ -58,7 +58,7 @@ LAW = Law(
         ),
         number(
             "v1",
-            "slip above which friction is full",
+            "slip above which friction is constant",
             VELOCITY,
             symbol="v_1",
             required=True,

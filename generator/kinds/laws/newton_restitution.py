@@ -1,12 +1,12 @@
-"""Newton's impact law between surfaces that do not give: velocities jump, and a contact that lasts is a constraint.
+"""Newton's impact law between rigid surfaces: velocities jump, and a lasting contact is a constraint.
 
     impact:   δ̇⁺ = −e_n δ̇⁻,   M (q̇⁺ − q̇⁻) + Φ_qᵀ Λ_Φ = −δ_qᵀ Λ,   Λ ≥ 0
     contact:  δ̈ ≤ 0,   λ ≥ 0,   λ δ̈ = 0   at δ = δ̇ = 0
 
 with the impulse Λ (N s) and the force λ (N) along the normal. A bounce slower than the threshold v_0 ends at rest: the
-contact is closed. CombinedObserver contacts at one time go by one linear complementarity problem: what is closed, or
-closes,
-takes part with all others. Friction beside it, F_t = −μ(v_t) F_n by its own law, acts with λ while a contact is closed.
+contact is closed. Several contacts at one time are solved as one linear complementarity problem, in which every
+contact that is closed or closes takes part. Friction beside it, F_t = −μ(v_t) F_n by its own law, acts with λ while a
+contact is closed.
 In a blow it has impulses P along t (engine/run/frictional_impact.c): with v the slip behind the blow without friction,
 
     friction: v⁺ = v + S P,   |P| ≤ μ(v) Λ,   v⁺ = 0 where |P| < μ(v) Λ,   P (v₀ + S P/2) ≤ 0
@@ -36,7 +36,7 @@ def build(s: LawInputs) -> dict[str, Any]:
 LAW = Law(
     name="newton_restitution",
     role="normal",
-    title="Newton's restitution between surfaces that do not give",
+    title="Newton's restitution between rigid surfaces",
     equation=(
         r"\dot\delta^{+} = -e_n \dot\delta^{-} \quad \text{in an impact}",
         r"0 \le F_n \perp -\ddot\delta \ge 0 \quad \text{in a closed contact}",
@@ -45,16 +45,17 @@ LAW = Law(
     reference="J. J. Moreau, Unilateral contact and dry friction in finite freedom dynamics, in: J. J. Moreau, P. D. "
     "Panagiotopoulos (eds.), Nonsmooth Mechanics and Applications, Springer (1988) 1-82, "
     "doi 10.1007/978-3-7091-2624-0_1; F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, "
-    "Wiley (1996); friction in a blow: A. Chatterjee, A. Ruina, A new algebraic rigid-body collision law "
+    "Wiley (1996); friction in an impact: A. Chatterjee, A. Ruina, A new algebraic rigid-body collision law "
     "based on impulse space considerations, Journal of Applied Mechanics 65 (1998) 939-951, "
     "doi 10.1115/1.2791938",
-    validity="a blow parts surfaces with e_n times their speed of approach, what is closed is a constraint that only "
-    "pushes; blows are far shorter than all else in the motion, how hard they press is not told; in a blow "
-    "friction brings slip to rest as far as mu times the impulse lets it, and energy is never gained",
+    validity="impacts that are far shorter than all other motion; an impact separates the surfaces with e_n "
+    "times their approach speed, and no force during the impact is computed; a closed contact is a "
+    "constraint that only pushes; in an impact, friction reduces the slip, at most to zero, by an "
+    "impulse of at most mu times the normal impulse; an impact never adds energy",
     fields=(
         number(
             "restitution",
-            "speed of parting by speed of approach",
+            "separation speed divided by approach speed",
             DIMENSIONLESS,
             symbol="e_n",
             required=True,
@@ -62,7 +63,7 @@ LAW = Law(
         ),
         number(
             "threshold",
-            "speed of parting below which a contact closes",
+            "separation speed below which a contact closes",
             VELOCITY,
             symbol="v_0",
             default=1e-4,

@@ -1,4 +1,4 @@
-"""Ocvirk's short-bearing film with its squeeze: the half of the gap in which pressure is above that of the ends.
+"""Ocvirk's film of a short bearing with squeeze motion; only the half with positive pressure contributes.
 
     (F_r, F_t) = (μ R_j L³/c²) ∫ (½ ω_s ε sin θ − ε̇ cos θ)(cos θ, sin θ)/(1 + ε cos θ)³ dθ,  θ₁ … θ₁ + π
     θ₁ = atan2(ε̇, ½ ω_s ε)
@@ -21,7 +21,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs, Limits
-from gudgeon.generator.kinds.laws.roles import CAVITATION, OIL_FIELDS, TINY, film_clearance, shear_torque
+from gudgeon.generator.kinds.laws.roles import CAVITATION, OIL_FIELDS, TINY, make_film_clearance, make_shear_torque
 
 
 def build(s: LawInputs) -> dict[str, Any]:
@@ -32,7 +32,7 @@ def build(s: LawInputs) -> dict[str, Any]:
     import sympy as sp
 
     epsilon, w_n, w_t = (s.variables[name] for name in ("epsilon", "w_n", "w_t"))
-    c = film_clearance(s)
+    c = make_film_clearance(s)
     S = s.derive("S", s.parameters["viscosity"] * s.pair.R_j * s.pair.L**3 / c**2, "film factor mu R_j L^3/c^2")
     names = ("root", "W", "cosine", "sine", "D", "P", "cc", "sc", "ss")
     root, W, cosine, sine, D, P, cc, sc, ss = (sp.Symbol(name, real=True) for name in names)
@@ -42,7 +42,7 @@ def build(s: LawInputs) -> dict[str, Any]:
             "root": sp.sqrt(1 - epsilon**2),
             "F_r": -sp.pi * S * w_n * (1 + 2 * epsilon**2) / (square**2 * root),
             "F_t": -sp.pi * S * w_t / (square * root),
-            "T0": shear_torque(s, c, root),
+            "T0": make_shear_torque(s, c, root),
         }
     return {
         "root": sp.sqrt(1 - epsilon**2),
@@ -57,7 +57,7 @@ def build(s: LawInputs) -> dict[str, Any]:
         "ss": P / (2 * square * root) + epsilon * sine * (1 + (epsilon**2 - 2) * cosine**2) / (square * D**2),
         "F_r": -S * (w_n * cc + w_t * sc),
         "F_t": -S * (w_n * sc + w_t * ss),
-        "T0": shear_torque(s, c, root),
+        "T0": make_shear_torque(s, c, root),
     }
 
 
@@ -74,7 +74,8 @@ LAW = Law(
     source="F. W. Ocvirk, NACA TN 2808 (1952), with squeeze",
     reference="F. W. Ocvirk, Short-bearing approximation for full journal bearings, NACA Technical Note 2808 (1952), "
     "with squeeze: the half film lies where the pressure is above that of the ends",
-    validity="short bearing (L/D < 1/2; at L/D = 1 it carries twice too much and more); epsilon capped at .9999",
+    validity="short bearing (L/D < 1/2); at L/D = 1 the law overestimates the load, by a factor of 2 and more "
+    "at large epsilon; above epsilon = 0.9999 the force is evaluated at 0.9999",
     limits=Limits(l_over_d=(0.0, 0.5)),
     fields=(*OIL_FIELDS, CAVITATION),
     build=build,

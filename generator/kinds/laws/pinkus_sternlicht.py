@@ -22,8 +22,8 @@ from gudgeon.generator.kinds.laws.roles import (
     SHEAR,
     TINY,
     VISCOUS,
-    film_clearance,
-    shear_torque,
+    make_film_clearance,
+    make_shear_torque,
 )
 
 
@@ -36,7 +36,7 @@ def build(s: LawInputs) -> dict[str, Any]:
 
     epsilon, w_n, w_t = (s.variables[name] for name in ("epsilon", "w_n", "w_t"))
     pair, viscosity = s.pair, s.parameters["viscosity"]
-    c = film_clearance(s)
+    c = make_film_clearance(s)
     S = s.derive("S", 6 * viscosity * pair.R_j**3 * pair.L / c**2, "film factor 6 mu R_j^3 L/c^2")
     root, W, f = sp.Symbol("root", real=True), sp.Symbol("W", real=True), sp.Symbol("factor", real=True)
     half = sp.Rational(3, 2) * epsilon
@@ -49,7 +49,7 @@ def build(s: LawInputs) -> dict[str, Any]:
         "factor": 1 + half * w_n / (root * W + half * sp.Abs(w_n) + sp.Float(TINY)),
         "F_r": F_r,
         "F_t": -2 * sp.pi * S * w_t * f / ((2 + epsilon**2) * root),
-        "T0": shear_torque(s, c, root),
+        "T0": make_shear_torque(s, c, root),
     }
 
 
@@ -66,12 +66,13 @@ LAW = Law(
     source="O. Pinkus, B. Sternlicht, Theory of Hydrodynamic Lubrication (1961), sign corrected",
     reference="O. Pinkus, B. Sternlicht, Theory of hydrodynamic lubrication, McGraw-Hill, New York (1961), sign "
     "corrected",
-    validity="long bearing (L/D >> 1); follows Guembel's film for |omega_s| >> |d epsilon/dt|; epsilon capped at .9999",
+    validity="long bearing (L/D >> 1); the law agrees with Guembel's half film where |omega_s| >> |d "
+    "epsilon/dt|; above epsilon = 0.9999 the force is evaluated at 0.9999",
     limits=Limits(l_over_d=(4.0, math.inf), slow_squeeze=True),  # at L/D = 4 it is off by 16 % in rotation
     fields=(
         VISCOUS,
         EXTRA_CLEARANCE,
-        flag("as_printed", "the radial force's sign as the paper's Eq. 12 prints it (wrong)"),
+        flag("as_printed", "use the wrong sign of the radial force that Eq. 12 of Chen, Gao and Wang (2022) prints"),
         SHEAR,
         ANGULAR_VELOCITY,
     ),

@@ -19,12 +19,12 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeGuard
 
-from gudgeon.errors import BadNameError, InputError, LawError, Location, shortened
-from gudgeon.files.reading import MAX_BYTES, read_named
+from gudgeon.errors import BadNameError, InputError, LawError, Location, shorten_path
+from gudgeon.files.reading import MAX_BYTES, read_user_file
 from gudgeon.generator.field import FLAG, NUMBER, RELATIONS, WORD, Bound, Field
-from gudgeon.generator.kinds.laws.law import RESULTS, USER_LAWS, Law, State, bundled_laws
-from gudgeon.language.argument_checks import path
-from gudgeon.language.names import check_label, known_hint
+from gudgeon.generator.kinds.laws.law import RESULTS, USER_LAWS, Law, State, find_bundled_laws
+from gudgeon.language.argument_checks import check_path
+from gudgeon.language.names import check_label, format_name_hint
 from gudgeon.language.units import Dimension
 
 WHOLE = "docs/describing.md has one whole"
@@ -53,26 +53,30 @@ def register(law: str | os.PathLike[str] | Law) -> Law:
     Raises LawError, an InputError, for a file that cannot be read, fails or has no LAW, a name that another law has,
     and a wrong declaration; the results of `build` are checked when a scene uses it.
     """
-    registered_law, origin = (law, Origin("", "", "")) if isinstance(law, Law) else _load_law_file(path(law, "law"))
+    registered_law, origin = (
+        (law, Origin("", "", "")) if isinstance(law, Law) else _load_law_file(check_path(law, "law"))
+    )
     try:
         _check_declaration(registered_law, origin)
     except LawError as error:
-        raise LawError(f"{prefix(registered_law.name, origin)}{error.message}", hint=error.hint) from None
+        raise LawError(f"{format_law_prefix(registered_law.name, origin)}{error.message}", hint=error.hint) from None
     except Exception as error:  # a field of a type that nobody thought of
         hint = f"what each of its fields may be: {WHOLE}"
         name = getattr(registered_law, "name", None)
-        raise LawError(f"{prefix(name, origin)}its declaration is none: {message(error)}", hint=hint) from error
+        raise LawError(
+            f"{format_law_prefix(name, origin)}its declaration is none: {format_exception(error)}", hint=hint
+        ) from error
     USER_LAWS[registered_law.name], ORIGINS[registered_law.name] = registered_law, origin
     return registered_law
 
 
-def prefix(name: object, origin: Origin | None) -> str:
+def format_law_prefix(name: object, origin: Origin | None) -> str:
     """Return the beginning of an error about a law: its file and name, each if it is known."""
     file = f"{origin.typed}: " if origin is not None and origin.typed else ""
     return f"{file}law {name}: " if isinstance(name, str) else file
 
 
-def key_of(name: str) -> str:
+def find_law_key(name: str) -> str:
     """Return the key of a user-defined law, a SHA-256 of its content; "" if there is none of that name.
 
     The key of a law without a file is computed at the first call and stored.
@@ -80,13 +84,13 @@ def key_of(name: str) -> str:
     if name not in USER_LAWS:
         return ""
     if not ORIGINS[name].key:
-        from gudgeon.generator.kinds.laws.built import key_of_law
+        from gudgeon.generator.kinds.laws.built import compute_law_key
 
-        ORIGINS[name] = replace(ORIGINS[name], key=key_of_law(USER_LAWS[name]))
+        ORIGINS[name] = replace(ORIGINS[name], key=compute_law_key(USER_LAWS[name]))
     return ORIGINS[name].key
 
 
-def place_in(error: BaseException, file: str) -> Location | None:
+def find_error_location(error: BaseException, file: str) -> Location | None:
     """Return the location in a file at which an error arose; None if it arose elsewhere.
 
     That is the last line of the traceback in the file, or the location of a SyntaxError.
@@ -103,11 +107,11 @@ def _load_law_file(path_as_given: str | os.PathLike[str]) -> tuple[Law, Origin]:
     The module stays in sys.modules, unless it fails. Its prints go to stderr. The key covers modules next to it that it
     imports.
     """
-    display_path, hint = shortened(path_as_given), f"expected a Python file that exports LAW; {WHOLE}"
+    display_path, hint = shorten_path(path_as_given), f"expected a Python file that exports LAW; {WHOLE}"
     if not os.fspath(path_as_given):
         raise LawError("a law's file has no name: ''", hint=hint)
     try:
-        data = read_named(path_as_given, MAX_BYTES, "the law", hint)
+        data = read_user_file(path_as_given, MAX_BYTES, "the law", hint)
     except InputError as error:
         raise LawError(error.message, error.where, error.hint) from error
     digest = hashlib.sha256(data)
@@ -121,8 +125,8 @@ def _load_law_file(path_as_given: str | os.PathLike[str]) -> tuple[Law, Origin]:
         raise
     except BaseException as error:
         sys.modules.pop(module.__name__, None)
-        location = place_in(error, display_path) or Location(display_path, 1, 1)
-        raise LawError(f"the law cannot be read: {message(error)}", location) from error
+        location = find_error_location(error, display_path) or Location(display_path, 1, 1)
+        raise LawError(f"the law cannot be read: {format_exception(error)}", location) from error
     law = getattr(module, "LAW", None)
     if not isinstance(law, Law):
         fault = "no LAW" if law is None else f"a LAW of type {type(law).__name__}"
@@ -132,7 +136,7 @@ def _load_law_file(path_as_given: str | os.PathLike[str]) -> tuple[Law, Origin]:
     return law, Origin(display_path, str(module.__file__), digest.hexdigest())
 
 
-def message(error: BaseException) -> str:
+def format_exception(error: BaseException) -> str:
     """Return a Python error as one line: its type and, if there is one, its text."""
     try:
         text = " ".join(str(error.msg if isinstance(error, SyntaxError) else error).split())
@@ -166,9 +170,9 @@ def _check_declaration(law: Law, origin: Origin) -> None:
     """
     for name in ("name", "title", "source", "validity"):
         _require(isinstance(getattr(law, name), str), f"its {name} is no text")
-    check_name(law.name, "law")
+    check_law_name(law.name, "law")
     for law_name in (law.name, *law.also):
-        bundled_names = {name for other in bundled_laws().values() for name in (other.name, *other.also)}
+        bundled_names = {name for other in find_bundled_laws().values() for name in (other.name, *other.also)}
         _require(law_name not in bundled_names, f"{law_name} is a law of gudgeon's", "give yours another name")
         other_user_laws = [other for other in USER_LAWS.values() if other.name != law.name]
         _require(
@@ -179,7 +183,7 @@ def _check_declaration(law: Law, origin: Origin) -> None:
     if known_origin is not None and known_origin.file != origin.file:
         origin_text = f"that of {known_origin.typed}" if known_origin.typed else "one made in Python"
         raise LawError(f"another law of this name is registered, {origin_text}", hint="give one of them another name")
-    _require(law.role in RESULTS, f"unknown role {law.role!r}", known_hint(str(law.role), RESULTS))
+    _require(law.role in RESULTS, f"unknown role {law.role!r}", format_name_hint(str(law.role), RESULTS))
     _require(
         callable(law.build), "its build is no function", "expected build(inputs), which returns its forces by name"
     )
@@ -199,7 +203,7 @@ def _check_keys_of_law(law: Law) -> None:
         *(state.name for state in law.states if isinstance(state, State)),
     ]
     for name in names:
-        check_name(name, "number or option")
+        check_law_name(name, "number or option")
         _require(name != "law" and names.count(name) == 1, f"{name!r} names two keys")
     for field_of_law in law.fields:
         is_usable = field_of_law.kind in (NUMBER, WORD, FLAG) and not field_of_law.varies
@@ -241,7 +245,7 @@ def _check_declared_field(declaration: Field, kinds: Mapping[str, str]) -> None:
         _require(
             is_allowed,
             f"the default of {declaration.name} is {declaration.default!r}",
-            known_hint(str(declaration.default), map(str, allowed_words)),
+            format_name_hint(str(declaration.default), map(str, allowed_words)),
         )
         return
     message = f"the dimension of {declaration.name} is {declaration.dimension!r}"
@@ -275,7 +279,7 @@ def _is_number(value: object) -> TypeGuard[float]:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def check_name(name: Any, kind: str) -> None:
+def check_law_name(name: Any, kind: str) -> None:
     """Raise LawError unless the name is an identifier that emitted code does not reserve.
 
     `kind` is its kind in messages.

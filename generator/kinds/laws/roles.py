@@ -1,4 +1,4 @@
-"""Fields and steps that laws of one role share.
+"""Keys and equations that all laws of one role share: friction, film or mixed lubrication.
 
 Friction by slip: the parts of c_d(v_t), which is odd, without a corner at v_t = 0. Films: what every law asks of its
 oil, clearance and shear torque. Mixed lubrication: the roughness of both surfaces, and where its tips first touch.
@@ -28,19 +28,19 @@ MU_S = number(
 )
 
 
-def slip_of(name: str, meaning: str, symbol: str) -> Field:
+def slip_field(name: str, meaning: str, symbol: str) -> Field:
     """Declare a positive slip velocity (m/s) of a law, a required number."""
     return number(name, meaning, VELOCITY, symbol=symbol, required=True, bounds=(Bound(">", 0.0),))
 
 
-def both_ways(v_t: Any, forward: Callable[[Any], Any]) -> Any:
+def make_odd_function(v_t: Any, forward: Callable[[Any], Any]) -> Any:
     """Return an odd function of the slip from `forward` of u = max(v_t, 0), which is 0 at 0."""
     import sympy as sp
 
     return forward(sp.Max(v_t, 0)) - forward(sp.Max(-v_t, 0))
 
 
-def friction(s: LawInputs, coefficient: Any) -> dict[str, Any]:
+def make_friction_force(s: LawInputs, coefficient: Any) -> dict[str, Any]:
     """Return the friction force F_t (N) on the journal along t, from an odd coefficient of the slip."""
     return {"F_t": -coefficient * s.variables["F_n"]}
 
@@ -52,34 +52,35 @@ TINY = 1e-150
 VISCOUS = number("viscosity", "dynamic viscosity", VISCOSITY, symbol=r"\mu", required=True, bounds=(Bound(">", 0.0),))
 EXTRA_CLEARANCE = number(
     "extra_clearance",
-    "added to c in the film alone",
+    "added to c, in the film law only",
     LENGTH,
     symbol="e_t",
     default=0.0,
     bounds=(Bound(">=", 0.0),),
 )
-SHEAR = flag("shear", "shear torque, and the film's resultant at each pin centre")
+SHEAR = flag("shear", "with the shear torque; the film force then acts at the centre of each pin and hole")
 ANGULAR_VELOCITY = word(
     "angular_velocity",
-    "omega_i + omega_j; relative is the paper's omega_j - omega_i, which depends on the observer",
+    "rotation in omega_s: absolute is omega_i + omega_j; relative is omega_j - omega_i of Chen, Gao and Wang (2022),"
+    " which depends on the observer",
     ("absolute", "relative"),
     "absolute",
 )
 CAVITATION = word(
     "cavitation",
-    "half, Guembel's: no pressure below that of the ends; full, Sommerfeld's: it pulls as it pushes",
+    "half: Guembel's condition, no pressure below that of the ends; full: Sommerfeld's, negative pressures pull",
     ("half", "full"),
     "half",
 )
 OIL_FIELDS: tuple[Field, ...] = (VISCOUS, EXTRA_CLEARANCE, SHEAR, ANGULAR_VELOCITY)
 
 
-def film_clearance(s: LawInputs) -> Any:
+def make_film_clearance(s: LawInputs) -> Any:
     """Return the clearance of the film, c + e_t (m)."""
     return s.derive("film_clearance", s.pair.c + s.parameters["extra_clearance"], "clearance of the film")
 
 
-def shear_torque(s: LawInputs, c: Any, root: Any) -> Any:
+def make_shear_torque(s: LawInputs, c: Any, root: Any) -> Any:
     """Return the shear torque of a full gap per unit ω_j − ω_i (N·m·s), 0 without the option `shear`.
 
     c: clearance of the film (m); root: √(1 − ε²). T0 = 2π μ R_j³ L/(c √(1 − ε²))
@@ -94,7 +95,7 @@ def shear_torque(s: LawInputs, c: Any, root: Any) -> Any:
 
 ROUGHNESS = number(
     "roughness",
-    "of both surfaces together: the root of the sum of the squares of their rms roughness",
+    "combined roughness of both surfaces: the root of the sum of the squares of their rms roughness",
     LENGTH,
     symbol=r"\sigma",
     required=True,
@@ -102,7 +103,7 @@ ROUGHNESS = number(
 )
 
 
-def overlap(s: LawInputs, first: int, last: int) -> Any:
+def make_overlap_fraction(s: LawInputs, first: int, last: int) -> Any:
     """Return δ's fraction of the way from Λ = `first`, where tips touch, to `last`, where all do; at most 1.
 
     δ is the penetration, Λ the film thickness ratio. The film's clearance follows from `first`: it becomes the derived

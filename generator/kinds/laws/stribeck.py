@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.generator.kinds.laws.roles import MU, MU_S, friction, slip_of
+from gudgeon.generator.kinds.laws.roles import MU, MU_S, make_friction_force, slip_field
 
 
 def build(s: LawInputs) -> dict[str, Any]:
@@ -20,7 +20,7 @@ def build(s: LawInputs) -> dict[str, Any]:
 
     mu, mu_s, v_s, v0 = (s.parameters[name] for name in ("mu", "mu_s", "v_s", "v0"))
     v_t = s.variables["v_t"]
-    return friction(s, (mu + (mu_s - mu) * sp.exp(-((v_t / v_s) ** 2))) * sp.tanh(v_t / v0))
+    return make_friction_force(s, (mu + (mu_s - mu) * sp.exp(-((v_t / v_s) ** 2))) * sp.tanh(v_t / v0))
 
 
 LAW = Law(
@@ -32,12 +32,12 @@ LAW = Law(
     reference="R. Stribeck, Zeitschrift des Vereines deutscher Ingenieure 46 (1902); L. C. Bo, D. Pavelescu, The "
     "friction-speed relation and its influence on the critical velocity of stick-slip motion, Wear 82 (1982) "
     "277-289, exponent 2",
-    validity="sliding; creeps below v0, which is to be well below v_s",
+    validity="sliding; the contact creeps at slips below v0, which must be well below v_s",
     fields=(
         MU,
         MU_S,
-        slip_of("v_s", "slip in which static friction falls", "v_s"),
-        slip_of("v0", "slip at which tanh 1 = .76 of the friction is there", "v_0"),
+        slip_field("v_s", "slip at which the excess over kinetic friction has fallen to 1/e", "v_s"),
+        slip_field("v0", "slip at which the factor tanh(v_t/v0) is 0.76", "v_0"),
     ),
     build=build,
 )

@@ -1,4 +1,4 @@
-"""Threlfall's friction, which rises exponentially with the slip until v_r.
+"""Threlfall's friction, which rises exponentially with the slip up to the slip v_r.
 
     F_t = −c_f F_n (1 − e^{−3u/v_r}) sgn v_t,   u = min(|v_t|, v_r)
 
@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.generator.kinds.laws.roles import MU, both_ways, friction, slip_of
+from gudgeon.generator.kinds.laws.roles import MU, make_friction_force, make_odd_function, slip_field
 
 
 def build(s: LawInputs) -> dict[str, Any]:
@@ -19,8 +19,8 @@ def build(s: LawInputs) -> dict[str, Any]:
     import sympy as sp
 
     v_r = s.parameters["v_r"]
-    regularised_sign = both_ways(s.variables["v_t"], lambda u: 1 - sp.exp(-3 * sp.Min(u / v_r, 1)))
-    return friction(s, s.parameters["mu"] * regularised_sign)
+    regularised_sign = make_odd_function(s.variables["v_t"], lambda u: 1 - sp.exp(-3 * sp.Min(u / v_r, 1)))
+    return make_friction_force(s, s.parameters["mu"] * regularised_sign)
 
 
 LAW = Law(
@@ -32,7 +32,8 @@ LAW = Law(
     reference="A. G. Threlfall, The inclusion of Coulomb friction in mechanisms programs with particular reference to "
     "DRAM, Mechanism and Machine Theory 13 (1978) 475-483, as in E. Pennestri et al., Nonlinear Dynamics 83 "
     "(2016) 1785-1801, doi 10.1007/s11071-015-2485-3",
-    validity="sliding; creeps below v_r where Coulomb's law would stick; .9502 mu is its largest coefficient",
-    fields=(MU, slip_of("v_r", "slip above which friction no longer rises", "v_r")),
+    validity="sliding; below the slip v_r the contact creeps where Coulomb's law would stick; the largest "
+    "coefficient of friction is 0.9502 mu",
+    fields=(MU, slip_field("v_r", "slip above which friction no longer rises", "v_r")),
     build=build,
 )

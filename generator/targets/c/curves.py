@@ -7,25 +7,25 @@ from typing import Any
 
 import numpy as np
 
-from gudgeon.generator.symbols.curves import c_name
-from gudgeon.generator.targets.c.printer import comment_text
+from gudgeon.generator.symbols.curves import make_curve_name
+from gudgeon.generator.targets.c.printer import sanitize_comment
 from gudgeon.language.curves import Curve
 
 NAME = "curves.c"
 
 
-def curves_code(curves: Mapping[str, Curve], texts: Iterable[str]) -> str:
+def print_curve_tables(curves: Mapping[str, Curve], texts: Iterable[str]) -> str:
     """Return the text of curves.c with the tables of the curves that the C texts call; "" if none calls a curve.
 
     curves: all curves of the file by name. texts: the printed C of the scene. Curves without a call are left out.
     """
-    called = [curve for curve in curves.values() if any(f"({c_name(curve.name)}," in text for text in texts)]
+    called = [curve for curve in curves.values() if any(f"({make_curve_name(curve.name)}," in text for text in texts)]
     if not called:
         return ""
     tables = ['#include "engine/scene/curves.h"\n', *map(_print_curve_table, called)]
-    constants = ", ".join(c_name(curve.name) for curve in called)
+    constants = ", ".join(make_curve_name(curve.name) for curve in called)
     struct_entries = [
-        f"    {{{len(curve.coefficients)}, {int(curve.repeats)}, "
+        f"    {{{len(curve.coefficients)}, {int(curve.is_periodic)}, "
         f"knots_of_{curve.name}{member}, pieces_of_{curve.name}{member}}},"
         for curve, member in ((curve, ".numbers" * curve.is_long) for curve in called)
     ]
@@ -39,7 +39,7 @@ def _print_curve_table(curve: Curve) -> str:
 
     A long curve is written as little-endian bytes (`_print_byte_table`), a short one as numbers.
     """
-    description = comment_text(f"{curve.name}: {curve.message()}")
+    description = sanitize_comment(f"{curve.name}: {curve.describe()}")
     if curve.is_long:
         byte_tables = _print_byte_table("knots", curve.name, curve.x) + _print_byte_table(
             "pieces", curve.name, curve.coefficients

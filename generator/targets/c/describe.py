@@ -19,27 +19,27 @@ from gudgeon.contract.kernel_source import (
     PartInfo,
     PointInfo,
     RowInfo,
+    RuntimeParameter,
     SeriesInfo,
-    Slot,
     WrittenInfo,
 )
 from gudgeon.contract.reduction_log import ReductionLog
-from gudgeon.contract.stored import base_units
+from gudgeon.contract.stored import format_base_units
 from gudgeon.generator.equations.constraints import Row, rate_jumps
 from gudgeon.generator.equations.model import Model, eccentricity_rows
-from gudgeon.generator.equations.notes import scene_notes
-from gudgeon.generator.kernels.outputs import constraining_joints, element_series
+from gudgeon.generator.equations.notes import write_scene_notes
+from gudgeon.generator.kernels.outputs import find_constraining_joints, find_element_series
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.mechanism import GROUND, Mechanism, PointRef, Quantity, quantities
+from gudgeon.generator.mechanism import GROUND, Mechanism, PointRef, Quantity, iterate_quantities
 from gudgeon.generator.reduction.driven_chains import Chain
-from gudgeon.language.defined import is_total_expression
-from gudgeon.language.tree import Expr, names, to_json
+from gudgeon.language.tree import Expr, iterate_names, to_json
+from gudgeon.language.undefined_parts import is_total_expression
 from gudgeon.language.units import Dimension
 
 EMPTY_STORY = ReductionLog()
 
 
-def describe(
+def describe_scene(
     model: Model,
     *,
     files: Mapping[str, str] = MappingProxyType({}),
@@ -84,7 +84,7 @@ def describe(
         joints=_describe_joints(model, body_of, row_of),
         drives=tuple(DriveInfo(name, row_of.get(name, -1), unit_of[name]) for name in mechanism.drives),
         clearances=_describe_clearances(model, parameter_index, body_of),
-        series=tuple(SeriesInfo(name, unit) for name, (_, unit) in element_series(model).items()),
+        series=tuple(SeriesInfo(name, unit) for name, (_, unit) in find_element_series(model).items()),
         start_rows=tuple(map(_describe_constraint, model.all_rows)),
         start_guess=tuple(start_values.guess),
         start_set=tuple(start_values.set),
@@ -95,12 +95,12 @@ def describe(
         indeterminate=model.redundancy.indeterminate,
         rate_jumps=tuple(drive.name for drive in model.scene.mechanism.drives.values() if rate_jumps(drive)),
         slots=tuple(_describe_parameters(model)),
-        derived=tuple(symbol.name.removesuffix("_") for symbol in model.slots.derived),
+        derived=tuple(symbol.name.removesuffix("_") for symbol in model.parameter_table.derived),
         conditions=_select_conditions(model),
         outputs={name: to_json(quantity.value) for name, quantity in mechanism.outputs.items()},
         simulate=_evaluate_settings(model),
         operations=dict(operations),
-        notes=scene_notes(model),
+        notes=write_scene_notes(model),
         gravity=any(c != 0 for c in model.gravity),
         tree=tree,
         closures=closures,
@@ -110,13 +110,16 @@ def describe(
         chain_rows=tuple(row.name for row in chain.rows) if chain else (),
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
         lines=_find_file_lines(mechanism),
-        massless=tuple(body.name for body in mechanism.bodies.values() if body.lacks),
+        massless=tuple(body.name for body in mechanism.bodies.values() if body.missing_keys),
         tables=tuple(mechanism.tables.items()),
         laws=tuple(sorted(mechanism.laws.items())),
         start_apart=tuple(model.all_rows[k].name for k, _, _ in eccentricity_rows(model)),
         peaks=tuple(map(str, model.scene.peaks)),
         written=tuple(_describe_file_expressions(model)),
-        expressions=tuple(_describe_file_expression(one, one.written) for one in mechanism.expressions.values()),
+        expressions=tuple(
+            _describe_file_expression(expression, expression.source_tree)
+            for expression in mechanism.expressions.values()
+        ),
         simulate_written=tuple(_describe_settings(model)),
         states=_name_inner_states(model),
         story=story,
@@ -127,18 +130,26 @@ def describe(
     )
 
 
-def _describe_parameters(model: Model) -> Iterator[Slot]:
+def _describe_parameters(model: Model) -> Iterator[RuntimeParameter]:
     """Yield the run-time parameters in the order of the struct: address, SI unit, default, dependency, choices.
 
     The expression of the default is added as JSON only if some parameter values leave it undefined; else it is "".
     """
-    for entry in model.slots.entries.values():
+    for entry in model.parameter_table.entries.values():
         exponents = _get_unit_exponents(entry.dimension)
         expression = (
-            "" if entry.written is None or is_total_expression(entry.written) else json.dumps(to_json(entry.written))
+            ""
+            if entry.expression is None or is_total_expression(entry.expression)
+            else json.dumps(to_json(entry.expression))
         )
-        yield Slot(
-            entry.address, base_units(exponents), entry.default, entry.follows, exponents, entry.words, expression
+        yield RuntimeParameter(
+            entry.address,
+            format_base_units(exponents),
+            entry.default,
+            entry.depends_on_parameters,
+            exponents,
+            entry.choice_words,
+            expression,
         )
 
 
@@ -198,7 +209,7 @@ def _describe_joints(model: Model, body_of: Mapping[str, int], row_of: Mapping[s
             _format_point_names(joint.first if joint_types()[joint.kind].reaction_at == "first" else joint.second)[0],
             tuple(row_of[row.name] for row in model.rows if row.owner == joint.name),
         )
-        for joint in constraining_joints(model)
+        for joint in find_constraining_joints(model)
     )
 
 
@@ -208,14 +219,14 @@ def _select_conditions(model: Model) -> tuple[Condition, ...]:
     A condition of the file is left out if a parameter that it names is not in the scene. Signs that the equations
     assume of directions along an axis follow.
     """
-    addresses = set(model.slots.entries)
+    addresses = set(model.parameter_table.entries)
     return tuple(
         Condition(c.address, c.relation, c.bound, c.message)
         for c in model.scene.mechanism.conditions
         if c.address in addresses and (not isinstance(c.bound, str) or addresses.issuperset(c.bound.split(" + ")))
     ) + tuple(
         Condition(address, relation, 0.0, "a direction along an axis turns round with load(overrides=...) only")
-        for address, relation in model.slots.signs.items()
+        for address, relation in model.parameter_table.signs.items()
     )
 
 
@@ -230,9 +241,13 @@ def _describe_file_expressions(model: Model) -> Iterator[WrittenInfo]:
         expressions += [*force.quantities.values(), *(x for pair in force.vectors.values() for x in pair)]
     expressions += [event.zero for event in scene.events.values()]
     for quantity in expressions:
-        if any(name.path == "t" or "." in name.path for name in names(quantity.value)):
+        if any(name.path == "t" or "." in name.path for name in iterate_names(quantity.value)):
             yield _describe_file_expression(quantity)
-    zeros = {one.address: one for one in quantities(scene) if one.is_zero and one.address not in model.slots.entries}
+    zeros = {
+        one.address: one
+        for one in iterate_quantities(scene)
+        if one.is_zero and one.address not in model.parameter_table.entries
+    }
     yield from map(_describe_file_expression, zeros.values())
 
 
@@ -247,7 +262,7 @@ def _describe_file_expression(quantity: Quantity, expression: Expr | None = None
 
 def _list_parameter_symbols(model: Model) -> list[sp.Symbol]:
     """Return the symbols of the struct `Parameters` in order: entries of the file, then derived ones."""
-    return [entry.symbol for entry in model.slots.entries.values()] + list(model.slots.derived)
+    return [entry.symbol for entry in model.parameter_table.entries.values()] + list(model.parameter_table.derived)
 
 
 def _describe_constraint(row: Row) -> RowInfo:
@@ -317,10 +332,10 @@ def _describe_clearances(
 
 def _describe_contours(model: Model) -> Iterator[ContourInfo]:
     """Yield a ContourInfo of each bearing with a contour: joint, index in p of the first depth, number of depths."""
-    parameter_index = {entry.symbol: k for k, entry in enumerate(model.slots.entries.values())}
+    parameter_index = {entry.symbol: k for k, entry in enumerate(model.parameter_table.entries.values())}
     for clearance in model.clearances:
         if clearance.contour:
-            first = model.slots.tables[clearance.contour.table][0]
+            first = model.parameter_table.tables[clearance.contour.table][0]
             yield ContourInfo(clearance.name, parameter_index[first], clearance.contour.count)
 
 
@@ -328,7 +343,7 @@ def _evaluate_settings(model: Model) -> dict[str, float]:
     """Return t_end, output and step of the scene, evaluated with the default parameters."""
     from gudgeon.language.tree import evaluate
 
-    defaults = {e.address: e.default for e in model.slots.entries.values()}
+    defaults = {e.address: e.default for e in model.parameter_table.entries.values()}
     return {
         name: float(evaluate(quantity.value, lambda path: defaults[f"parameters.{path}"]))
         for name, quantity in model.scene.simulate.items()
@@ -338,7 +353,7 @@ def _evaluate_settings(model: Model) -> dict[str, float]:
 def _describe_settings(model: Model) -> Iterator[WrittenInfo]:
     """Yield the scene's t_end, output and step whose expressions contain parameters; plain numbers are left out."""
     for quantity in model.scene.simulate.values():
-        if next(names(quantity.value), None) is not None:
+        if next(iterate_names(quantity.value), None) is not None:
             yield _describe_file_expression(quantity)
 
 

@@ -1,4 +1,4 @@
-"""Writes a scene as C files, in the full and the reduced formulation, and describes their contents."""
+"""Writes a scene as C files, in absolute and in tree (reduced) coordinates, and describes their contents."""
 
 from __future__ import annotations
 
@@ -23,45 +23,47 @@ from gudgeon.generator.symbols.storage import PARAMETERS, Place
 from gudgeon.generator.targets.c import functions, ranges_printer, readme, taylor
 from gudgeon.generator.targets.c import lanes as lanes_code
 from gudgeon.generator.targets.c.curves import NAME as CURVES
-from gudgeon.generator.targets.c.curves import curves_code
-from gudgeon.generator.targets.c.describe import describe
-from gudgeon.generator.targets.c.model_header import header_values, joint_parameters, known_bounds
-from gudgeon.generator.targets.c.newton import newton_code, tangent_code
-from gudgeon.generator.targets.c.play import clearances_code
-from gudgeon.generator.targets.c.printer import within
-from gudgeon.generator.targets.c.reduced_summary import reduced_summary
+from gudgeon.generator.targets.c.curves import print_curve_tables
+from gudgeon.generator.targets.c.describe import describe_scene
+from gudgeon.generator.targets.c.model_header import list_joint_parameters, make_bounds_kernel, make_header_values
+from gudgeon.generator.targets.c.newton import print_newton_functions, print_tangent_functions
+from gudgeon.generator.targets.c.play import print_clearances_file
+from gudgeon.generator.targets.c.printer import wrap_file
+from gudgeon.generator.targets.c.reduced_summary import describe_reduced_file
 
 CLEARANCES = "clearance.c"
 NOT_AT_START = ("acceleration_rhs", "outputs")  # functions of the closed linkage that a start does not call
 ABSOLUTE, REDUCED, METHODS = 1, 2, 3  # the parts of MAIN, as PART in C counts them
-Begun = Callable[[int, Mapping[str, str]], None]
+PartCallback = Callable[[int, Mapping[str, str]], None]
 FilePrinters = dict[str, Callable[[], str]]  # file -> function that prints it, called when needed
 
 
-def emit(program: Program, begun: Begun | None = None) -> KernelSource:
+def emit_scene(program: Program, on_part_printed: PartCallback | None = None) -> KernelSource:
     """Return the KernelSource of a scene: its C files by name, with their description for the runtime.
 
-    With a Taylor series, the method `taylor` is included. `begun`, if given, is called while later files are still
-    printed: once for the engine, then with each part of MAIN and all files that the part includes.
+    With a Taylor series, the method `taylor` is included. `on_part_printed`, if given, is called while later files
+    are still printed: once for the engine, then with each part of MAIN and all files that the part includes.
     """
     model, series = program.model, program.series
-    bounds = known_bounds(program)
-    files = {HEADER: within(render("model.h.jinja", **header_values(program, bounds)))}
-    if begun:
-        begun(ENGINE_PART, files)
+    bounds = make_bounds_kernel(program)
+    files = {HEADER: wrap_file(render_template("model.h.jinja", **make_header_values(program, bounds)))}
+    if on_part_printed:
+        on_part_printed(ENGINE_PART, files)
     parts, shared = _list_files_of_parts(program, bounds), _list_shared_files(program)
     if series:
-        parts[REDUCED][taylor.FILE] = lambda: taylor.taylor_code(series)
+        parts[REDUCED][taylor.FILE] = lambda: taylor.print_taylor_file(series)
     files |= {MAIN: _print_main_file(parts, shared), **_print_files(shared)}
     for number, texts in parts.items():
         files |= _print_files(texts)
-        if begun and not model.scene.mechanism.curves:
-            begun(number, files)
-    if tables := curves_code(model.scene.mechanism.curves, files.values()):
+        if on_part_printed and not model.scene.mechanism.curves:
+            on_part_printed(number, files)
+    if tables := print_curve_tables(model.scene.mechanism.curves, files.values()):
         files |= {MAIN: _print_main_file(parts, [CURVES, *shared]), CURVES: tables}
     if program.has_lanes:
-        files |= {name: within(text) for name, text in lanes_code.lanes_code(program, render).items()}
-    files[readme.NAME] = readme.readme(program, files)
+        files |= {
+            name: wrap_file(text) for name, text in lanes_code.print_lanes_files(program, render_template).items()
+        }
+    files[readme.NAME] = readme.print_readme(program, files)
     described = describe_program(program, files, () if CURVES in files else tuple(parts))
     return replace(described, taylor=taylor.FILE) if series else described
 
@@ -72,8 +74,8 @@ def describe_program(program: Program, files: Mapping[str, str], units: tuple[in
     It contains names of coordinates and results, parameters, pivots, operation counts and the log of the reduction.
     units: the parts of MAIN that are compiled separately; () for one unit.
     """
-    model, tree, integrated, course = program.model, program.tree, program.integrated, program.course
-    return describe(
+    model, tree, integrated, course = program.model, program.tree, program.integrated, program.kinematics
+    return describe_scene(
         model,
         files=files,
         main=MAIN,
@@ -89,21 +91,21 @@ def describe_program(program: Program, files: Mapping[str, str], units: tuple[in
         story=build_reduction_log(
             model,
             program.kkt,
-            course.solved if course else integrated.kkt,
+            course.projection_kkt if course else integrated.kkt,
             integrated.system,
             course.groups if course else (),
         ),
         lanes=lanes_code.MAIN if program.has_lanes else "",
-        stages=program.staged,
+        stages=program.has_complex_stages,
     )
 
 
-def file_names(program: Program) -> list[str]:
-    """Return the names of the files that `emit` writes, without printing them.
+def list_file_names(program: Program) -> list[str]:
+    """Return the names of the files that `emit_scene` writes, without printing them.
 
     curves.c and README.md are left out, since their presence depends on the printed text.
     """
-    files_of_parts = _list_files_of_parts(program, known_bounds(program))
+    files_of_parts = _list_files_of_parts(program, make_bounds_kernel(program))
     names_in_parts = [name for texts in files_of_parts.values() for name in texts]
     return [
         HEADER,
@@ -119,7 +121,7 @@ def _list_shared_files(program: Program) -> FilePrinters:
 
     It is clearance.c, or {} without joints with play.
     """
-    return {CLEARANCES: lambda: clearances_code(program, render)} if program.pins else {}
+    return {CLEARANCES: lambda: print_clearances_file(program, render_template)} if program.joints else {}
 
 
 def _list_files_of_parts(program: Program, bounds: Kernel | None) -> dict[int, FilePrinters]:
@@ -128,7 +130,7 @@ def _list_files_of_parts(program: Program, bounds: Kernel | None) -> dict[int, F
     A part exists only if the scene needs it: the reduced formulation, the implicit methods or positions from drives.
     bounds: the kernel that bounds event functions, or None.
     """
-    tree, course = program.tree, program.course
+    tree, course = program.tree, program.kinematics
     parts: dict[int, FilePrinters] = {
         ABSOLUTE: {
             "parameters.c": lambda: _print_parameters_file(program),
@@ -137,13 +139,13 @@ def _list_files_of_parts(program: Program, bounds: Kernel | None) -> dict[int, F
         }
     }
     if tree:
-        parts[REDUCED] = {"reduced.c": lambda: print_reduced_file(program.model, tree, render, _print_kernels)}
+        parts[REDUCED] = {"reduced.c": lambda: print_reduced_file(program.model, tree, render_template, _print_kernels)}
     if course:
         parts[METHODS] = {"positions.c": lambda: _print_kernels(*course.kernels)}
     elif program.methods:
         parts[METHODS] = {"newton.c": lambda: _print_newton_file(program)}
-    if program.methods and program.staged:
-        parts[METHODS]["newton_complex.c"] = partial(_print_kernels, *program.methods.at_complex)
+    if program.methods and program.has_complex_stages:
+        parts[METHODS]["newton_complex.c"] = partial(_print_kernels, *program.methods.complex_kernels)
     if _has_bounds(program, bounds):
         parts[METHODS]["watched.c"] = lambda: _print_bounds_file(program, bounds)
     return parts
@@ -151,7 +153,7 @@ def _list_files_of_parts(program: Program, bounds: Kernel | None) -> dict[int, F
 
 def _print_files(printers: FilePrinters) -> dict[str, str]:
     """Return {file: text}: each file is printed by its function, and long lines are wrapped."""
-    return {name: within(text()) for name, text in printers.items()}
+    return {name: wrap_file(text()) for name, text in printers.items()}
 
 
 def _print_main_file(files_of_parts: Mapping[int, Iterable[str]], shared_files: Iterable[str]) -> str:
@@ -180,14 +182,16 @@ def _print_include(name: str) -> str:
 
 def _print_parameters_file(program: Program) -> str:
     """Return the text of parameters.c: `prepare`, and with play the functions that return a parameter of joint i."""
-    functions_of_joints = render("of_joints.c.jinja", of_joints=joint_parameters(program.model)) if program.pins else ""
+    functions_of_joints = (
+        render_template("of_joints.c.jinja", of_joints=list_joint_parameters(program.model)) if program.joints else ""
+    )
     return _print_kernels(program.prepare) + functions_of_joints
 
 
 def _print_constraints_file(program: Program) -> str:
     """Return the text of constraints.c: functions of the closed linkage, and `same_start` for integrated scenes."""
-    at_start = (kernel for kernel in program.closed if kernel.name not in NOT_AT_START)
-    return _print_kernels(*program.closed) + (print_same_start(at_start) if program.integrates else "")
+    at_start = (kernel for kernel in program.closed_linkage if kernel.name not in NOT_AT_START)
+    return _print_kernels(*program.closed_linkage) + (print_same_start(at_start) if program.integrates else "")
 
 
 def _print_newton_file(program: Program) -> str:
@@ -198,13 +202,13 @@ def _print_newton_file(program: Program) -> str:
     methods = program.methods
     if methods is None:
         return ""
-    slopes = tangent_code(program.pins, methods, render, program.model.law_states)
-    return slopes + newton_code(methods.newton, render) + functions.kernel(methods.closing)
+    slopes = print_tangent_functions(program.joints, methods, render_template, program.model.law_states)
+    return slopes + print_newton_functions(methods.newton, render_template) + functions.print_kernel(methods.closing)
 
 
 def _has_bounds(program: Program, bounds: Kernel | None) -> bool:
     """Return whether bounds over a step are known for any event function or any term that depends on time only."""
-    return bool(program.terms.kernel or bounds)
+    return bool(program.time_terms.kernel or bounds)
 
 
 def _print_bounds_file(program: Program, bounds: Kernel | None) -> str:
@@ -212,10 +216,10 @@ def _print_bounds_file(program: Program, bounds: Kernel | None) -> str:
 
     Either kernel may be missing (None); its text is then left out.
     """
-    return "\n".join(ranges_printer.kernel(kernel) for kernel in (program.terms.kernel, bounds) if kernel)
+    return "\n".join(ranges_printer.print_kernel(kernel) for kernel in (program.time_terms.kernel, bounds) if kernel)
 
 
-def render(name: str, /, **values: Any) -> str:
+def render_template(name: str, /, **values: Any) -> str:
     """Return the text of the template `name` with `values` substituted, and a final line break.
 
     Raises jinja2.UndefinedError if the template uses a name that is not in `values`.
@@ -244,13 +248,13 @@ def _get_template_environment() -> jinja2.Environment:
 
 def _print_kernels(*kernels: Kernel) -> str:
     """Return the C functions of several kernels, one after another."""
-    return "\n".join(map(functions.kernel, kernels))
+    return "\n".join(map(functions.print_kernel, kernels))
 
 
 def _list_kernels(program: Program) -> list[Kernel]:
     """Return all kernels of a program: both formulations, the closed linkage, `prepare`, implicit methods and laws."""
-    tree, method_kernels = program.tree, program.methods or program.course
-    kernels = [*program.right_hand_side, *program.closed, *(tree.every if tree else ()), program.prepare]
+    tree, method_kernels = program.tree, program.methods or program.kinematics
+    kernels = [*program.right_hand_side, *program.closed_linkage, *(tree.all_kernels if tree else ()), program.prepare]
     return [*kernels, *(method_kernels.kernels if method_kernels else ()), *program.laws]
 
 
@@ -259,7 +263,7 @@ def _count_operations(program: Program) -> dict[str, int]:
 
     A law that several joints share is listed once for each joint, as ROLE_JOINT_force.
     """
-    calls = [(pin.clearance.name, *call) for pin in program.pins for call in pin.laws.items()]
+    calls = [(pin.clearance.name, *call) for pin in program.joints for call in pin.laws.items()]
     laws = {f"{role}_{joint}_force": call.kernel for joint, role, call in calls}
     counted = {kernel.name: kernel for kernel in _list_kernels(program) if kernel not in program.laws}
     return {name: kernel.operations for name, kernel in (counted | laws).items()}
@@ -303,9 +307,9 @@ def print_reduced_file(model: Model, tree: TreeFunctions, render: Render, print_
     The text contains the conversion from and to all coordinates and the kernels. Code for vanishing pivots and for
     driven loops follows if the tree has them.
     """
-    texts = [functions.comment(reduced_summary(tree.system))]
-    texts += [print_kernels(*tree.around), print_kernels(*tree.kernels)]
-    if tree.rescued:
+    texts = [functions.print_comment(describe_reduced_file(tree.system))]
+    texts += [print_kernels(*tree.conversions), print_kernels(*tree.kernels)]
+    if tree.has_fallback:
         texts.append(render("multipliers.c.jinja", multipliers=_print_closure_multipliers(model, tree.system)))
     if chains := tree.chains:
         kernels = print_kernels(*chains.kernels)
@@ -321,9 +325,10 @@ def print_reduced_file(model: Model, tree: TreeFunctions, render: Render, print_
 
 
 def _print_step_scales(chains: ChainKernels) -> list[str]:
-    """Return the C expressions that make a step of each coordinate of driven loops dimensionless.
+    """Return the C factors that make Newton's step of each dependent coordinate of the driven loops dimensionless.
 
-    The factor is 1 for an angle and 1/size for a sliding distance; 1 for all if the linkage has no size.
+    Driven loops are closed loops whose coordinates the drives determine. The factor is "1.0" for an angle and the
+    inverse of the linkage's size for a sliding distance; "1.0" for all if the linkage has no size.
     """
     # without a size all points are one
     inverse_size = f"1.0 / (p->{chains.size} + DBL_MIN)" if chains.size.is_Symbol else "1.0"
@@ -355,5 +360,5 @@ def _print_closure_multipliers(model: Model, system: TreeSystem) -> list[str]:
     row_index = {row.name: r for r, row in enumerate(model.rows)}
     return [
         " ".join(f"{'+' if sign > 0 else '-'} lambda[{row_index[name]}]" for name, sign in shares.items())
-        for shares in (system.tree.multiplier(row.name) for row in system.rows)
+        for shares in (system.tree.find_multiplier_terms(row.name) for row in system.rows)
     ]

@@ -1,4 +1,4 @@
-"""Writes engine/scene/function_table.h: the functions that follow one pattern, from gudgeon.language.functions."""
+"""Writes engine/scene/function_table.h: functions of expressions that C takes from its library."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 
 import sympy as sp
 
-from gudgeon.generator.symbols.from_expressions import derivative_at
+from gudgeon.generator.symbols.from_expressions import convert_derivative
 from gudgeon.generator.targets.c import printer
 from gudgeon.language.functions import FUNCTIONS, IN_SYMPY, Function
 
@@ -28,7 +28,7 @@ _RISING = """
 """
 
 
-def function_table() -> str:
+def print_function_table() -> str:
     """Return the text of function_table.h: macros that list functions of expressions by their C name.
 
     The first macro lists functions without vector code, the second monotonic functions with their derivatives.
@@ -59,7 +59,7 @@ def _print_monotonic_entry(function: Function) -> str:
     """
     assert function.bounds
     x, f = sp.Symbol("x", real=True), sp.Symbol(f"{function.in_c}(x)", real=True)
-    slope = function.bounds.slope or printer.expression(derivative_at(function.derivative, x, f))
+    slope = function.bounds.slope or printer.print_expression(convert_derivative(function.derivative, x, f))
     limits = map(_print_number, (*function.domain, function.bounds.slope_extremum))
     return f"RISING({function.in_c}, {', '.join(limits)}, {slope})"
 

@@ -7,37 +7,44 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import sympy as sp
 
-from gudgeon.generator.ir.branches import Branch, JointsAlone
+from gudgeon.generator.ir.branches import Branch, ReturnIfOnlyJoints
 from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.ir.readable import Readable, lines, readable
-from gudgeon.generator.ir.series_rules import Gathered
+from gudgeon.generator.ir.readable import Readable, make_readable, make_readable_statements
+from gudgeon.generator.ir.series_rules import StoreRow
 from gudgeon.generator.ir.signatures import Access, Argument, Number, Type
-from gudgeon.generator.ir.split import cut
+from gudgeon.generator.ir.split import split_kernel
 from gudgeon.generator.ir.statements import (
     AssignStatus,
     Branches,
     Call,
     Declare,
+    DeclareParameters,
     Guard,
     Jump,
     Largest,
     LargestRow,
     Line,
-    Rescue,
+    MarkUnread,
     Return,
     ReturnIfFailed,
-    RunNumbers,
     Sines,
+    SolveDependentRows,
     Statement,
     Status,
-    Unread,
     When,
 )
 from gudgeon.generator.ir.values import NONE
-from gudgeon.generator.kernels.shared import CORNER, SharedFunctionCall
-from gudgeon.generator.symbols.derivatives import symbols_of
-from gudgeon.generator.symbols.storage import Place, key_of
-from gudgeon.generator.targets.c.printer import WIDTH, CPrinter, Text, broken, comment_text, expression
+from gudgeon.generator.kernels.shared import FIRST_SWITCH, SharedFunctionCall
+from gudgeon.generator.symbols.derivatives import find_symbols
+from gudgeon.generator.symbols.storage import Place, find_key
+from gudgeon.generator.targets.c.printer import (
+    WIDTH,
+    CPrinter,
+    ValuePrinter,
+    break_code,
+    print_expression,
+    sanitize_comment,
+)
 
 # Functions that engine/scene/kernels.h declares: the engine calls them from another compilation unit.
 CALLED_BY_ENGINE = frozenset(
@@ -83,11 +90,11 @@ _NUMBERS = {Number.REAL: "double", Number.INTEGER: "int", Number.BYTE: "unsigned
 _PLAIN: dict[type, str] = {
     Status: "int pivot = 0;",
     Jump: "goto powers;",
-    RunNumbers: "const Parameters *const p = lin->p;",
+    DeclareParameters: "const Parameters *const p = lin->p;",
 }
 
 
-class Lines(Text):
+class LinePrinter(ValuePrinter):
     """Print the lines of one function as C; `number` is the C type of its locals."""
 
     def __init__(self, printer: CPrinter, number: str = "double") -> None:
@@ -98,7 +105,7 @@ class Lines(Text):
         """Return a line of a kernel as indented C, broken into several lines if it is longer than WIDTH."""
         if isinstance(item, Statement):
             return self.print_statement(item)
-        return "\n".join(part for text in self._print_line(item) for part in broken(f"    {text}"))
+        return "\n".join(part for text in self._print_line(item) for part in break_code(f"    {text}"))
 
     def _print_line(self, item: Line) -> Sequence[str]:
         """Return one line of a kernel that is not an assignment as unindented lines of C.
@@ -116,7 +123,7 @@ class Lines(Text):
                 return self._print_guard(item)
             case When():
                 return [f"if ({self.test(item.test)})", f"    {self.print_statement(item.statement).lstrip()}"]
-            case JointsAlone():
+            case ReturnIfOnlyJoints():
                 return ["if (!a)", "    return 0;"]
             case Return():
                 return ["return pivot;" if item.pivot else "return 0;"]
@@ -130,7 +137,7 @@ class Lines(Text):
                 return _print_branch_arrays(item)
             case Sines():
                 return self._print_sines(item)
-            case Rescue():
+            case SolveDependentRows():
                 return self._print_dependent_solution(item)
             case Largest():
                 name = f"*{item.target}"
@@ -142,10 +149,10 @@ class Lines(Text):
                 return largest or [f"{name} = 0.0;"]
             case LargestRow():
                 return self._print_largest_row(item)
-            case Gathered():
+            case StoreRow():
                 values = ", ".join(map(self.expression, item.values))
                 return [f"{item.array}[{item.row}] = (Wide){{{values}}};"]
-            case Unread():
+            case MarkUnread():
                 return [f"(void){self.printer.get_name(item.name)};"]
         return [_PLAIN[type(item)]]
 
@@ -155,15 +162,15 @@ class Lines(Text):
         A declaration of the target precedes it if the branch defines the target, and its comment if there is one.
         """
         target = self.printer.get_name(item.target)
-        declaration = [f"{self.number} {target};"] if item.defines else []
-        comment = [f"/* {comment_text(item.comment)} */"] if item.comment else []
+        declaration = [f"{self.number} {target};"] if item.declared_local else []
+        comment = [f"/* {sanitize_comment(item.comment)} */"] if item.comment else []
         return [
             *comment,
             *declaration,
-            f"if ({self.expression(item.side)} < 0.0)",
-            f"    {target} = {self.expression(item.otherwise)};",
+            f"if ({self.expression(item.branch)} < 0.0)",
+            f"    {target} = {self.expression(item.value_below)};",
             "else",
-            f"    {target} = {self.expression(item.then)};",
+            f"    {target} = {self.expression(item.value_above)};",
         ]
 
     def _print_call(self, item: Call) -> str:
@@ -185,10 +192,11 @@ class Lines(Text):
     def _print_guard(self, item: Guard) -> list[str]:
         """Return the if statement that leaves the function, or jumps to `dependent`, if a pivot fails its test.
 
-        The test is a comparison or a call of a function. `item.only` restricts it to states that satisfy a condition.
+        The test is a comparison or a call of a function. `item.condition` restricts it to states that satisfy a
+        condition.
         """
         failure = self._print_call(item.test) if isinstance(item.test, Call) else f"!({self.test(item.test)})"
-        condition = f"{self.test(item.only)} && " if item.only else ""
+        condition = f"{self.test(item.condition)} && " if item.condition else ""
         if not item.jumps:
             return [f"if ({condition}{failure})", f"    return {item.number};"]
         return [f"if ({condition}{failure}) {{", f"    pivot = {item.number};", "    goto dependent;", "}"]
@@ -217,7 +225,7 @@ class Lines(Text):
             f"sines_and_cosines(&angles_{suffix}, &sines_{suffix}, &cosines_{suffix});",
         ]
 
-    def _print_dependent_solution(self, item: Rescue) -> list[str]:
+    def _print_dependent_solution(self, item: SolveDependentRows) -> list[str]:
         """Return the code at the label `dependent`, which solves dependent equations after a vanished pivot.
 
         Without forces in `item`, the equations of all bodies are solved instead. The label `powers` follows in both
@@ -230,7 +238,7 @@ class Lines(Text):
         return [
             "dependent: {",
             "    double force[N_Q], gamma_stab[N_ROWS];",
-            *("\n".join(broken(f"        {code}"))[4:] for code in stores),
+            *("\n".join(break_code(f"        {code}"))[4:] for code in stores),
             "    pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);",
             "}",
             "powers:",
@@ -247,11 +255,11 @@ class Lines(Text):
     def print_statement(self, item: Statement) -> str:
         """Return one assignment as indented C; its comment follows if it fits in the line, else precedes it."""
         target = self.printer.get_name(item.target)
-        left_side = f"const {self.number} {target}" if item.defines else target
-        code = broken(f"    {left_side} = {self.expression(item.value)};")
+        left_side = f"const {self.number} {target}" if item.declared_local else target
+        code = break_code(f"    {left_side} = {self.expression(item.value)};")
         if not item.comment:
             return "\n".join(code)
-        comment = f"/* {comment_text(item.comment)} */"
+        comment = f"/* {sanitize_comment(item.comment)} */"
         if len(code) == 1 and len(code[0]) + len(comment) + 2 <= WIDTH:
             return f"{code[0]}  {comment}"
         return "\n".join([f"    {comment}", *code])
@@ -267,40 +275,43 @@ def _print_branch_arrays(item: Branches) -> list[str]:
         if item.held
         else "NULL; /* of corners within corners: as they are */"
     )
-    declarations = {"": [], "nobody": ["double g[N_SWITCHES + 1];"], "rhs": ["double *const g = rhs->g;"]}[item.message]
+    declarations = {"": [], "nobody": ["double g[N_SWITCHES + 1];"], "rhs": ["double *const g = rhs->g;"]}[
+        item.output_target
+    ]
     return [f"const double *const branch = {stored_branches}", *declarations]
 
 
-def statements(items: Sequence[Statement]) -> str:
+def print_statements(items: Sequence[Statement]) -> str:
     """Return statements as lines of C for the body of a function in a template; "" without statements."""
-    return "\n".join(text for text, _ in one_by_one(items))
+    return "\n".join(text for text, _ in print_each_statement(items))
 
 
-def one_by_one(items: Sequence[Statement]) -> list[tuple[str, Line]]:
+def print_each_statement(items: Sequence[Statement]) -> list[tuple[str, Line]]:
     """Return (text in C, line of the kernel) of each statement; branches that a statement needs precede it."""
-    readable_lines = lines(items)
-    writer = Lines(CPrinter(readable_lines))
+    readable_lines = make_readable_statements(items)
+    writer = LinePrinter(CPrinter(readable_lines))
     return [(writer.line(line), line) for section in readable_lines.sections for line in section.statements]
 
 
-def shared_call(call: SharedFunctionCall, arguments: Sequence[str], results: Sequence[str]) -> str:
+def print_shared_call(call: SharedFunctionCall, arguments: Sequence[str], results: Sequence[str]) -> str:
     """Return a joint's call of a function that several joints share, in C.
 
     Arguments are `arguments`, the parameters of this joint, the branches and their first index if the function has
     switching functions, then `results`.
     """
-    branch_arguments = ["branch", "g", str(call.corner)] if call.corner is not None else []
-    parameters = map(expression, call.numbers)
+    branch_arguments = ["branch", "g", str(call.first_switch)] if call.first_switch is not None else []
+    parameters = map(print_expression, call.parameters)
     return f"{call.kernel.name}({', '.join([*arguments, *parameters, *branch_arguments, *results])});"
 
 
-def unread_branches(calls: Iterable[SharedFunctionCall], statements: Iterable[Statement] = ()) -> list[str]:
-    """Return which of the arguments `branch` and `g` neither the calls nor the statements read.
+def find_unread_branches(calls: Iterable[SharedFunctionCall], statements: Iterable[Statement] = ()) -> list[str]:
+    """Return which of the arguments `branch` and `g` are unused, so that the C function must cast them to void.
 
-    The list is empty if any of the called functions has switching functions, since these get both.
+    An argument is unused if no statement reads it. The list is empty if any of the called functions has switching
+    functions, since such a call passes both.
     """
     names_read = NONE.union(*(line.reads for line in statements))
-    has_switches = any(call.corner is not None for call in calls)
+    has_switches = any(call.first_switch is not None for call in calls)
     return [] if has_switches else [name for name in ("branch", "g") if name not in names_read]
 
 
@@ -316,77 +327,103 @@ def _declare_argument(item: Argument) -> str:
     return f"{constant}{print_type(item.type)} {pointer}{item.name}"
 
 
-def print_type(of: Type) -> str:
+def print_type(number_or_struct: Type) -> str:
     """Return the C type of a number, or the name of a struct as it is."""
-    return _NUMBERS[of] if isinstance(of, Number) else of
+    return _NUMBERS[number_or_struct] if isinstance(number_or_struct, Number) else number_or_struct
 
 
-def kernel(item: Kernel) -> str:
+def print_kernel(item: Kernel) -> str:
     """Return a kernel as a C function; a long kernel is split into parts, whose functions precede it."""
-    return "\n".join("".join(f"{text}\n" for text, _ in texts) for _, _, texts in printed_parts(item))
+    return "\n".join("".join(f"{text}\n" for text, _ in texts) for _, _, texts in print_kernel_parts(item))
 
 
 def _find_names_used(item: Kernel) -> frozenset[str]:
     """Return the C names of all arguments and locals that a function's lines read or write."""
     lines = [line for section in item.sections for line in section.statements]
     names = NONE.union(*(line.reads | line.writes for line in lines))
-    keys = names | {key_of(s) for line in lines for x in line.expressions for s in symbols_of(x)}
+    keys = names | {find_key(s) for line in lines for x in line.expressions for s in find_symbols(x)}
     called = (item.names.get(key, key) for key in keys)
-    corner_argument = NONE if item.first_corner is None else {CORNER.name}
+    corner_argument = NONE if item.first_switch is None else {FIRST_SWITCH.name}
     return names | corner_argument | {key.base if isinstance(key, Place) else key for key in called}
 
 
-def comment(doc: Sequence[str]) -> str:
+def print_comment(doc: Sequence[str]) -> str:
     """Return paragraphs as a block comment in C."""
-    text = "\n".join(f" * {comment_text(paragraph)}".rstrip() for paragraph in doc)
+    text = "\n".join(f" * {sanitize_comment(paragraph)}".rstrip() for paragraph in doc)
     return f"/*\n{text}\n */\n"
 
 
-def function(
-    item: Kernel, writer: Lines, own: Readable, names_used: frozenset[str] = NONE, *, called: bool = False
+def print_function(
+    item: Kernel,
+    writer: LinePrinter,
+    readable_sections: Readable,
+    names_used: frozenset[str] = NONE,
+    *,
+    is_called_by_engine: bool = False,
 ) -> str:
     """Return a kernel as one C function with its comment; arguments that no line reads are cast to void.
 
-    own: its lines with the names of their symbols. names_used: further names that count as read. `called`: another
-    unit calls the function, so that it is not static.
+    readable_sections: its lines with the names of their symbols. names_used: further names that count as read.
+    `is_called_by_engine`: another unit calls the function, so that it is not static.
     """
-    return "".join(f"{text}\n" for text, _ in pieces(item, writer, own, names_used, called=called))
+    return "".join(
+        f"{text}\n"
+        for text, _ in print_function_lines(
+            item, writer, readable_sections, names_used, is_called_by_engine=is_called_by_engine
+        )
+    )
 
 
-def pieces(
-    item: Kernel, writer: Lines, own: Readable, names_used: frozenset[str] = NONE, *, called: bool = False
+def print_function_lines(
+    item: Kernel,
+    writer: LinePrinter,
+    readable_sections: Readable,
+    names_used: frozenset[str] = NONE,
+    *,
+    is_called_by_engine: bool = False,
 ) -> Iterator[tuple[str, Line | None]]:
     """Yield (text, line of the kernel or None) of a function in C, in order.
 
     None belongs to the head, to the casts of unread arguments, to titles of sections and to the closing brace. The
-    arguments are those of `function`.
+    arguments are those of `print_function`.
     """
     attribute = f"__attribute__(({item.attribute})) " if item.attribute else ""
     inline = "inline " if item.inline else ""
-    static = "" if called else "static "
+    static = "" if is_called_by_engine else "static "
     result = "int" if item.status else "void"
     signature = f"{attribute}{static}{inline}{result} {item.name}({print_arguments(item.arguments)})"
     joined = signature.replace(", ", ",\n").replace(" ", "\0").replace("\n", " ")  # an argument is never parted
     signature = "\n".join(textwrap.wrap(joined, WIDTH, subsequent_indent="    ")).replace("\0", " ")
-    yield f"{comment(item.doc)}{signature}\n{{", None
+    yield f"{print_comment(item.doc)}{signature}\n{{", None
     names_used |= _find_names_used(item)
     if unread := ", ".join(f"(void){a.name}" for a in item.arguments if a.name not in names_used):
-        yield "\n".join(broken(f"    {unread};")), None
-    for k, section in enumerate(own.sections):
-        title = [f"    /* {comment_text(section.title)} */"] * bool(section.title)
+        yield "\n".join(break_code(f"    {unread};")), None
+    for k, section in enumerate(readable_sections.sections):
+        title = [f"    /* {sanitize_comment(section.title)} */"] * bool(section.title)
         if heading := [*([""] * bool(k)), *title]:
             yield "\n".join(heading), None
         yield from ((writer.line(line), line) for line in section.statements)
-    if not own.sections:
+    if not readable_sections.sections:
         yield "    /* this scene has none */", None
     yield "}", None
 
 
-def printed_parts(item: Kernel) -> Iterator[tuple[Kernel, Readable, list[tuple[str, Line | None]]]]:
+def print_kernel_parts(item: Kernel) -> Iterator[tuple[Kernel, Readable, list[tuple[str, Line | None]]]]:
     """Yield (kernel, its readable lines, [(text, line or None)]) of each part into which a kernel is split.
 
     A short kernel is its only part. Parts come before the functions that call them.
     """
-    for part in cut(item):
-        own = readable(part)
-        yield part, own, list(pieces(part, Lines(CPrinter(own)), own, called=part.name in CALLED_BY_ENGINE))
+    for part in split_kernel(item):
+        readable_lines = make_readable(part)
+        yield (
+            part,
+            readable_lines,
+            list(
+                print_function_lines(
+                    part,
+                    LinePrinter(CPrinter(readable_lines)),
+                    readable_lines,
+                    is_called_by_engine=part.name in CALLED_BY_ENGINE,
+                )
+            ),
+        )

@@ -1,4 +1,4 @@
-"""Writes the C of ensembles in SIMD lanes, in the reduced formulation: lanes.c."""
+"""Writes lanes.c, the functions of a scene for ensembles in SIMD lanes, in tree (reduced) coordinates."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from collections.abc import Callable, Mapping, Sequence
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
-from gudgeon.generator.kernels.play import Pin
+from gudgeon.generator.kernels.play import JointFunctions
 from gudgeon.generator.kernels.program import Methods, Program
 from gudgeon.generator.kernels.shared import SharedFunctionCall
-from gudgeon.generator.solvers.contact_slopes import in_place
+from gudgeon.generator.solvers.contact_slopes import read_parameters_at_places
 from gudgeon.generator.targets.c import functions, lanes_printer, taylor
-from gudgeon.generator.targets.c.curves import curves_code
-from gudgeon.generator.targets.c.newton import STATE, shared_slopes_code
-from gudgeon.generator.targets.c.play import braced, call_of_film, calls_of_dry
+from gudgeon.generator.targets.c.curves import print_curve_tables
+from gudgeon.generator.targets.c.newton import STATE, print_shared_slopes
+from gudgeon.generator.targets.c.play import print_dry_calls, print_film_calls, print_rates
 
 MAIN = "lanes.c"
 _KERNELS = ("closures", "closure_rates", "reduced_dynamics", "closing_step")
@@ -32,7 +32,7 @@ static inline void pick_slopes(LaneSlopes *a, LaneBits mask, const LaneSlopes *b
 Render = Callable[..., str]  # template name, substitutions -> text
 
 
-def lanes_code(program: Program, render: Render) -> dict[str, str]:
+def print_lanes_files(program: Program, render: Render) -> dict[str, str]:
     """Return {"lanes.c": text}: the kernels of single runs in the reduced formulation, printed for vectors of runs.
 
     With a Taylor series the file has Taylor's method, else the linearized equations and Newton's matrix. It includes
@@ -41,18 +41,18 @@ def lanes_code(program: Program, render: Render) -> dict[str, str]:
     assert program.tree and program.methods
     model = program.model
     joint_functions = [
-        *map(lanes_printer.kernel, program.laws),
-        *(_print_joint_function(pin, render, model.law_states) for pin in program.pins),
+        *map(lanes_printer.print_kernel, program.laws),
+        *(_print_joint_function(pin, render, model.law_states) for pin in program.joints),
     ]
-    kernels = (*program.tree.plain, program.methods.plain_closing)
-    parameters = [model.slots.field(symbol) for symbol in model.slots.members()]
+    kernels = (*program.tree.unpaired_kernels, program.methods.unpaired_closing)
+    parameters = [model.parameter_table.find_field_name(symbol) for symbol in model.parameter_table.list_symbols()]
     kernels_in_lanes = [kernel for kernel in kernels if kernel.name in _KERNELS]
-    text = "\n".join([*joint_functions, *map(lanes_printer.motion_kernel, kernels_in_lanes)])
+    text = "\n".join([*joint_functions, *map(lanes_printer.print_motion_kernel, kernels_in_lanes)])
     if program.series:
-        methods = taylor.lanes_code(program.series)
+        methods = taylor.print_taylor_lanes(program.series)
     else:
-        methods = _print_linearized_equations(program.pins, program.methods, render, model.law_states)
-    curves = bool(curves_code(model.scene.mechanism.curves, (text, methods)))
+        methods = _print_linearized_equations(program.joints, program.methods, render, model.law_states)
+    curves = bool(print_curve_tables(model.scene.mechanism.curves, (text, methods)))
     return {
         MAIN: render(
             "lanes.c.jinja",
@@ -64,18 +64,18 @@ def lanes_code(program: Program, render: Render) -> dict[str, str]:
     }
 
 
-def _print_joint_function(pin: Pin, render: Render, states: int) -> str:
+def _print_joint_function(pin: JointFunctions, render: Render, states: int) -> str:
     """Return the function of a joint with play for lanes, from a template.
 
     Each joint has `states` inner states of laws. Dry contact and film are included as far as the joint has them.
     """
     clearance = pin.clearance
     step_names = ("gap", "before_dry", "after_dry", "before_film", "after_film", "share")
-    substitutions = {name: lanes_printer.statements(getattr(pin, name)) for name in step_names}
+    substitutions = {name: lanes_printer.print_statements(getattr(pin, name)) for name in step_names}
     if clearance.normal is not None:
-        substitutions["dry_law"] = calls_of_dry(pin, "lanes_max_of(delta, all_of(0.0))", "Lanes")
+        substitutions["dry_law"] = print_dry_calls(pin, "lanes_max_of(delta, all_of(0.0))", "Lanes")
     if clearance.film is not None:
-        substitutions["film_law"] = call_of_film(pin, "Lanes")
+        substitutions["film_law"] = print_film_calls(pin, "Lanes")
     return render(
         "play/lane_pin.c.jinja",
         joint=clearance.label,
@@ -83,34 +83,41 @@ def _print_joint_function(pin: Pin, render: Render, states: int) -> str:
         dry=clearance.normal is not None,
         film=clearance.film is not None,
         ratio_name="unclipped" if clearance.clip_ratio else "ratio",
-        rates=braced("rate", clearance, states, "all_of(0.0)"),
-        still=braced("", clearance, states, "all_of(0.0)"),
-        first=pin.corners.start,
-        last=pin.corners.stop,
+        rates=print_rates("rate", clearance, states, "all_of(0.0)"),
+        still=print_rates("", clearance, states, "all_of(0.0)"),
+        first=pin.switch_indices.start,
+        last=pin.switch_indices.stop,
         states=states,
         wall=bool(clearance.wall),
         **substitutions,
     )
 
 
-def _print_linearized_equations(pins: Sequence[Pin], methods: Methods, render: Render, states: int) -> str:
+def _print_linearized_equations(pins: Sequence[JointFunctions], methods: Methods, render: Render, states: int) -> str:
     """Return the linearized equations of motion and Newton's matrix for lanes, without the tables of newton.c.
 
     Derivatives of the joints' forces come first, then the kernels for real and complex steps.
     """
     newton = methods.newton
     pick_slopes = _PICK_SLOPES.replace("i < 4", f"i < {4 + states}").replace("k < 5", f"k < {5 + states}")
-    slopes = [shared_slopes_code(pins, render, "Lanes", "LaneSlopes", states) + pick_slopes] if pins else []
-    slopes += map(lanes_printer.kernel, methods.sloping)
+    slopes = [print_shared_slopes(pins, render, "Lanes", "LaneSlopes", states) + pick_slopes] if pins else []
+    slopes += map(lanes_printer.print_kernel, methods.derivative_kernels)
     for clearance in (pin.clearance for pin in pins):
         slopes.append(
-            _print_force_tangent(newton.system.model, clearance, methods.slopes[clearance.name], render, states)
+            _print_force_tangent(
+                newton.system.model, clearance, methods.derivative_calls[clearance.name], render, states
+            )
         )
-    state_kernels = map(lanes_printer.kernel_with_rare, (newton.linearize, newton.factor))
-    factor, solve_kernels = methods.at_complex[:1], methods.at_complex[1:]
-    complex_ = [*map(lanes_printer.kernel_with_rare, factor), *map(lanes_printer.kernel, solve_kernels)]
+    state_kernels = map(lanes_printer.print_kernel_with_rare, (newton.linearize_kernel, newton.factor_kernel))
+    factor, solve_kernels = methods.complex_kernels[:1], methods.complex_kernels[1:]
+    complex_ = [*map(lanes_printer.print_kernel_with_rare, factor), *map(lanes_printer.print_kernel, solve_kernels)]
     return "\n".join(
-        [*slopes, *state_kernels, *map(lanes_printer.kernel, (newton.substitute, newton.solve)), *complex_]
+        [
+            *slopes,
+            *state_kernels,
+            *map(lanes_printer.print_kernel, (newton.substitute_kernel, newton.solve_kernel)),
+            *complex_,
+        ]
     )
 
 
@@ -123,9 +130,11 @@ def _print_force_tangent(
     """
     arguments_and_result = {"film": (STATE, "out"), "dry": (STATE, "&dry"), "share": (("delta",), "share")}
     calls = {
-        part: functions.shared_call(parts[part], arguments, (result,)) if part in parts else ""
+        part: functions.print_shared_call(parts[part], arguments, (result,)) if part in parts else ""
         for part, (arguments, result) in arguments_and_result.items()
     }
     calls |= {"joint": clearance.label, "kind": clearance.kind.capitalize(), "c": f"p->{clearance.pair.c}"}
-    calls["rise"] = lanes_printer.expression(in_place(model, clearance.wall.rise)) if clearance.wall else ""
+    calls["rise"] = (
+        lanes_printer.print_expression(read_parameters_at_places(model, clearance.wall.rise)) if clearance.wall else ""
+    )
     return render("play/lane_tangent.c.jinja", rows=4 + states, columns=5 + states, wall=bool(clearance.wall), **calls)

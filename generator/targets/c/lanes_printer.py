@@ -1,4 +1,4 @@
-"""Prints kernels for SIMD lanes: the same statements with vectors instead of numbers (lanes.h).
+"""Prints generated functions for SIMD lanes, one run per lane: the same statements with vectors (lanes.h).
 
 The order of operations is kept, so that each lane rounds as a single run does. Masks replace branches. A lane in which
 a single run would take another path is marked as rare.
@@ -11,32 +11,32 @@ from dataclasses import replace
 
 import sympy as sp
 
-from gudgeon.generator.ir.branches import Branch, JointsAlone
+from gudgeon.generator.ir.branches import Branch, ReturnIfOnlyJoints
 from gudgeon.generator.ir.kernels import Kernel, Section
-from gudgeon.generator.ir.readable import lines, readable
-from gudgeon.generator.ir.series_rules import WIDE, Gathered
-from gudgeon.generator.ir.signatures import Number, Type, result
+from gudgeon.generator.ir.readable import make_readable, make_readable_statements
+from gudgeon.generator.ir.series_rules import WIDE, StoreRow
+from gudgeon.generator.ir.signatures import Number, Type, make_output_argument
 from gudgeon.generator.ir.sine_pairs import call_sines_by_lane
 from gudgeon.generator.ir.statements import (
     Branches,
     Call,
     Declare,
+    DeclareParameters,
     Guard,
     Jump,
     Largest,
     Line,
-    Rescue,
     Return,
-    RunNumbers,
     Sines,
+    SolveDependentRows,
     Statement,
     Status,
 )
 from gudgeon.generator.ir.values import Conditional, Test, Value
-from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
+from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, make_curve_name
 from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.targets.c import functions, printer
-from gudgeon.generator.targets.c.printer import Text
+from gudgeon.generator.targets.c.printer import ValuePrinter
 
 _TYPES: dict[Type, Type] = {
     Number.REAL: "Lanes",
@@ -49,9 +49,9 @@ _TYPES: dict[Type, Type] = {
     "PinSlopes": "LaneSlopes",
     "Wide": "Lanes",
 }
-_RARE = result("rare", "LaneBits")
+_RARE = make_output_argument("rare", "LaneBits")
 # Lines of single runs without a counterpart in lanes, such as the treatment of vanishing pivots.
-_LEFT_OUT = (Status, JointsAlone, Jump, Rescue, Return)
+_LEFT_OUT = (Status, ReturnIfOnlyJoints, Jump, SolveDependentRows, Return)
 
 
 class LanesPrinter(printer.CPrinter):
@@ -95,26 +95,26 @@ class LanesPrinter(printer.CPrinter):
         """Print the value of a curve at a vector."""
         if not expr.free_symbols:
             return super()._print_CurveOf(expr)
-        return f"lanes_curve({c_name(expr.name)}, {expr.order}, {self._print_vector(expr.args[2])})"
+        return f"lanes_curve({make_curve_name(expr.name)}, {expr.order}, {self._print_vector(expr.args[2])})"
 
     def _print_CurveOn(self, expr: CurveOn) -> str:
         """Print the value of a curve at a vector, on the pieces that its branch selects."""
-        x, side = map(self._print_vector, expr.args[2:])
-        return f"lanes_curve_on({c_name(expr.name)}, {expr.order}, {x}, {side})"
+        x, piece = map(self._print_vector, expr.args[2:])
+        return f"lanes_curve_on({make_curve_name(expr.name)}, {expr.order}, {x}, {piece})"
 
     def _print_KnotsOf(self, expr: KnotsOf) -> str:
         """Print the event function of a curve's knots at a vector."""
-        return f"lanes_knots({c_name(expr.name)}, {self._print_vector(expr.args[1])})"
+        return f"lanes_knots({make_curve_name(expr.name)}, {self._print_vector(expr.args[1])})"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
         """Print a choice by the signs of a vector."""
         if expr in self.of.branches:
             return self.of.branches[expr]
-        side, a, b = map(self._print_vector, expr.args)
-        return f"pick({side} < 0.0, {b}, {a})"
+        branch, a, b = map(self._print_vector, expr.args)
+        return f"pick({branch} < 0.0, {b}, {a})"
 
 
-class LaneLines(functions.Lines):
+class LaneLines(functions.LinePrinter):
     """Print lines of functions for vectors. Raises ValueError for a kind of line without a counterpart."""
 
     printer: LanesPrinter
@@ -135,18 +135,18 @@ class LaneLines(functions.Lines):
 
     def test(self, item: Test) -> str:
         """Return a comparison as a mask of lanes in C; bounds stay numbers where possible."""
-        plain = Text(self.printer)
+        value_printer = ValuePrinter(self.printer)
         if not item.relation:
-            return f"{plain.expression(item.value)} > 0.0"
-        if not item.of_itself:
-            number_test = plain.test(replace(item, size=False))
+            return f"{value_printer.expression(item.value)} > 0.0"
+        if not item.is_relative_to_value:
+            number_test = value_printer.test(replace(item, compares_magnitude=False))
             return (
-                f"lanes_fabs({plain.expression(item.value)}){number_test.removeprefix(plain.expression(item.value))}"
-                if item.size
+                f"lanes_fabs({value_printer.expression(item.value)}){number_test.removeprefix(value_printer.expression(item.value))}"
+                if item.compares_magnitude
                 else number_test
             )
-        value = plain.expression(item.value)
-        size = f"lanes_fabs({value})" if item.size else value
+        value = value_printer.expression(item.value)
+        size = f"lanes_fabs({value})" if item.compares_magnitude else value
         return f"({size} > 0.0) & ({size} < INFINITY)"
 
     def _print_line(self, item: Line) -> Sequence[str]:
@@ -156,10 +156,10 @@ class LaneLines(functions.Lines):
         """
         match item:
             case Branch():
-                declaration = f"{'const Lanes ' * bool(item.defines)}{self.printer.get_name(item.target)}"
-                side, then, otherwise = map(self.expression, (item.side, item.then, item.otherwise))
-                return [f"{declaration} = pick({side} < 0.0, {otherwise}, {then});"]
-            case Guard(test=Test() as test, only=None):
+                declaration = f"{'const Lanes ' * bool(item.declared_local)}{self.printer.get_name(item.target)}"
+                branch, then, otherwise = map(self.expression, (item.branch, item.value_above, item.value_below))
+                return [f"{declaration} = pick({branch} < 0.0, {otherwise}, {then});"]
+            case Guard(test=Test() as test, condition=None):
                 return [f"*rare |= ~({self.test(test)});"]
             case Call():
                 values = (*item.given, *item.results)
@@ -167,15 +167,19 @@ class LaneLines(functions.Lines):
                 return [f"{item.function}({', '.join(arguments)});"]
             case Declare(type=Number.REAL):
                 return super()._print_line(replace(item, type="Lanes"))
-            case RunNumbers():
+            case DeclareParameters():
                 return ["const LaneParameters *const p = lin->p;"]
             case Branches():
                 stored_branches, local_array = (
                     "held_branches(discrete)" if item.held else "NULL",
                     "Lanes g[N_SWITCHES + 1];",
                 )
-                message = {"": [], "nobody": [local_array], "rhs": ["Lanes *const g = reported_branches(rhs);"]}
-                return [f"const Lanes *const branch = {stored_branches};", *message[item.message]]
+                declarations_of_target = {
+                    "": [],
+                    "nobody": [local_array],
+                    "rhs": ["Lanes *const g = reported_branches(rhs);"],
+                }
+                return [f"const Lanes *const branch = {stored_branches};", *declarations_of_target[item.output_target]]
             case Largest():
                 name = f"*{item.target}"
                 before = ["all_of(0.0)", *[name] * len(item.values)]
@@ -184,7 +188,7 @@ class LaneLines(functions.Lines):
                     for old, x in zip(before, item.values, strict=False)
                 ]
                 return largest or [f"{name} = all_of(0.0);"]
-            case Gathered():
+            case StoreRow():
                 return [
                     f"{item.array}[{WIDE * item.row + i}] = {self.expression(x)};" for i, x in enumerate(item.values)
                 ]
@@ -193,14 +197,14 @@ class LaneLines(functions.Lines):
         raise ValueError(f"a line of a kernel that has no counterpart for vectors: {item}")
 
 
-def expression(value: Value) -> str:
+def print_expression(value: Value) -> str:
     """Return a value as a vector in C, for use outside of a printed function."""
     return LaneLines(LanesPrinter()).expression(value)
 
 
-def statements(items: Sequence[Statement]) -> str:
+def print_statements(items: Sequence[Statement]) -> str:
     """Return statements as lines of C for the body of a lane function in a template; "" without statements."""
-    readable_lines = lines(items)
+    readable_lines = make_readable_statements(items)
     return (
         "\n".join(map(LaneLines(LanesPrinter(readable_lines)).line, readable_lines.sections[0].statements))
         if readable_lines.sections
@@ -208,7 +212,7 @@ def statements(items: Sequence[Statement]) -> str:
     )
 
 
-def kernel(item: Kernel) -> str:
+def print_kernel(item: Kernel) -> str:
     """Return a kernel as a C function for vectors, which marks the lanes that it cannot compute in `rare`.
 
     Lines of single runs without a counterpart in lanes are left out. The function returns no status.
@@ -221,8 +225,8 @@ def kernel(item: Kernel) -> str:
     sections = tuple(section for section in kept_sections if section.statements)
     lanes_kernel = replace(item, sections=sections, arguments=arguments, status=False)
     marks_rare = any(isinstance(x, (Guard, Sines)) for section in sections for x in section.statements)
-    readable_lines = readable(lanes_kernel)
-    return functions.function(
+    readable_lines = make_readable(lanes_kernel)
+    return functions.print_function(
         lanes_kernel,
         LaneLines(LanesPrinter(readable_lines)),
         readable_lines,
@@ -230,17 +234,17 @@ def kernel(item: Kernel) -> str:
     )
 
 
-def motion_kernel(item: Kernel) -> str:
+def print_motion_kernel(item: Kernel) -> str:
     """Return a kernel as a C function for vectors whose sines are computed one angle at a time for all lanes.
 
     The function has the further argument `rare`. Kernels of the motion are printed so.
     """
-    return kernel_with_rare(call_sines_by_lane(item))
+    return print_kernel_with_rare(call_sines_by_lane(item))
 
 
-def kernel_with_rare(item: Kernel) -> str:
+def print_kernel_with_rare(item: Kernel) -> str:
     """Return a kernel as a C function for vectors with the further argument `rare`.
 
     It is the mask of lanes that need a single run.
     """
-    return kernel(replace(item, arguments=(*item.arguments, _RARE)))
+    return print_kernel(replace(item, arguments=(*item.arguments, _RARE)))

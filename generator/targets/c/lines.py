@@ -1,4 +1,4 @@
-"""Finds the lines of a function in the emitted files, which a page highlights."""
+"""Finds the lines of a function in the emitted C files, so that a page of equations can highlight them."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import Readable
 from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.symbols.storage import Key
-from gudgeon.generator.targets.c.functions import printed_parts
-from gudgeon.generator.targets.c.printer import within
+from gudgeon.generator.targets.c.functions import print_kernel_parts
+from gudgeon.generator.targets.c.printer import wrap_file
 
 
 @dataclass(frozen=True)
-class Stored:
+class StoredLines:
     """Represent the lines (from 1) of a file that store to a variable; a branch has two such entries.
 
     `condition`: "<" and the name of the condition for the store where the condition is below zero, ">" for the other
@@ -36,57 +36,58 @@ class LocatedFunction:
     own: Readable
     first: int
     last: int
-    lines: tuple[Stored, ...]
+    lines: tuple[StoredLines, ...]
 
 
-def find_function(kernel: Kernel, files: Mapping[str, str]) -> Iterator[LocatedFunction]:
+def locate_function(kernel: Kernel, files: Mapping[str, str]) -> Iterator[LocatedFunction]:
     """Yield the printed parts of a kernel with their locations in the C files.
 
     files: the text of each file by name. Parts that no file contains are left out.
     """
-    for part, readable_part, texts_with_lines in printed_parts(kernel):
-        texts = [within(text).split("\n") for text, _ in texts_with_lines]
+    for part, readable_part, texts_with_lines in print_kernel_parts(kernel):
+        texts = [wrap_file(text).split("\n") for text, _ in texts_with_lines]
         function_text = "\n".join(line for text in texts for line in text)
         file = next((name for name, text in files.items() if f"{function_text}\n" in text), None)
         if file is None:
             continue
         line_number = first_line = 1 + files[file].count("\n", 0, files[file].index(f"{function_text}\n"))
-        stores: list[Stored] = []
+        stores: list[StoredLines] = []
         for text, (_, line) in zip(texts, texts_with_lines, strict=True):
             stores += _find_stores(text, line, line_number)
             line_number += len(text)
         yield LocatedFunction(file, part.name, readable_part, first_line, line_number - 1, tuple(stores))
 
 
-def _find_stores(text: Sequence[str], line: Line | str | None, first: int) -> list[Stored]:
+def _find_stores(text: Sequence[str], line: Line | str | None, first: int) -> list[StoredLines]:
     """Return the stores in a text of C that begins at line `first` of a file.
 
-    line: the statement that the text prints, or the name of a local; other lines of a kernel store nothing.
+    line: the statement that the text prints, or the name of a local; other lines of a kernel store nothing and give [].
+    A branch gives two stores, of the lines below and above its switching point.
     """
     lines = range(first, first + len(text))
     if isinstance(line, str):
-        return [Stored(line, lines)]
+        return [StoredLines(line, lines)]
     if isinstance(line, Statement):
-        return [Stored(line.target, lines)]
+        return [StoredLines(line.target, lines)]
     if not isinstance(line, Branch):
         return []
-    else_line, condition = first + text.index("    else"), line.side.name if line.side.is_Symbol else ""
+    else_line, condition = first + text.index("    else"), line.branch.name if line.branch.is_Symbol else ""
     below, above = range(first, else_line), range(else_line, lines.stop)
-    return [Stored(line.target, below, f"<{condition}"), Stored(line.target, above, f">{condition}")]
+    return [StoredLines(line.target, below, f"<{condition}"), StoredLines(line.target, above, f">{condition}")]
 
 
-def find_stores_in_text(
+def locate_stores(
     function_text: str, stores: Iterable[tuple[str, Line | str]], files: Mapping[str, str]
-) -> tuple[str, list[Stored]]:
+) -> tuple[str, list[StoredLines]]:
     """Return (file, stores) of a function that a template printed; each store is found by its text, in order.
 
     ("", []) is returned if no file contains the function.
     """
     file, lines = locate_text(function_text, files)
-    rest, line_number, located_stores = within(function_text), lines.start, list[Stored]()
+    remaining_text, line_number, located_stores = wrap_file(function_text), lines.start, list[StoredLines]()
     for text, line in stores if file else ():
-        store_text = within(text)
-        skipped, _, rest = rest.partition(f"{store_text}\n")
+        store_text = wrap_file(text)
+        skipped, _, remaining_text = remaining_text.partition(f"{store_text}\n")
         line_number += skipped.count("\n")
         located_stores += _find_stores(store_text.split("\n"), line, line_number)
         line_number += store_text.count("\n") + 1
@@ -95,7 +96,7 @@ def find_stores_in_text(
 
 def locate_text(text: str, files: Mapping[str, str]) -> tuple[str, range]:
     """Return (file, lines) of a text that is printed in one piece; ("", empty range) if no file contains it."""
-    wrapped = within(text)
+    wrapped = wrap_file(text)
     file = next((name for name, file_text in files.items() if wrapped in file_text), "")
     if not file or not wrapped.strip():
         return "", range(0)

@@ -11,13 +11,13 @@ import sympy as sp
 
 from gudgeon.contract.kernel_source import ENGINE_ENDS
 from gudgeon.generator.equations.model import SIGNS, Model, eccentricity_rows
-from gudgeon.generator.equations.notes import drives_with_jumps, has_jumps
+from gudgeon.generator.equations.notes import find_drives_with_jumps, has_jumps
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.field import Field
 from gudgeon.generator.format.sections import FILE
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels import outputs
-from gudgeon.generator.kernels.event_functions import depends_on_state, ranges_kernel
+from gudgeon.generator.kernels.event_functions import depends_on_state, make_ranges_kernel
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kinds.joints.joint_type import CORNERS
 from gudgeon.generator.kinds.laws.law import BREAKAWAY, DEEPEST
@@ -28,7 +28,7 @@ from gudgeon.generator.symbols.curves import KnotsOf
 from gudgeon.generator.symbols.parameter_table import ParameterTable
 from gudgeon.generator.symbols.switches import PeriodsOf
 from gudgeon.generator.targets.c import printer
-from gudgeon.generator.targets.c.printer import broken, comment_text
+from gudgeon.generator.targets.c.printer import break_code, sanitize_comment
 from gudgeon.language.units import DIMENSIONLESS, POWER, PRESSURE, VISCOSITY, Dimension
 
 _NAMED = {PRESSURE: "Pa", VISCOSITY: "Pa*s", POWER: "W"}
@@ -49,15 +49,15 @@ def list_parameter_fields(slots: ParameterTable) -> list[tuple[str, str]]:
         if entry.symbol in table_entries:
             continue
         is_angle = entry.address.endswith(".theta") and entry.dimension == DIMENSIONLESS
-        unit = "rad" if is_angle else _describe_law_unit(entry.address) or unit_text(entry.dimension)
-        name = sizes.get(entry.symbol, slots.field(entry.symbol))
+        unit = "rad" if is_angle else _describe_law_unit(entry.address) or format_unit(entry.dimension)
+        name = sizes.get(entry.symbol, slots.find_field_name(entry.symbol))
         address = entry.address.rpartition(".")[0] if entry.symbol in sizes else entry.address
-        fields.append((name, comment_text(f"{address}, {unit}")))
+        fields.append((name, sanitize_comment(f"{address}, {unit}")))
     for symbol, value in slots.derived.items():
         dimensions[symbol] = _derive_dimension(value, dimensions)
         dimension = dimensions[symbol]
-        comment_parts = (slots.symbols.info[symbol].meaning, unit_text(dimension) if dimension else "")
-        fields.append((slots.field(symbol), comment_text(", ".join(filter(None, comment_parts)))))
+        comment_parts = (slots.symbols.info[symbol].meaning, format_unit(dimension) if dimension else "")
+        fields.append((slots.find_field_name(symbol), sanitize_comment(", ".join(filter(None, comment_parts)))))
     return fields
 
 
@@ -65,11 +65,11 @@ def _describe_law_unit(address: str) -> str:
     """Return the meaning of a law's coefficient in N/m^n, whose unit depends on an exponent; "" for other addresses."""
     field: Field | None = FILE if address.startswith("contacts.") else None
     for part in address.split("."):
-        field = field and field.below(part)
+        field = field and field.find_field(part)
     return field.meaning if field and field.any_dimension else ""
 
 
-def unit_text(dimension: Dimension) -> str:
+def format_unit(dimension: Dimension) -> str:
     """Return a dimension as a unit in ASCII: N*m, Pa, N*s/m^1.5, kg*m^2; "1" for a plain number and rad."""
     if unit := _NAMED.get(dimension):
         return unit
@@ -92,7 +92,8 @@ def _print_unit_product(powers: Mapping[str, Fraction]) -> str:
 def _derive_dimension(value: sp.Expr, dimensions: dict[sp.Symbol, Dimension | None]) -> Dimension | None:
     """Return the dimension of a derived parameter's expression; None if it depends on an exponent that is a parameter.
 
-    dimensions: those of the parameters before it. Other functions and numbers have no dimension.
+    dimensions: those of the parameters before it. A sum has the dimension of its first term that has one; max, min and
+    abs have that of their first argument. Numbers and other functions are dimensionless. Only rational exponents count.
     """
     if value.is_Symbol:
         return dimensions.get(value)
@@ -139,22 +140,22 @@ _THRESHOLDS: Sizes = {
 _GAINS = {"two_alpha": "baumgarte_two_alpha", "beta_squared": "baumgarte_beta_squared", "stick": "stick_gain"}
 
 
-def header_values(program: Program, bounds: Kernel | None) -> dict[str, Any]:
+def make_header_values(program: Program, bounds: Kernel | None) -> dict[str, Any]:
     """Return the substitutions of the template of model.h by name.
 
     They are fields of Parameters, #defines of sizes and thresholds, tables, and gains of Newton's matrix. bounds: the
-    kernel of `known_bounds`, or None.
+    kernel of `make_bounds_kernel`, or None.
     """
-    model, scene_sizes = program.model, sizes(program, bounds)
+    model, scene_sizes = program.model, count_sizes(program, bounds)
     if series := program.series:
         scene_sizes["TAYLOR"] = (max(len(series.products), 1), "products of the Taylor series of the motion")
     mechanism = model.scene.mechanism
     return {
-        "title": printer.comment_text(mechanism.title or mechanism.name),
+        "title": printer.sanitize_comment(mechanism.title or mechanism.name),
         "mechanism": mechanism.name,
         "scene": model.scene.name,
         "sha256": mechanism.sha256,
-        "parameters": list_parameter_fields(model.slots),
+        "parameters": list_parameter_fields(model.parameter_table),
         "sizes": _print_defines(scene_sizes),
         "thresholds": _print_defines(_THRESHOLDS),
         "tables": _print_tables(program, scene_sizes),
@@ -163,10 +164,10 @@ def header_values(program: Program, bounds: Kernel | None) -> dict[str, Any]:
     }
 
 
-def sizes(program: Program, bounds: Kernel | None) -> Sizes:
+def count_sizes(program: Program, bounds: Kernel | None) -> Sizes:
     """Return {macro: (value, meaning)} of all sizes in model.h; code for what has size 0 is left out of the library.
 
-    bounds: the kernel of `known_bounds`, or None.
+    bounds: the kernel of `make_bounds_kernel`, or None.
     """
     return (
         _count_linkage(program)
@@ -184,14 +185,14 @@ def _count_linkage(program: Program) -> Sizes:
         "N_Q": (len(model.q), "coordinates of all bodies"),
         "N_ROWS": (len(model.rows), "constraint rows of the motion"),
         "N_ALL_ROWS": (len(model.all_rows), "rows of the closed linkage"),
-        "N_JOINTS": (len(outputs.constraining_joints(model)), "joints without play"),
+        "N_JOINTS": (len(outputs.find_constraining_joints(model)), "joints without play"),
         "N_DRIVES": (len(model.scene.mechanism.drives), "drives"),
         "N_CLEARANCES": (len(model.clearances), "joints with play"),
         "LAW_STATES": (model.law_states, "inner states of the laws of a joint with play, at most"),
         "N_FRICTIONS": (len(model.frictions), "slips that friction may hold"),
         "N_SWITCHES": (switches, "corners of min, max, abs and sign"),
         "N_USER_EVENTS": (len(model.events), "expressions whose zeros are watched"),
-        "N_SERIES": (len(outputs.element_series(model)), "results of force elements"),
+        "N_SERIES": (len(outputs.find_element_series(model)), "results of force elements"),
     }
 
 
@@ -200,7 +201,7 @@ def _count_motion(program: Program) -> Sizes:
 
     Flags have the values 0 and 1.
     """
-    integrated, chain, course, tree = program.integrated, program.integrated.chain, program.course, program.tree
+    integrated, chain, course, tree = program.integrated, program.integrated.chain, program.kinematics, program.tree
     system, newton = integrated.system, program.methods.newton if program.methods else None
     return {
         "INTEGRATES": (int(program.integrates), "1; 0: no freedom is left, positions follow from the drives"),
@@ -208,15 +209,21 @@ def _count_motion(program: Program) -> Sizes:
         "POSITIONS_IN_TREE": (int(course is not None and course.rows is not None), "the same, where they follow"),
         "N_X": (len(system.q), "coordinates that are integrated"),
         "N_LOOPS": (len(system.rows), "constraint rows of these"),
-        "N_CHAIN": (len(system.known), "coordinates that drives determine through loops"),
-        "N_LED": (len(system.known) + 2 * len(chain.directions) if chain else 0, "these, cosines and sines of angles"),
-        "SMOOTH_CHAINS": (int(bool(tree and tree.chains and not tree.chains.corners)), "their drives have no corners"),
+        "N_CHAIN": (len(system.dependent), "coordinates that drives determine through loops"),
+        "N_LED": (
+            len(system.dependent) + 2 * len(chain.directions) if chain else 0,
+            "these, cosines and sines of angles",
+        ),
+        "SMOOTH_CHAINS": (
+            int(bool(tree and tree.chains and not tree.chains.switch_kernel)),
+            "their drives have no corners",
+        ),
         "TREE_PIVOTS": (len(integrated.pivots) - len(chain.rows) if chain else 0, "statuses of chains follow these"),
-        "RESCUED": (int(tree is not None and tree.rescued), "pivots may vanish: all bodies' equations help"),
+        "RESCUED": (int(tree is not None and tree.has_fallback), "pivots may vanish: all bodies' equations help"),
         "LARGEST_BLOCK": (_find_largest_block(program), "rows that are solved together"),
         "N_VALUES": (newton.values.size if newton else 0, "of the linearized equations"),
         "N_FACTORS": (newton.factors.size if newton else 0, "of their factors L and U"),
-        "IMPLICIT_STAGES": (int(program.staged), "1: there are methods that find their stages together"),
+        "IMPLICIT_STAGES": (int(program.has_complex_stages), "1: there are methods that find their stages together"),
         "HAS_LANES": (int(program.has_lanes), "runs go side by side"),
     }
 
@@ -229,18 +236,18 @@ def _count_monitored(program: Program, bounds: Kernel | None) -> Sizes:
     model = program.model
     sizes: Sizes = {
         "DRIVE_IMPULSES": (
-            int(bool(drives_with_jumps(model))),
+            int(bool(find_drives_with_jumps(model))),
             "drives' rates may jump, and something is free to move",
         ),
         "RATE_JUMPS": (int(has_jumps(model)), "the rate of some drive may jump"),
         "N_WATCHED": (len(find_monitored_switches(program)) + len(model.events), "corners of expressions, and events"),
         "KNOWN_BOUNDS": (int(bounds is not None), "bounds of what is watched are known over ranges of the state"),
         "WATCHES_STATE": (int(bounds is not None and depends_on_state(bounds)), "they hang on more than time"),
-        "N_TERMS": (program.terms.count, "terms of time alone, which may hide within a step"),
-        "N_PULSES": (program.terms.pulses, "of these, the first: those that may in a step of any motion"),
+        "N_TERMS": (program.time_terms.count, "terms of time alone, which may hide within a step"),
+        "N_PULSES": (program.time_terms.pulses, "of these, the first: those that may in a step of any motion"),
     }
     systems = (model, program.integrated.system.model)
-    switches = [switch.g for some in systems for switch in some.symbols.switches.found.values()]
+    switches = [switch.g for some in systems for switch in some.symbols.switches.switch_by_key.values()]
     if model.rigid:
         sizes["N_RIGID"] = (len(model.rigid), "joints with play whose surfaces do not give")
     if model.rigid_with_friction:
@@ -284,16 +291,18 @@ def find_first_corners(model: Model) -> list[int]:
     return [k for k, c in enumerate(model.clearances) if c.wall][:: len(CORNERS)]
 
 
-def known_bounds(program: Program) -> Kernel | None:
+def make_bounds_kernel(program: Program) -> Kernel | None:
     """Return the kernel that bounds event functions over ranges of the state.
 
     None is returned if nothing is monitored, or if event functions depend on forces or driven loops.
     """
     model, corners = program.model, find_monitored_switches(program)
-    watched = program.integrated.watched if program.integrates else program.watched if model.events else None
+    watched = (
+        program.integrated.event_functions if program.integrates else program.event_functions if model.events else None
+    )
     if watched is None or not (corners or model.events):
         return None
-    return ranges_kernel(watched, corners, len(model.events))
+    return make_ranges_kernel(watched, corners, len(model.events))
 
 
 def find_monitored_switches(program: Program) -> list[int]:
@@ -302,16 +311,16 @@ def find_monitored_switches(program: Program) -> list[int]:
     Without integration they are those of the scene itself, without those of laws.
     """
     if program.integrates:
-        return program.integrated.corners
-    return sorted(switch.index for switch in program.model.symbols.switches.of(""))
+        return program.integrated.switch_indices
+    return sorted(switch.index for switch in program.model.symbols.switches.list_switches(""))
 
 
 def find_unused_switches(program: Program) -> list[int]:
     """Return the indices of switching functions that only the full formulation evaluates; [] without integration."""
     integrated_switches, all_switches = program.integrated.system.model.symbols.switches, program.model.symbols.switches
-    used = {switch.index for switch in integrated_switches.found.values()}
+    used_indices = {switch.index for switch in integrated_switches.switch_by_key.values()}
     return (
-        [k for k in range(max(integrated_switches.count, all_switches.count)) if k not in used]
+        [k for k in range(max(integrated_switches.count, all_switches.count)) if k not in used_indices]
         if program.integrates
         else []
     )
@@ -331,7 +340,7 @@ def _find_largest_block(program: Program) -> int:
 
     Such blocks occur in positions that follow from drives and in driven loops.
     """
-    rows, chains = program.course and program.course.rows, program.tree and program.tree.chains
+    rows, chains = program.kinematics and program.kinematics.rows, program.tree and program.tree.chains
     return max(rows.largest if rows else 0, chains.square.largest if chains else 0)
 
 
@@ -384,7 +393,7 @@ def _print_tables(program: Program, scene_sizes: Sizes) -> list[str]:
 
 def _print_table(c_type: str, name: str, values: Iterable[int]) -> str:
     """Return one table as a static array in C; an empty table gets one unused 0."""
-    return "\n".join(broken(f"static const {c_type} {name}[] = {{{', '.join(map(str, values)) or 0}}};"))
+    return "\n".join(break_code(f"static const {c_type} {name}[] = {{{', '.join(map(str, values)) or 0}}};"))
 
 
 def _list_monitoring_tables(program: Program, scene_sizes: Sizes) -> dict[tuple[str, str], Sequence[int]]:
@@ -394,7 +403,7 @@ def _list_monitoring_tables(program: Program, scene_sizes: Sizes) -> dict[tuple[
     """
     count = {name: value for name, (value, _) in scene_sizes.items()}
     first = int(count["N_CLEARANCES"] + count["N_SWITCHES"] + count["N_FRICTIONS"])
-    event_functions = [int(count["N_CLEARANCES"]) + k for k in program.integrated.corners]
+    event_functions = [int(count["N_CLEARANCES"]) + k for k in program.integrated.switch_indices]
     event_functions += range(first, first + int(count["N_USER_EVENTS"]))
     position = {k: i for i, k in enumerate(event_functions)}
     return {
@@ -410,7 +419,7 @@ def _mark_continuous_switches(model: Model, count: int) -> list[int]:
     Other switching functions, and those of films with the option `as_printed`, may jump and have 0.
     """
     joints_as_printed = {c.name for c in model.clearances if c.film is not None and c.film.options.get("as_printed")}
-    owners = {switch.index: switch.owner for switch in model.symbols.switches.found.values()}
+    owners = {switch.index: switch.owner for switch in model.symbols.switches.switch_by_key.values()}
     return [int(bool(owners.get(k)) and owners[k] not in joints_as_printed) for k in range(count)]
 
 
@@ -435,7 +444,7 @@ def _find_start_indices(model: Model) -> dict[str, list[int]]:
     }
 
 
-def joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
+def list_joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
     """Return (meaning, name of the C function, [C expression for each joint]) of the parameters of joints with play.
 
     Breakaway, restitution and threshold are included only if laws with inner states or rigid contacts exist.
@@ -449,7 +458,7 @@ def joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
         values["breakaway"] = [c.constants.get(BREAKAWAY, 0) for c in model.clearances]
     if model.rigid:
         values |= {
-            f"{name}_of": [c.normal.numbers[name] if c.rigid and c.normal else 0 for c in model.clearances]
+            f"{name}_of": [c.normal.parameters[name] if c.rigid and c.normal else 0 for c in model.clearances]
             for name in ("restitution", "threshold")
         }
     meanings = dict(_OF_JOINTS)
@@ -458,7 +467,11 @@ def joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
     if any(c.wall for c in model.clearances):
         meanings["deepest"] = meanings["deepest"].replace("radius", "radius, of half a guide's width", 1)
     return [
-        (meanings[name], name, [printer.expression(model.symbols.in_place(sp.sympify(x))) for x in joint_values])
+        (
+            meanings[name],
+            name,
+            [printer.print_expression(model.symbols.read_at_places(sp.sympify(x))) for x in joint_values],
+        )
         for name, joint_values in values.items()
     ]
 

@@ -7,14 +7,14 @@ from collections.abc import Callable, Mapping, Sequence
 
 from gudgeon.generator.equations.contact_steps import beta_i
 from gudgeon.generator.equations.play import Clearance, Contour
-from gudgeon.generator.kernels.play import Pin
+from gudgeon.generator.kernels.play import JointFunctions
 from gudgeon.generator.kernels.program import Methods
 from gudgeon.generator.kernels.shared import SharedFunctionCall
-from gudgeon.generator.solvers.contact_slopes import OF_CONTOUR, in_place
+from gudgeon.generator.solvers.contact_slopes import CONTOUR_INPUTS, read_parameters_at_places
 from gudgeon.generator.solvers.newton import Newton
 from gudgeon.generator.targets.c import functions
 from gudgeon.generator.targets.c.play import CLOSED, CONTOURS
-from gudgeon.generator.targets.c.printer import expression
+from gudgeon.generator.targets.c.printer import print_expression
 
 Render = Callable[..., str]  # template name, substitutions -> text
 
@@ -33,19 +33,19 @@ static inline void blend_slopes({type} *F, const {type} *film, const {number} *s
 }"""
 
 
-def newton_code(newton: Newton, render: Render) -> str:
+def print_newton_functions(newton: Newton, render: Render) -> str:
     """Return the kernels and index tables of one linearized system as C: linearize, factorize, substitute, solve."""
-    kernels = [newton.linearize, newton.factor, newton.substitute, newton.solve]
+    kernels = [newton.linearize_kernel, newton.factor_kernel, newton.substitute_kernel, newton.solve_kernel]
     counts = [(f"n_{name}".upper(), len(entries)) for name, entries in newton.tables.items()]
     return render(
         "newton.c.jinja",
-        kernels="\n".join(map(functions.kernel, kernels)),
+        kernels="\n".join(map(functions.print_kernel, kernels)),
         tables=[(name, _print_table_rows(entries)) for name, entries in newton.tables.items()],
         counts=[*counts, ("N_NODES", newton.nodes)],
     )
 
 
-def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render, states: int) -> str:
+def print_tangent_functions(pins: Sequence[JointFunctions], methods: Methods, render: Render, states: int) -> str:
     """Return the C function `tangent_<joint>` of every joint with play, after the shared derivatives of laws.
 
     Each joint has `states` inner states of laws. Contours and walls of guides have their own templates. "" without
@@ -55,19 +55,21 @@ def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render, states: 
         return ""
     contours = any(pin.clearance.contour for pin in pins)
     dimensions = {"rows": 4 + states, "columns": 5 + states}
-    functions_ = [CONTOURS * contours + shared_slopes_code(pins, render, "double", "PinSlopes", states)]
+    functions_ = [CONTOURS * contours + print_shared_slopes(pins, render, "double", "PinSlopes", states)]
     functions_ += [render("play/contour_slopes.c.jinja")] * contours
-    functions_ += map(functions.kernel, methods.sloping)
+    functions_ += map(functions.print_kernel, methods.derivative_kernels)
     for clearance in (pin.clearance for pin in pins):
         if clearance.contour:
             functions_.append(
-                _print_contour_tangent(clearance, clearance.contour, methods.slopes[clearance.name]["dry"], render)
+                _print_contour_tangent(
+                    clearance, clearance.contour, methods.derivative_calls[clearance.name]["dry"], render
+                )
             )
             continue
         clearance_parameter = f"p->{clearance.pair.c}"
-        code = _print_slope_selection(clearance, clearance_parameter, methods.slopes[clearance.name])
+        code = _print_slope_selection(clearance, clearance_parameter, methods.derivative_calls[clearance.name])
         if clearance.wall:
-            rise = expression(in_place(methods.newton.system.model, clearance.wall.rise))
+            rise = print_expression(read_parameters_at_places(methods.newton.system.model, clearance.wall.rise))
             functions_.append(
                 render(
                     "play/wall_tangent.c.jinja",
@@ -89,18 +91,18 @@ def _print_contour_tangent(
     clearance: Clearance, contour: Contour, dry_slopes: SharedFunctionCall, render: Render
 ) -> str:
     """Return the tangent function of a bearing with a contour, which has dry contact only."""
-    arguments = [symbol.name for symbol in OF_CONTOUR]
+    arguments = [symbol.name for symbol in CONTOUR_INPUTS]
     return render(
         "play/contour_tangent.c.jinja",
         joint=clearance.label,
         c=f"p->{clearance.pair.c}",
-        worn=[expression(contour.at(beta_i, order)) for order in range(3)],
-        unread="g" in functions.unread_branches([dry_slopes]),
-        call=functions.shared_call(dry_slopes, (*arguments, "contact"), ("&F",)),
+        worn=[print_expression(contour.compute_depth(beta_i, order)) for order in range(3)],
+        unread="g" in functions.find_unread_branches([dry_slopes]),
+        call=functions.print_shared_call(dry_slopes, (*arguments, "contact"), ("&F",)),
     )
 
 
-def shared_slopes_code(pins: Sequence[Pin], render: Render, number: str, type_: str, states: int) -> str:
+def print_shared_slopes(pins: Sequence[JointFunctions], render: Render, number: str, type_: str, states: int) -> str:
     """Return the C functions that combine derivatives of joints with play, for numbers or for vectors.
 
     number, type_: the C types of a value and of a set of derivatives. Blending and walls of guides are included if a
@@ -118,13 +120,18 @@ def shared_slopes_code(pins: Sequence[Pin], render: Render, number: str, type_: 
 def _print_slope_selection(
     clearance: Clearance, clearance_parameter: str, calls: Mapping[str, SharedFunctionCall]
 ) -> str:
-    """Return the C code that selects the derivatives of dry contact, film or their blend, as in the joint's force."""
+    """Return the C code that selects the derivatives of dry contact, film or their blend, as in the joint's force.
+
+    A film alone is always evaluated. Without a film, an open contact gives zeros; with both, an open contact has those
+    of the film, a closed one the blend. `clearance_parameter`: the C expression of the clearance. `calls`: the
+    functions of the derivatives by part, "dry", "film" and "share".
+    """
 
     def print_call(part_name: str, result: str, *arguments: str) -> str:
         """Return the call of the derivatives of one part, `dry`, `film` or `share`."""
-        return functions.shared_call(calls[part_name], arguments or STATE, (result,))
+        return functions.print_shared_call(calls[part_name], arguments or STATE, (result,))
 
-    unread = functions.unread_branches(calls.values())
+    unread = functions.find_unread_branches(calls.values())
     if clearance.normal is None:
         return "\n".join(f"    {line}" for line in (*(f"(void){name};" for name in unread), print_call("film", "out")))
     lines = [*["(void)g;"] * ("g" in unread), f"const double delta = e - {clearance_parameter};"]

@@ -1,4 +1,4 @@
-"""Writes the C of joints with play: selects the templates and their substitutions."""
+"""Writes the C of joints with play: selects the Jinja templates and the texts that are inserted."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from typing import Any
 
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.ir.statements import Line, Statement
-from gudgeon.generator.kernels.play import Pin, law_doc
+from gudgeon.generator.kernels.play import JointFunctions, describe_law
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.targets.c import functions
-from gudgeon.generator.targets.c.printer import broken, expression
+from gudgeon.generator.targets.c.printer import break_code, print_expression
 
 Render = Callable[..., str]  # template name, substitutions -> text
 
@@ -45,25 +45,25 @@ class PinFunction:
     stores: Stores
 
 
-def clearances_code(program: Program, render: Render) -> str:
+def print_clearances_file(program: Program, render: Render) -> str:
     """Return the text of clearance.c: all force laws, then the functions of each joint with play."""
     states = program.model.law_states
-    joint_functions = (print_clearance_functions(pin, render, states) for pin in program.pins)
-    include = CONTOURS * any(pin.clearance.contour is not None for pin in program.pins)
-    return include + "\n".join([*map(functions.kernel, program.laws), *joint_functions])
+    joint_functions = (print_clearance_functions(pin, render, states) for pin in program.joints)
+    include = CONTOURS * any(pin.clearance.contour is not None for pin in program.joints)
+    return include + "\n".join([*map(functions.print_kernel, program.laws), *joint_functions])
 
 
-def print_clearance_functions(pin: Pin, render: Render, states: int) -> str:
+def print_clearance_functions(pin: JointFunctions, render: Render, states: int) -> str:
     """Return the C functions of one joint with play; each joint has `states` inner states of laws."""
-    return "\n".join(part.text for part in pin_functions(pin, render, states))
+    return "\n".join(part.text for part in print_joint_functions(pin, render, states))
 
 
-def function_name(part: str, joint: str) -> str:
+def get_function_name(part: str, joint: str) -> str:
     """Return the C name of a joint's function, as the templates in play/ write it; part: clearance, dry or film."""
     return f"{part}_{joint}_"
 
 
-def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction]:
+def print_joint_functions(pin: JointFunctions, render: Render, states: int) -> Iterator[PinFunction]:
     """Yield the functions of a joint with their stores: dry contact and film, if it has them, then the total force.
 
     states: the number of inner states of laws that each joint has.
@@ -86,14 +86,14 @@ def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction
         store=_print_result_store(clearance, states),
         message=_print_transition_comment(clearance),
         law=_print_mixed_law_comment(clearance),
-        first=pin.corners.start,
-        last=pin.corners.stop,
+        first=pin.switch_indices.start,
+        last=pin.switch_indices.stop,
     )
-    stores: Stores = [*functions.one_by_one(pin.gap), *functions.one_by_one(pin.share)]
+    stores: Stores = [*functions.print_each_statement(pin.gap), *functions.print_each_statement(pin.share)]
     stores += [
         (_BLENDED.format(component), f"F.{component}") for component in ("n", "t", "M_i", "M_j") if pin.has_transition
     ]
-    yield PinFunction(function_name("clearance", joint), text, stores)
+    yield PinFunction(get_function_name("clearance", joint), text, stores)
 
 
 def _print_further_parameters(clearance: Clearance) -> str:
@@ -118,10 +118,10 @@ def _print_transition_comment(clearance: Clearance) -> str:
 
 def _print_mixed_law_comment(clearance: Clearance) -> str:
     """Return the comment on a law of mixed lubrication, which has no function of its own; "" if there is none."""
-    return functions.comment(law_doc(clearance.mixed)) if clearance.mixed else ""
+    return functions.print_comment(describe_law(clearance.mixed)) if clearance.mixed else ""
 
 
-def _print_dry_function(pin: Pin, render: Render, states: int) -> PinFunction:
+def _print_dry_function(pin: JointFunctions, render: Render, states: int) -> PinFunction:
     """Return the function of a joint's dry contact: its text from a template, and its stores in order."""
     joint, clearance = pin.clearance.label, pin.clearance
     ratio_name = "unclipped" if clearance.clip_ratio else "ratio"
@@ -133,22 +133,25 @@ def _print_dry_function(pin: Pin, render: Render, states: int) -> PinFunction:
     substitutions["along"] = "-F_N" if clearance.contour else "-F_n"
     substitutions["further"] = "".join(f", double {name}" for name in _list_further_arguments(pin))
     laws = [pin.laws[role] for role in ("normal", "friction") if role in pin.laws]
-    substitutions["unread"] = functions.unread_branches(laws, (*pin.before_dry, *pin.after_dry))
-    substitutions |= {"law": _join_calls(calls), "rates": braced("rate", clearance, states)}
+    substitutions["unread"] = functions.find_unread_branches(laws, (*pin.before_dry, *pin.after_dry))
+    substitutions |= {"law": _join_calls(calls), "rates": print_rates("rate", clearance, states)}
     text = render(
         "play/dry.c.jinja", joint=joint, kind=clearance.kind, ratio=_RATIO, ratio_name=ratio_name, **substitutions
     )
-    stores: Stores = [(f"    const double {ratio_name} = {_RATIO};", ratio_name), *functions.one_by_one(pin.before_dry)]
-    stores += [*((code, local) for code, local in calls if local), *functions.one_by_one(pin.after_dry)]
-    return PinFunction(function_name("dry", joint), text, stores)
+    stores: Stores = [
+        (f"    const double {ratio_name} = {_RATIO};", ratio_name),
+        *functions.print_each_statement(pin.before_dry),
+    ]
+    stores += [*((code, local) for code, local in calls if local), *functions.print_each_statement(pin.after_dry)]
+    return PinFunction(get_function_name("dry", joint), text, stores)
 
 
-def _list_further_arguments(pin: Pin) -> tuple[str, ...]:
+def _list_further_arguments(pin: JointFunctions) -> tuple[str, ...]:
     """Return the names of further arguments of the dry contact of a contour; () for other joints."""
     return _OF_CONTOUR if pin.clearance.contour else ()
 
 
-def _print_film_function(pin: Pin, render: Render, states: int) -> PinFunction:
+def _print_film_function(pin: JointFunctions, render: Render, states: int) -> PinFunction:
     """Return the function of a joint's film: its text from a template, and its stores in order."""
     calls, joint = _list_film_calls(pin, "double"), pin.clearance.label
     substitutions: dict[str, Any] = {
@@ -156,10 +159,15 @@ def _print_film_function(pin: Pin, render: Render, states: int) -> PinFunction:
         "after": _print_statements(pin.after_film),
         "law": _join_calls(calls),
     }
-    substitutions["unread"] = functions.unread_branches([pin.laws["film"]], (*pin.before_film, *pin.after_film))
-    text = render("play/film.c.jinja", joint=joint, rates=braced("", pin.clearance, states), **substitutions)
-    stores: Stores = [*functions.one_by_one(pin.before_film), *((code, local) for code, local in calls if local)]
-    return PinFunction(function_name("film", joint), text, [*stores, *functions.one_by_one(pin.after_film)])
+    substitutions["unread"] = functions.find_unread_branches([pin.laws["film"]], (*pin.before_film, *pin.after_film))
+    text = render("play/film.c.jinja", joint=joint, rates=print_rates("", pin.clearance, states), **substitutions)
+    stores: Stores = [
+        *functions.print_each_statement(pin.before_film),
+        *((code, local) for code, local in calls if local),
+    ]
+    return PinFunction(
+        get_function_name("film", joint), text, [*stores, *functions.print_each_statement(pin.after_film)]
+    )
 
 
 def _print_result_store(clearance: Clearance, states: int) -> str:
@@ -167,14 +175,14 @@ def _print_result_store(clearance: Clearance, states: int) -> str:
 
     Rates of inner states and the position at a guide's wall are added if the joint has them.
     """
-    rates = braced("F.state_rate", clearance, states)
+    rates = print_rates("F.state_rate", clearance, states)
     position = _AT_WALL if clearance.wall else _JOURNAL
     further_members = f", .state_rate = {rates}" if rates else ""
     further_members += ",\n        .from_x = e_x, .from_y = e_y" * bool(clearance.wall)
     return _STORE % (*position, further_members + ", .at_wall = 1" * bool(clearance.wall and clearance.rigid))
 
 
-def braced(array: str, clearance: Clearance, states: int, none: str = "0.0") -> str:
+def print_rates(array: str, clearance: Clearance, states: int, none: str = "0.0") -> str:
     """Return an array of the rates of a joint's inner states as an initializer in C; "" if no law has states.
 
     `none` stands for the states that this joint does not have. An empty name `array` means that it has none.
@@ -184,7 +192,7 @@ def braced(array: str, clearance: Clearance, states: int, none: str = "0.0") -> 
     return f"{{{', '.join(rates)}}}" if rates else ""
 
 
-def calls_of_dry(pin: Pin, delta: str, number: str) -> str:
+def print_dry_calls(pin: JointFunctions, delta: str, number: str) -> str:
     """Return the C code that calls normal force and friction, one call per line.
 
     delta: the penetration that the normal law gets. number: the C type of a number.
@@ -192,22 +200,22 @@ def calls_of_dry(pin: Pin, delta: str, number: str) -> str:
     return _join_calls(_list_dry_calls(pin, delta, number))
 
 
-def _list_dry_calls(pin: Pin, delta: str, number: str) -> list[tuple[str, str]]:
+def _list_dry_calls(pin: JointFunctions, delta: str, number: str) -> list[tuple[str, str]]:
     """Return (code, local that it sets or "") for each line of normal force and friction.
 
     Without friction its force is 0. For rigid surfaces, a line takes the friction force of an impact instead.
     """
-    arguments: Sequence[str] = [delta, "ratio", *map(expression, pin.given)]
-    normal = functions.shared_call(pin.laws["normal"], arguments, ("&F_n",))
+    arguments: Sequence[str] = [delta, "ratio", *map(print_expression, pin.further_places)]
+    normal = functions.print_shared_call(pin.laws["normal"], arguments, ("&F_n",))
     calls = [(f"{number} F_n;", ""), (normal, "F_n")]
-    normal_force = "F_N" if pin.pressing else "F_n"
-    normal_steps = zip(functions.one_by_one(pin.pressing), pin.pressing, strict=True)
-    calls += [(code.strip(), step.defines) for (code, _), step in normal_steps]
+    normal_force = "F_N" if pin.contour_normal_force else "F_n"
+    normal_steps = zip(functions.print_each_statement(pin.contour_normal_force), pin.contour_normal_force, strict=True)
+    calls += [(code.strip(), step.declared_local) for (code, _), step in normal_steps]
     if "friction" in pin.laws:
         states = range(len(pin.clearance.states))
         arguments, rates = [f"contact->state[{k}]" for k in states], [f"&rate[{k}]" for k in states]
         results = ("&F_along_t_dry", *rates)
-        friction = functions.shared_call(pin.laws["friction"], (normal_force, "v_t", *arguments), results)
+        friction = functions.print_shared_call(pin.laws["friction"], (normal_force, "v_t", *arguments), results)
         calls.append((f"{number} F_along_t_dry{f', rate[{len(states)}]' if states else ''};", ""))
         calls.append((friction, "F_along_t_dry"))
         if pin.clearance.rigid:
@@ -218,15 +226,15 @@ def _list_dry_calls(pin: Pin, delta: str, number: str) -> list[tuple[str, str]]:
     return [(_break_line(code), local) for code, local in calls]
 
 
-def call_of_film(pin: Pin, number: str) -> str:
+def print_film_calls(pin: JointFunctions, number: str) -> str:
     """Return the C code that calls the film law for its two forces and its shear torque; `number` is the C type."""
     return _join_calls(_list_film_calls(pin, number))
 
 
-def _list_film_calls(pin: Pin, number: str) -> list[tuple[str, str]]:
+def _list_film_calls(pin: JointFunctions, number: str) -> list[tuple[str, str]]:
     """Return (code, local that it sets or "") of the film's forces."""
     results = ("&F_r", "&F_along_t_film", "&T0")
-    call = functions.shared_call(pin.laws["film"], ("epsilon", "w_n", "w_t"), results)
+    call = functions.print_shared_call(pin.laws["film"], ("epsilon", "w_n", "w_t"), results)
     unread = "(void)T0; /* read only with shear */"
     calls = [(f"{number} F_r, F_along_t_film, T0;", ""), (call, "F_r"), (unread, "")]
     return [(_break_line(code), local) for code, local in calls]
@@ -239,15 +247,15 @@ def _join_calls(calls: Sequence[tuple[str, str]]) -> str:
 
 def _break_line(code: str) -> str:
     """Return an indented line of C, broken into several lines if it is too long."""
-    return "\n".join(broken(f"    {code}"))
+    return "\n".join(break_code(f"    {code}"))
 
 
 def _print_statements(statements: Sequence[Statement]) -> str:
     """Return statements as C."""
-    return functions.statements(statements)
+    return functions.print_statements(statements)
 
 
-def _select_template(pin: Pin) -> str:
+def _select_template(pin: JointFunctions) -> str:
     """Return the name of the template for a joint's force: dry contact, film, or film and dry contact."""
     if pin.clearance.film is None:
         return "play/clearance_dry.c.jinja"

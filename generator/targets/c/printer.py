@@ -10,11 +10,11 @@ import textwrap
 import sympy as sp
 from sympy.printing.c import C99CodePrinter
 
-from gudgeon.generator.ir.readable import Readable, share_of_pi
-from gudgeon.generator.ir.values import Conditional, Defaulted, Sum, Test, Threshold, Value
-from gudgeon.generator.symbols.curves import ContourOf, CurveOf, CurveOn, KnotsOf, c_name
+from gudgeon.generator.ir.readable import Readable, convert_to_fraction_of_pi
+from gudgeon.generator.ir.values import Conditional, ParameterOrDefault, Sum, Test, Threshold, Value
+from gudgeon.generator.symbols.curves import ContourOf, CurveOf, CurveOn, KnotsOf, make_curve_name
 from gudgeon.generator.symbols.from_expressions import CLASSES
-from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place, Result, key_of
+from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place, Result, find_key
 from gudgeon.generator.targets import line_breaks
 from gudgeon.generator.targets.cached_printer import CachedPrinter
 
@@ -24,12 +24,12 @@ _PLAIN = Readable(())
 class CPrinter(CachedPrinter, C99CodePrinter):
     """Print expressions as C: doubles that round-trip, small powers as products, min and max that propagate NaN.
 
-    `of`: the readable lines of the printed function, with the names of its symbols and branches.
+    `readable_lines`: the readable lines of the printed function, with the names of its symbols and branches.
     """
 
-    def __init__(self, of: Readable = _PLAIN) -> None:
+    def __init__(self, readable_lines: Readable = _PLAIN) -> None:
         super().__init__({"math_macros": {}})  # M_PI_2 and the like are not in C11
-        self.of = of
+        self.of = readable_lines
 
     def get_name(self, key: Key) -> str:
         """Return the C name of a symbol, local or place in this function."""
@@ -48,14 +48,14 @@ class CPrinter(CachedPrinter, C99CodePrinter):
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         """Print a symbol by its name in the function."""
-        return self.get_name(key_of(expr))
+        return self.get_name(find_key(expr))
 
     def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
         """Print an expression, in brackets if it binds less than `level`.
 
         A decimal number gets none, a fraction of π such as 2*PI/3 does.
         """
-        if item.is_Float and (share := share_of_pi(item)) and not share.is_one:
+        if item.is_Float and (fraction := convert_to_fraction_of_pi(item)) and not fraction.is_one:
             return f"({self._print(item)})"
         if item.is_Rational and item.p > 0 and "/" not in (text := self._print(item)):
             return text
@@ -63,8 +63,8 @@ class CPrinter(CachedPrinter, C99CodePrinter):
 
     def _print_Float(self, expr: sp.Float) -> str:
         """Print a float, a fraction of π as such."""
-        share = share_of_pi(expr)
-        return share.text("PI", ".0") if share else _print_double(expr)
+        fraction = convert_to_fraction_of_pi(expr)
+        return fraction.format("PI", ".0") if fraction else _print_double(expr)
 
     def _print_NumberSymbol(self, expr: sp.NumberSymbol) -> str:
         """Print a constant such as e as a double."""
@@ -96,16 +96,16 @@ class CPrinter(CachedPrinter, C99CodePrinter):
 
         A fraction of π is printed as such.
         """
-        if share := share_of_pi(expr):
-            return share.text("PI", ".0")
-        number, rest = expr.as_coeff_Mul()
+        if fraction := convert_to_fraction_of_pi(expr):
+            return fraction.format("PI", ".0")
+        number, other_factors = expr.as_coeff_Mul()
         if is_normal(number):
             return str(super()._print_Mul(expr))
         first, last = split_number(number)
-        return f"{self._print(first)} * ({self._print(rest)}) * {self._print(last)}"
+        return f"{self._print(first)} * ({self._print(other_factors)}) * {self._print(last)}"
 
     def _print_Pow(self, expr: sp.Pow) -> str:
-        """Print a power: small integer ones as products, roots by sqrt, others by pow."""
+        """Print a power: exponents ±2 to ±4 as products, −1 as a quotient, ±1/2 by sqrt, others by pow."""
         base, exponent = expr.as_base_exp()
         if exponent.is_Integer and 2 <= abs(int(exponent)) <= 4:
             factor = self.parenthesize(base, 50)
@@ -162,10 +162,10 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         return f"branch_of(branch, g, {self.print_switch_index(int(expr.args[0]))}, {self._print(expr.args[1])})"
 
     def print_switch_index(self, index: int) -> str:
-        """Return the index of a switching function in C, relative to `corner` in shared functions."""
-        if self.of.first_corner is None:
+        """Return the index of a switching function in C, relative to `first_switch` in shared functions."""
+        if self.of.first_switch is None:
             return str(index)
-        offset = index - self.of.first_corner
+        offset = index - self.of.first_switch
         return f"corner + {offset}" if offset else "corner"
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:
@@ -176,21 +176,21 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         """Print a choice by the sign of its first argument: the second unless it is below zero, so that NaN is kept."""
         if expr in self.of.branches:
             return self.of.branches[expr]
-        side, a, b = (self._print(argument) for argument in expr.args)
-        return f"({side} < 0.0 ? {b} : {a})"
+        branch, a, b = (self._print(argument) for argument in expr.args)
+        return f"({branch} < 0.0 ? {b} : {a})"
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
         """Print the value of a curve or its derivative (symbols/curves.py)."""
-        return f"curve({c_name(expr.name)}, {expr.order}, {self._print(expr.args[2])})"
+        return f"curve({make_curve_name(expr.name)}, {expr.order}, {self._print(expr.args[2])})"
 
     def _print_CurveOn(self, expr: CurveOn) -> str:
         """Print the value of a curve on the piece that its branch selects."""
         x, side = map(self._print, expr.args[2:])
-        return f"curve_on({c_name(expr.name)}, {expr.order}, {x}, {side})"
+        return f"curve_on({make_curve_name(expr.name)}, {expr.order}, {x}, {side})"
 
     def _print_KnotsOf(self, expr: KnotsOf) -> str:
         """Print the event function of a curve's knots."""
-        return f"knots({c_name(expr.name)}, {self._print(expr.args[1])})"
+        return f"knots({make_curve_name(expr.name)}, {self._print(expr.args[1])})"
 
     def _print_ContourOf(self, expr: ContourOf) -> str:
         """Print the depth of a contour or its derivative (symbols/curves.py)."""
@@ -248,7 +248,7 @@ def _print_double(number: sp.Expr) -> str:
     return repr(value) if math.isfinite(value) else f"{'-' if value < 0 else ''}INFINITY"
 
 
-class Text:
+class ValuePrinter:
     """Print values of kernels as C: places, conditions, sums, defaults and expressions."""
 
     def __init__(self, printer: CPrinter) -> None:
@@ -264,7 +264,7 @@ class Text:
                 return f"{self.test(value.test)} ? {then} : {otherwise}"
             case Sum():
                 return " + ".join(map(self.printer.get_name, value.places))
-            case Defaulted():
+            case ParameterOrDefault():
                 return f"is_given[{value.k}] ? given[{value.k}] : {self.expression(value.default)}"
             case _:
                 return self.printer.doprint(value)
@@ -276,10 +276,12 @@ class Text:
         value.
         """
         value = self.expression(item.value)
-        left_side = f"fabs({value})" if item.size else value
-        if item.of_itself:
+        left_side = f"fabs({value})" if item.compares_magnitude else value
+        if item.is_relative_to_value:
             return (
-                f"{left_side} > 0.0 && {value} < INFINITY" if not item.size else f"{value} != 0.0 && isfinite({value})"
+                f"{left_side} > 0.0 && {value} < INFINITY"
+                if not item.compares_magnitude
+                else f"{value} != 0.0 && isfinite({value})"
             )
         bound = " * ".join(map(self._print_factor, item.bound))
         return f"{left_side} {item.relation} {bound}" if item.relation else left_side
@@ -291,11 +293,11 @@ class Text:
         return repr(value) if isinstance(value, float) else self.expression(value)
 
 
-_text = Text(CPrinter())
-expression, test = _text.expression, _text.test
+_text = ValuePrinter(CPrinter())
+print_expression, test = _text.expression, _text.test
 
 
-def comment_text(text: str) -> str:
+def sanitize_comment(text: str) -> str:
     """Return a user's text in ASCII so that it can neither end a C comment nor continue a line."""
     return (
         re.sub(r"[^\x20-\x7e]", "?", text)
@@ -309,12 +311,12 @@ def comment_text(text: str) -> str:
 WIDTH = 120
 
 
-def broken(line: str) -> list[str]:
+def break_code(line: str) -> list[str]:
     """Return a line of C code as lines of at most WIDTH characters."""
-    return line_breaks.broken(line, WIDTH)
+    return line_breaks.break_code(line, WIDTH)
 
 
-def within(text: str) -> str:
+def wrap_file(text: str) -> str:
     """Return the text of a C file with no line longer than WIDTH: code is broken, comments are wrapped."""
     wrapped: list[str] = []
     in_comment = False
@@ -346,4 +348,4 @@ def _break_code_line(line: str) -> list[str]:
     code, comment_start, comment = line.rpartition("/* ")
     if comment_start and comment.endswith(" */") and code.strip() and "/*" not in code:
         return [*_break_code_line(f"{indent}/* {comment}"), *_break_code_line(code.rstrip())]
-    return [line] if line.startswith("#") else broken(line)
+    return [line] if line.startswith("#") else break_code(line)

@@ -1,4 +1,4 @@
-"""Prints kernels for interval arithmetic: the same statements with ranges (bounds and slopes) instead of numbers.
+"""Prints generated functions for interval arithmetic: the same statements with bounds and slopes for numbers.
 
 The operations are in engine/watch/ranges.h.
 """
@@ -10,10 +10,10 @@ from dataclasses import replace
 import sympy as sp
 
 from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.ir.readable import readable
+from gudgeon.generator.ir.readable import make_readable
 from gudgeon.generator.ir.signatures import Number, Type
 from gudgeon.generator.ir.values import Value
-from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
+from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, make_curve_name
 from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.targets.c import functions, printer
 from gudgeon.generator.targets.cached_printer import order_terms
@@ -56,18 +56,24 @@ class RangesPrinter(printer.CPrinter):
         return self._print_chained_calls("add", order_terms(expr))
 
     def _print_Mul(self, expr: sp.Expr) -> str:
-        """Print a product of ranges."""
+        """Print a product of ranges as chained calls of "times"; one without symbols is printed as a number.
+
+        A coefficient that binary64 cannot hold as a normal number is split into two factors.
+        """
         if not expr.free_symbols:
             return str(super()._print_Mul(expr))
-        number, rest = expr.as_coeff_Mul()
-        factors = rest.as_ordered_factors()
+        number, other_factors = expr.as_coeff_Mul()
+        factors = other_factors.as_ordered_factors()
         if not printer.is_normal(number):
             first, last = printer.split_number(number)
             return self._print_chained_calls("times", (first, *factors, last))
         return self._print_chained_calls("times", (number, *factors) if number != 1 else tuple(factors))
 
     def _print_Pow(self, expr: sp.Pow) -> str:
-        """Print a power of a range."""
+        """Print a power of a range as a call: inverse, square and square root have functions of their own.
+
+        A power without symbols is printed as a number.
+        """
         if not expr.free_symbols:
             return super()._print_Pow(expr)
         base, exponent = expr.as_base_exp()
@@ -104,23 +110,23 @@ class RangesPrinter(printer.CPrinter):
         """Print the value of a curve over a range."""
         if not expr.free_symbols:
             return super()._print_CurveOf(expr)
-        return f"range_curve({c_name(expr.name)}, {expr.order}, {self._print_range(expr.args[2])})"
+        return f"range_curve({make_curve_name(expr.name)}, {expr.order}, {self._print_range(expr.args[2])})"
 
     def _print_CurveOn(self, expr: CurveOn) -> str:
         """Print the value of a curve over a range, on the piece that its branch selects."""
         x, side = map(self._print_range, expr.args[2:])
-        return f"range_curve_on({c_name(expr.name)}, {expr.order}, {x}, {side})"
+        return f"range_curve_on({make_curve_name(expr.name)}, {expr.order}, {x}, {side})"
 
     def _print_KnotsOf(self, expr: KnotsOf) -> str:
         """Print the event function of a curve's knots over a range."""
-        return f"range_knots({c_name(expr.name)}, {self._print_range(expr.args[1])})"
+        return f"range_knots({make_curve_name(expr.name)}, {self._print_range(expr.args[1])})"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
         """Print a choice by the sign of a range."""
         return self._print_call("pick", *expr.args)
 
 
-class _RangeLines(functions.Lines):
+class _RangeLines(functions.LinePrinter):
     """Print statements whose locals are ranges."""
 
     printer: RangesPrinter
@@ -133,7 +139,7 @@ class _RangeLines(functions.Lines):
         return text if value.names & _RANGES else f"only({text})"
 
 
-def kernel(item: Kernel) -> str:
+def print_kernel(item: Kernel) -> str:
     """Return a kernel as a C function of ranges for t, q and v; parameters stay numbers.
 
     The results in RhsOutputs become ranges in the argument `out`. The engine calls the function.
@@ -142,7 +148,7 @@ def kernel(item: Kernel) -> str:
         replace(a, name=_NAMES.get(a.name, a.name), type=_TYPES.get(a.type, a.type)) for a in item.arguments
     )
     range_kernel = replace(item, arguments=arguments)
-    readable_lines = readable(range_kernel, branching=False)
-    return functions.function(
-        range_kernel, _RangeLines(RangesPrinter(readable_lines), "Range"), readable_lines, called=True
+    readable_lines = make_readable(range_kernel, branching=False)
+    return functions.print_function(
+        range_kernel, _RangeLines(RangesPrinter(readable_lines), "Range"), readable_lines, is_called_by_engine=True
     )

@@ -43,17 +43,18 @@ _ENGINE = (
 _COMPILED = "With `ROOT=..` where `gudgeon emit` wrote this, or gudgeon's own folder, which holds `engine` too:"
 
 
-def readme(program: Program, files: Mapping[str, str], others: Collection[str] = ("kernel.json",)) -> str:
+def print_readme(program: Program, files: Mapping[str, str], further_files: Collection[str] = ("kernel.json",)) -> str:
     """Return the Markdown text of README.md: the order in which to read a scene's files, and what each contains.
 
-    others: names of further files in the folder. A file without an entry is described by its first comment.
+    files: text of each file by its name. further_files: names of further files in the folder. A file without an entry
+    is described by its first comment.
     """
     mechanism, scene = program.model.scene.mechanism, program.model.scene
-    names = [*files, *others]
+    names = [*files, *further_files]
     equations = [name for name in _EQUATIONS if name in names]
     numerics = [name for name in _NUMERICS if name in names]
     numerics = [*(name for name in names if name not in (*equations, *numerics)), *numerics]
-    purpose_by_file = purposes(program)
+    purpose_by_file = list_file_purposes(program)
     return "\n".join(
         [
             f"# {_escape_markdown(mechanism.title or mechanism.name)}: scene {scene.name}",
@@ -78,7 +79,7 @@ def readme(program: Program, files: Mapping[str, str], others: Collection[str] =
     )
 
 
-def purposes(program: Program) -> dict[str, str]:
+def list_file_purposes(program: Program) -> dict[str, str]:
     """Return {file: purpose} of all files that a scene may have, in the order in which they are to be read."""
     return _EQUATIONS | _NUMERICS | ({} if program.integrates else _FOLLOWED)
 

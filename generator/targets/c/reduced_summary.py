@@ -1,11 +1,11 @@
-"""The comment at the beginning of reduced.c: tree, unknowns, loop closures, and what is stored where."""
+"""Comment at the beginning of the emitted reduced.c: spanning tree, unknowns, loop closures, storage."""
 
 from __future__ import annotations
 
 import textwrap
 from collections.abc import Sequence
 
-from gudgeon.generator.kernels.dynamics import coordinate_name
+from gudgeon.generator.kernels.dynamics import format_coordinate_name
 from gudgeon.generator.reduction.frames import CONSTANT
 from gudgeon.generator.reduction.reduction import TreeSystem
 from gudgeon.generator.reduction.tree import Link
@@ -13,18 +13,18 @@ from gudgeon.generator.reduction.tree import Link
 _MAX_LISTED = 40  # bodies, unknowns or closures
 
 
-def reduced_summary(system: TreeSystem) -> list[str]:
+def describe_reduced_file(system: TreeSystem) -> list[str]:
     """Return the lines of the comment at the beginning of reduced.c.
 
     They list the spanning tree, the unknowns with their indices, the loop closures with their multipliers, and the
     joints with play.
     """
-    tree, unknowns = system.tree, list(map(coordinate_name, system.unknowns))
+    tree, unknowns = system.tree, list(map(format_coordinate_name, system.unknowns))
     links = [f"{link.body}: {_describe_position(link)}; {_describe_angle(system, link.body)}" for link in tree.links]
-    stored = [f"q[{k}] = {name} ({_get_unit(name)})" for k, name in enumerate(unknowns)]
+    stored_coordinates = [f"q[{k}] = {name} ({_get_unit(name)})" for k, name in enumerate(unknowns)]
     if system.chain:
-        names = map(coordinate_name, system.chain.names)
-        stored += [f"q[{k}] = {name}, dependent" for k, name in enumerate(names, len(unknowns))]
+        names = map(format_coordinate_name, system.chain.names)
+        stored_coordinates += [f"q[{k}] = {name}, dependent" for k, name in enumerate(names, len(unknowns))]
     closures = [f"rhs->lambda[{r}] of {row.name}" for r, row in enumerate(system.rows)]
     joints = [f"rhs->clearance[{i}] of {c.name}" for i, c in enumerate(system.model.clearances)]
     return [
@@ -34,7 +34,7 @@ def reduced_summary(system: TreeSystem) -> list[str]:
         "Tree, parents first (body: how it is positioned; its angle):",
         *_format_list(links, "\n"),
         "Unknowns, with rates in v and accelerations in a at the same index:",
-        *_format_list(stored or ["none"]),
+        *_format_list(stored_coordinates or ["none"]),
         "Loop closures, with the places of their multipliers:",
         *_format_list(closures or ["none"]),
         *(["Joints with play, whose forces are applied loads:", *_format_list(joints)] if joints else []),
@@ -76,7 +76,10 @@ def _format_list(items: Sequence[str], separator: str = "; ") -> list[str]:
 
     Only the first _MAX_LISTED items are printed, followed by the number of the others.
     """
-    shown = [*items[:_MAX_LISTED], *([f"and {len(items) - _MAX_LISTED} more"] if len(items) > _MAX_LISTED else [])]
-    joined = separator.join(item.replace(" ", "\0") for item in shown)
-    lines = shown if separator == "\n" else textwrap.wrap(joined, 104)
+    shown_items = [
+        *items[:_MAX_LISTED],
+        *([f"and {len(items) - _MAX_LISTED} more"] if len(items) > _MAX_LISTED else []),
+    ]
+    joined = separator.join(item.replace(" ", "\0") for item in shown_items)
+    lines = shown_items if separator == "\n" else textwrap.wrap(joined, 104)
     return ["    " + line.replace("\0", " ") for line in lines]

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from gudgeon.generator.ir.series import Series
 from gudgeon.generator.ir.series_rules import WIDE
-from gudgeon.generator.ir.sine_pairs import pair_sines
+from gudgeon.generator.ir.sine_pairs import vectorize_sines
 from gudgeon.generator.targets.c import functions, lanes_printer
 
 FILE = "taylor.c"
@@ -18,15 +18,15 @@ typedef double Wide __attribute__((vector_size({8 * WIDE}), aligned(16)));
 """
 
 
-def taylor_code(series: Series) -> str:
+def print_taylor_file(series: Series) -> str:
     """Return the text of taylor.c: its structs, the function of order 0 and that of each higher order."""
-    kernels = (functions.kernel(pair_sines(series.values)), functions.kernel(series.terms))
+    kernels = (functions.print_kernel(vectorize_sines(series.values)), functions.print_kernel(series.terms))
     return "\n".join([_HEAD, _print_structs(series, "double"), *kernels])
 
 
-def lanes_code(series: Series) -> str:
+def print_taylor_lanes(series: Series) -> str:
     """Return the structs and functions of the Taylor series for several runs in SIMD lanes."""
-    kernels = (lanes_printer.motion_kernel(series.values), lanes_printer.kernel(series.terms))
+    kernels = (lanes_printer.print_motion_kernel(series.values), lanes_printer.print_kernel(series.terms))
     return "\n".join([_print_structs(series, "Lanes"), *kernels])
 
 
@@ -37,10 +37,12 @@ def _print_structs(series: Series, c_type: str) -> str:
     """
     products = [product.name for product in series.products]
     factors = _print_struct("Factors of products, or their sums over lower orders.", "TaylorFactors", products, c_type)
-    return "\n".join([_print_struct("Coefficients of order 0.", "TaylorValues", series.kept, c_type), factors])
+    return "\n".join([_print_struct("Coefficients of order 0.", "TaylorValues", series.stored_names, c_type), factors])
 
 
 def _print_struct(meaning: str, name: str, fields: Sequence[str], c_type: str) -> str:
-    """Return one C struct with fields of one type and a comment; a struct without fields gets the field `none`."""
+    """Return one C struct with fields of one type and a comment; a struct without fields gets the field
+    `empty_fields`.
+    """
     lines = [f"/* {meaning} */", "typedef struct {", *(f"    {c_type} {field};" for field in fields or ["none"])]
     return "\n".join([*lines, f"}} {name};", ""])

@@ -10,18 +10,18 @@ from contextlib import suppress
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.ir.dependence import slices
+from gudgeon.generator.ir.dependence import propagate_marks
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder
-from gudgeon.generator.ir.readable import readable
+from gudgeon.generator.ir.readable import make_readable
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.driven_chains import DIRECTIONS, RATES, STEP, THIRD
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.reduced import DYNAMICS
-from gudgeon.generator.symbols.symbols import made_name
-from gudgeon.generator.targets.javascript.play import joint_functions, motion
-from gudgeon.generator.targets.javascript.printer import CONTOUR, PRELUDE, arguments, function
+from gudgeon.generator.symbols.symbols import make_identifier
+from gudgeon.generator.targets.javascript.play import list_motion_symbols, print_joint_functions
+from gudgeon.generator.targets.javascript.printer import CONTOUR, PRELUDE, list_arguments, print_method
 
 _OF_STATES = (
     "reduce_state",
@@ -40,11 +40,11 @@ _OF_STATES = (
 _COMMENT = re.compile(r"^ *(?:/\*.*?\*/|//[^\n]*)\n|(?<=\S) // [^\n]*$", re.DOTALL | re.MULTILINE)
 
 
-def equations_script(program: Program) -> str:
+def print_equations_script(program: Program) -> str:
     """Return the JavaScript that declares `gudgeonEquations`: the functions and the description that a page needs.
 
     The functions of clearance.c are included, of `dynamics` the lines up to the right-hand side of each row. `joints`
-    contains the locals of `play` with the motion of each joint, `called` the joints of each function.
+    contains the locals of `play` with the motion of each joint, `rename_symbols` the joints of each function.
 
     `functions` of t, q, v, p, as far as `given` names them, return their locals and arrays by name; `numbers` are
     indices in a run's p by the name of the member of p; `bodies` stand in the order of q, `closing` are the indices of
@@ -52,38 +52,39 @@ def equations_script(program: Program) -> str:
     closed linkage's, `names` their names. Raises ValueError for curves.
     """
     model, dynamics = program.model, program.dynamics
-    kernels = [*closed_linkage.row_kernels(model), *([make_play_kernel(model)] if model.clearances else [])]
+    kernels = [*closed_linkage.make_row_kernels(model), *([make_play_kernel(model)] if model.clearances else [])]
     members_read: set[str] = set()
-    methods = [function(dynamics, members_read, right_hand_sides(dynamics, model))]
-    methods += [function(kernel, members_read) for kernel in (*kernels, *program.laws)]
-    methods += [method_text for pin in program.pins for method_text in joint_functions(pin, members_read)]
-    tree_methods = tree_functions(program, members_read)
+    methods = [print_method(dynamics, members_read, find_right_hand_side_locals(dynamics, model))]
+    methods += [print_method(kernel, members_read) for kernel in (*kernels, *program.laws)]
+    methods += [method_text for pin in program.joints for method_text in print_joint_functions(pin, members_read)]
+    tree_methods = print_tree_functions(program, members_read)
     methods = [
         *tree_methods.values(),
         *methods,
     ]  # nearest to what they are like in C: packed, that takes the least room
     kernels += [dynamics, *(kernel for kernel in _list_tree_kernels(program) if kernel.name in tree_methods)]
     method_text = ",\n".join(methods)
-    members = map(model.slots.field, model.slots.members())
+    members = map(model.parameter_table.find_field_name, model.parameter_table.list_symbols())
     row_index = {row.name: k for k, row in enumerate(model.all_rows)}
     description = {
         "numbers": {member: k for k, member in enumerate(members) if member in members_read},
         "rows": [row_index[row.name] for row in model.rows],
         "names": [row.name for row in model.rows],
-        "given": {kernel.name: arguments(kernel) for kernel in kernels},
+        "given": {kernel.name: list_arguments(kernel) for kernel in kernels},
         "joints": {clearance.label: _name_motion_locals(model, i) for i, clearance in enumerate(model.clearances)},
         "called": _map_functions_to_joints(program),
         "states": model.law_states,
         "bodies": [body.name for body in model.bodies],
         "closing": _find_closure_indices(program),
     }
-    if model.slots.tables:
-        member_index = {symbol: k for k, symbol in enumerate(model.slots.members())}
-        first_index = {name: member_index[symbols[0]] for name, symbols in model.slots.tables.items()}
+    if model.parameter_table.tables:
+        member_index = {symbol: k for k, symbol in enumerate(model.parameter_table.list_symbols())}
+        first_index = {name: member_index[symbols[0]] for name, symbols in model.parameter_table.tables.items()}
         description["tables"] = {
-            name: [first_index[name], first_index[name] + len(symbols)] for name, symbols in model.slots.tables.items()
+            name: [first_index[name], first_index[name] + len(symbols)]
+            for name, symbols in model.parameter_table.tables.items()
         }
-    prelude = PRELUDE + CONTOUR * bool(model.slots.tables)
+    prelude = PRELUDE + CONTOUR * bool(model.parameter_table.tables)
     description_text = ", ".join(
         f"{key}: {json.dumps(value, separators=(',', ':'))}" for key, value in description.items()
     )
@@ -93,7 +94,7 @@ def equations_script(program: Program) -> str:
     )
 
 
-def tree_functions(program: Program, members_read: set[str]) -> dict[str, str]:
+def print_tree_functions(program: Program, members_read: set[str]) -> dict[str, str]:
     """Return {name: JavaScript method} of the functions of reduced.c that can be evaluated from a sample.
 
     members_read: a set that gets the members of p. Driven loops are closed in a sample, and their rates follow from
@@ -102,14 +103,14 @@ def tree_functions(program: Program, members_read: set[str]) -> dict[str, str]:
     functions = dict[str, str]()
     for kernel in _list_tree_kernels(program):
         with suppress(ValueError):
-            functions[kernel.name] = function(kernel, members_read)
+            functions[kernel.name] = print_method(kernel, members_read)
     return functions
 
 
 def _list_tree_kernels(program: Program) -> list[Kernel]:
     """Return the kernels in tree coordinates that a sample suffices to evaluate; [] in the full formulation."""
     tree = program.tree
-    return [kernel for kernel in tree.every if kernel.name in _OF_STATES] if tree else []
+    return [kernel for kernel in tree.all_kernels if kernel.name in _OF_STATES] if tree else []
 
 
 def _find_closure_indices(program: Program) -> list[int]:
@@ -121,17 +122,19 @@ def _find_closure_indices(program: Program) -> list[int]:
     return [row_index[row.name] for row in system.rows]
 
 
-def right_hand_sides(dynamics: Kernel, model: Model) -> set[str]:
+def find_right_hand_side_locals(dynamics: Kernel, model: Model) -> set[str]:
     """Return the names of the locals of `dynamics` on which the right-hand sides of its linear system depend."""
-    names = {made_name(f"rhs_{row.name}") for row in model.rows}
-    dependence = slices(readable(dynamics), lambda line: frozenset({"rhs"} if line.target in names else ()))
-    return {name for name in dependence.stored if isinstance(name, str)}
+    names = {make_identifier(f"rhs_{row.name}") for row in model.rows}
+    dependence = propagate_marks(
+        make_readable(dynamics), lambda line: frozenset({"rhs"} if line.target in names else ())
+    )
+    return {name for name in dependence.by_target if isinstance(name, str)}
 
 
 def _map_functions_to_joints(program: Program) -> dict[str, list[str]]:
     """Return {function of clearance.c: labels of the joints in which it acts}."""
     joints: defaultdict[str, list[str]] = defaultdict(list)
-    for pin in program.pins:
+    for pin in program.joints:
         parts = (f"{part}_{pin.clearance.label}_" for part in ("clearance", "dry", "film"))
         for name in (*parts, *(call.kernel.name for call in pin.laws.values())):
             joints[name].append(pin.clearance.label)
@@ -145,29 +148,31 @@ def _name_motion_locals(model: Model, index: int) -> list[str]:
     """
     symbol_names = {symbol.name for symbol in model.symbols.info}
     prefix = next(
-        word for word in ("play", "joint", "with_play") if not any(one.startswith(word) for one in symbol_names)
+        word
+        for word in ("play", "joint", "with_play")
+        if not any(symbol_name.startswith(word) for symbol_name in symbol_names)
     )
-    return [f"{prefix}_{index + 1}_{symbol.name}" for symbol in motion(model.clearances[index])]
+    return [f"{prefix}_{index + 1}_{symbol.name}" for symbol in list_motion_symbols(model.clearances[index])]
 
 
 def make_play_kernel(model: Model) -> Kernel:
     """Return the kernel `play`: eccentricity, its rate and angular velocities of each joint with play."""
     builder = KernelBuilder(model.symbols, "play", ["Joints with play: eccentricity, its rate, angular velocities."])
     for i, clearance in enumerate(model.clearances):
-        builder.section(f"{clearance.kind} {clearance.name}")
+        builder.begin_section(f"{clearance.kind} {clearance.name}")
         angular_velocities = clearance.first.omega, clearance.second.omega
         values = (*clearance.eccentricity, *clearance.eccentricity_rate, *angular_velocities)
-        values += clearance.also
+        values += clearance.further_arguments
         for name, value in zip(_name_motion_locals(model, i), values, strict=True):
-            builder.line(Statement(name, sp.sympify(value)))
-    return builder.build((*STATE, PARAMETERS))
+            builder.append_line(Statement(name, sp.sympify(value)))
+    return builder.build_kernel((*STATE, PARAMETERS))
 
 
 _TEXT = re.compile(r"""("(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*')""")  # strings within a line of JavaScript
 _SPACED = re.compile(r" ?(=>|[!=]==|\?\?=?|&&|\|\||[=,?:;(){}]) ?")
 
 
-def embedded_script(text: str) -> str:
+def compress_script(text: str) -> str:
     """Return a JavaScript file without comments, indents and spaces around punctuation, for embedding in a page.
 
     Lines are kept, since they end statements. Lines with or within template strings keep their spaces.

@@ -11,11 +11,11 @@ import sympy as sp
 
 from gudgeon.generator.equations import contact_steps as contact
 from gudgeon.generator.equations.play import Clearance
-from gudgeon.generator.ir.readable import Readable, lines
+from gudgeon.generator.ir.readable import Readable, make_readable_statements
 from gudgeon.generator.ir.statements import Statement
-from gudgeon.generator.kernels.play import Pin
+from gudgeon.generator.kernels.play import JointFunctions
 from gudgeon.generator.kernels.shared import SharedFunctionCall
-from gudgeon.generator.targets.javascript.printer import JavaScriptPrinter, Lines, results
+from gudgeon.generator.targets.javascript.printer import JavaScriptPrinter, LinePrinter, list_results
 
 MOTION = (contact.e_x, contact.e_y, contact.de_x, contact.de_y, contact.omega_i, contact.omega_j)
 BLENDED = ("n", "t", "M_i", "M_j")  # members of a force that film and dry contact share
@@ -25,7 +25,7 @@ _OF_CONTOUR = ("e", "steep", "worn_slope")
 _FILM = ("e", "deltadot", "de_t", "omega_i", "omega_j", "p", "of")
 
 
-def joint_functions(pin: Pin, members_read: set[str]) -> list[str]:
+def print_joint_functions(pin: JointFunctions, members_read: set[str]) -> list[str]:
     """Return the JavaScript methods `dry_A`, `film_A` and `clearance_A` of joint A.
 
     The first two exist only if the joint has them.
@@ -37,11 +37,11 @@ def joint_functions(pin: Pin, members_read: set[str]) -> list[str]:
         methods.append(_print_method(f"dry_{joint}_", _list_dry_arguments(pin), _print_dry_contact(pin, members_read)))
     if pin.clearance.film is not None:
         methods.append(_print_method(f"film_{joint}_", _FILM, _print_film(pin, members_read)))
-    arguments = (*map(str, motion(pin.clearance)), "contact", "p", "of")
+    arguments = (*map(str, list_motion_symbols(pin.clearance)), "contact", "p", "of")
     return [*methods, _print_method(f"clearance_{joint}_", arguments, _print_joint_force(pin, members_read))]
 
 
-def motion(clearance: Clearance) -> tuple[sp.Symbol, ...]:
+def list_motion_symbols(clearance: Clearance) -> tuple[sp.Symbol, ...]:
     """Return the symbols of the relative motion that a joint's function gets.
 
     A corner at a wall gets the normal, too; a bearing with a contour gets its angle.
@@ -51,7 +51,7 @@ def motion(clearance: Clearance) -> tuple[sp.Symbol, ...]:
     return (*MOTION, contact.theta_i) if clearance.contour else MOTION
 
 
-def _list_dry_arguments(pin: Pin) -> tuple[str, ...]:
+def _list_dry_arguments(pin: JointFunctions) -> tuple[str, ...]:
     """Return the argument names of a joint's dry contact; those of a contour have three more."""
     return (*_DRY[:5], *_OF_CONTOUR, *_DRY[5:]) if pin.clearance.contour else _DRY
 
@@ -61,16 +61,16 @@ def _print_method(name: str, arguments: Iterable[str], body: Iterable[str]) -> s
     return "\n".join([f"{name}({', '.join(arguments)}) {{", *(f"    {line}" for line in body), "}"])
 
 
-def _print_dry_contact(pin: Pin, members_read: set[str]) -> list[str]:
+def _print_dry_contact(pin: JointFunctions, members_read: set[str]) -> list[str]:
     """Return the lines of a joint's dry contact: normal force, friction (0 if there is none) and moments."""
     ratio_name = "unclipped" if pin.clearance.clip_ratio else "ratio"
     before, after = _PrintedStatements(pin.before_dry, members_read), _PrintedStatements(pin.after_dry, members_read)
     body = [f"const {ratio_name} = contact.closed ? deltadot / contact.deltadot_minus : 1;", *before.text]
     body += _print_law_call(
-        pin.laws["normal"], ("max_of(delta, 0)", "ratio", *map(str, pin.given)), ("F_n",), members_read
+        pin.laws["normal"], ("max_of(delta, 0)", "ratio", *map(str, pin.further_places)), ("F_n",), members_read
     )
-    pressing = _PrintedStatements(pin.pressing, members_read)
-    normal_force, body = "F_N" if pin.pressing else "F_n", [*body, *pressing.text]
+    pressing = _PrintedStatements(pin.contour_normal_force, members_read)
+    normal_force, body = "F_N" if pin.contour_normal_force else "F_n", [*body, *pressing.text]
     if "friction" in pin.laws:
         states = (f"contact.state[{k}]" for k in range(len(pin.clearance.states)))
         body += _print_law_call(pin.laws["friction"], (normal_force, "v_t", *states), ("F_along_t_dry",), members_read)
@@ -85,7 +85,7 @@ def _print_dry_contact(pin: Pin, members_read: set[str]) -> list[str]:
     ]
 
 
-def _print_film(pin: Pin, members_read: set[str]) -> list[str]:
+def _print_film(pin: JointFunctions, members_read: set[str]) -> list[str]:
     """Return the lines of a joint's film: its law's forces and moments."""
     before, after = _PrintedStatements(pin.before_film, members_read), _PrintedStatements(pin.after_film, members_read)
     forces = ("F_r", "F_along_t_film", "T0")
@@ -98,12 +98,17 @@ def _print_film(pin: Pin, members_read: set[str]) -> list[str]:
     return [*body, _print_store(f"film_{pin.clearance.label}_", locals_), _print_return_force("F_r", "film")]
 
 
-def _print_joint_force(pin: Pin, members_read: set[str]) -> list[str]:
-    """Return the lines of a joint's force: the normal direction, then dry contact, film or their blend."""
+def _print_joint_force(pin: JointFunctions, members_read: set[str]) -> list[str]:
+    """Return the lines of a joint's force: the gap and its normal, then dry contact, film or their blend.
+
+    Without a film, the force is dry if the contact is closed (rigid) or δ > 0, else 0. A joint with a film alone
+    returns its force. With both, the film acts alone for δ ≤ 0, else the blend. `members_read` gets the parameters that
+    are read.
+    """
     joint = pin.clearance.label
-    gap, share = _PrintedStatements(pin.gap, members_read), _PrintedStatements(pin.share, members_read)
+    gap, blend = _PrintedStatements(pin.gap, members_read), _PrintedStatements(pin.share, members_read)
     parts = (("dry", _list_dry_arguments(pin)), ("film", _FILM))
-    dry, film = (f"functions.{part}_{joint}_({', '.join(given)})" for part, given in parts)
+    dry, film = (f"functions.{part}_{joint}_({', '.join(call_arguments)})" for part, call_arguments in parts)
     body = [*gap.text, _print_store(f"clearance_{joint}_", gap.locals)]
     if pin.clearance.film is None:
         condition = "contact.closed" if pin.clearance.rigid else "delta > 0"
@@ -111,7 +116,7 @@ def _print_joint_force(pin: Pin, members_read: set[str]) -> list[str]:
         return [*body, f"const F = {condition} ? {dry} : {_NOTHING};", _print_return_in_ground_axes(at_wall)]
     if pin.clearance.normal is None:
         return [*body, _print_return_in_ground_axes(film)]
-    share_locals = ", ".join(share.locals)
+    share_locals = ", ".join(blend.locals)
     blend_lines = (
         f'own["F.{component}"] = F.{component} += (1 - share) * (film.{component} - F.{component});'
         for component in BLENDED
@@ -119,7 +124,7 @@ def _print_joint_force(pin: Pin, members_read: set[str]) -> list[str]:
     return [
         *body,
         f"if (!(delta > 0)) {_print_return_in_ground_axes(film)}",
-        *share.text,
+        *blend.text,
         f"const F = {dry}, own = Object.assign(of.clearance_{joint}_, {{{share_locals}}});",
         "if (share < 1) {",
         f"    const film = {film};",
@@ -138,7 +143,7 @@ class _PrintedStatements:
     """Contain the JavaScript lines of statements and the locals that they store."""
 
     def __init__(self, statements: Sequence[Statement], read: set[str]) -> None:
-        writer = Lines(lines(statements), read)
+        writer = LinePrinter(make_readable_statements(statements), read)
         self.text, self.locals = writer.print_lines(), writer.locals
 
 
@@ -146,8 +151,13 @@ def _print_law_call(
     call: SharedFunctionCall, arguments: Iterable[str], locals_: Sequence[str], members_read: set[str]
 ) -> list[str]:
     """Return the lines that call a law; its first results become the locals `locals_`, all go to `of` by its name."""
-    function, parameters = call.kernel.name, map(JavaScriptPrinter(Readable(()), members_read).get_name, call.numbers)
-    destructured = ", ".join(f"{result}: {name}" for result, name in zip(results(call.kernel), locals_, strict=False))
+    function, parameters = (
+        call.kernel.name,
+        map(JavaScriptPrinter(Readable(()), members_read).get_name, call.parameters),
+    )
+    destructured = ", ".join(
+        f"{result}: {name}" for result, name in zip(list_results(call.kernel), locals_, strict=False)
+    )
     call_text = f"functions.{function}({', '.join([*arguments, *parameters])})"
     return [f"const {{{destructured}}} = of.{function} = {call_text};"]
 
@@ -157,9 +167,10 @@ def _print_store(function: str, names: Iterable[str]) -> str:
     return f"of.{function} = {{{', '.join(dict.fromkeys(names))}}};"
 
 
-def _print_return_force(along: str, part: str) -> str:
-    """Return the line that returns a force in the axes of the contact.
+def _print_return_force(normal_component: str, part: str) -> str:
+    """Return the JavaScript line that returns a contact force and its moments on both bodies.
 
-    along: the expression of its normal component. part: "dry" or "film".
+    The object has the normal and tangential components n and t, and the moments M_i and M_j. normal_component: the
+    expression of n. part: "dry" or "film", the suffix of the variables that hold t and the moments.
     """
-    return f"return {{n: {along}, t: F_along_t_{part}, M_i: M_i_{part}, M_j: M_j_{part}}};"
+    return f"return {{n: {normal_component}, t: F_along_t_{part}, M_i: M_i_{part}, M_j: M_j_{part}}};"

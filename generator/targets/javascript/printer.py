@@ -9,9 +9,9 @@ from collections.abc import Collection
 
 import sympy as sp
 
-from gudgeon.generator.ir.branches import Branch, JointsAlone
+from gudgeon.generator.ir.branches import Branch, ReturnIfOnlyJoints
 from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.ir.readable import Readable, readable
+from gudgeon.generator.ir.readable import Readable, make_readable
 from gudgeon.generator.ir.signatures import BRANCHES, RHS, Access, Number
 from gudgeon.generator.ir.statements import (
     Branches,
@@ -20,17 +20,17 @@ from gudgeon.generator.ir.statements import (
     Jump,
     LargestRow,
     Line,
-    Rescue,
     Return,
     Sines,
+    SolveDependentRows,
     Statement,
     Status,
 )
 from gudgeon.generator.ir.values import Test
-from gudgeon.generator.kernels.shared import CORNER
-from gudgeon.generator.symbols.curves import ContourOf, CurveOf, c_name
+from gudgeon.generator.kernels.shared import FIRST_SWITCH
+from gudgeon.generator.symbols.curves import ContourOf, CurveOf, make_curve_name
 from gudgeon.generator.symbols.storage import Place, Result
-from gudgeon.generator.targets.c.printer import CPrinter, Text
+from gudgeon.generator.targets.c.printer import CPrinter, ValuePrinter
 from gudgeon.language.functions import IN_SYMPY
 
 PRELUDE = (
@@ -72,8 +72,8 @@ class JavaScriptPrinter(CPrinter):
     `numbers` is a set that gets the members of p that are read.
     """
 
-    def __init__(self, of: Readable, numbers: set[str]) -> None:
-        super().__init__(of)
+    def __init__(self, readable_lines: Readable, numbers: set[str]) -> None:
+        super().__init__(readable_lines)
         self.numbers = numbers
 
     def print_place(self, place: Place) -> str:
@@ -88,7 +88,7 @@ class JavaScriptPrinter(CPrinter):
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
         """Raise ValueError: curves have no counterpart in JavaScript."""
-        raise ValueError(f"a curve, {c_name(expr.name)}, has no counterpart in JavaScript")
+        raise ValueError(f"a curve, {make_curve_name(expr.name)}, has no counterpart in JavaScript")
 
     _print_CurveOn = _print_KnotsOf = _print_CurveOf
 
@@ -97,38 +97,38 @@ class JavaScriptPrinter(CPrinter):
         return f"contour(p.{expr.table}, {expr.order}, {self._print(expr.args[3])})"
 
 
-def function(kernel: Kernel, numbers: set[str], only: Collection[str] | None = None) -> str:
+def print_method(kernel: Kernel, numbers: set[str], only: Collection[str] | None = None) -> str:
     """Return a kernel as a JavaScript method that returns an object with its locals and arrays by name.
 
-    numbers: a set to which the read members of p are added. `only`: the locals to compute; None for all. If a pivot
-    vanishes, the method ends and later values are undefined. Raises ValueError for a line without a counterpart.
+    numbers: a set to which the read members of p are added. `only`: the locals to compute; None for all. If a
+    pivot vanishes, the method ends and later values are undefined. Raises ValueError for a line without a counterpart.
     """
-    readable_lines = readable(kernel)
+    readable_lines = make_readable(kernel)
     may_end = only is None and any(isinstance(line, Guard) for part in kernel.sections for line in part.statements)
-    writer = Lines(readable_lines, numbers, "var" if may_end else "const")
+    writer = LinePrinter(readable_lines, numbers, "var" if may_end else "const")
     body = writer.print_lines(only)
     body = ["solved: {", *(f"    {line}" for line in body), "}"] if may_end else body
-    outputs = results(kernel) if only is None else []
+    outputs = list_results(kernel) if only is None else []
     outputs = [out for out in outputs if out not in writer.locals]
     arrays = [f"    const {', '.join(f'{out} = []' for out in outputs)};"] if outputs else []
     if rhs := _print_outputs_literal(kernel) if only is None else "":
         arrays, outputs = [*arrays, f"    const rhs = {rhs};"], [*outputs, "rhs"]
-    argument_names = ", ".join(arguments(kernel))
+    argument_names = ", ".join(list_arguments(kernel))
     returned = ", ".join(dict.fromkeys([*writer.locals, *outputs]))
     lines = [*arrays, *(f"    {line}" for line in body), f"    return {{{returned}}};"]
     return "\n".join([f"{kernel.name}({argument_names}) {{", *lines, "}"])
 
 
-def arguments(kernel: Kernel) -> list[str]:
+def list_arguments(kernel: Kernel) -> list[str]:
     """Return the names of a function's arguments, without those for branches and without the arrays that it returns."""
-    read_arguments = (a for a in kernel.arguments if a not in (*BRANCHES, CORNER))
+    read_arguments = (a for a in kernel.arguments if a not in (*BRANCHES, FIRST_SWITCH))
     return [a.name for a in read_arguments if a.access is not Access.WRITTEN]
 
 
-def results(kernel: Kernel) -> list[str]:
+def list_results(kernel: Kernel) -> list[str]:
     """Return the names of the numbers and arrays that a function stores through arguments, in their order."""
-    written = (a for a in kernel.arguments if a.access is Access.WRITTEN and a not in BRANCHES)
-    return [a.name for a in written if a.type is Number.REAL]
+    written_arguments = (a for a in kernel.arguments if a.access is Access.WRITTEN and a not in BRANCHES)
+    return [a.name for a in written_arguments if a.type is Number.REAL]
 
 
 def _print_outputs_literal(kernel: Kernel) -> str:
@@ -149,7 +149,7 @@ def _print_outputs_literal(kernel: Kernel) -> str:
     return f"{{{members}}}" if lengths else ""
 
 
-class _JavaScript(Text):
+class _JavaScript(ValuePrinter):
     """Print values; thresholds become numbers."""
 
     def _print_factor(self, value: sp.Basic | float) -> str:
@@ -157,30 +157,35 @@ class _JavaScript(Text):
         return repr(float(value)) if isinstance(value, float) else self.expression(value)
 
 
-class Lines:
+class LinePrinter:
     """Print the lines of one function as JavaScript; `locals` are the names that they declare with `word`."""
 
-    def __init__(self, own: Readable, numbers: set[str], word: str = "const") -> None:
-        self.own, self.text, self.word = own, _JavaScript(JavaScriptPrinter(own, numbers)), word
+    def __init__(self, readable_lines: Readable, numbers: set[str], word: str = "const") -> None:
+        self.readable_lines, self.text, self.word = (
+            readable_lines,
+            _JavaScript(JavaScriptPrinter(readable_lines, numbers)),
+            word,
+        )
         self.locals: list[str] = []
 
     def print_lines(self, only: Collection[str] | None = None) -> list[str]:
         """Return all lines in JavaScript, or those that store to one of the names `only`."""
-        all_lines = (line for section in self.own.sections for line in section.statements)
+        all_lines = (line for section in self.readable_lines.sections for line in section.statements)
         selected = (line for line in all_lines if only is None or getattr(line, "target", "") in only)
         return [text for line in selected for text in self.print_line(line)]
 
     def print_line(self, item: Line) -> list[str]:
         """Return one line of a kernel in JavaScript; [] for lines that only single runs of C need.
 
-        A new local is added to `locals`. Raises ValueError for a line without a counterpart.
+        A new local is declared and added to `locals`. A test of a pivot that fails leaves the block `solved`; the call
+        of a joint stores the force of its function. Raises ValueError for a line without a counterpart.
         """
-        if isinstance(item, (Branches, Status, JointsAlone, Jump, Rescue, Return, LargestRow)):
+        if isinstance(item, (Branches, Status, ReturnIfOnlyJoints, Jump, SolveDependentRows, Return, LargestRow)):
             return []
         if isinstance(item, Sines):
             return self._print_sines(item)
         if isinstance(item, Guard) and isinstance(item.test, Test):
-            only = f"{self.text.test(item.only)} && " if item.only else ""
+            only = f"{self.text.test(item.condition)} && " if item.condition else ""
             return [f"if ({only}!({self.text.test(item.test)})) break solved;"]
         if isinstance(item, Call) and item.function.startswith("clearance_"):
             call_arguments = ", ".join(self._print_argument(x) for x in item.given if x not in _SIDES)
@@ -193,8 +198,8 @@ class Lines:
             self.locals.append(target)
         if isinstance(item, Statement):
             return [f"{declaration}{target} = {self.text.expression(item.value)};"]
-        below, otherwise = self.text.expression(item.otherwise), self.text.expression(item.then)
-        return [f"{declaration}{target} = {self.text.expression(item.side)} < 0 ? {below} : {otherwise};"]
+        below, otherwise = self.text.expression(item.value_below), self.text.expression(item.value_above)
+        return [f"{declaration}{target} = {self.text.expression(item.branch)} < 0 ? {below} : {otherwise};"]
 
     def _print_argument(self, value: sp.Basic | Place) -> str:
         """Return an argument of a call in JavaScript."""

@@ -1,4 +1,4 @@
-"""Represents a document before its layout: sections of paragraphs, equations, tables and sketches.
+"""Represents a document of equations before its layout: sections of paragraphs, equations, tables and sketches.
 
 Every formula has a LaTeX and a plain text form; HTML converts the LaTeX to MathML. `of` are the tokens of a block
 (trace.py); blocks that share a token are highlighted together (light.js). `value` is the value that a running page
@@ -43,7 +43,7 @@ class Equation:
     left: Name
     terms: tuple[Name, ...]
     of: Sequence[str] = ()
-    pick: str = ""  # what selecting it lights, if that is not all of `of`
+    pick: str = ""  # what selecting it lights, if that is not all of `tokens`
     value: str = ""
     kind: str = "equation"
 
@@ -145,17 +145,17 @@ class Document:
     sections: tuple[Section, ...] = field(default=())
 
 
-def paragraph(*text: str | Name, of: Sequence[str] = ()) -> Paragraph:
-    """Return words and formulas as a paragraph with highlighting tokens `of`."""
-    return Paragraph(text, of)
+def make_paragraph(*text: str | Name, tokens: Sequence[str] = ()) -> Paragraph:
+    """Return words and formulas as a paragraph with highlighting tokens `tokens`."""
+    return Paragraph(text, tokens)
 
 
-def sentence(text: str) -> str:
+def make_sentence(text: str) -> str:
     """Return a text with a capital first letter and a full stop."""
     return f"{text[:1].upper()}{text[1:]}."
 
 
-def cells(*items: str | Name | Text) -> tuple[Text, ...]:
+def make_row(*items: str | Name | Text) -> tuple[Text, ...]:
     """Return a row of a table: a string or a formula becomes a cell with one part."""
     return tuple(item if isinstance(item, tuple) else (item,) for item in items)
 
@@ -163,47 +163,49 @@ def cells(*items: str | Name | Text) -> tuple[Text, ...]:
 MOST_ROWS = 32  # a table does not break over pages
 
 
-def table(
+def make_tables(
     header: tuple[Text, ...],
     rows: list[tuple[Text, ...]],
     wide: tuple[int, ...] = (),
-    of: Sequence[Sequence[str]] = (),
+    tokens: Sequence[Sequence[str]] = (),
     upright: bool = False,
 ) -> list[Block]:
     """Return rows as tables of at most MOST_ROWS rows, since a table does not break over pages; [] for no rows.
 
-    wide: the columns with running text. of: highlighting tokens by row. upright: columns become rows on a phone.
+    wide: the columns with running text. tokens: highlighting tokens by row. upright: columns become rows on a phone.
     """
     starts = range(0, len(rows), MOST_ROWS)
-    return [Table(header, tuple(rows[k : k + MOST_ROWS]), wide, tuple(of[k : k + MOST_ROWS]), upright) for k in starts]
+    return [
+        Table(header, tuple(rows[k : k + MOST_ROWS]), wide, tuple(tokens[k : k + MOST_ROWS]), upright) for k in starts
+    ]
 
 
-def row_token(number: int) -> str:
+def make_row_token(number: int) -> str:
     """Return the token of a row of Φ, counted from 1; it also stands for the row's entries (light.js)."""
     return f"row-{number}"
 
 
-def entry_token(row: int, column: int) -> str:
+def make_entry_token(row: int, column: int) -> str:
     """Return the token of an entry of Φ_q, counted from 1."""
     return f"entry-{row}-{column}"
 
 
-def sum_token(row: int) -> str:
+def make_sum_token(row: int) -> str:
     """Return the token of the line of C that sums a row of Φ, highlighted with each of the row's terms."""
     return f"sum-{row}"
 
 
-def owner_token(row: Row) -> str:
+def make_owner_token(row: Row) -> str:
     """Return the token of the joint or drive to which a row belongs."""
     return f"{row.kind}-{row.owner}"
 
 
-def entries_of(model: Model, number: int, row: Row) -> Iterator[str]:
+def list_entry_tokens(model: Model, number: int, row: Row) -> Iterator[str]:
     """Return the tokens of a row's nonzero entries of Φ_q; `number` is the row's, counted from 1."""
     column_of = {q: k for k, q in enumerate(model.q, 1)}
-    return (entry_token(number, column_of[q]) for q in row.phi_q)
+    return (make_entry_token(number, column_of[q]) for q in row.phi_q)
 
 
-def joint_tokens(clearance: Clearance) -> list[str]:
+def list_joint_tokens(clearance: Clearance) -> list[str]:
     """Return the tokens of a joint with play; a slider's corner has one of its own in addition."""
     return [*dict.fromkeys((f"joint-{clearance.label}", f"joint-{clearance.joint.name}"))]

@@ -1,4 +1,4 @@
-"""Writes the second part of the document: coordinates, Φ and the derivatives of its rows.
+"""Writes the kinematics for a document of equations: coordinates, constraints Φ and their derivatives.
 
 γ is written as in textbooks, by products of angular velocities. That of a translational joint is then θ̇_i² (…) +
 2 θ̇_i u · (ṙ_j − ṙ_i) + …, as in P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems, Prentice Hall 1988,
@@ -15,39 +15,44 @@ import sympy as sp
 
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.ir.dependence import free_names
+from gudgeon.generator.ir.dependence import find_symbol_names
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.targets.latex.document import (
     Block,
     Equation,
     Section,
-    cells,
-    entry_token,
-    owner_token,
-    paragraph,
-    row_token,
-    table,
+    make_entry_token,
+    make_owner_token,
+    make_paragraph,
+    make_row,
+    make_row_token,
+    make_tables,
 )
 from gudgeon.generator.targets.latex.letters import Name
-from gudgeon.generator.targets.latex.notation import Notation, temporaries
-from gudgeon.generator.targets.latex.pictures import pattern
-from gudgeon.generator.targets.latex.theory import GAMMA, LAMBDA, NU, PHI, PHI_Q, indexed
+from gudgeon.generator.targets.latex.notation import Notation, list_temporaries
+from gudgeon.generator.targets.latex.pictures import draw_jacobian_pattern
+from gudgeon.generator.targets.latex.theory import GAMMA, LAMBDA, NU, PHI, PHI_Q, name_component
 
 WIDEST = 84  # characters of text that fit side by side in a joint's rows of Φ_q
 
 LONGEST = 400  # operations in one equation that a reader can be asked to read
 
 
-def equation(
-    left: Name | sp.Expr, right: sp.Expr, notation: Notation, of: Sequence[str] = (), pick: str = "", value: str = ""
+def make_equation(
+    left: Name | sp.Expr,
+    right: sp.Expr,
+    notation: Notation,
+    tokens: Sequence[str] = (),
+    pick: str = "",
+    value: str = "",
 ) -> Equation:
     """Return an equation that may break between the terms of the right side; tokens and value as in document.py."""
-    left_name = left if isinstance(left, Name) else notation.math(left)
-    return Equation(left_name, notation.terms(right), of, pick, value)
+    left_name = left if isinstance(left, Name) else notation.format_expression(left)
+    return Equation(left_name, notation.terms(right), tokens, pick, value)
 
 
-def shown(
-    left: Name, right: sp.Expr, notation: Notation, of: Sequence[str] = (), pick: str = "", value: str = ""
+def make_equation_block(
+    left: Name, right: sp.Expr, notation: Notation, tokens: Sequence[str] = (), pick: str = "", value: str = ""
 ) -> Block:
     """Return an equation as a block.
 
@@ -55,11 +60,13 @@ def shown(
     """
     n_operations = sp.count_ops(right)
     if n_operations <= LONGEST:
-        return equation(left, right, notation, of, pick, value)
-    return paragraph(left, f" follows by differentiation; written out it has {n_operations} operations.", of=of)
+        return make_equation(left, right, notation, tokens, pick, value)
+    return make_paragraph(
+        left, f" follows by differentiation; written out it has {n_operations} operations.", tokens=tokens
+    )
 
 
-def kinematics_sections(model: Model, notation: Notation) -> list[Section]:
+def make_kinematics_sections(model: Model, notation: Notation) -> list[Section]:
     """Return the sections on coordinates, abbreviations, constraint equations and the Jacobian.
 
     Sections without content are left out.
@@ -81,18 +88,18 @@ def _describe_coordinates(model: Model, notation: Notation) -> list[Block]:
     rows, tokens = [], []
     for body in model.bodies:
         first = body.index + 1
-        q = [replace(notation.math(s), value=f"q.{first + k}") for k, s in enumerate(body.q)]
-        v = [replace(notation.math(s), value=f"v.{first + k}") for k, s in enumerate(body.v)]
-        rows.append(cells(body.name, f"{first} to {first + 2}", *q, *v))
+        q = [replace(notation.format_expression(s), value=f"q.{first + k}") for k, s in enumerate(body.q)]
+        v = [replace(notation.format_expression(s), value=f"v.{first + k}") for k, s in enumerate(body.v)]
+        rows.append(make_row(body.name, f"{first} to {first + 2}", *q, *v))
         tokens.append([f"body-{body.name}"])
-    introduction = paragraph(
+    introduction = make_paragraph(
         "Each body has the two coordinates of its centre of mass and an angle, counted from the x axis of the ground "
         "and not wrapped: ",
         Name(f"n = {len(model.q)}", f"n = {len(model.q)}"),
         " coordinates.",
     )
     header = ("body", "number in q", "x", "y", "angle", "rates", "", "")
-    return [introduction, *table(cells(*header), rows, of=tokens)]
+    return [introduction, *make_tables(make_row(*header), rows, tokens=tokens)]
 
 
 def _describe_abbreviations(model: Model, notation: Notation) -> Iterator[Block]:
@@ -101,25 +108,25 @@ def _describe_abbreviations(model: Model, notation: Notation) -> Iterator[Block]
     Constants of laws and temporaries of force elements are left out. Sentences explain where(…) and H if they occur.
     """
     laws = {value for clearance in model.clearances for value in clearance.constants.values()}
-    others = laws | set(temporaries(model))
+    others = laws | set(list_temporaries(model))
     equations = [
-        equation(symbol, notation.expand(definition), notation)
+        make_equation(symbol, notation.expand(definition), notation)
         for symbol, definition in model.symbols.definitions.items()
         if symbol in notation.kept and symbol not in others
     ]
     yield from equations
     if any("where(" in term.text for equation_ in equations for term in equation_.terms):
-        yield paragraph("where(…) is its second part while the comparison in front holds, else its third.")
+        yield make_paragraph("where(…) is its second part while the comparison in front holds, else its third.")
     if any(notation.expand(value).has(sp.Heaviside) for row in model.rows for value in (row.nu, row.gamma)) or any(
         definition.has(sp.Heaviside) for definition in model.symbols.definitions.values()
     ):
-        yield paragraph("H is the unit step.")
+        yield make_paragraph("H is the unit step.")
 
 
 def _describe_rows(model: Model, notation: Notation) -> list[Block]:
     """Return the rows of Φ of each joint and drive with their entries of Φ_q, ν and γ, and an introduction."""
     blocks: list[Block] = [
-        paragraph(
+        make_paragraph(
             "The mechanism is closed while ",
             Name(r"\Phi(q, t) = 0", "Φ(q, t) = 0"),
             f" in all of its {len(model.rows)} rows. Velocities obey ",
@@ -140,12 +147,12 @@ def _describe_rows(model: Model, notation: Notation) -> list[Block]:
     ]
     for title, rows in _group_by_owner(model):
         first_row = rows[0][1]
-        tokens = [owner_token(first_row), *(row_token(k) for k, _ in rows)]
-        blocks.append(paragraph(f"{title}, ", *_list_multipliers(rows), f"; {_name_rows(rows)}:", of=tokens))
+        tokens = [make_owner_token(first_row), *(make_row_token(k) for k, _ in rows)]
+        blocks.append(make_paragraph(f"{title}, ", *_list_multipliers(rows), f"; {_name_rows(rows)}:", tokens=tokens))
         blocks += [_make_row_equation(k, row, model, notation) for k, row in rows]
         blocks += _describe_entries(rows, model, notation)
         nu = [notation.expand(row.nu) for _, row in rows]
-        gamma = [gamma_of(row, model, notation) for _, row in rows]
+        gamma = [format_gamma(row, model, notation) for _, row in rows]
         for vector, values in ((NU, nu), (GAMMA, gamma)):
             blocks += _make_component_equations(vector, [k for k, _ in rows], values, first_row, notation)
     return blocks
@@ -156,18 +163,20 @@ def _make_row_equation(number: int, row: Row, model: Model, notation: Notation) 
     column_of = {q: i for i, q in enumerate(model.q, 1)}
     term_tokens: dict[sp.Expr, list[str]] = {}
     for part in sp.Add.make_args(row.phi):
-        name_tokens = [f"name-{name}" for name in sorted(free_names(part))]
+        name_tokens = [f"name-{name}" for name in sorted(find_symbol_names(part))]
         for term in sp.Add.make_args(notation.expand(part)):
             term_tokens[term] = term_tokens[-term] = name_tokens
 
     def list_tokens(term: sp.Expr) -> list[str]:
         """Return the highlighting tokens of a term: its entries of Φ_q and its named parts."""
-        columns = sorted(column_of[s] for s in model.symbols.explicit(term).free_symbols if s in row.phi_q)
-        return [*(entry_token(number, i) for i in columns), *term_tokens.get(term, ())]
+        columns = sorted(column_of[s] for s in model.symbols.expand_definitions(term).free_symbols if s in row.phi_q)
+        return [*(make_entry_token(number, i) for i in columns), *term_tokens.get(term, ())]
 
-    left = indexed(PHI, number)
+    left = name_component(PHI, number)
     terms = notation.terms(notation.expand(row.phi), list_tokens)
-    return Equation(left, terms, [row_token(number), owner_token(row)], row_token(number), f"phi.{number}")
+    return Equation(
+        left, terms, [make_row_token(number), make_owner_token(row)], make_row_token(number), f"phi.{number}"
+    )
 
 
 def _group_by_owner(model: Model) -> Iterator[tuple[str, list[tuple[int, Row]]]]:
@@ -191,7 +200,7 @@ def _name_rows(rows: Sequence[tuple[int, Row]]) -> str:
 
 def _list_multipliers(rows: Sequence[tuple[int, Row]]) -> list[str | Name]:
     """Return the parts of a text with the names of the rows' multipliers, each with its value."""
-    names = [replace(indexed(LAMBDA, k), value=f"lambda.{k}") for k, _ in rows]
+    names = [replace(name_component(LAMBDA, k), value=f"lambda.{k}") for k, _ in rows]
     separated = [part for name in names for part in (", ", name)][1:]
     return [f"multiplier{'s' * (len(rows) > 1)} ", *separated]
 
@@ -201,13 +210,13 @@ def _describe_jacobian(model: Model) -> list[Block]:
     count = sum(len(row.phi_q) for row in model.rows)
     shape = f"{len(model.rows)} × {len(model.q)}"
     return [
-        paragraph(
+        make_paragraph(
             "The derivative of ",
             PHI,
             f" by the coordinates has {shape} entries, of which {count} are not zero; "
             "they stand with their rows above. All in their places:",
         ),
-        *pattern(model),
+        *draw_jacobian_pattern(model),
     ]
 
 
@@ -221,33 +230,37 @@ def _describe_entries(rows: Sequence[tuple[int, Row]], model: Model, notation: N
 
     def make_entry(k: int, row: Row, q: sp.Symbol) -> Name:
         """Return one entry of Φ_q as a formula, with its token and value if it is not zero."""
-        name = notation.math(notation.expand(row.phi_q.get(q, sp.Integer(0))))
+        name = notation.format_expression(notation.expand(row.phi_q.get(q, sp.Integer(0))))
         if q not in row.phi_q:
             return name
         constant = row.phi_q[q].is_number
         return replace(
-            name, of=[entry_token(k, column_of[q] + 1)], value="" if constant else f"phi_q.{k}.{column_of[q] + 1}"
+            name, of=[make_entry_token(k, column_of[q] + 1)], value="" if constant else f"phi_q.{k}.{column_of[q] + 1}"
         )
 
     entries = [[make_entry(k, row, q) for q in columns] for k, row in rows]
-    if sum(3 + max(len(one.text) for one in column) for column in zip(*entries, strict=True)) > WIDEST:
+    if sum(3 + max(len(entry.text) for entry in column) for column in zip(*entries, strict=True)) > WIDEST:
         return [
             _make_entry_equation(k, q, row, column_of[q], notation)
             for k, row in rows
             for q in columns
             if q in row.phi_q
         ]
-    table_rows = [cells(indexed(PHI, k), *own) for (k, _), own in zip(rows, entries, strict=True)]
-    tokens = [[row_token(k), owner_token(row)] for k, row in rows]
-    return table(cells("", *map(notation.math, columns)), table_rows, of=tokens, upright=True)
+    table_rows = [
+        make_row(name_component(PHI, k), *row_entries) for (k, _), row_entries in zip(rows, entries, strict=True)
+    ]
+    tokens = [[make_row_token(k), make_owner_token(row)] for k, row in rows]
+    return make_tables(make_row("", *map(notation.format_expression, columns)), table_rows, tokens=tokens, upright=True)
 
 
 def _make_entry_equation(number: int, q: sp.Symbol, row: Row, column: int, notation: Notation) -> Block:
     """Return the equation of one entry of Φ_q as a block; row `number` counts from 1, `column` from 0."""
-    coordinate = notation.math(q)
+    coordinate = notation.format_expression(q)
     left = Name(rf"\partial \Phi_{{{number}}} / \partial {coordinate.latex}", f"∂Φ_{number}/∂{coordinate.text}")
-    tokens = [entry_token(number, column + 1)]
-    return shown(left, notation.expand(row.phi_q[q]), notation, tokens, value=f"phi_q.{number}.{column + 1}")
+    tokens = [make_entry_token(number, column + 1)]
+    return make_equation_block(
+        left, notation.expand(row.phi_q[q]), notation, tokens, value=f"phi_q.{number}.{column + 1}"
+    )
 
 
 def _make_component_equations(
@@ -259,7 +272,14 @@ def _make_component_equations(
     """
     name = "nu" if vector is NU else "gamma"
     return [
-        shown(indexed(vector, k), value, notation, [row_token(k), owner_token(first_row)], row_token(k), f"{name}.{k}")
+        make_equation_block(
+            name_component(vector, k),
+            value,
+            notation,
+            [make_row_token(k), make_owner_token(first_row)],
+            make_row_token(k),
+            f"{name}.{k}",
+        )
         for k, value in zip(row_numbers, values, strict=True)
         if value != 0
     ]
@@ -268,7 +288,7 @@ def _make_component_equations(
 MOST = 1000  # operations of what is sorted
 
 
-def gamma_of(row: Row, model: Model, notation: Notation) -> sp.Expr:
+def format_gamma(row: Row, model: Model, notation: Notation) -> sp.Expr:
     """Return γ of a row as documents write it: sorted by angular velocities for a joint, as derived for a drive."""
     value = notation.expand(row.gamma)
     return sort_by_rates(value, model) if row.kind == "joint" else value
@@ -305,8 +325,10 @@ def _find_equivalent_forms(coefficient: sp.Expr, model: Model) -> Iterator[sp.Ex
         yield coefficient
         return
     yield sp.factor_terms(coefficient)
-    rotating = sorted((s for s in coefficient.free_symbols if s in model.geometry.turned), key=lambda s: s.name)
-    axes = [s for s in rotating if not model.geometry.turned[s].point]
+    rotating = sorted(
+        (s for s in coefficient.free_symbols if s in model.geometry.turned_components), key=lambda s: s.name
+    )
+    axes = [s for s in rotating if not model.geometry.turned_components[s].point]
     pairs = [[sp.cos(body.theta), sp.sin(body.theta)] for body in model.bodies if coefficient.has(sp.cos(body.theta))]
     for symbols in (axes, rotating, *pairs):
         if symbols:

@@ -8,28 +8,28 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from gudgeon.generator.field import NUMBER, Field
-from gudgeon.generator.kinds.laws.built import PAIR, probe
+from gudgeon.generator.kinds.laws.built import PAIR, probe_law
 from gudgeon.generator.kinds.laws.law import Law
 from gudgeon.generator.symbols.symbols import Symbols
-from gudgeon.generator.targets.format_tables import condition
+from gudgeon.generator.targets.format_tables import describe_condition
 from gudgeon.generator.targets.latex.document import (
     Block,
     Document,
     Equation,
     Section,
-    cells,
-    paragraph,
-    sentence,
-    table,
+    make_paragraph,
+    make_row,
+    make_sentence,
+    make_tables,
 )
-from gudgeon.generator.targets.latex.kinematics import equation
-from gudgeon.generator.targets.latex.letters import Name, distinct, letter, of_latex, word
+from gudgeon.generator.targets.latex.kinematics import make_equation
+from gudgeon.generator.targets.latex.letters import Name, assign_unique_names, make_letter, make_name, make_word
 from gudgeon.generator.targets.latex.notation import Notation
-from gudgeon.generator.targets.latex.play import as_word, describe_states
-from gudgeon.generator.targets.latex.play_letters import LAW_LETTERS, NAMES, RATIO, sign_of, step_name
-from gudgeon.generator.targets.latex.render import render
-from gudgeon.language.plot_units import pretty
-from gudgeon.language.units import si_unit
+from gudgeon.generator.targets.latex.play import describe_states, format_option
+from gudgeon.generator.targets.latex.play_letters import LAW_LETTERS, NAMES, RATIO, get_latex_symbol, name_law_step
+from gudgeon.generator.targets.latex.render import render_document
+from gudgeon.language.plot_units import format_unit
+from gudgeon.language.units import find_si_unit
 
 _ROLES: Mapping[str, str] = {
     "normal": "the normal force",
@@ -79,27 +79,30 @@ class Form:
         return self.constants + self.steps
 
 
-def forms(law: Law, name: str) -> list[Form]:
+def derive_forms(law: Law, name: str) -> list[Form]:
     """Return a law's form with default options, then a form with the equations that each other choice changes.
 
     name: the law's name or one of its aliases, which fix options. Optional numbers are left out unless they are
     chosen. Raises LawError for a user-defined law.
     """
     alias_options = law.also.get(name, {})
-    defaults = {own.name: own.choice for own in law.options} | {**alias_options}
-    required_numbers = [own.name for own in law.parameters if not _is_optional(own)]
-    zero_steps = {name for name, value in probe(law, defaults, required_numbers).steps.items() if value == 0}
+    defaults = {law_field.name: law_field.default_option for law_field in law.options} | {**alias_options}
+    required_numbers = [law_field.name for law_field in law.parameters if not _is_optional(law_field)]
+    zero_steps = {name for name, value in probe_law(law, defaults, required_numbers).steps.items() if value == 0}
     default_form = _derive_form(law, {}, defaults, (), zero_steps)
-    known_equations = {in_a_line(one) for one in default_form.equations}
+    known_equations = {print_equation(equation) for equation in default_form.equations}
     all_forms = [default_form]
     selected: list[tuple[str, str | bool]] = [
-        (own.name, value)
-        for own in law.options
-        if own.name not in alias_options
-        for value in own.values
-        if value != own.choice
+        (law_field.name, value)
+        for law_field in law.options
+        if law_field.name not in alias_options
+        for value in law_field.values
+        if value != law_field.default_option
     ]
-    for key, value in (*selected, *((own.name, GIVEN) for own in law.parameters if _is_optional(own))):
+    for key, value in (
+        *selected,
+        *((law_field.name, GIVEN) for law_field in law.parameters if _is_optional(law_field)),
+    ):
         is_number = key not in defaults
         options, chosen_numbers = defaults if is_number else {**defaults, key: value}, (key,) if is_number else ()
         form = _derive_form(law, {key: value}, options, chosen_numbers, zero_steps)
@@ -115,20 +118,20 @@ def forms(law: Law, name: str) -> list[Form]:
 
 def _select_new_equations(equations: Sequence[Equation], known_equations: Set[str]) -> tuple[Equation, ...]:
     """Return the equations whose text is not yet known."""
-    return tuple(equation_ for equation_ in equations if in_a_line(equation_) not in known_equations)
+    return tuple(equation_ for equation_ in equations if print_equation(equation_) not in known_equations)
 
 
-def law_text(law: Law, name: str) -> str:
+def print_law(law: Law, name: str) -> str:
     """Return the description of a law under one of its names as plain Unicode text, 100 columns wide.
 
     `gudgeon laws NAME` prints it. Raises LawError.
     """
-    return render(_make_document(law, name), "txt")
+    return render_document(_make_document(law, name), "txt")
 
 
 def _make_document(law: Law, name: str) -> Document:
     """Return the document about a law under one of its names; sections without content are left out."""
-    first, *others = forms(law, name)
+    first, *others = derive_forms(law, name)
     alias_options = ", ".join(f"{key}: {value}" for key, value in law.also.get(name, {}).items())
     facts = [
         (f"A law of {_ROLES[law.role]}, {name}" + (f": {law.name} with {alias_options}" if alias_options else ""),)
@@ -139,13 +142,13 @@ def _make_document(law: Law, name: str) -> Document:
     blocks: Mapping[str, Iterable[Block]] = {
         "Equations": _describe_equations(law, first, others),
         "Other choices": _describe_choices(others),
-        "Numbers": table(
-            cells("key", "letter", "unit", "bounds", "default", "meaning"),
+        "Numbers": make_tables(
+            make_row("key", "letter", "unit", "bounds", "default", "meaning"),
             [_list_number_cells(field) for field in fields if field.kind == NUMBER],
             (5,),
         ),
         "Options": [_describe_option(field) for field in fields if field.kind != NUMBER],
-        "Validity": [paragraph(sentence(law.validity))],
+        "Validity": [make_paragraph(make_sentence(law.validity))],
         "Reference": _describe_references(law, name),
     }
     sections = {title: tuple(section_blocks) for title, section_blocks in blocks.items()}
@@ -162,13 +165,13 @@ def _describe_equations(law: Law, form: Form, others: Sequence[Form]) -> Iterato
     others: forms of other choices, whose letters are listed, too.
     """
     letters = {name: letter_ for each_form in (*reversed(others), form) for name, letter_ in each_form.used}
-    rows = [cells(letters[name], *_MEANINGS[name]) for name in _MEANINGS if name in letters]
-    yield from table(cells("letter", "meaning", "unit"), rows)
+    rows = [make_row(letters[name], *_MEANINGS[name]) for name in _MEANINGS if name in letters]
+    yield from make_tables(make_row("letter", "meaning", "unit"), rows)
     yield from describe_states(law)
     if form.constants:
-        yield paragraph("Once a run:")
+        yield make_paragraph("Once a run:")
         yield from form.constants
-    yield paragraph("At each evaluation:")
+    yield make_paragraph("At each evaluation:")
     yield from form.steps
 
 
@@ -176,21 +179,21 @@ def _describe_choices(other_forms: Sequence[Form]) -> Iterator[Block]:
     """Yield a paragraph and the changed equations for each other choice; a choice that changes none is left out."""
     for form in other_forms:
         if form.equations:
-            choice = ", ".join(f"{key}: {as_word(value)}" for key, value in form.selected.items())
-            yield paragraph(f"With {choice}:")
+            choice = ", ".join(f"{key}: {format_option(value)}" for key, value in form.selected.items())
+            yield make_paragraph(f"With {choice}:")
             yield from form.equations
 
 
 def _list_number_cells(parameter: Field) -> tuple[tuple[str | Name, ...], ...]:
     """Return the table row of a number of a law: key, letter, unit, bounds, default, meaning."""
-    unit = "any" if parameter.dimension is None else pretty(si_unit(parameter.dimension)) or "-"
+    unit = "any" if parameter.dimension is None else format_unit(find_si_unit(parameter.dimension)) or "-"
     default = "needed" if parameter.required else "-" if parameter.default is None else f"{parameter.default:g}"
     meaning = f"{parameter.meaning}; without it {parameter.otherwise}" if parameter.otherwise else parameter.meaning
-    return cells(
+    return make_row(
         parameter.name,
-        of_latex(sign_of(parameter)),
+        make_name(get_latex_symbol(parameter)),
         unit,
-        condition(parameter).replace("`", "") or "-",
+        describe_condition(parameter).replace("`", "") or "-",
         default,
         meaning,
     )
@@ -198,8 +201,10 @@ def _list_number_cells(parameter: Field) -> tuple[tuple[str | Name, ...], ...]:
 
 def _describe_option(option: Field) -> Block:
     """Return the paragraph on an option of a law: its values, the default and the meaning."""
-    words = ", ".join(map(as_word, option.values))
-    return paragraph(f"{option.name}: {words}; without it {as_word(option.choice)} ({option.meaning}).")
+    words = ", ".join(map(format_option, option.values))
+    return make_paragraph(
+        f"{option.name}: {words}; without it {format_option(option.default_option)} ({option.meaning})."
+    )
 
 
 def _describe_references(law: Law, name: str) -> Iterator[Block]:
@@ -207,12 +212,12 @@ def _describe_references(law: Law, name: str) -> Iterator[Block]:
 
     Values that the alias `name` excludes are left out.
     """
-    yield paragraph(f"{law.reference or law.source}.")
+    yield make_paragraph(f"{law.reference or law.source}.")
     alias_options = law.also.get(name, {})
     for option in law.options:
         for value, source in (option.sources or {}).items():
             if alias_options.get(option.name, value) == value:
-                yield paragraph(f"{option.name}: {value}: {source}.")
+                yield make_paragraph(f"{option.name}: {value}: {source}.")
 
 
 def _is_optional(parameter: Field) -> bool:
@@ -232,8 +237,12 @@ def _derive_form(
     Constants that only repeat a number are replaced by it. Steps that are zero by default are left out while they are
     zero.
     """
-    numbers = [own.name for own in law.parameters if not _is_optional(own) or own.name in chosen_numbers]
-    probed_law = probe(law, options, numbers)
+    numbers = [
+        law_field.name
+        for law_field in law.parameters
+        if not _is_optional(law_field) or law_field.name in chosen_numbers
+    ]
+    probed_law = probe_law(law, options, numbers)
     repeated_constants = {
         _make_probe_symbol(name): value for name, value in probed_law.derived.items() if value.is_Symbol
     }
@@ -244,7 +253,7 @@ def _derive_form(
             value = value.xreplace(repeated_constants)
         return value
 
-    names = _restore_names(distinct(_assign_names(law, numbers, probed_law.derived, probed_law.steps)))
+    names = _restore_names(assign_unique_names(_assign_names(law, numbers, probed_law.derived, probed_law.steps)))
     notation = Notation(Symbols(), names, frozenset(), {})
     constants = {
         _make_probe_symbol(name): replace_repeated(value)
@@ -261,14 +270,14 @@ def _derive_form(
     described_symbols = {name: sp.Symbol(name, real=True) for name in (*law.variables, *law.results)}
     described_symbols |= {name: _make_probe_symbol(name) for name in PAIR}
     letters = tuple(
-        (name, notation.math(symbol))
+        (name, notation.format_expression(symbol))
         for name, symbol in described_symbols.items()
         if symbol in symbols_read and name in _MEANINGS
     )
 
     def make_equations(definitions: Mapping[sp.Symbol, sp.Expr]) -> tuple[Equation, ...]:
         """Return {symbol: value} as equations."""
-        return tuple(equation(left, right, notation) for left, right in definitions.items())
+        return tuple(make_equation(left, right, notation) for left, right in definitions.items())
 
     return Form(selected, make_equations(constants), make_equations(steps), letters)
 
@@ -283,20 +292,20 @@ def _assign_names(
     parameters = {parameter.name: parameter for parameter in law.parameters}
     for name in law.variables:
         symbol = sp.Symbol(name, real=True)
-        yield symbol, RATIO if name == "ratio" else NAMES.get(symbol) or letter(name)
+        yield symbol, RATIO if name == "ratio" else NAMES.get(symbol) or make_letter(name)
     for name in law.results:
         symbol = sp.Symbol(name, real=True)
         if name in ("F_n", "F_r", "F_t"):
-            yield symbol, NAMES.get(symbol) or letter("F", "t")
+            yield symbol, NAMES.get(symbol) or make_letter("F", "t")
     for name in numbers:
-        yield _make_probe_symbol(name), of_latex(sign_of(parameters[name]))
+        yield _make_probe_symbol(name), make_name(get_latex_symbol(parameters[name]))
     for name in PAIR:
         base, _, index = name.partition("_")
-        yield _make_probe_symbol(name), letter(base, index) if index else letter(base)
+        yield _make_probe_symbol(name), make_letter(base, index) if index else make_letter(base)
     for name in constants:
-        yield _make_probe_symbol(name), LAW_LETTERS.get(name) or word(name)
+        yield _make_probe_symbol(name), LAW_LETTERS.get(name) or make_word(name)
     for name in steps:
-        yield sp.Symbol(name, real=True), step_name(law, name)
+        yield sp.Symbol(name, real=True), name_law_step(law, name)
 
 
 def _restore_names(names: Mapping[sp.Symbol, Name]) -> dict[sp.Symbol, Name]:
@@ -304,17 +313,17 @@ def _restore_names(names: Mapping[sp.Symbol, Name]) -> dict[sp.Symbol, Name]:
     used_texts = {name.text for name in names.values()}
     restored = dict(names)
     for symbol, name in names.items():
-        plain_name_ = letter(symbol.name.removeprefix(_make_probe_symbol("").name))
-        if name == letter(symbol.name) and plain_name_.text not in used_texts:
+        plain_name_ = make_letter(symbol.name.removeprefix(_make_probe_symbol("").name))
+        if name == make_letter(symbol.name) and plain_name_.text not in used_texts:
             restored[symbol] = plain_name_
     return restored
 
 
 def _make_probe_symbol(name: str) -> sp.Symbol:
-    """Return the symbol of a number in the result of `probe`."""
+    """Return the symbol of a number in the result of `probe_law`."""
     return sp.Symbol(f"probe_{name}", real=True)
 
 
-def in_a_line(equation_: Equation) -> str:
+def print_equation(equation_: Equation) -> str:
     """Return an equation as one line of plain text."""
     return f"{equation_.left.text} = {''.join(term.text for term in equation_.terms)}"

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from gudgeon.generator.field import NUMBER, Field
-from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, EXACT, FACTORS, SOURCES, delivered
-from gudgeon.generator.kinds.laws.law import RESULTS, Law, bundled_laws
-from gudgeon.generator.targets.format_tables import condition
-from gudgeon.generator.targets.latex.document import Equation, sentence
-from gudgeon.generator.targets.latex.law import GIVEN, Form, forms, in_a_line
-from gudgeon.generator.targets.latex.letters import of_latex
-from gudgeon.generator.targets.latex.play import as_word
-from gudgeon.generator.targets.latex.play_letters import sign_of
-from gudgeon.language.plot_units import pretty
-from gudgeon.language.units import si_unit
+from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, EXACT, FACTORS, SOURCES, compute_delivered_restitution
+from gudgeon.generator.kinds.laws.law import RESULTS, Law, find_bundled_laws
+from gudgeon.generator.targets.format_tables import describe_condition
+from gudgeon.generator.targets.latex.document import Equation, make_sentence
+from gudgeon.generator.targets.latex.law import GIVEN, Form, derive_forms, print_equation
+from gudgeon.generator.targets.latex.letters import make_name
+from gudgeon.generator.targets.latex.play import format_option
+from gudgeon.generator.targets.latex.play_letters import get_latex_symbol
+from gudgeon.language.plot_units import format_unit
+from gudgeon.language.units import find_si_unit
 
 ASKED = (0.9, 0.7, 0.5)  # coefficients of restitution
 _HEADS = {"normal": "The normal force", "friction": "Friction", "film": "Oil films", "mixed": "Mixed lubrication"}
@@ -32,17 +32,17 @@ _FIRST = (
 )
 
 
-def laws_in_order(role: str) -> list[Law]:
+def list_laws(role: str) -> list[Law]:
     """Return the bundled laws of a role: first those that most scenes use, then the others by name."""
-    laws = [law for law in bundled_laws().values() if law.role == role]
+    laws = [law for law in find_bundled_laws().values() if law.role == role]
     return sorted(laws, key=lambda law: (_FIRST.index(law.name) if law.name in _FIRST else len(_FIRST), law.name))
 
 
-def laws_page() -> str:
+def print_laws_page() -> str:
     """Return docs/laws.md below its introduction: a heading for each role and law, as Markdown."""
     lines = []
     for role in RESULTS:
-        laws = laws_in_order(role)
+        laws = list_laws(role)
         lines += [f"## {_HEADS[role]}", ""]
         lines += [line for law in laws for line in _describe_law(law)]
         lines += _describe_dissipation() if role == "normal" else ()
@@ -56,51 +56,74 @@ def _describe_dissipation() -> Iterator[str]:
     """
     yield from ("## The dissipation of a normal force", "")
     yield (
-        "The factor a of 1 + a δ̇/δ̇⁻ in `esdu_78035`, `expression`, `hertz`, `johnson` and `liu`, by `dissipation`,"
-        " and the restitution that a free impact then has, by a (1 + e) = ln[(1 + a)/(1 − a e)], for what c_e asks."
+        "The key `dissipation` chooses the hysteresis damping factor a of 1 + a δ̇/δ̇⁻ in the laws `esdu_78035`,"
+        " `expression`, `hertz`, `johnson` and `liu`. Each column `c_e = …` gives the restitution e that a free impact"
+        " delivers for that specified restitution c_e. The restitution e solves a (1 + e) = ln[(1 + a)/(1 − a e)]."
     )
     restitutions = " | ".join(f"c_e = {c_e:g}" for c_e in ASKED)
     yield from ("", f"| `dissipation` | a | {restitutions} | source |", "|" + "---|" * 6)
-    default_form, *other_forms = forms(bundled_laws()["hertz"], "hertz")
+    default_form, *other_forms = derive_forms(find_bundled_laws()["hertz"], "hertz")
     form_by_value = {DISSIPATION.default: default_form} | {
         form_.selected.get(DISSIPATION.name): form_ for form_ in other_forms
     }
     for name in DISSIPATION.values:
-        a = next(in_a_line(form_) for form_ in form_by_value[name].equations if form_.left.text in ("a", "a_0"))
-        formula = "what delivers c_e, by Newton's method from Hu and Guo's" if name == EXACT else f"`{a[4:]}`"
-        e = (f"{c_e if name == EXACT else delivered(float(FACTORS[str(name)](c_e))):.4f}" for c_e in ASKED)
+        a = next(print_equation(form_) for form_ in form_by_value[name].equations if form_.left.text in ("a", "a_0"))
+        formula = (
+            "the a that delivers c_e, by Newton's method from Hu and Guo's factor" if name == EXACT else f"`{a[4:]}`"
+        )
+        e = (
+            f"{c_e if name == EXACT else compute_delivered_restitution(float(FACTORS[str(name)](c_e))):.4f}"
+            for c_e in ASKED
+        )
         yield f"| `{name}` | {formula} | {' | '.join(e)} | {SOURCES.get(str(name), '')} |"
-    yield from ("", "`exact`, written out:", "", *_print_text_block(form_by_value[EXACT].equations))
+    yield from (
+        "",
+        "The steps of Newton's method for `dissipation: exact`, with the force of `hertz`:",
+        "",
+        *_print_text_block(form_by_value[EXACT].equations),
+    )
 
 
 def _describe_law(law: Law) -> Iterator[str]:
     """Yield the Markdown lines on one law: equations, other choices, inner states, keys, validity and source."""
-    yield from (f"### `{law.name}`", "", f"{sentence(law.title)}", "")
+    yield from (f"### `{law.name}`", "", f"{make_sentence(law.title)}", "")
     if law.also:
-        yield from (f"Also as {', '.join(f'`{name}`' for name in law.also)}.", "")
-    default_form, *other_forms = forms(law, law.name)
+        names_text = ", ".join(f"`{name}`" for name in law.also)
+        yield from (f"Other names, each for `{law.name}` with the `dissipation` of that name: {names_text}.", "")
+    default_form, *other_forms = derive_forms(law, law.name)
     yield from _print_display_equations(law) if law.equation else _print_text_block(default_form.equations)
     for form in other_forms:
         if DISSIPATION.name not in form.selected:
-            yield from _describe_choice(form)
+            yield from _describe_choice(form, law.name)
     if DISSIPATION in law.fields:
-        yield from ("With another `dissipation`: [below](#the-dissipation-of-a-normal-force).", "")
+        yield from (
+            "[The dissipation of a normal force](#the-dissipation-of-a-normal-force) lists the factor a for each"
+            " value of `dissipation`.",
+            "",
+        )
     if law.states:
         states_text = "; ".join(
-            f"{of_latex(state.name).text} is the {state.meaning}, 0 at each onset" for state in law.states
+            f"{make_name(state.name).text} is the {state.meaning}, 0 at each onset of a contact" for state in law.states
         )
         yield from (f"{states_text}.", "")
     yield from _print_keys_table(law.fields)
-    yield from (f"**Valid**: {sentence(law.validity)}", "", f"**Source**: {law.reference or law.source}.", "")
+    yield from (f"**Valid**: {make_sentence(law.validity)}", "", f"**Source**: {law.reference or law.source}.", "")
 
 
-def _describe_choice(form: Form) -> Iterator[str]:
+def _describe_choice(form: Form, law_name: str) -> Iterator[str]:
     """Yield the equations that a choice changes: one in a line, several as a block, none for no change."""
-    choice = ", ".join(key if value == GIVEN else f"{key}: {as_word(value)}" for key, value in form.selected.items())
+    symbols_text = f"`gudgeon laws {law_name}` defines every symbol."
+    choice = ", ".join(
+        key if value == GIVEN else f"{key}: {format_option(value)}" for key, value in form.selected.items()
+    )
     if len(form.equations) == 1:
-        yield from (f"With `{choice}`: `{in_a_line(form.equations[0])}`.", "")
+        yield from (f"With `{choice}`, an equation becomes `{print_equation(form.equations[0])}`. {symbols_text}", "")
     elif form.equations:
-        yield from (f"With `{choice}`:", "", *_print_text_block(form.equations))
+        yield from (
+            f"With `{choice}`, these equations are added or replaced. {symbols_text}",
+            "",
+            *_print_text_block(form.equations),
+        )
 
 
 def _print_display_equations(law: Law) -> Iterator[str]:
@@ -110,7 +133,7 @@ def _print_display_equations(law: Law) -> Iterator[str]:
 
 def _print_text_block(equations: Iterable[Equation]) -> Iterator[str]:
     """Yield equations as a Markdown block of plain text."""
-    yield from ("```text", *map(in_a_line, equations), "```", "")
+    yield from ("```text", *map(print_equation, equations), "```", "")
 
 
 def _print_keys_table(fields: Sequence[Field]) -> Iterator[str]:
@@ -128,7 +151,7 @@ def _print_keys_table(fields: Sequence[Field]) -> Iterator[str]:
 
 def _list_number_cells(parameter: Field) -> tuple[str, ...]:
     """Return the cells of a number: letter, unit, condition, default."""
-    unit = "any" if parameter.dimension is None else pretty(si_unit(parameter.dimension))
+    unit = "any" if parameter.dimension is None else format_unit(find_si_unit(parameter.dimension))
     default = (
         "needed"
         if parameter.required
@@ -136,9 +159,14 @@ def _list_number_cells(parameter: Field) -> tuple[str, ...]:
         if parameter.default is None
         else f"{parameter.default:g}"
     )
-    return of_latex(sign_of(parameter)).text, unit, condition(parameter), default
+    return make_name(get_latex_symbol(parameter)).text, unit, describe_condition(parameter), default
 
 
 def _list_option_cells(option: Field) -> tuple[str, ...]:
     """Return the cells of an option of a law: its values and its default; it has neither letter nor unit."""
-    return "", "", " or ".join(f"`{as_word(value)}`" for value in option.values), f"`{as_word(option.choice)}`"
+    return (
+        "",
+        "",
+        " or ".join(f"`{format_option(value)}`" for value in option.values),
+        f"`{format_option(option.default_option)}`",
+    )

@@ -9,7 +9,7 @@ from itertools import groupby, takewhile
 
 import sympy as sp
 
-from gudgeon.generator.symbols.symbols import plain_name
+from gudgeon.generator.symbols.symbols import strip_identifier
 
 GREEK = {
     "alpha": "α",
@@ -66,12 +66,18 @@ class Name:
         return 2 + sum(c.isascii() and (c.isalnum() or c == "_") for c in self.text) // 2
 
 
-def letter(base: str, *subscripts: str, dots: int = 0, hat: bool = False, raised: str = "") -> Name:
+def make_letter(base: str, *subscripts: str, dots: int = 0, hat: bool = False, raised: str = "") -> Name:
     """Return the name of a letter or word (Greek by its English name) with dots or a hat, subscripts and a raised 0.
 
     raised: "" or "0".
     """
-    latex = greek(base) if base in GREEK else base if len(base) == 1 else rf"\text{{{_escape_underscores(base)}}}"
+    latex = (
+        get_greek_command(base)
+        if base in GREEK
+        else base
+        if len(base) == 1
+        else rf"\text{{{_escape_underscores(base)}}}"
+    )
     text = GREEK.get(base, base)
     latex_accent, text_accent = (r"\hat", "\u0302") if hat else _DOTS[dots]
     if latex_accent:
@@ -82,23 +88,23 @@ def letter(base: str, *subscripts: str, dots: int = 0, hat: bool = False, raised
     return Name(latex + (f"^{{{raised}}}" if raised else ""), text + {"": "", "0": "⁰"}[raised])
 
 
-def greek(word: str) -> str:
+def get_greek_command(word: str) -> str:
     """Return the LaTeX command of a Greek letter."""
     return _VARIANT.get(word, f"\\{word}")
 
 
-def word(name: str) -> Name:
+def make_word(name: str) -> Name:
     """Return the name of a user-defined word: omega4 is ω with subscript 4, v_max is v with max, speed is a word."""
     base, _, subscript = name.partition("_")
     numbered = re.fullmatch(r"([A-Za-z]+?)(\d+)", base)
     if numbered and (len(numbered[1]) == 1 or numbered[1] in GREEK):
         base, subscript = numbered[1], f"{numbered[2]}_{subscript}" if subscript else numbered[2]
     if subscript and (len(base) == 1 or base in GREEK):
-        return letter(base, subscript)
-    return letter(name)
+        return make_letter(base, subscript)
+    return make_letter(name)
 
 
-def of_latex(latex: str) -> Name:
+def make_name(latex: str) -> Name:
     r"""Return a name that is given in LaTeX ("c_e", "\mu", "\sigma_{0}") with its plain text."""
     unicode_by_command = {
         **{f"\\{name}": sign for name, sign in GREEK.items()},
@@ -111,25 +117,25 @@ def of_latex(latex: str) -> Name:
     return Name(latex, "".join(c for c in text if c not in "{}" and not c.isspace()))
 
 
-def distinct(proposed: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Symbol, Name]:
+def assign_unique_names(proposed: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Symbol, Name]:
     """Return a unique name for each symbol of (expression, proposed name).
 
     Expressions that are not symbols are left out.
     The first symbol gets the letter. Others get the name of their symbol in C if that is a word ("T0"), else primes.
     """
     names: dict[sp.Symbol, Name] = {}
-    used: set[str] = set()
+    used_names: set[str] = set()
     for symbol, name in proposed:
         if not isinstance(symbol, sp.Symbol) or symbol in names:
             continue
-        is_taken = name.text in used and "_" not in plain_name(symbol)
-        name = primed(letter(plain_name(symbol)) if is_taken else name, used)
-        used.add(name.text)
+        is_taken = name.text in used_names and "_" not in strip_identifier(symbol)
+        name = add_primes(make_letter(strip_identifier(symbol)) if is_taken else name, used_names)
+        used_names.add(name.text)
         names[symbol] = name
     return names
 
 
-def primed(name: Name, used: Collection[str]) -> Name:
+def add_primes(name: Name, used: Collection[str]) -> Name:
     """Return a name with as many primes as make it different from those that are used."""
     while name.text in used:
         name = Name(f"{{{name.latex}}}'", f"{name.text}'")
@@ -147,7 +153,7 @@ def _print_subscripts(subscripts: Sequence[str]) -> str:
         if is_upright and not all(text.isdigit() for text in members):
             texts.append(rf"\text{{{','.join(map(_escape_underscores, members))}}}")
         else:
-            texts += members if is_upright else [greek(text) if text in GREEK else text for text in members]
+            texts += members if is_upright else [get_greek_command(text) if text in GREEK else text for text in members]
     return ",".join(texts)
 
 

@@ -1,7 +1,7 @@
 /*
- * What belongs together lights up together. An element belongs to the tokens of its data-of; selecting it lights all
- * that share one with its data-pick, or else with its data-of. A row's token stands for the row's entries too, a
- * name's for the entries of all terms that have the name, and for the lines that sum their rows.
+ * Highlight related parts of a page of equations together. An element belongs to the tokens of its data-of; selecting
+ * it lights all that share one with its data-pick, or else with its data-of. A row's token stands for the row's entries
+ * too, a name's for the entries of all terms that have the name, and for the lines that sum their rows.
  */
 const gudgeonLight = (() => {
     const LISTED = 400; // lines of C that the panel shows at most

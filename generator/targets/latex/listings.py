@@ -11,9 +11,9 @@ from functools import cache
 from pathlib import Path
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.targets.javascript.module import embedded_script, equations_script
-from gudgeon.generator.targets.latex.document import Block, EmbeddedHtml, Listing, Section, paragraph
-from gudgeon.generator.targets.latex.trace import Trace, yaml_tokens
+from gudgeon.generator.targets.javascript.module import compress_script, print_equations_script
+from gudgeon.generator.targets.latex.document import Block, EmbeddedHtml, Listing, Section, make_paragraph
+from gudgeon.generator.targets.latex.trace import Trace, list_yaml_tokens
 
 SHOWN = ("parameters.c", "constraints.c", "clearance.c", "dynamics.c", "reduced.c", "positions.c")
 MOST_C = 600_000  # characters of C that a page carries
@@ -21,16 +21,16 @@ LARGEST_FILE = 1_000_000  # bytes of a mechanism's file
 _CARRIED = "gudgeon-c"  # id of what is not shown
 
 
-def listing_sections(model: Model, trace_: Trace) -> list[Section]:
+def make_listing_sections(model: Model, trace_: Trace) -> list[Section]:
     """Return the section with the listing of the mechanism's file and that of its C.
 
     The file is left out if it is missing or has changed.
     """
     blocks: list[Block] = []
-    hint = paragraph("Select any equation, entry, line or part: everything that has to do with it is lit.")
+    hint = make_paragraph("Select any equation, entry, line or part: everything that has to do with it is lit.")
     if (text := _read_mechanism_file(model)) is not None:
         name = Path(model.scene.mechanism.file).name
-        blocks.append(Listing(name, tuple(text.splitlines()), yaml_tokens(model, trace_)))
+        blocks.append(Listing(name, tuple(text.splitlines()), list_yaml_tokens(model, trace_)))
     return [Section("From the file to the C", (hint, *blocks, EmbeddedHtml(_print_c_listing(trace_))))]
 
 
@@ -112,17 +112,17 @@ def _shorten_values(text: str, values: Mapping[int, str]) -> dict[int, str]:
 @cache
 def _load_script(name: str) -> str:
     """Return a script of this folder, compressed for embedding; it is read once."""
-    return embedded_script(Path(__file__).with_name(name).read_text(encoding="utf-8"))
+    return compress_script(Path(__file__).with_name(name).read_text(encoding="utf-8"))
 
 
 def _print_equations_script(trace_: Trace) -> str:
     """Return the script that computes values; "" for scenes with curves, whose pages show only their state."""
     try:
-        return equations_script(trace_.program)
+        return print_equations_script(trace_.program)
     except ValueError:
         return ""
 
 
-def scripts() -> str:
+def print_scripts() -> str:
     """Return the scripts of a page: cross-highlighting and values."""
     return f'<script>\n"use strict";\n{_load_script("light.js")}{_load_script("live.js")}</script>\n'

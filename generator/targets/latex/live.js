@@ -1,6 +1,6 @@
 /*
- * Values beside the equations: each element with data-value shows its number at the state that the page announces,
- * once a frame and only where it is seen.
+ * Show current values next to the equations of a page. Each element with data-value shows its number at the state that
+ * the page announces, once a frame and only where it is seen.
  */
 const gudgeonValues = (() => {
     const FUNCTIONS = {phi: "constraints", phi_q: "jacobian", nu: "velocity_rhs", gamma: "acceleration_rhs", play: "play",

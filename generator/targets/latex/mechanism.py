@@ -1,19 +1,19 @@
-"""Writes the first part of the document: bodies, ground, joints, drives, parameters."""
+"""Writes the description of a mechanism for a document of equations: bodies, joints, drives, parameters."""
 
 from __future__ import annotations
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import ForceElement, Joint, PointRef
-from gudgeon.generator.targets.latex.document import Block, Section, Sketch, Text, cells, paragraph, table
+from gudgeon.generator.targets.latex.document import Block, Section, Sketch, Text, make_paragraph, make_row, make_tables
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation
-from gudgeon.generator.targets.latex.theory import sketch_of
-from gudgeon.generator.targets.latex.values import LONGEST, Values, as_written, si_unit_of
-from gudgeon.language.plot_units import pretty
+from gudgeon.generator.targets.latex.theory import read_sketch
+from gudgeon.generator.targets.latex.values import LONGEST, Values, format_as_written, get_si_unit
+from gudgeon.language.plot_units import format_unit
 
 
-def part_sections(model: Model, notation: Notation) -> list[Section]:
+def make_part_sections(model: Model, notation: Notation) -> list[Section]:
     """Return the sections on bodies, ground, joints, drives, expressions, curves and parameters of the file.
 
     Sections for parts that the file does not have are left out.
@@ -39,28 +39,28 @@ def _describe_bodies(model: Model, values: Values) -> list[Block]:
     rows, points = [], []
     tokens = [[f"body-{name}"] for name in model.scene.mechanism.bodies]
     for body in model.scene.mechanism.bodies.values():
-        rows.append(cells(body.name, values.cell(body.mass), values.cell(body.inertia), values.cell(body.length)))
+        rows.append(make_row(body.name, values.cell(body.mass), values.cell(body.inertia), values.cell(body.length)))
         vectors = {"com": body.com, **body.points} if body.com is not None else body.points
-        points += [cells(f"{body.name}.{name}", values.vector(vector)) for name, vector in vectors.items()]
+        points += [make_row(f"{body.name}.{name}", values.vector(vector)) for name, vector in vectors.items()]
     lead = (
         "The x axis of a body with a length runs from its tail (the origin) to its head. The centre of mass (com) is "
         "at mid-length, or at the origin of a body without length, unless it is given below; inertias are about it."
     )
     return [
-        paragraph(lead),
-        *table(cells("body", "mass", "inertia", "length"), rows, of=tokens),
-        *table(cells("side", "length"), values.list_body_numbers("sides")),
-        *table(cells("number of a shape", "value"), values.list_body_numbers("shape")),
-        *table(cells("material", "density"), values.list_densities()),
-        *table(cells("point", "in the frame of its body"), points),
+        make_paragraph(lead),
+        *make_tables(make_row("body", "mass", "inertia", "length"), rows, tokens=tokens),
+        *make_tables(make_row("side", "length"), values.list_body_numbers("sides")),
+        *make_tables(make_row("number of a shape", "value"), values.list_body_numbers("shape")),
+        *make_tables(make_row("material", "density"), values.list_densities()),
+        *make_tables(make_row("point", "in the frame of its body"), points),
         *values.below(),
     ]
 
 
 def _describe_ground(model: Model, values: Values) -> list[Block]:
     """Return the table of the ground's points."""
-    rows = [cells(name, values.vector(vector)) for name, vector in model.scene.mechanism.ground.items()]
-    return [*table(cells("point", "position"), rows), *values.below()]
+    rows = [make_row(name, values.vector(vector)) for name, vector in model.scene.mechanism.ground.items()]
+    return [*make_tables(make_row("point", "position"), rows), *values.below()]
 
 
 def _describe_joints(model: Model, values: Values) -> list[Block]:
@@ -70,36 +70,38 @@ def _describe_joints(model: Model, values: Values) -> list[Block]:
         row_numbers = [str(k + 1) for k, row in enumerate(model.rows) if row.owner == joint.name]
         row_range = f"{row_numbers[0]} to {row_numbers[-1]}" if len(row_numbers) > 1 else "".join(row_numbers)
         joint_type = joint_types()[joint.kind]
-        point_names = [place(ref, joint_type.joins) for ref in (joint.first, joint.second)]
+        point_names = [format_point(ref, joint_type.joins) for ref in (joint.first, joint.second)]
         reason = "none: it has play" if joint.name in model.scene.play else "none: they are redundant"
-        rows.append(cells(joint.name, joint_type.title, *point_names, row_range or reason))
+        rows.append(make_row(joint.name, joint_type.title, *point_names, row_range or reason))
     tokens = [[f"joint-{name}"] for name in model.scene.mechanism.joints]
-    blocks: list[Block] = table(cells("joint", "type", "first", "second", "rows"), rows, of=tokens)
-    fields = [row for joint in model.scene.mechanism.joints.values() for row in field_rows(joint, values)]
-    blocks += table(cells("joint", "field", "value"), fields)
-    used_symbols = {s for row in model.rows for s in model.symbols.explicit(row.phi).free_symbols}
+    blocks: list[Block] = make_tables(make_row("joint", "type", "first", "second", "rows"), rows, tokens=tokens)
+    fields = [row for joint in model.scene.mechanism.joints.values() for row in list_field_rows(joint, values)]
+    blocks += make_tables(make_row("joint", "field", "value"), fields)
+    used_symbols = {s for row in model.rows for s in model.symbols.expand_definitions(row.phi).free_symbols}
     start_angles = [
-        e for e in model.slots.entries.values() if e.symbol in used_symbols and e.address.startswith("start.")
+        e for e in model.parameter_table.entries.values() if e.symbol in used_symbols and e.address.startswith("start.")
     ]
-    blocks += table(cells("angle at the start", "value"), [cells(e.address, values.slot(e)) for e in start_angles])
+    blocks += make_tables(
+        make_row("angle at the start", "value"), [make_row(e.address, values.slot(e)) for e in start_angles]
+    )
     blocks += values.below()
     for kind in dict.fromkeys(joint.kind for joint in model.scene.mechanism.joints.values()):
-        summary, *lines = sketch_of(joint_types()[kind])
-        blocks += [paragraph(summary), Sketch(tuple(lines))]
+        summary, *lines = read_sketch(joint_types()[kind])
+        blocks += [make_paragraph(summary), Sketch(tuple(lines))]
     return blocks
 
 
-def field_rows(part: Joint | ForceElement, values: Values) -> list[tuple[Text, ...]]:
+def list_field_rows(part: Joint | ForceElement, values: Values) -> list[tuple[Text, ...]]:
     """Return table rows (name of the part, name of the field, value) of a joint's or force element's fields."""
     fields = [
         *((name, values.vector(vector)) for name, vector in part.vectors.items()),
         *((name, values.cell(quantity)) for name, quantity in part.quantities.items()),
         *((name, (word,)) for name, word in part.options.items()),
     ]
-    return [cells(part.name, name, text) for name, text in fields]
+    return [make_row(part.name, name, text) for name, text in fields]
 
 
-def place(ref: PointRef, joins: str) -> str:
+def format_point(ref: PointRef, joins: str) -> str:
     """Return a point as "body.point"; only the body's name if bodies are joined."""
     return ref.body if joins == "bodies" else f"{ref.body}.{ref.point}"
 
@@ -114,12 +116,14 @@ def _describe_drives(model: Model, notation: Notation) -> list[Block]:
             prescribed = "angle" if drive.kind == "angle" else drive.coordinate
             prescribed += f" of {drive.body}" + (f" against {drive.reference}" if drive.reference else "")
         row_numbers = [str(k + 1) for k, row in enumerate(model.rows) if row.owner == name]
-        rows.append(cells(name, prescribed, driven_value(model, notation, name), "".join(row_numbers) or "redundant"))
+        rows.append(
+            make_row(name, prescribed, format_drive_value(model, notation, name), "".join(row_numbers) or "redundant")
+        )
     tokens = [[f"drive-{name}"] for name in model.scene.mechanism.drives]
-    return table(cells("drive", "prescribes", "value", "row"), rows, (2,), tokens)
+    return make_tables(make_row("drive", "prescribes", "value", "row"), rows, (2,), tokens)
 
 
-def driven_value(model: Model, notation: Notation, drive: str) -> str | Name:
+def format_drive_value(model: Model, notation: Notation, drive: str) -> str | Name:
     """Return the prescribed value of a drive: an angle as a formula, others as the file writes them.
 
     An angle whose formula is too long is written as in the file, too.
@@ -130,33 +134,40 @@ def driven_value(model: Model, notation: Notation, drive: str) -> str | Name:
         model.constraints.drive_angles.get(drive),
     )
     if angle_symbols is None:
-        return as_written(expression, 0, expressions)
-    formula = notation.math(notation.expand(model.symbols.explicit(model.symbols.definitions[angle_symbols[0]])))
-    return formula if len(formula.text) <= 2 * LONGEST else as_written(expression, 0, expressions)
+        return format_as_written(expression, 0, expressions)
+    formula = notation.format_expression(
+        notation.expand(model.symbols.expand_definitions(model.symbols.definitions[angle_symbols[0]]))
+    )
+    return formula if len(formula.text) <= 2 * LONGEST else format_as_written(expression, 0, expressions)
 
 
 def _describe_curves(model: Model) -> list[Block]:
     """Return the table of curves; f' and f'' are their derivatives."""
-    rows = [cells(name, f"{curve.message()} (SI)") for name, curve in model.scene.mechanism.curves.items()]
-    return table(cells("curve", "what it is"), rows, (1,))
+    rows = [make_row(name, f"{curve.describe()} (SI)") for name, curve in model.scene.mechanism.curves.items()]
+    return make_tables(make_row("curve", "what it is"), rows, (1,))
 
 
 def _describe_expressions(model: Model) -> list[Block]:
     """Return the table of named expressions."""
     rows = [
-        cells(name, as_written(quantity.written or quantity.value))
+        make_row(name, format_as_written(quantity.source_tree or quantity.value))
         for name, quantity in model.scene.mechanism.expressions.items()
     ]
-    return table(cells("expression", "stands for"), rows, (1,))
+    return make_tables(make_row("expression", "stands for"), rows, (1,))
 
 
 def _describe_parameters(model: Model, notation: Notation, values: Values) -> list[Block]:
     """Return the table of parameters, as in the file and in SI units."""
     rows = []
     for name in model.scene.parameters:
-        entry = model.slots.entries[f"parameters.{name}"]
-        unit = si_unit_of(entry)
+        entry = model.parameter_table.entries[f"parameters.{name}"]
+        unit = get_si_unit(entry)
         rows.append(
-            cells(name, notation.math(entry.symbol), values.format_in_si(entry), pretty(unit) or Name("-", "-"))
+            make_row(
+                name,
+                notation.format_expression(entry.symbol),
+                values.format_in_si(entry),
+                format_unit(unit) or Name("-", "-"),
+            )
         )
-    return [*table(cells("parameter", "letter", "value in the file", "unit"), rows), *values.below()]
+    return [*make_tables(make_row("parameter", "letter", "value in the file", "unit"), rows), *values.below()]

@@ -1,4 +1,4 @@
-"""Writes the third part of the document: masses, force elements, generalized forces, the equation of motion."""
+"""Writes the equations of motion for a document: masses, force elements, generalized forces."""
 
 from __future__ import annotations
 
@@ -7,13 +7,21 @@ import sympy as sp
 from gudgeon.generator.equations.loads import Friction
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.forces.force_type import element_types
-from gudgeon.generator.targets.latex.document import Block, Equation, Section, Sketch, cells, paragraph, table
-from gudgeon.generator.targets.latex.kinematics import equation
-from gudgeon.generator.targets.latex.letters import Name, letter
-from gudgeon.generator.targets.latex.mechanism import field_rows, place
-from gudgeon.generator.targets.latex.notation import Notation, temporaries
-from gudgeon.generator.targets.latex.pictures import assembled
-from gudgeon.generator.targets.latex.theory import PHI_Q, indexed, sketch_of
+from gudgeon.generator.targets.latex.document import (
+    Block,
+    Equation,
+    Section,
+    Sketch,
+    make_paragraph,
+    make_row,
+    make_tables,
+)
+from gudgeon.generator.targets.latex.kinematics import make_equation
+from gudgeon.generator.targets.latex.letters import Name, make_letter
+from gudgeon.generator.targets.latex.mechanism import format_point, list_field_rows
+from gudgeon.generator.targets.latex.notation import Notation, list_temporaries
+from gudgeon.generator.targets.latex.pictures import draw_assembled_matrix
+from gudgeon.generator.targets.latex.theory import PHI_Q, name_component, read_sketch
 from gudgeon.generator.targets.latex.values import Values
 
 KKT = Equation(
@@ -33,7 +41,7 @@ FREE = Equation(Name(r"M \ddot{q}", "M·q̈"), (Name("g", "g"),))
 PHI_DOT = Name(r"\dot{\Phi} = \Phi_{q} \dot{q} - \nu", "Φ̇ = Φ_q·q̇ - ν")
 
 
-def motion_sections(model: Model, notation: Notation) -> list[Section]:
+def make_motion_sections(model: Model, notation: Notation) -> list[Section]:
     """Return the sections on masses, force elements, generalized forces, the equation of motion and events.
 
     Force elements and events have sections only if the scene has any.
@@ -50,13 +58,16 @@ def motion_sections(model: Model, notation: Notation) -> list[Section]:
 
 def _describe_masses(model: Model, notation: Notation) -> list[Block]:
     """Return the table of the diagonal of the mass matrix, and a note on bodies without mass or inertia."""
-    rows = [cells(body.name, *map(notation.math, model.masses[body.index : body.index + 3])) for body in model.bodies]
+    rows = [
+        make_row(body.name, *map(notation.format_expression, model.masses[body.index : body.index + 3]))
+        for body in model.bodies
+    ]
     tokens = [[f"body-{body.name}"] for body in model.bodies]
     introduction = "M is diagonal, because the coordinates are those of the centres of mass; its entries, body by body:"
-    massless = [body.name for body in model.scene.mechanism.bodies.values() if body.lacks]
+    massless = [body.name for body in model.scene.mechanism.bodies.values() if body.missing_keys]
     note = f"The file gives no mass or no inertia of {', '.join(massless)}: M only measures how far Newton's steps go."
-    mass_table = table(cells("body", "x", "y", "angle"), rows, of=tokens)
-    return [paragraph(introduction), *mass_table, *([paragraph(note)] if massless else [])]
+    mass_table = make_tables(make_row("body", "x", "y", "angle"), rows, tokens=tokens)
+    return [make_paragraph(introduction), *mass_table, *([make_paragraph(note)] if massless else [])]
 
 
 def _describe_elements(model: Model, notation: Notation) -> list[Block]:
@@ -64,55 +75,55 @@ def _describe_elements(model: Model, notation: Notation) -> list[Block]:
 
     Their contribution to g is in the next section.
     """
-    values, temporary_symbols = Values(model, notation), temporaries(model)
+    values, temporary_symbols = Values(model, notation), list_temporaries(model)
     frictions = {friction.name: friction for friction in model.frictions}
-    fields = [row for applied in model.elements.values() for row in field_rows(applied.element, values)]
-    blocks: list[Block] = [*table(cells("element", "field", "value"), fields), *values.below()]
+    fields = [row for applied in model.elements.values() for row in list_field_rows(applied.element, values)]
+    blocks: list[Block] = [*make_tables(make_row("element", "field", "value"), fields), *values.below()]
     for name, applied in model.elements.items():
         element_type = element_types()[applied.element.kind]
-        targets = " and ".join(place(target, element_type.targets) for target in applied.element.targets)
-        blocks.append(paragraph(f"{name}: {element_type.title} ({targets})."))
+        targets = " and ".join(format_point(target, element_type.targets) for target in applied.element.targets)
+        blocks.append(make_paragraph(f"{name}: {element_type.title} ({targets})."))
         blocks += [
-            equation(symbol, notation.expand(model.symbols.definitions[symbol]), notation)
+            make_equation(symbol, notation.expand(model.symbols.definitions[symbol]), notation)
             for symbol in temporary_symbols
             if model.symbols.info[symbol].meaning.endswith(f" of {name}")
         ]
         if name in frictions:
             blocks += _describe_friction(model, frictions[name], notation)
         if applied.loads.potential != 0:
-            blocks.append(equation(letter("V", name), notation.expand(applied.loads.potential), notation))
+            blocks.append(make_equation(make_letter("V", name), notation.expand(applied.loads.potential), notation))
     for kind in dict.fromkeys(applied.element.kind for applied in model.elements.values()):
-        summary, *lines = sketch_of(element_types()[kind])
-        blocks += [paragraph(summary), Sketch(tuple(lines))]
+        summary, *lines = read_sketch(element_types()[kind])
+        blocks += [make_paragraph(summary), Sketch(tuple(lines))]
     return blocks
 
 
 def _describe_friction(model: Model, friction: Friction, notation: Notation) -> list[Block]:
     """Return slip velocity, constraint equation at stick and force at slip of a friction element."""
     name, slip, v = friction.name, friction.slip, sp.Symbol("v", real=True)
-    slip_notation = notation.called({v: letter("v", name)})
+    slip_notation = notation.rename_symbols({v: make_letter("v", name)})
     coordinate_number = {q: k for k, q in enumerate(model.q, 1)}
     jacobian_row = [
-        equation(letter("J", name, str(coordinate_number[q])), notation.expand(entry), notation)
+        make_equation(make_letter("J", name, str(coordinate_number[q])), notation.expand(entry), notation)
         for q, entry in friction.jacobian.items()
     ]
     force = [
-        equation(
+        make_equation(
             Name(rf"\Delta g_{{{coordinate_number[q]}}}", f"Δg_{coordinate_number[q]}"),
             notation.expand(-entry * slip.kinetic_at(v) * sp.sign(v)),
             slip_notation,
         )
         for q, entry in friction.jacobian.items()
     ]
-    limit = notation.math(notation.expand(slip.static))
+    limit = notation.format_expression(notation.expand(slip.static))
     return [
-        equation(slip_notation.names[v], notation.expand(slip.v), notation),
-        paragraph(
+        make_equation(slip_notation.names[v], notation.expand(slip.v), notation),
+        make_paragraph(
             "In stick ", slip_notation.names[v], " = 0 holds as a row of the equation of motion, with the entries"
         ),
         *jacobian_row,
-        equation(letter("gamma", name), notation.expand(friction.gamma), notation),
-        paragraph("as long as the size of its multiplier is at most ", limit, "; in slip the force adds to g"),
+        make_equation(make_letter("gamma", name), notation.expand(friction.gamma), notation),
+        make_paragraph("as long as the size of its multiplier is at most ", limit, "; in slip the force adds to g"),
         *force,
     ]
 
@@ -122,21 +133,23 @@ def _describe_generalized_forces(model: Model, notation: Notation) -> list[Block
     gx, gy = model.gravity
     forces = [f for body in model.bodies for f in (body.mass * gx, body.mass * gy, sp.Integer(0))]
     for element in model.elements.values():
-        element.add_to(forces)
+        element.add_generalized_forces(forces)
     g = Name("g", "g")
     blocks: list[Block] = [
-        equation(indexed(g, k), notation.expand(force), notation) for k, force in enumerate(forces, 1) if force != 0
+        make_equation(name_component(g, k), notation.expand(force), notation)
+        for k, force in enumerate(forces, 1)
+        if force != 0
     ]
     introduction: list[Block] = []
     if model.scene.mechanism.gravity is not None:
         gravity = Values(model, notation).vector(model.scene.mechanism.gravity)
-        introduction += table(cells("gravity"), [cells(gravity)])
+        introduction += make_tables(make_row("gravity"), [make_row(gravity)])
     if blocks:
-        introduction.append(paragraph("Gravity and force elements, by the numbers of the coordinates:"))
+        introduction.append(make_paragraph("Gravity and force elements, by the numbers of the coordinates:"))
     note = "All other components are zero." if blocks else "No gravity and no force element acts: g is zero."
-    blocks = [*introduction, *blocks, paragraph(note)]
+    blocks = [*introduction, *blocks, make_paragraph(note)]
     if model.clearances:
-        blocks.append(paragraph("The joints with play add their forces to g; see there."))
+        blocks.append(make_paragraph("The joints with play add their forces to g; see there."))
     return blocks
 
 
@@ -146,8 +159,8 @@ def _describe_events(model: Model, notation: Notation) -> list[Block]:
     actions = {"record": "the time is recorded", "stop": "the run ends"}
     blocks: list[Block] = []
     for event in model.events:
-        blocks.append(paragraph(f"{event.name}: where it {directions[event.direction]} {actions[event.action]}:"))
-        blocks.append(equation(letter("z", event.name), notation.expand(event.expression), notation))
+        blocks.append(make_paragraph(f"{event.name}: where it {directions[event.direction]} {actions[event.action]}:"))
+        blocks.append(make_equation(make_letter("z", event.name), notation.expand(event.expression), notation))
     return blocks
 
 
@@ -163,11 +176,11 @@ def _describe_equation_of_motion(model: Model, notation: Notation) -> list[Block
     gains = [
         part
         for symbol in (alpha, beta)
-        for part in (notation.math(symbol), f" = {_format_default(model, symbol)} 1/s, ")
+        for part in (notation.format_expression(symbol), f" = {_format_default(model, symbol)} 1/s, ")
     ]
     blocks: list[Block] = [
         KKT,
-        paragraph(
+        make_paragraph(
             "with ",
             PHI_DOT,
             ", ",
@@ -181,12 +194,12 @@ def _describe_equation_of_motion(model: Model, notation: Notation) -> list[Block
             PHI_Q,
             f" {m} × {n}; these are {n + m} equations for {n} accelerations and {m} multipliers.",
         ),
-        *assembled(model),
+        *draw_assembled_matrix(model),
         *_describe_degrees_of_freedom(model),
     ]
     if n == m and not model.clearances:
         blocks.append(
-            paragraph(
+            make_paragraph(
                 "The drives alone determine the motion: ",
                 Name(r"\Phi = 0", "Φ = 0"),
                 " gives the positions, ",
@@ -207,15 +220,15 @@ def _describe_degrees_of_freedom(model: Model) -> list[Block]:
     if dropped:
         redundancy_note = f": {', '.join(dropped)} say{'s' * (len(dropped) == 1)} nothing new, and the rank is {m}."
         return [
-            paragraph(
+            make_paragraph(
                 introduction, by_count, formula_note, ". By the rank of ", PHI_Q, " they are ", by_rank, redundancy_note
             )
         ]
     rank_note = f" The rank of the rows is {m} as well: each says something new." if m else ""
-    return [paragraph(introduction, by_count, f"{formula_note}.{rank_note}")]
+    return [make_paragraph(introduction, by_count, f"{formula_note}.{rank_note}")]
 
 
 def _format_default(model: Model, symbol: sp.Symbol) -> str:
     """Return the default of a parameter as text; `symbol` must be a run-time parameter."""
-    (entry,) = (e for e in model.slots.entries.values() if e.symbol == symbol)
+    (entry,) = (e for e in model.parameter_table.entries.values() if e.symbol == symbol)
     return f"{entry.default:g}"

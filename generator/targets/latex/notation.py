@@ -1,4 +1,4 @@
-"""Names the symbols of one model, and selects those that are written out."""
+"""Names the symbols of one scene in a document of equations, and selects those that are written out."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from functools import cached_property
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.ir.finite_slopes import for_readers
-from gudgeon.generator.symbols.symbols import Symbols, plain_name
-from gudgeon.generator.targets.latex.letters import Name, letter, primed, word
+from gudgeon.generator.ir.finite_slopes import remove_numerical_forms
+from gudgeon.generator.symbols.symbols import Symbols, strip_identifier
+from gudgeon.generator.targets.latex.letters import Name, add_primes, make_letter, make_word
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
-from gudgeon.generator.targets.latex.theory import theory
+from gudgeon.generator.targets.latex.theory import collect_theory_letters
 
 LONG_DRIVE = 8  # operations beyond which a drive's value keeps a letter of its own
 LONG_CONSTANT = 4  # the same for what is computed once a run
@@ -72,7 +72,7 @@ class Notation:
     order: Mapping[sp.Symbol, int]  # coordinates and velocities by body: the order of a sum's terms
     primed_symbols: tuple[PrimedSymbol, ...] = ()  # in the order of the file
 
-    def called(self, names: Mapping[sp.Symbol, Name]) -> Notation:
+    def rename_symbols(self, names: Mapping[sp.Symbol, Name]) -> Notation:
         """Return a copy of the notation with other names for some symbols, as in the section of a joint."""
         return replace(self, names={**self.names, **names})
 
@@ -85,20 +85,22 @@ class Notation:
             expression = expression.xreplace(replacements)
         return expression
 
-    def math(self, expression: sp.Expr) -> Name:
+    def format_expression(self, expression: sp.Expr) -> Name:
         """Return an expression as a formula."""
-        expression = for_readers(sp.sympify(expression))
+        expression = remove_numerical_forms(sp.sympify(expression))
         return Name(self._latex.doprint(expression), self._text.doprint(expression))
 
-    def terms(self, expression: sp.Expr, of: Callable[[sp.Expr], Sequence[str]] = lambda _: ()) -> tuple[Name, ...]:
+    def terms(
+        self, expression: sp.Expr, list_tokens: Callable[[sp.Expr], Sequence[str]] = lambda _: ()
+    ) -> tuple[Name, ...]:
         """Return the terms of a sum with their signs as formulas; a line may break between them.
 
-        of: function that returns the highlighting tokens of a term.
+        list_tokens: function that returns the highlighting tokens of a term.
         """
-        expression = for_readers(sp.sympify(expression))
+        expression = remove_numerical_forms(sp.sympify(expression))
         signs = self._text.split_signed_terms(expression)
         return tuple(
-            Name(sign + self._latex.long(term), sign.replace("{}", "") + self._text.doprint(term), of(term))
+            Name(sign + self._latex.long(term), sign.replace("{}", "") + self._text.doprint(term), list_tokens(term))
             for sign, term in signs
         )
 
@@ -119,7 +121,7 @@ def make_notation(model: Model) -> Notation:
     The order of the terms of sums follows the order of the bodies.
     """
     order = {s: body.index for body in model.bodies for s in (*body.q, *body.v)}
-    for symbol in turned(model):  # behind the coordinates of their body
+    for symbol in list_rotated_components(model):  # behind the coordinates of their body
         order[symbol] = 1 + min(order[q] for q in model.symbols.rules[symbol])
     names, primed_symbols = _assign_unique_names(model)
     return Notation(model.symbols, names, frozenset(_list_symbols_with_letter(model)), order, primed_symbols)
@@ -131,20 +133,22 @@ def _assign_unique_names(model: Model) -> tuple[dict[sp.Symbol, Name], tuple[Pri
     A name that is used before, or by the theory, gets primes.
     """
     names: dict[sp.Symbol, Name] = {}
-    used, primed_symbols = theory(model), list[PrimedSymbol]()
-    for symbol, expected in _propose_names(model):
+    used_letters, primed_symbols = collect_theory_letters(model), list[PrimedSymbol]()
+    for symbol, proposed_name in _propose_names(model):
         if isinstance(symbol, sp.Symbol) and symbol not in names:
-            names[symbol], meaning = primed(expected, used), _describe_symbol(model, symbol)
-            if names[symbol] != expected:
-                primed_symbols.append(PrimedSymbol(names[symbol], meaning, expected, used[expected.text]))
-            used[names[symbol].text] = meaning
+            names[symbol], meaning = add_primes(proposed_name, used_letters), _describe_symbol(model, symbol)
+            if names[symbol] != proposed_name:
+                primed_symbols.append(
+                    PrimedSymbol(names[symbol], meaning, proposed_name, used_letters[proposed_name.text])
+                )
+            used_letters[names[symbol].text] = meaning
     return names, tuple(primed_symbols)
 
 
 def _describe_symbol(model: Model, symbol: sp.Symbol) -> str:
     """Return what a symbol is: its meaning, such as its address in the file, or its plain name."""
     info = model.symbols.info.get(symbol)
-    return (info.meaning if info else "") or plain_name(symbol)
+    return (info.meaning if info else "") or strip_identifier(symbol)
 
 
 def _propose_names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
@@ -152,33 +156,33 @@ def _propose_names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
 
     Names may repeat. The order is: time, coordinates, drives, parameters of the file, derived ones, temporaries.
     """
-    yield model.t, letter("t")
+    yield model.t, make_letter("t")
     for body in model.bodies:
         for quantity, symbol in zip(("x", "y", "theta", "vx", "vy", "omega"), (*body.q, *body.v), strict=True):
             base, dots = _RATES.get(quantity, (quantity, 0))
-            yield symbol, letter(base, body.name, dots=dots)
+            yield symbol, make_letter(base, body.name, dots=dots)
     for drive, symbols in model.constraints.drive_angles.items():
         for dots, symbol in enumerate(symbols):
-            yield symbol, letter("f", drive, dots=dots)
-    entries = [*model.slots.entries.values()]
+            yield symbol, make_letter("f", drive, dots=dots)
+    entries = [*model.parameter_table.entries.values()]
     for entry in sorted(entries, key=lambda e: e.address.startswith("parameters.")):
-        yield entry.symbol, of_address(entry.address)
-    for symbol in model.slots.derived:
+        yield entry.symbol, name_parameter(entry.address)
+    for symbol in model.parameter_table.derived:
         yield symbol, _name_derived_parameter(model, symbol)
-    for symbol in temporaries(model):
+    for symbol in list_temporaries(model):
         yield symbol, _name_temporary(model.symbols.info[symbol].meaning)
     for symbol in list_drive_distances(model):
-        yield symbol, _name_drive_distance(plain_name(symbol))
-    for symbol in turned(model):
-        turned_vector = model.geometry.turned.get(symbol)
+        yield symbol, _name_drive_distance(strip_identifier(symbol))
+    for symbol in list_rotated_components(model):
+        turned_vector = model.geometry.turned_components.get(symbol)
         if turned_vector is None:
-            yield symbol, letter(plain_name(symbol))
+            yield symbol, make_letter(strip_identifier(symbol))
         elif turned_vector.point:
-            yield symbol, letter("s", turned_vector.axis, turned_vector.body, turned_vector.point)
+            yield symbol, make_letter("s", turned_vector.axis, turned_vector.body, turned_vector.point)
         else:  # numbered from a body's second one on
             yield (
                 symbol,
-                letter(
+                make_letter(
                     "u",
                     turned_vector.axis,
                     turned_vector.body,
@@ -187,65 +191,69 @@ def _propose_names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
             )
 
 
-def of_address(address: str) -> Name:
+def name_parameter(address: str) -> Name:
     """Return the letter of a parameter by its address: "bodies.L1.length" is l with the subscript L1.
 
     An address of an unknown form becomes a word.
     """
     match address.split("."):
         case ["parameters", name]:
-            return word(name)
+            return make_word(name)
         case ["baumgarte", gain]:
-            return letter(gain)
+            return make_letter(gain)
         case ["gravity", axis]:
-            return letter("g", axis)
+            return make_letter("g", axis)
         case ["ground", point, axis]:
-            return letter(axis, point)
+            return make_letter(axis, point)
         case ["bodies", body, "com", axis]:
-            return letter({"x": "xi", "y": "eta"}[axis], body, "com")
+            return make_letter({"x": "xi", "y": "eta"}[axis], body, "com")
         case ["bodies", body, "points", point, axis]:
-            return letter({"x": "xi", "y": "eta"}[axis], body, point)
+            return make_letter({"x": "xi", "y": "eta"}[axis], body, point)
         case ["bodies", body, "sides", sides]:
-            return letter("l", body, sides)
+            return make_letter("l", body, sides)
         case ["bodies", body, "sides", point, axis]:
-            return letter({"x": "xi", "y": "eta"}[axis], body, point)
+            return make_letter({"x": "xi", "y": "eta"}[axis], body, point)
         case ["materials", material, constant]:
-            return letter(letter_of_field(constant), material)
+            return make_letter(get_field_letter(constant), material)
         case ["bearings", bearing, "length"]:
-            return letter("L", bearing)
+            return make_letter("L", bearing)
         case ["bearings", bearing, "bearing_material" | "journal_material" as role, constant]:
-            return letter(constant, "j" if role == "journal_material" else "i", bearing)
+            return make_letter(constant, "j" if role == "journal_material" else "i", bearing)
         case ["guides", guide, "guide_material" | "slider_material" as role, constant]:
-            return letter(constant, "j" if role == "slider_material" else "i", guide)
+            return make_letter(constant, "j" if role == "slider_material" else "i", guide)
         case ["bodies", body, "shape", "rectangle", axis]:
-            return letter({"x": "a", "y": "b"}[axis], body)
+            return make_letter({"x": "a", "y": "b"}[axis], body)
         case ["bodies", body, "shape", *_, field]:
-            return letter(letter_of_field(field), body)
+            return make_letter(get_field_letter(field), body)
         case ["contacts", contact, *rest]:
-            return letter(rest[-1], contact)
+            return make_letter(rest[-1], contact)
         case ["start", _, body, coordinate]:
             base, dots = _RATES.get(coordinate, (coordinate, 0))
-            return letter(base, body, dots=dots, raised="0")
+            return make_letter(base, body, dots=dots, raised="0")
         case [_, owner, field]:
-            return letter(_FREE[field], owner, raised="0") if field in _FREE else letter(letter_of_field(field), owner)
+            return (
+                make_letter(_FREE[field], owner, raised="0")
+                if field in _FREE
+                else make_letter(get_field_letter(field), owner)
+            )
         case [_, owner, field, axis]:
             axis = {"x": "1", "y": "2"}[axis] if field == "radii" else axis
-            return letter(letter_of_field(field), axis, owner)
-    return letter(address.replace(".", "_"))
+            return make_letter(get_field_letter(field), axis, owner)
+    return make_letter(address.replace(".", "_"))
 
 
-def letter_of_field(field: str) -> str:
+def get_field_letter(field: str) -> str:
     """Return the letter of a field by its name, "m" for "mass"; a field without one keeps its name."""
     return _ONE_LETTER.get(field, field)
 
 
 def _name_derived_parameter(model: Model, symbol: sp.Symbol) -> Name:
     """Return the name of a derived parameter, by the joint or element to which it belongs, else by its own name."""
-    owner_info = model.slots.of_owner.get(symbol)
+    owner_info = model.parameter_table.roles.get(symbol)
     if owner_info is None:
-        return letter(plain_name(symbol))
-    return letter(
-        letter_of_field(owner_info.what),
+        return make_letter(strip_identifier(symbol))
+    return make_letter(
+        get_field_letter(owner_info.what),
         *([owner_info.axis] if owner_info.axis else []),
         owner_info.owner,
         hat=bool(owner_info.axis),
@@ -259,7 +267,7 @@ def _name_temporary(meaning: str) -> Name:
     if axis not in ("x", "y"):
         base, axis = quantity, ""
     base_letter, dots = _TEMPORARY.get(base, (base, 0))
-    return letter(base_letter, *([axis] if axis else []), owner, dots=dots)
+    return make_letter(base_letter, *([axis] if axis else []), owner, dots=dots)
 
 
 def _name_drive_distance(name: str) -> Name:
@@ -267,8 +275,8 @@ def _name_drive_distance(name: str) -> Name:
     for marker, base, hat in (("_span_", "Delta", False), ("_along_", "e", True)):
         owner, is_found, axis = name.rpartition(marker)
         if is_found:
-            return letter(base, axis, owner, hat=hat)
-    return letter("l", name.removesuffix("_length"))
+            return make_letter(base, axis, owner, hat=hat)
+    return make_letter("l", name.removesuffix("_length"))
 
 
 def list_drive_distances(model: Model) -> list[sp.Symbol]:
@@ -277,14 +285,14 @@ def list_drive_distances(model: Model) -> list[sp.Symbol]:
     return [s for s in model.symbols.definitions if model.symbols.info[s].meaning in meanings]
 
 
-def temporaries(model: Model) -> list[sp.Symbol]:
+def list_temporaries(model: Model) -> list[sp.Symbol]:
     """Return the symbols of intermediate quantities of force elements: neither angles, arms nor drives."""
     excluded = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
     excluded.update(list_drive_distances(model), model.symbols.rules)
     return [s for s in model.symbols.definitions if not model.symbols.info[s].home and s not in excluded]
 
 
-def turned(model: Model) -> list[sp.Symbol]:
+def list_rotated_components(model: Model) -> list[sp.Symbol]:
     """Return the symbols of components of arms and directions that rotate with a body."""
     excluded = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
     excluded.update(list_drive_distances(model))
@@ -302,14 +310,14 @@ def _list_symbols_with_letter(model: Model) -> Iterator[sp.Symbol]:
     temporaries.
     """
     definitions = model.symbols.definitions
-    yield from (symbol for symbol in turned(model) if definitions[symbol].is_Add)
+    yield from (symbol for symbol in list_rotated_components(model) if definitions[symbol].is_Add)
     yield from list_drive_distances(model)
     for symbols in model.constraints.drive_angles.values():
         if sp.count_ops(definitions[symbols[0]]) > LONG_DRIVE:
             yield from symbols
     for clearance in model.clearances:
         yield from (value for value in clearance.constants.values() if value in definitions)
-    for symbol, value in model.slots.derived.items():
-        if sp.count_ops(value) > LONG_CONSTANT and symbol not in model.slots.unwritten:
+    for symbol, value in model.parameter_table.derived.items():
+        if sp.count_ops(value) > LONG_CONSTANT and symbol not in model.parameter_table.internal_parameters:
             yield symbol
-    yield from temporaries(model)
+    yield from list_temporaries(model)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from gudgeon.contract.reduction_log import ReductionLog
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.targets.latex.document import Block, Picture, entry_token, row_token
+from gudgeon.generator.targets.latex.document import Block, Picture, make_entry_token, make_row_token
 
 SMALL, TINY, LARGE = 10, 6, 20  # side of an entry in a picture of a matrix, of an assembled one; at most
 ROOM = 420  # pixels up to which a small matrix grows
@@ -27,65 +27,75 @@ class Dot:
     message: str = ""
 
 
-def svg(width: float, height: float, label: str, parts: Sequence[str]) -> str:
+def print_svg(width: float, height: float, label: str, parts: Sequence[str]) -> str:
     """Return an SVG picture that scales with its column; `parts` are its elements, colours are those of the page."""
     size = f'width="{width:g}" height="{height:g}" viewBox="0 0 {width:g} {height:g}"'
     return f'<svg {size} role="img" aria-label="{html.escape(label)}">{"".join(parts)}</svg>'
 
 
-def pattern(model: Model) -> list[Block]:
+def draw_jacobian_pattern(model: Model) -> list[Block]:
     """Return the picture of the nonzero entries of Φ_q, in SVG and in characters; [] if it would be too large."""
-    dots = _entries(model)
-    if not _fits(len(model.rows), len(model.q)):
+    dots = _list_nonzero_entries(model)
+    if not _is_small_enough(len(model.rows), len(model.q)):
         return []
-    cell = cell_side(len(model.q), SMALL)
+    cell = compute_cell_side(len(model.q), SMALL)
     parts = [
         *_print_body_names(model, 24, cell),
         *_print_row_numbers(model, 24, cell),
-        *_dots(dots, 30, 24, "entry", cell),
+        *_print_dots(dots, 30, 24, "entry", cell),
     ]
     size = 30 + cell * len(model.q) + 4, 24 + cell * len(model.rows) + 4
     caption = "Rows and columns of the Jacobian with its entries that are not zero"
-    return [Picture(caption, svg(*size, caption, parts), _print_character_grid(len(model.rows), len(model.q), dots))]
+    return [
+        Picture(caption, print_svg(*size, caption, parts), _print_character_grid(len(model.rows), len(model.q), dots))
+    ]
 
 
-def assembled(model: Model) -> list[Block]:
+def draw_assembled_matrix(model: Model) -> list[Block]:
     """Return the picture of [M Φ_qᵀ; Φ_q 0] with its blocks distinguished; [] if it would be too large."""
     n, m = len(model.q), len(model.rows)
-    if not _fits(n + m, n + m):
+    if not _is_small_enough(n + m, n + m):
         return []
-    entries = _entries(model)
+    entries = _list_nonzero_entries(model)
     masses = [Dot(k, k, f"body-{body.name}") for body in model.bodies for k in range(body.index, body.index + 3)]
     jacobian = [Dot(n + dot.row, dot.column, dot.of) for dot in entries]
     transposed = [Dot(dot.column, n + dot.row, dot.of) for dot in entries]
-    cell = cell_side(n + m, TINY)
+    cell = compute_cell_side(n + m, TINY)
     total = cell * (n + m)
     lines = [
         f'<path class="rule" d="M0 {cell * n}H{total}M{cell * n} 0V{total}"/>' if m else "",
         f'<rect class="frame" x=".5" y=".5" width="{total - 1}" height="{total - 1}"/>',
     ]
-    parts = [*_dots(masses, 0, 0, "mass", cell), *_dots([*transposed, *jacobian], 0, 0, "entry", cell), *lines]
+    parts = [
+        *_print_dots(masses, 0, 0, "mass", cell),
+        *_print_dots([*transposed, *jacobian], 0, 0, "entry", cell),
+        *lines,
+    ]
     caption = "The assembled matrix: M on its diagonal, the Jacobian below and its transpose on the right"
-    return [Picture(caption, svg(total, total, caption, parts))]
+    return [Picture(caption, print_svg(total, total, caption, parts))]
 
 
-def _fits(rows: int, columns: int) -> bool:
+def _is_small_enough(rows: int, columns: int) -> bool:
     """Return whether a matrix is small enough for a picture."""
     return rows <= MOST_ROWS and columns <= MOST_COLUMNS
 
 
-def cell_side(columns: int, least: int) -> int:
+def compute_cell_side(columns: int, least: int) -> int:
     """Return the side of an entry in pixels; fewer entries are larger."""
     return min(LARGE, max(least, ROOM // max(1, columns)))
 
 
-def _entries(model: Model) -> list[Dot]:
+def _list_nonzero_entries(model: Model) -> list[Dot]:
     """Return the nonzero entries of Φ_q."""
-    place = {q: k for k, q in enumerate(model.q)}
-    return [Dot(r, place[q], entry_token(r + 1, place[q] + 1)) for r, row in enumerate(model.rows) for q in row.phi_q]
+    column_of = {q: k for k, q in enumerate(model.q)}
+    return [
+        Dot(r, column_of[q], make_entry_token(r + 1, column_of[q] + 1))
+        for r, row in enumerate(model.rows)
+        for q in row.phi_q
+    ]
 
 
-def _dots(dots: Sequence[Dot], x: int, y: int, kind: str, cell: int) -> list[str]:
+def _print_dots(dots: Sequence[Dot], x: int, y: int, kind: str, cell: int) -> list[str]:
     """Return a group of squares, whose size the page reads from it."""
     squares = (
         f'<rect x="{x + cell * dot.column}" y="{y + cell * dot.row}" data-of="{html.escape(dot.of)}"/>' for dot in dots
@@ -111,7 +121,8 @@ def _print_body_names(model: Model, top: int, cell: int) -> list[str]:
 def _print_row_numbers(model: Model, top: int, cell: int) -> list[str]:
     """Return the SVG of the numbers of the rows on the left of a matrix."""
     return [
-        f'<text class="end" x="25" y="{top + cell * r + cell // 2 + 3}" data-of="{row_token(r + 1)}">{r + 1}</text>'
+        f'<text class="end" x="25" y="{top + cell * r + cell // 2 + 3}" '
+        f'data-of="{make_row_token(r + 1)}">{r + 1}</text>'
         for r in range(len(model.rows))
     ]
 
@@ -126,7 +137,7 @@ def _print_character_grid(rows: int, columns: int, dots: Sequence[Dot]) -> tuple
     return tuple(f"{r:>3}  {''.join(line)}" for r, line in enumerate(grid, 1))
 
 
-def tree(story: ReductionLog, joints: Collection[str]) -> list[Block]:
+def draw_tree(story: ReductionLog, joints: Collection[str]) -> list[Block]:
     """Return the picture of the tree of bodies with its joints; [] if there is no tree, or if it is too large.
 
     joints: the names of the file's joints, which are highlighted.
@@ -197,4 +208,4 @@ def _print_tree_svg(
             f'<text class="middle" x="{x}" y="{y + 4:g}">{html.escape(body)}</text></g>'
         )
     width, height = max(x for x, _ in centres.values()) + 40, max(y for _, y in centres.values()) + 20
-    return svg(width, height, caption, parts)
+    return print_svg(width, height, caption, parts)

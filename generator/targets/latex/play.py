@@ -1,4 +1,4 @@
-"""Writes the fourth part of the document: each joint with play, its geometry, its force laws and their numbers."""
+"""Writes the joints with play for a document of equations: geometry, force laws and their parameter values."""
 
 from __future__ import annotations
 
@@ -19,35 +19,38 @@ from gudgeon.generator.targets.latex.document import (
     Block,
     Section,
     Text,
-    cells,
-    joint_tokens,
-    paragraph,
-    sentence,
-    table,
+    list_joint_tokens,
+    make_paragraph,
+    make_row,
+    make_sentence,
+    make_tables,
 )
-from gudgeon.generator.targets.latex.kinematics import equation
-from gudgeon.generator.targets.latex.letters import Name, letter, of_latex
+from gudgeon.generator.targets.latex.kinematics import make_equation
+from gudgeon.generator.targets.latex.letters import Name, make_letter, make_name
 from gudgeon.generator.targets.latex.notation import Notation
-from gudgeon.generator.targets.latex.plots import law_plot
+from gudgeon.generator.targets.latex.plots import plot_law
 from gudgeon.generator.targets.latex.trace import Functions, Trace
-from gudgeon.generator.targets.latex.values import LONGEST, Values, as_written
-from gudgeon.language.plot_units import pretty
-from gudgeon.language.plot_units import quantity as in_unit
-from gudgeon.language.units import si_unit
+from gudgeon.generator.targets.latex.values import LONGEST, Values, format_as_written
+from gudgeon.language.plot_units import format_quantity as in_unit
+from gudgeon.language.plot_units import format_unit
+from gudgeon.language.units import find_si_unit
 
 
 def describe_contour(joint: JointWithPlay) -> Iterator[Block]:
-    """Yield the equation of the bearing's angle and the paragraph on its contour W."""
+    """Yield the equation of the bearing's angle and the paragraph on its contour.
+
+    The joint must have a contour. The paragraph states the number of depths w and the direction of the force.
+    """
     clearance = joint.clearance
     assert clearance.contour
-    yield equation(contact.theta_i, joint.notation.expand(clearance.first.theta), joint.notation, joint.of)
-    yield paragraph(
+    yield make_equation(contact.theta_i, joint.notation.expand(clearance.first.theta), joint.notation, joint.of)
+    yield make_paragraph(
         f"The bearing is no circle: w is how much deeper it is, {clearance.contour.count} depths at equal angles from "
         f"the x axis of {clearance.joint.first.body} on, between them polynomials of degree five with two continuous "
         "derivatives. F acts along the gradient of ",
         Name(r"\delta", "δ"),
         ", whose length is ",
-        joint.notation.math(contact.steep),
+        joint.notation.format_expression(contact.steep),
         ": an elastic force keeps the energy.",
     )
 
@@ -56,7 +59,7 @@ def describe_corner(name: str, guide: str, slider: str) -> Block:
     """Return the paragraph on a corner of a slider and its letters; `guide` and `slider` are points "body.point"."""
     corner_name = name.rpartition(".")[2]
     is_front, is_upper = "front" in corner_name, "upper" in corner_name
-    return paragraph(
+    return make_paragraph(
         f"The guide i goes through {guide}, the slider j is in its middle at {slider}. This corner is"
         f" {'in front, along' if is_front else 'at the rear, against'} the axis, at the wall to the"
         f" {'left' if is_upper else 'right'} of it, whose outward normal is n; (e_x, e_y) leads from the guide's point"
@@ -68,14 +71,15 @@ def describe_rigid_contact(joint: JointWithPlay, approach_speed: Name) -> Block:
     """Return the paragraph on impacts and closed contacts of rigid surfaces."""
     assert joint.clearance.normal is not None
     restitution, threshold = (
-        joint.notation.math(sp.sympify(joint.clearance.normal.numbers[n])) for n in ("restitution", "threshold")
+        joint.notation.format_expression(sp.sympify(joint.clearance.normal.parameters[n]))
+        for n in ("restitution", "threshold")
     )
     has_friction = joint.clearance.friction is not None
     friction_note = (
         "; friction then brings the slip behind it to rest, as far as its coefficient there times the impulse lets it"
         " and energy is not gained, and no parting changes by that"
     ) * has_friction
-    return paragraph(
+    return make_paragraph(
         "Its surfaces do not give. Where they meet at the rate ",
         approach_speed,
         ", a blow along n parts them with ",
@@ -88,10 +92,12 @@ def describe_rigid_contact(joint: JointWithPlay, approach_speed: Name) -> Block:
     )
 
 
-def onset(joint: JointWithPlay, approach_speed: Name) -> Block:
+def describe_onset(joint: JointWithPlay, approach_speed: Name) -> Block:
     """Return the paragraph on when a contact acts, and on the approach speed that is stored at its onset."""
-    min_approach_speed = joint.model.slots.entries[f"contacts.{joint.play.contact.name}.velocity_floor"].default
-    return paragraph(
+    min_approach_speed = joint.model.parameter_table.entries[
+        f"contacts.{joint.play.contact.name}.velocity_floor"
+    ].default
+    return make_paragraph(
         "It acts while ",
         Name(r"\delta > 0", "δ > 0"),
         ". ",
@@ -108,10 +114,10 @@ def describe_states(law: Law) -> Iterator[Block]:
     """Yield the paragraphs on inner states of laws."""
     for state in law.states:
         message = f" is the {state.meaning}, 0 at each onset, and integrated with the motion while in contact."
-        yield paragraph(letter(state.name), message)
+        yield make_paragraph(make_letter(state.name), message)
 
 
-def as_word(value: str | bool) -> str:
+def format_option(value: str | bool) -> str:
     """Return a value as a file writes it."""
     return str(value).lower() if isinstance(value, bool) else value
 
@@ -129,13 +135,13 @@ class JointWithPlay:
     of: its highlighting tokens. alike: labels of all joints with the same play.
     """
 
-    def __init__(self, model: Model, clearance: Clearance, notation: Notation, found: Functions) -> None:
-        self.model, self.clearance, self.found = model, clearance, found
+    def __init__(self, model: Model, clearance: Clearance, notation: Notation, functions: Functions) -> None:
+        self.model, self.clearance, self.functions = model, clearance, functions
         self.play = model.scene.play[clearance.joint.name]
-        self.of = joint_tokens(clearance)
+        self.of = list_joint_tokens(clearance)
         self.of_law = [f"law-{self.play.contact.name}", *self.of]
         self.alike = [c.label for c in model.clearances if _have_same_play(model.scene.play[c.joint.name], self.play)]
-        self.notation = notation.called(contact_names.joint_letters(model, clearance))
+        self.notation = notation.rename_symbols(contact_names.name_joint_symbols(model, clearance))
         self.numbers = list(self._list_numbers())
 
     def _list_numbers(self) -> Iterator[tuple[Quantity, str, str]]:
@@ -157,19 +163,21 @@ class JointWithPlay:
             name = self.model.scene.materials.get(f"{section_name}.{bearing.name}.{part}_material", material.name)
             yield material.numbers["E"], f"E{index}", f"modulus of elasticity of {name} ({part})"
             yield material.numbers["nu"], rf"\nu{index}", f"Poisson's ratio of {name} ({part})"
-        for equations, use in contact_names.laws_of(self.model, self.clearance):
-            for parameter, quantity in contact_names.given(equations, use):
-                yield quantity, contact_names.sign_of(parameter), parameter.meaning
+        for equations, use in contact_names.list_laws(self.model, self.clearance):
+            for parameter, quantity in contact_names.list_given_parameters(equations, use):
+                yield quantity, contact_names.get_latex_symbol(parameter), parameter.meaning
         if self.play.contact.transition is not None:
             yield self.play.contact.transition, "e_0", "width of the transition from film to dry contact"
 
     def list_law_steps(self, equations: LawEquations) -> list[Step]:
         """Return the equations of a law in this joint's letters, without results that are zero."""
-        renamed = {sp.Symbol(name, real=True): contact_names.result(equations, name) for name in equations.steps}
+        renamed = {
+            sp.Symbol(name, real=True): contact_names.get_result_symbol(equations, name) for name in equations.steps
+        }
         if self.clearance.contour and equations.law.role == "friction":
             renamed[sp.Symbol("F_n", real=True)] = contact.F_N
         return [
-            Step(contact_names.result(equations, name), sp.sympify(value).xreplace(renamed))
+            Step(contact_names.get_result_symbol(equations, name), sp.sympify(value).xreplace(renamed))
             for name, value in equations.steps.items()
             if value != 0
         ]
@@ -177,12 +185,12 @@ class JointWithPlay:
     def make_equations(self, steps: list[Step]) -> list[Block]:
         """Return steps as equations."""
         return [
-            equation(step.symbol, self.notation.expand(step.value), self.notation, self.of_law, self.of_law[0])
+            make_equation(step.symbol, self.notation.expand(step.value), self.notation, self.of_law, self.of_law[0])
             for step in steps
         ]
 
 
-def play_sections(model: Model, notation: Notation, functions: Functions) -> list[Section]:
+def make_play_sections(model: Model, notation: Notation, functions: Functions) -> list[Section]:
     """Return for each joint with play its geometry, its laws, and its forces on both bodies.
 
     A joint with the same play as an earlier one refers to that one instead of repeating the laws.
@@ -205,7 +213,7 @@ def play_sections(model: Model, notation: Notation, functions: Functions) -> lis
                 else (f"Bearing and contact are those of joint {described_joint}")
             )
             text = f"{reference}; so are letters, laws and numbers."
-            sections.append(Section(f"{kind} {clearance.name}: force", (paragraph(text),), 2))
+            sections.append(Section(f"{kind} {clearance.name}: force", (make_paragraph(text),), 2))
         sections.append(Section(f"{kind} {clearance.name}: share in g", tuple(_describe_generalized_force(joint)), 2))
     return sections
 
@@ -229,17 +237,17 @@ def _describe_geometry(joint: JointWithPlay, is_first: bool) -> list[Block]:
         (contact.omega_j, clearance.second.omega),
     ]
     point_names = f"{joint_ref.first.body}.{joint_ref.first.point}", f"{joint_ref.second.body}.{joint_ref.second.point}"
-    introduction: Block = paragraph(
+    introduction: Block = make_paragraph(
         f"Bearing i is {point_names[0]}, journal j is {point_names[1]}; "
         "the eccentricity goes from the bearing's centre to the journal's."
     )
     if clearance.wall:
         introduction = describe_corner(clearance.name, *point_names)
         steps += zip((contact.n_x, contact.n_y), clearance.wall.normal, strict=True)
-    blocks: list[Block] = [equation(symbol, expand(value), notation, joint.of) for symbol, value in steps]
+    blocks: list[Block] = [make_equation(symbol, expand(value), notation, joint.of) for symbol, value in steps]
     if clearance.contour:
         blocks += describe_contour(joint)
-    return [introduction, *blocks, *(joint.make_equations(contact.gap(clearance)) if is_first else [])]
+    return [introduction, *blocks, *(joint.make_equations(contact.make_gap_equations(clearance)) if is_first else [])]
 
 
 def _describe_contact(joint: JointWithPlay) -> list[Section]:
@@ -249,14 +257,14 @@ def _describe_contact(joint: JointWithPlay) -> list[Section]:
     """
     clearance, name = joint.clearance, joint.clearance.name
     kind = clearance.kind.capitalize()
-    sections = [Section(f"{kind} {name}: numbers", tuple(numbers(joint)), 2)]
+    sections = [Section(f"{kind} {name}: numbers", tuple(list_number_blocks(joint)), 2)]
     if clearance.normal is not None:
         sections.append(Section(f"{kind} {name}: dry contact", tuple(_describe_dry_contact(joint)), 2))
     if clearance.film is not None:
         blocks = [
-            *joint.make_equations(contact.before_film(clearance, clearance.film)),
+            *joint.make_equations(contact.make_film_input_equations(clearance, clearance.film)),
             *_describe_law(joint, "film"),
-            *joint.make_equations(contact.after_film(clearance.film)),
+            *joint.make_equations(contact.make_film_moment_equations(clearance.film)),
         ]
         sections.append(Section(f"{kind} {name}: film", tuple(blocks), 2))
     if clearance.mixed is not None:
@@ -269,35 +277,35 @@ def _describe_contact(joint: JointWithPlay) -> list[Section]:
     if clearance.normal is not None and clearance.film is not None:
         share_text = "is the share above" if clearance.mixed else "goes from 0 to 1 over the transition"
         introduction += f"; d marks the dry part, f the film, b {share_text}"
-    blocks = [paragraph(introduction + ":"), *joint.make_equations(contact.resultant(clearance))]
+    blocks = [make_paragraph(introduction + ":"), *joint.make_equations(contact.make_resultant_equations(clearance))]
     return [*sections, Section(f"{kind} {name}: force", tuple(blocks), 2)]
 
 
 def _describe_dry_contact(joint: JointWithPlay) -> list[Block]:
     """Return the blocks on dry contact: onset or impact, normal force, and friction or a note that there is none."""
-    clearance, approach_speed = joint.clearance, joint.notation.math(contact.stored)
-    impact = describe_rigid_contact(joint, approach_speed) if clearance.rigid else onset(joint, approach_speed)
+    clearance, approach_speed = joint.clearance, joint.notation.format_expression(contact.stored)
+    impact = describe_rigid_contact(joint, approach_speed) if clearance.rigid else describe_onset(joint, approach_speed)
     friction = (
         _describe_law(joint, "friction")
         if clearance.friction
         else [
-            paragraph("There is no friction:"),
-            equation(contact.of_part(contact.F_along_t, "dry"), sp.Integer(0), joint.notation),
+            make_paragraph("There is no friction:"),
+            make_equation(contact.make_part_symbol(contact.F_along_t, "dry"), sp.Integer(0), joint.notation),
         ]
     )
-    friction = [*joint.make_equations(contact.pressing(clearance)), *friction]
+    friction = [*joint.make_equations(contact.make_contour_normal_force(clearance)), *friction]
     return [
         impact,
-        *joint.make_equations(contact.before_dry(clearance)),
+        *joint.make_equations(contact.make_lever_arm_equations(clearance)),
         *_describe_law(joint, "normal"),
         *friction,
-        *joint.make_equations(contact.after_dry(clearance)),
+        *joint.make_equations(contact.make_dry_moment_equations(clearance)),
     ]
 
 
 def _describe_mixed_lubrication(joint: JointWithPlay) -> list[Block]:
     """Return the blocks on mixed lubrication: its condition and its law."""
-    condition = paragraph("While ", Name(r"\delta > 0", "δ > 0"), "; otherwise the share of the dry contact is 0.")
+    condition = make_paragraph("While ", Name(r"\delta > 0", "δ > 0"), "; otherwise the share of the dry contact is 0.")
     return [condition, *_describe_law(joint, "mixed")]
 
 
@@ -310,16 +318,18 @@ def _describe_law(joint: JointWithPlay, role: str) -> list[Block]:
     law = equations.law
     source = law.reference or law.source
     blocks: list[Block] = [
-        paragraph(f"{sentence(law.title)} Source: {source}. Valid: {law.validity}.", of=joint.of_law)
+        make_paragraph(f"{make_sentence(law.title)} Source: {source}. Valid: {law.validity}.", tokens=joint.of_law)
     ]
     blocks += [
-        paragraph(f"Option {option.name}: {as_word(value)} ({option.meaning}).{_format_source(option, value)}")
+        make_paragraph(
+            f"Option {option.name}: {format_option(value)} ({option.meaning}).{_format_source(option, value)}"
+        )
         for option in law.options
         if (value := equations.options.get(option.name)) is not None  # one may say nothing beside a number
         and not (joint.clearance.wall and option is GEOMETRY)  # R_i → ∞
     ]
     blocks += describe_states(law)
-    plot = law_plot(joint.found, joint.alike, role, law) if isinstance(joint.found, Trace) else []
+    plot = plot_law(joint.functions, joint.alike, role, law) if isinstance(joint.functions, Trace) else []
     return [*blocks, *joint.make_equations(joint.list_law_steps(equations)), *plot]
 
 
@@ -332,9 +342,9 @@ def _format_source(field: Field, value: str | bool) -> str:
 def _describe_generalized_force(joint: JointWithPlay) -> list[Block]:
     """Return force and moment of a joint on both bodies as contributions to g; the ground has none."""
     clearance, notation = joint.clearance, joint.notation
-    blocks: list[Block] = [paragraph(f"The {clearance.kind} adds to g, by the numbers of the coordinates:")]
+    blocks: list[Block] = [make_paragraph(f"The {clearance.kind} adds to g, by the numbers of the coordinates:")]
     # which letter holds the moment depends on the parts that the joint has
-    moments = contact.moments(clearance)
+    moments = contact.find_moment_symbols(clearance)
     for point, sign, moment in ((clearance.first, -1, moments[0]), (clearance.second, 1, moments[1])):
         if point.body is None:
             continue
@@ -346,35 +356,37 @@ def _describe_generalized_force(joint: JointWithPlay) -> list[Block]:
         )
         for k, component in enumerate(components, point.body.index + 1):
             left = Name(rf"\Delta g_{{{k}}}", f"Δg_{k}")
-            blocks.append(equation(left, sp.expand(notation.expand(component)), notation, joint.of))
+            blocks.append(make_equation(left, sp.expand(notation.expand(component)), notation, joint.of))
     return blocks
 
 
-def numbers(joint: JointWithPlay) -> list[Block]:
+def list_number_blocks(joint: JointWithPlay) -> list[Block]:
     """Return the table of the joint's numbers, then the equations of its derived constants."""
-    slots, values, rows = joint.model.slots, Values(joint.model, joint.notation), []
+    slots, values, rows = joint.model.parameter_table, Values(joint.model, joint.notation), []
     for quantity, letter_, meaning in joint.numbers:
         entry = slots.entries.get(quantity.address)
         value: Text = (_format_fixed_value(quantity),) if entry is None else values.format_in_si(entry)
-        if entry is not None and entry.follows:
-            value = (*values.followed(entry), joint.notation.math(sp.Float(entry.default, 17)))
-        name = of_latex(letter_) if entry is None else joint.notation.math(entry.symbol)
-        rows.append(cells(name, meaning, quantity.address, value, pretty(si_unit(quantity.dimension)) or "-"))
+        if entry is not None and entry.depends_on_parameters:
+            value = (*values.format_dependency(entry), joint.notation.format_expression(sp.Float(entry.default, 17)))
+        name = make_name(letter_) if entry is None else joint.notation.format_expression(entry.symbol)
+        rows.append(
+            make_row(name, meaning, quantity.address, value, format_unit(find_si_unit(quantity.dimension)) or "-")
+        )
     definitions = joint.model.symbols.definitions
     constants = dict.fromkeys([joint.clearance.pair.R_j, *joint.clearance.constants.values()])
     constant_equations = [
-        equation(s, joint.notation.expand(definitions[s]), joint.notation) for s in constants if s in definitions
+        make_equation(s, joint.notation.expand(definitions[s]), joint.notation) for s in constants if s in definitions
     ]
-    header = cells("letter", "meaning", "address", "value in the file", "unit")
+    header = make_row("letter", "meaning", "address", "value in the file", "unit")
     return [
-        *table(header, rows, (1,)),
+        *make_tables(header, rows, (1,)),
         *values.below(),
-        paragraph("From these follow once a run:"),
+        make_paragraph("From these follow once a run:"),
         *constant_equations,
     ]
 
 
 def _format_fixed_value(quantity: Quantity) -> str:
     """Return a value that is not a run-time parameter as text: 0, an expression, or "below" if it is too long."""
-    text = "0" if quantity.is_zero else as_written(quantity.value)
+    text = "0" if quantity.is_zero else format_as_written(quantity.value)
     return text if len(text) <= LONGEST else "below"

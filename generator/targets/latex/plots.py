@@ -11,16 +11,16 @@ from typing import Any
 import numpy as np
 
 from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.kernels.play import Pin
+from gudgeon.generator.kernels.play import JointFunctions
 from gudgeon.generator.kernels.shared import SharedFunctionCall
 from gudgeon.generator.kinds.laws.law import Law
-from gudgeon.generator.targets.c.play import function_name
+from gudgeon.generator.targets.c.play import get_function_name
 from gudgeon.generator.targets.latex.document import Block, Picture
-from gudgeon.generator.targets.latex.pictures import svg
+from gudgeon.generator.targets.latex.pictures import print_svg
 from gudgeon.generator.targets.latex.trace import Functions
-from gudgeon.generator.targets.numpy.module import with_curves
-from gudgeon.generator.targets.numpy.printer import function
-from gudgeon.language.plot_units import label, scale
+from gudgeon.generator.targets.numpy.module import print_called_curves
+from gudgeon.generator.targets.numpy.printer import print_function
+from gudgeon.language.plot_units import choose_prefix, format_label
 from gudgeon.language.units import VELOCITY
 
 POINTS = 61
@@ -34,7 +34,7 @@ class Curve:
     """Represent y over the plot's x, with a label."""
 
     y: Any
-    message: str
+    describe: str
 
 
 @dataclass(frozen=True)
@@ -49,14 +49,14 @@ class Plot:
     caption: str
 
 
-def law_plot(functions: Functions, joints: Sequence[str], role: str, law: Law) -> list[Block]:
+def plot_law(functions: Functions, joints: Sequence[str], role: str, law: Law) -> list[Block]:
     """Return the plot of a role's law in joints that share it.
 
     [] is returned for rigid contacts and laws with inner states. It is also returned if the law is missing or cannot
     be evaluated to finite values.
     """
-    pin_indices = {pin.clearance.label: k for k, pin in enumerate(functions.program.pins)}
-    pin = functions.program.pins[pin_indices[joints[0]]]
+    pin_indices = {pin.clearance.label: k for k, pin in enumerate(functions.program.joints)}
+    pin = functions.program.joints[pin_indices[joints[0]]]
     call = pin.laws.get(role)
     if call is None or law.states or law.rigid:
         return []
@@ -69,15 +69,15 @@ def law_plot(functions: Functions, joints: Sequence[str], role: str, law: Law) -
     if not all(np.isfinite(curve.y).all() for curve in plot.curves):
         return []
     part, local = plot.now
-    mark_values = {name: f"{function_name(part, name)}.{local}" for name in joints}
-    return [Picture(plot.caption, drawn(plot, mark_values))]
+    mark_values = {name: f"{get_function_name(part, name)}.{local}" for name in joints}
+    return [Picture(plot.caption, print_plot_svg(plot, mark_values))]
 
 
 def _evaluate_parameters(functions: Functions) -> Mapping[str, float]:
     """Return {field: value} of all parameters at their defaults; tables are left out."""
-    tables = functions.model.slots.tables
+    tables = functions.model.parameter_table.tables
     p = SimpleNamespace(**{name: [0.0] * len(table) for name, table in tables.items()})
-    count = len(functions.model.slots.entries)
+    count = len(functions.model.parameter_table.entries)
     _compile_kernel(functions, functions.program.prepare)([0.0] * count, [False] * count, p)
     return {name: float(value) for name, value in vars(p).items() if name not in tables}
 
@@ -85,8 +85,8 @@ def _evaluate_parameters(functions: Functions) -> Mapping[str, float]:
 def _compile_kernel(functions: Functions, kernel: Kernel) -> Any:
     """Return a kernel as a Python function, compiled from the NumPy target with the file's curves."""
     names: dict[str, Any] = {"np": np}
-    text = function(kernel)
-    exec(compile(with_curves(functions.model.scene.mechanism.curves, text) + text, "<law>", "exec"), names)
+    text = print_function(kernel)
+    exec(compile(print_called_curves(functions.model.scene.mechanism.curves, text) + text, "<law>", "exec"), names)
     return names[kernel.name]
 
 
@@ -94,36 +94,44 @@ def _evaluate_law(
     functions: Functions, call: SharedFunctionCall, parameters: Mapping[str, float], *arguments: Any
 ) -> Any:
     """Return the results of a law for `arguments` at default parameters."""
-    return _compile_kernel(functions, call.kernel)(*arguments, *(parameters[place.member] for place in call.numbers))
+    return _compile_kernel(functions, call.kernel)(*arguments, *(parameters[place.member] for place in call.parameters))
 
 
 def _get_value(functions: Functions, parameters: Mapping[str, float], value: Any) -> float:
     """Return the value of a symbol that is a parameter, or of a number."""
-    return parameters[functions.model.slots.field(value)] if value in functions.model.symbols.info else float(value)
+    return (
+        parameters[functions.model.parameter_table.find_field_name(value)]
+        if value in functions.model.symbols.info
+        else float(value)
+    )
 
 
 def _plot_normal_force(
-    functions: Functions, pin: Pin, call: SharedFunctionCall, parameters: Mapping[str, float]
+    functions: Functions, pin: JointFunctions, call: SharedFunctionCall, parameters: Mapping[str, float]
 ) -> Plot:
     """Return the plot of a normal force over the penetration, a curve for each of three ratios δ̇/δ̇⁻: 1, 0, −1."""
     delta = np.linspace(0.0, DEEPEST, POINTS) * _get_value(functions, parameters, pin.clearance.pair.c)
     curves = []
     for ratio in (1.0, 0.0, -1.0):
-        rate_argument = [ratio * FAST] if pin.further else []
+        rate_argument = [ratio * FAST] if pin.further_variables else []
         y = np.broadcast_to(_evaluate_law(functions, call, parameters, delta, ratio, *rate_argument), delta.shape)
-        curves.append(Curve(y, f"δ̇/δ̇⁻ = {ratio:g}" + (f", δ̇ = {ratio * FAST:g} m/s" if pin.further else "")))
+        curves.append(Curve(y, f"δ̇/δ̇⁻ = {ratio:g}" + (f", δ̇ = {ratio * FAST:g} m/s" if pin.further_variables else "")))
     caption = "The normal force over the penetration, while the surfaces approach, rest and part"
     return Plot(delta, tuple(curves), ("δ", "m"), ("F_n", "N"), ("clearance", "delta"), caption)
 
 
-def _plot_friction(functions: Functions, pin: Pin, call: SharedFunctionCall, parameters: Mapping[str, float]) -> Plot:
+def _plot_friction(
+    functions: Functions, pin: JointFunctions, call: SharedFunctionCall, parameters: Mapping[str, float]
+) -> Plot:
     """Return the plot of a friction force over the slip, for a normal force of 1 N.
 
     The slip reaches three times the largest velocity among the law's numbers.
     """
     law = pin.clearance.friction
-    numbers = law.numbers if law else {}
-    speed_names = {own.name for own in law.law.parameters if own.dimension == VELOCITY} if law else set()
+    numbers = law.parameters if law else {}
+    speed_names = (
+        {law_field.name for law_field in law.law.parameters if law_field.dimension == VELOCITY} if law else set()
+    )
     speeds = [_get_value(functions, parameters, symbol) for name, symbol in numbers.items() if name in speed_names]
     v_t = np.linspace(-1.0, 1.0, 2 * POINTS) * 3.0 * (max(speeds, default=0.0) or FAST)
     y = np.broadcast_to(_evaluate_law(functions, call, parameters, 1.0, v_t), v_t.shape)
@@ -131,7 +139,9 @@ def _plot_friction(functions: Functions, pin: Pin, call: SharedFunctionCall, par
     return Plot(v_t, (Curve(y, ""),), ("v_t", "m/s"), ("F_t/F_n", ""), ("dry", "v_t"), caption)
 
 
-def _plot_film(functions: Functions, pin: Pin, call: SharedFunctionCall, parameters: Mapping[str, float]) -> Plot:
+def _plot_film(
+    functions: Functions, pin: JointFunctions, call: SharedFunctionCall, parameters: Mapping[str, float]
+) -> Plot:
     """Return the plot of both film forces over the eccentricity ratio, for rotation at 1 rad/s without squeeze."""
     epsilon = np.linspace(0.0, 0.9, POINTS)
     radial, tangential, *_ = _evaluate_law(functions, call, parameters, epsilon, 0.0 * epsilon, -0.5 * epsilon)
@@ -146,7 +156,7 @@ def _plot_film(functions: Functions, pin: Pin, call: SharedFunctionCall, paramet
 _DRAWN = {"normal": _plot_normal_force, "friction": _plot_friction, "film": _plot_film}
 
 
-def drawn(plot: Plot, mark_values: Mapping[str, str]) -> str:
+def print_plot_svg(plot: Plot, mark_values: Mapping[str, str]) -> str:
     """Return the plot as SVG: axes with limits, labelled curves, marks for the present state of each joint.
 
     mark_values: {joint: name of the value that a running page shows}.
@@ -155,28 +165,28 @@ def drawn(plot: Plot, mark_values: Mapping[str, str]) -> str:
     y_min, y_max = min(y_min, 0.0), max(y_max, 0.0) if y_max > y_min or y_max > 0.0 else y_min + 1.0
     x_min, x_max = float(plot.x[0]), float(plot.x[-1])
 
-    def at_x(x: Any) -> Any:
+    def scale_x(x: Any) -> Any:
         """Return the horizontal position of x."""
         return LEFT + (RIGHT - LEFT) * (x - x_min) / (x_max - x_min or 1.0)
 
-    def at_y(y: Any) -> Any:
+    def scale_y(y: Any) -> Any:
         """Return the vertical position of y."""
         return BOTTOM - (BOTTOM - TOP) * (y - y_min) / (y_max - y_min or 1.0)
 
     parts = [
-        f'<path class="rule" d="M{LEFT} {TOP}V{BOTTOM}M{LEFT} {at_y(0.0):.1f}H{RIGHT}"/>',
-        *_print_axis_labels(plot, y_min, y_max, x_min, x_max, float(at_y(0.0))),
+        f'<path class="rule" d="M{LEFT} {TOP}V{BOTTOM}M{LEFT} {scale_y(0.0):.1f}H{RIGHT}"/>',
+        *_print_axis_labels(plot, y_min, y_max, x_min, x_max, float(scale_y(0.0))),
     ]
     for k, curve in enumerate(plot.curves):
-        points = zip(at_x(plot.x).tolist(), at_y(np.asarray(curve.y, dtype=float)).tolist(), strict=True)
+        points = zip(scale_x(plot.x).tolist(), scale_y(np.asarray(curve.y, dtype=float)).tolist(), strict=True)
         path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
         parts.append(f'<polyline class="curve dash{k}" points="{path}"/>')
-        if curve.message:
+        if curve.describe:
             y = TOP + 12 + 15 * k
             parts.append(f'<path class="curve dash{k}" d="M{LEFT + 12} {y - 4}h26"/>')
-            parts.append(f'<text x="{LEFT + 44}" y="{y}">{_print_label(curve.message)}</text>')
+            parts.append(f'<text x="{LEFT + 44}" y="{y}">{_print_label(curve.describe)}</text>')
     parts += [_print_state_mark(name, value, x_min, x_max, len(plot.curves)) for name, value in mark_values.items()]
-    return svg(WIDTH, HEIGHT, f"{plot.y_axis[0]} over {plot.x_axis[0]}", parts)
+    return print_svg(WIDTH, HEIGHT, f"{plot.y_axis[0]} over {plot.x_axis[0]}", parts)
 
 
 def _print_axis_labels(plot: Plot, y_min: float, y_max: float, x_min: float, x_max: float, zero: float) -> list[str]:
@@ -184,9 +194,12 @@ def _print_axis_labels(plot: Plot, y_min: float, y_max: float, x_min: float, x_m
 
     The arguments are the limits of both axes.
     """
-    x_scale, x_unit = scale(max(abs(x_min), abs(x_max)), plot.x_axis[1])
-    y_scale, y_unit = scale(max(abs(y_min), abs(y_max)), plot.y_axis[1])
-    x_name, y_name = _print_label(label(plot.x_axis[0], x_unit)), _print_label(label(plot.y_axis[0], y_unit))
+    x_scale, x_unit = choose_prefix(max(abs(x_min), abs(x_max)), plot.x_axis[1])
+    y_scale, y_unit = choose_prefix(max(abs(y_min), abs(y_max)), plot.y_axis[1])
+    x_name, y_name = (
+        _print_label(format_label(plot.x_axis[0], x_unit)),
+        _print_label(format_label(plot.y_axis[0], y_unit)),
+    )
     return [
         f'<text class="end" x="{LEFT - 5}" y="{TOP + 8}">{_format_number(y_max * y_scale)}</text>',
         f'<text class="end" x="{LEFT - 5}" y="{BOTTOM}">{_format_number(y_min * y_scale)}</text>',

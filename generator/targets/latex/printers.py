@@ -1,4 +1,4 @@
-"""Prints expressions as LaTeX and text with the names of a notation; terms of a sum follow the order of the bodies."""
+"""Prints SymPy expressions as LaTeX and text; terms of a sum follow the order of the bodies."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
 from gudgeon.generator.symbols.curves import ContourOf, CurveOf
-from gudgeon.generator.symbols.symbols import plain_name
+from gudgeon.generator.symbols.symbols import strip_identifier
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.language.functions import IN_SYMPY, Function
 
@@ -67,12 +67,12 @@ class TextPrinter(_BodyOrder, StrPrinter):
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         """Print the name of a symbol."""
-        return self._names.get(expr, plain_name(expr))
+        return self._names.get(expr, strip_identifier(expr))
 
     def _print_Float(self, expr: sp.Float) -> str:
         """Print a number, an angle as a fraction of π or in degrees."""
-        angle = as_angle(float(expr))
-        return angle.text if angle else number_text(float(expr))
+        angle = format_angle(float(expr))
+        return angle.text if angle else format_number(float(expr))
 
     def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
         """Print an expression, in brackets if it binds less than `level`.
@@ -87,7 +87,7 @@ class TextPrinter(_BodyOrder, StrPrinter):
         return "π"
 
     def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
-        """Print a power as √(…), 1/… or base^exponent."""
+        """Print a power as √(…), 1/… for a negative rational exponent, or base^exponent."""
         base, exponent = expr.base, expr.exp
         if exponent == sp.Rational(1, 2):
             return f"√({self._print(base)})"
@@ -189,9 +189,9 @@ class TexPrinter(_BodyOrder, LatexPrinter):
 
     def _print_Float(self, expr: sp.Float) -> str:
         """Print a number: an angle as a fraction of π or in degrees, an exponent as a power of ten."""
-        if angle := as_angle(float(expr)):
+        if angle := format_angle(float(expr)):
             return angle.latex
-        mantissa, _, exponent = number_text(float(expr)).partition("e")
+        mantissa, _, exponent = format_number(float(expr)).partition("e")
         if not exponent:
             return mantissa
         power = f"10^{{{int(exponent)}}}"
@@ -266,14 +266,14 @@ _LONG_NUMBER = 9  # digits from which a number says nothing to people
 
 
 @lru_cache(4096)
-def as_angle(value: float) -> Name | None:
+def format_angle(value: float) -> Name | None:
     """Return an angle in rad as a fraction of π or in degrees, where that is shorter: π/2, 39.52°; else None.
 
     Numbers with fewer than _LONG_NUMBER digits are short enough as they are. Results are cached.
     """
     if sum(map(str.isdigit, repr(value))) < _LONG_NUMBER:
         return None
-    if fraction := share_of_pi(value):
+    if fraction := find_fraction_of_pi(value):
         numerator, denominator = fraction
         sign, pi_factor = "-" * (numerator < 0), f"{abs(numerator) if abs(numerator) > 1 else ''}"
         if denominator == 1:
@@ -285,7 +285,7 @@ def as_angle(value: float) -> Name | None:
     return None
 
 
-def share_of_pi(value: float) -> tuple[int, int] | None:
+def find_fraction_of_pi(value: float) -> tuple[int, int] | None:
     """Return (k, n) if a number is k π/n to its last digit, n in _SIMPLE and |k| at most 12; None otherwise."""
     for denominator in _SIMPLE:
         numerator = round(value * denominator / math.pi)
@@ -294,7 +294,7 @@ def share_of_pi(value: float) -> tuple[int, int] | None:
     return None
 
 
-def number_text(value: float) -> str:
+def format_number(value: float) -> str:
     """Return the shortest decimal number that is read back as `value` up to rounding errors: "0.0003", "7e10"."""
     rounded = float(f"{value:.12g}")
     text = repr(rounded if abs(rounded - value) <= 2 * math.ulp(value) else value).removesuffix(".0")

@@ -1,4 +1,4 @@
-"""Writes the part of the document on the integrated equations: log of the reduction, tree, formulations, C files."""
+"""Writes the integrated equations for a document: how they were reduced, spanning tree, formulation, C files."""
 
 from __future__ import annotations
 
@@ -6,14 +6,21 @@ from collections.abc import Collection
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.reduction_log import Solve
-from gudgeon.contract.reduction_words import outcome, reduction_lines
-from gudgeon.generator.targets.c.readme import purposes
-from gudgeon.generator.targets.latex.document import Block, Section, cells, paragraph, sentence, table
-from gudgeon.generator.targets.latex.pictures import tree
+from gudgeon.contract.reduction_words import describe_outcome, describe_steps
+from gudgeon.generator.targets.c.readme import list_file_purposes
+from gudgeon.generator.targets.latex.document import (
+    Block,
+    Section,
+    make_paragraph,
+    make_row,
+    make_sentence,
+    make_tables,
+)
+from gudgeon.generator.targets.latex.pictures import draw_tree
 from gudgeon.generator.targets.latex.trace import Functions
 
 
-def reduction_sections(functions: Functions) -> list[Section]:
+def make_reduction_sections(functions: Functions) -> list[Section]:
     """Return the sections on the reduction to few coordinates, the sizes of both formulations, and the C files."""
     source = functions.source
     return [
@@ -30,13 +37,13 @@ def _describe_reduction(source: KernelSource, joints: Collection[str]) -> list[B
 
     joints: the names of the file's joints.
     """
-    step_rows = [cells(f"{n:,}", f"{m:,}", f"{text}.") for n, m, text in reduction_lines(source)]
-    outcome_rows = [cells(name, f"{text}.") for name, text in outcome(source)]
+    step_rows = [make_row(f"{n:,}", f"{m:,}", f"{text}.") for n, m, text in describe_steps(source)]
+    outcome_rows = [make_row(name, f"{text}.") for name, text in describe_outcome(source)]
     return [
-        paragraph("Coordinates and rows that are left, step by step, and what took the others:"),
-        *table(cells("coordinates", "rows", "step"), step_rows, (2,)),
-        *table(cells("", "what it comes to"), outcome_rows, (1,)),
-        *tree(source.story, joints),
+        make_paragraph("Coordinates and rows that are left, step by step, and what took the others:"),
+        *make_tables(make_row("coordinates", "rows", "step"), step_rows, (2,)),
+        *make_tables(make_row("", "what it comes to"), outcome_rows, (1,)),
+        *draw_tree(source.story, joints),
     ]
 
 
@@ -51,12 +58,14 @@ def _compare_formulations(functions: Functions) -> list[Block]:
         *_compare_matrices(log.before, log.after),
         ("operations of a right-hand side", counts["dynamics"], counts.get(reduced_function)),
     ]
-    size_rows = [cells(name, *("none" if x is None else f"{x:,}" for x in values)) for name, *values in rows]
-    operations = [cells(name, f"{count:,}") for name, count in counts.items() if count]
+    size_rows = [make_row(name, *("none" if x is None else f"{x:,}" for x in values)) for name, *values in rows]
+    operations = [make_row(name, f"{count:,}") for name, count in counts.items() if count]
     return [
-        *table(cells("", "full", "reduced"), size_rows),
-        paragraph("Additions, multiplications, divisions and calls of functions that each function of the C performs:"),
-        *table(cells("function", "operations"), operations),
+        *make_tables(make_row("", "full", "reduced"), size_rows),
+        make_paragraph(
+            "Additions, multiplications, divisions and calls of functions that each function of the C performs:"
+        ),
+        *make_tables(make_row("function", "operations"), operations),
     ]
 
 
@@ -82,10 +91,12 @@ def _compare_matrices(
 
 def _describe_files(functions: Functions) -> list[Block]:
     """Return the table of the scene's C files with their purposes, in the order in which they are to be read."""
-    purpose_by_file = purposes(functions.program)
+    purpose_by_file = list_file_purposes(functions.program)
     names = [name for name in purpose_by_file if name in functions.files]
-    rows = [cells(name, sentence(purpose_by_file[name].replace("`", ""))) for name in names]
+    rows = [make_row(name, make_sentence(purpose_by_file[name].replace("`", ""))) for name in names]
     return [
-        paragraph("What gudgeon emit writes. First comes model.h, for the names, then dynamics.c, the textbook's."),
-        *table(cells("file", "what it holds"), rows, (1,)),
+        make_paragraph(
+            "What gudgeon emit writes. First comes model.h, for the names, then dynamics.c, the textbook's."
+        ),
+        *make_tables(make_row("file", "what it holds"), rows, (1,)),
     ]

@@ -1,4 +1,4 @@
-"""Renders a document as LaTeX, plain text or HTML: layout and escaping; the frames are in templates/latex.
+"""Renders a document of equations as LaTeX, plain text or HTML: layout and escaping.
 
 Text in LaTeX can only be read as text: nothing in it is a command, all of it is ASCII.
 """
@@ -15,7 +15,7 @@ import jinja2
 
 from gudgeon.generator.targets.latex import to_html
 from gudgeon.generator.targets.latex.document import Document, Equation, Paragraph, Picture, Sketch, Table, Text
-from gudgeon.generator.targets.latex.letters import GREEK, Name, greek
+from gudgeon.generator.targets.latex.letters import GREEK, Name, get_greek_command
 
 _SPECIAL = {
     "\\": r"\textbackslash{}",
@@ -55,7 +55,7 @@ _SPECIAL = {
     "ı": r"\i{}",
 }
 _MATH = {
-    **{sign: greek(name) for name, sign in GREEK.items()},
+    **{sign: get_greek_command(name) for name, sign in GREEK.items()},
     "−": "-",
     "±": r"\pm",
     "·": r"\cdot",
@@ -94,12 +94,12 @@ _MARKS = {
 _ACCENTS = {"\u0302": "hat", "\u0307": "dot", "\u0308": "ddot"}  # of a mathematical sign
 
 
-def tex(text: str) -> str:
+def escape_latex(text: str) -> str:
     """Return a text for running LaTeX; a character that plain pdflatex lacks becomes its number."""
     return "".join(map(_escape_character, _split_clusters(text)))
 
 
-def sketch_line(line: str) -> str:
+def escape_sketch_line(line: str) -> str:
     """Return a line of a sketch in LaTeX, in which every character has the same width."""
     return "".join(map(_escape_sketch_character, _split_clusters(line)))
 
@@ -110,7 +110,7 @@ def _escape_sketch_character(cluster: str) -> str:
         return "~"
     if cluster.isascii():  # a typewriter font has all of ASCII in its places
         return cluster if cluster.isalnum() or cluster in "()[]=+-.,:;'/*!@" else rf"\char{ord(cluster)}{{}}"
-    return rf"\cell{{{tex(cluster)}}}"
+    return rf"\cell{{{escape_latex(cluster)}}}"
 
 
 def _split_clusters(text: str) -> list[str]:
@@ -149,7 +149,7 @@ LETTER = {r"\small": 0.0106, r"\footnotesize": 0.0096, r"\scriptsize": 0.009}  #
 GAP = 0.025  # between two columns
 
 
-def render(document: Document, suffix: str, **slots: str) -> str:
+def render_document(document: Document, suffix: str, **slots: str) -> str:
     """Return the document in the format of a file's suffix: "tex", "txt" or "html", without trailing spaces.
 
     slots: further HTML for places in the frame of a page.
@@ -184,19 +184,19 @@ def _get_template_environment() -> jinja2.Environment:
         comment_end_string="#>",
     )
     environment.filters.update(
-        tex=tex,
+        tex=escape_latex,
         tex_line=_print_tex_line,
         tex_terms=_print_tex_terms,
-        tex_sketch=sketch_line,
+        tex_sketch=escape_sketch_line,
         tex_columns=_print_tex_columns,
         tex_row=_print_tex_row,
         tex_size=_select_tex_size,
         html=html.escape,
-        html_line=to_html.line,
-        formula=to_html.formula,
-        attributes=to_html.attributes,
-        output=to_html.output,
-        listing=to_html.listing,
+        html_line=to_html.print_line,
+        formula=to_html.print_formula,
+        attributes=to_html.print_attributes,
+        output=to_html.print_value_element,
+        listing=to_html.print_listing,
         plain_line=_print_plain_line,
         plain_paragraph=_print_plain_paragraph,
         plain_equation=_print_plain_equation,
@@ -208,7 +208,7 @@ def _get_template_environment() -> jinja2.Environment:
 
 def _print_tex_line(text: Text) -> str:
     """Return words and formulas in LaTeX."""
-    return "".join(f"${part.latex}$" if isinstance(part, Name) else tex(part) for part in text)
+    return "".join(f"${part.latex}$" if isinstance(part, Name) else escape_latex(part) for part in text)
 
 
 def _print_tex_row(row: tuple[Text, ...], wide: tuple[int, ...]) -> str:

@@ -1,4 +1,4 @@
-"""Contains the letters of the theory in a scene's documents, with their meaning; user-defined names give way to them.
+"""Contains the standard symbols of a document of equations, with their meaning; other names must differ from them.
 
 The sketches of joint types and force elements contain such letters, too.
 """
@@ -18,19 +18,26 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.kinds.forces.force_type import ElementType, element_types
 from gudgeon.generator.kinds.joints.joint_type import JointType, joint_types
-from gudgeon.generator.targets.latex.letters import Name, letter, of_latex
-from gudgeon.generator.targets.latex.play_letters import given, joint_letters, laws_of, names, result, sign_of
+from gudgeon.generator.targets.latex.letters import Name, make_letter, make_name
+from gudgeon.generator.targets.latex.play_letters import (
+    get_latex_symbol,
+    get_result_symbol,
+    list_given_parameters,
+    list_laws,
+    name_contact_steps,
+    name_joint_symbols,
+)
 
 _RAISED = str.maketrans(dict.fromkeys("²³⁰¹⁻", " "))
 
 
-def sketch_of(type_: JointType | ElementType) -> list[str]:
+def read_sketch(type_: JointType | ElementType) -> list[str]:
     """Return the description of a joint type or force element as lines: a summary, then its sketch."""
     summary, _, sketch = inspect.cleandoc(type_.doc or "").partition("\n")
     return [summary, *sketch.strip("\n").splitlines()]
 
 
-def letters_of(lines: list[str]) -> Iterator[str]:
+def find_letters(lines: list[str]) -> Iterator[str]:
     """Yield the letters that stand alone in the lines of a sketch, with subscripts; those with dots also without them.
 
     Parts of a drawing ("o---"), initials ("L. C. Bo") and articles are not letters.
@@ -45,12 +52,12 @@ PHI, NU, GAMMA = Name(r"\Phi", "Φ"), Name(r"\nu", "ν"), Name(r"\gamma", "γ")
 LAMBDA, PHI_Q = Name(r"\lambda", "λ"), Name(r"\Phi_{q}", "Φ_q")
 
 
-def indexed(vector: Name, index: int) -> Name:
+def name_component(vector: Name, index: int) -> Name:
     """Return the name of a component of a vector; components count from 1."""
     return Name(f"{vector.latex}_{{{index}}}", f"{vector.text}_{index}")
 
 
-def theory(model: Model) -> dict[str, str]:
+def collect_theory_letters(model: Model) -> dict[str, str]:
     """Return {plain text of a letter: meaning} of the theory in a scene's document.
 
     User-defined names avoid these letters.
@@ -82,7 +89,7 @@ def _list_letters(model: Model) -> Iterator[tuple[str, str]]:
         meaning = f"a letter of {clearance.kind} {clearance.name} with play"
         yield from ((text, meaning) for text in _list_play_letters(model, clearance))
     yield from _list_force_letters(model)
-    yield from ((letter("z", event.name).text, f"event {event.name}") for event in model.events)
+    yield from ((make_letter("z", event.name).text, f"event {event.name}") for event in model.events)
     for kind in dict.fromkeys(joint.kind for joint in model.scene.mechanism.joints.values()):
         yield from _list_sketch_letters(joint_types()[kind])
 
@@ -96,7 +103,7 @@ def _list_row_letters(model: Model) -> Iterator[tuple[str, str]]:
         (GAMMA, "right sides of accelerations"),
     ):
         yield name.text, meaning
-        yield from ((indexed(name, k).text, f"one of the {meaning}") for k in range(1, 1 + len(model.rows)))
+        yield from ((name_component(name, k).text, f"one of the {meaning}") for k in range(1, 1 + len(model.rows)))
     yield from ((f"Φ_{variables}", "a derivative of the constraints") for variables in ("q", "t", "qt", "tt"))
 
 
@@ -104,11 +111,11 @@ def _list_force_letters(model: Model) -> Iterator[tuple[str, str]]:
     """Yield (letter, meaning) of potential energies, of friction elements, and of the sketches of force elements."""
     for name, applied in model.elements.items():
         if applied.loads.potential != 0:
-            yield letter("V", name).text, f"potential energy of {name}"
+            yield make_letter("V", name).text, f"potential energy of {name}"
     for friction in model.frictions:
         for base in ("v", "gamma"):
-            yield letter(base, friction.name).text, f"slip of {friction.name}"
-        jacobian_entries = (letter("J", friction.name, str(k)) for k in range(1, 1 + len(model.q)))
+            yield make_letter(base, friction.name).text, f"slip of {friction.name}"
+        jacobian_entries = (make_letter("J", friction.name, str(k)) for k in range(1, 1 + len(model.q)))
         yield from ((name.text, f"slip of {friction.name}") for name in jacobian_entries)
     for kind in dict.fromkeys(applied.element.kind for applied in model.elements.values()):
         yield from _list_sketch_letters(element_types()[kind])
@@ -116,20 +123,22 @@ def _list_force_letters(model: Model) -> Iterator[tuple[str, str]]:
 
 def _list_sketch_letters(type_: JointType | ElementType) -> Iterator[tuple[str, str]]:
     """Yield (letter, meaning) of the letters in the sketch of a joint type or force element."""
-    return ((text, f"in the sketch: {type_.title}") for text in letters_of(sketch_of(type_)))
+    return ((text, f"in the sketch: {type_.title}") for text in find_letters(read_sketch(type_)))
 
 
 def _list_play_letters(model: Model, clearance: Clearance) -> Iterator[str]:
     """Yield the letters of a joint with play: those of its steps, parameters, laws and parts."""
     used_symbols = {contact.stored, *_list_symbols(_list_steps(clearance))}
-    step_names = names(clearance)
+    step_names = name_contact_steps(clearance)
     yield from (
         name.text
-        for symbol, name in joint_letters(model, clearance).items()
+        for symbol, name in name_joint_symbols(model, clearance).items()
         if symbol in used_symbols or symbol not in step_names
     )
-    for equations, use in laws_of(model, clearance):
-        yield from (of_latex(sign_of(parameter)).text for parameter, _ in given(equations, use))
+    for equations, use in list_laws(model, clearance):
+        yield from (
+            make_name(get_latex_symbol(parameter)).text for parameter, _ in list_given_parameters(equations, use)
+        )
     yield from ("i", "j", "n")
     if clearance.normal is not None and clearance.film is not None:
         yield from ("d", "f", "b")
@@ -145,14 +154,23 @@ def _list_steps(clearance: Clearance) -> Iterator[Step]:
     )
     if clearance.contour:
         yield Step(contact.theta_i, contact.steep)
-    yield from contact.gap(clearance)
+    yield from contact.make_gap_equations(clearance)
     if clearance.normal is not None:
-        yield from (*contact.before_dry(clearance), *contact.pressing(clearance), *contact.after_dry(clearance))
+        yield from (
+            *contact.make_lever_arm_equations(clearance),
+            *contact.make_contour_normal_force(clearance),
+            *contact.make_dry_moment_equations(clearance),
+        )
     if clearance.film is not None:
-        yield from (*contact.before_film(clearance, clearance.film), *contact.after_film(clearance.film))
-    yield from contact.resultant(clearance)
+        yield from (
+            *contact.make_film_input_equations(clearance, clearance.film),
+            *contact.make_film_moment_equations(clearance.film),
+        )
+    yield from contact.make_resultant_equations(clearance)
     for equations in clearance.laws:
-        yield from (Step(result(equations, name), sp.sympify(step)) for name, step in equations.steps.items())
+        yield from (
+            Step(get_result_symbol(equations, name), sp.sympify(step)) for name, step in equations.steps.items()
+        )
 
 
 def _list_symbols(steps: Iterable[Step]) -> Iterator[sp.Symbol]:

@@ -1,6 +1,6 @@
 """Renders parts of a document as HTML: MathML, tokens for cross-highlighting, elements for values, listings.
 
-`Letters` writes a model's equations in a notebook or a terminal.
+`FormulaWriter` writes a model's equations in a notebook or a terminal.
 """
 
 from __future__ import annotations
@@ -21,32 +21,32 @@ from gudgeon.generator.targets.latex.notation import make_notation
 _FUNCTIONS = ("sin", "cos", "tan")
 
 
-def attributes(of: Collection[str], pick: str = "", focus: bool = False) -> str:
+def print_attributes(tokens: Collection[str], pick: str = "", focus: bool = False) -> str:
     """Return the attribute `data-of` and others of an HTML element, with a leading space; "" without tokens.
 
-    of: the highlighting tokens. pick: the token that selecting the element highlights, if not all. focus: whether the
-    keyboard can reach the element.
+    tokens: the highlighting tokens. pick: the token that selecting the element highlights, if not all. focus: whether
+    the keyboard can reach the element.
     """
-    if not of:
+    if not tokens:
         return ""
     pick_attribute = f' data-pick="{html.escape(pick)}"' if pick else ""
-    return f' data-of="{html.escape(" ".join(of))}"{pick_attribute}' + ' tabindex="0"' * focus
+    return f' data-of="{html.escape(" ".join(tokens))}"{pick_attribute}' + ' tabindex="0"' * focus
 
 
-def output(value: str) -> str:
+def print_value_element(value: str) -> str:
     """Return the HTML element in which a running page shows a value; "" for an empty name of the value."""
     return f'<output data-value="{html.escape(value)}"></output>' if value else ""
 
 
-def line(text: Text) -> str:
+def print_line(text: Text) -> str:
     """Return words and formulas as HTML."""
-    return "".join(formula(part) if isinstance(part, Name) else html.escape(part) for part in text)
+    return "".join(print_formula(part) if isinstance(part, Name) else html.escape(part) for part in text)
 
 
-def formula(name: Name) -> str:
+def print_formula(name: Name) -> str:
     """Return a formula as MathML with its value, within an element with its tokens if it has any."""
-    mathml_text = "".join(map(mathml, _split_formula(name.latex))) + output(name.value)
-    return f"<span{attributes(name.of)}>{mathml_text}</span>" if name.of else mathml_text
+    mathml_text = "".join(map(convert_to_mathml, _split_formula(name.latex))) + print_value_element(name.value)
+    return f"<span{print_attributes(name.of)}>{mathml_text}</span>" if name.of else mathml_text
 
 
 def _split_formula(latex: str) -> Iterator[str]:
@@ -61,7 +61,7 @@ def _split_formula(latex: str) -> Iterator[str]:
         yield piece
 
 
-def mathml(latex: str) -> str:
+def convert_to_mathml(latex: str) -> str:
     """Return a formula in LaTeX as MathML without superfluous elements and attributes.
 
     Raises GudgeonError if the extra `docs` is not installed.
@@ -109,17 +109,18 @@ def _insert_function_spaces(element: Element) -> None:
             element.insert(k + 1, Element("mspace", {"width": "0.167em"}))
 
 
-def listing(block: Listing) -> str:
+def print_listing(block: Listing) -> str:
     """Return a file as HTML with an element per line, its tokens and a folding frame."""
     lines = (
-        f'<span class="line"{attributes(sorted(block.of.get(k, ())), focus=True)}>{html.escape(text) or " "}</span>'
+        f'<span class="line"{print_attributes(sorted(block.of.get(k, ())), focus=True)}>'
+        f"{html.escape(text) or ' '}</span>"
         for k, text in enumerate(block.lines, 1)
     )
     title = html.escape(block.title)
     return f'<details open><summary>{title}</summary><pre class="listing">{"".join(lines)}</pre></details>'
 
 
-class Letters:
+class FormulaWriter:
     """Write the constraint equations and matrices of one model as formulas, for a notebook or a terminal."""
 
     def __init__(self, model: Model) -> None:
@@ -141,10 +142,13 @@ class Letters:
     def html(self) -> str:
         """Return Φ(q, t) = 0 as MathML; as LaTeX between dollar signs without the extra `docs`."""
         try:
-            return mathml(self.equation().latex)
+            return convert_to_mathml(self.equation().latex)
         except GudgeonError:
             return f"$${self.equation().latex}$$"
 
     def _format_entries(self, matrix: sp.Matrix, format_name: Callable[[Name], str]) -> list[list[str]]:
         """Return the rows of a matrix as lists of texts; `format_name` returns the text of a formula."""
-        return [[format_name(self.notation.math(matrix[r, c])) for c in range(matrix.cols)] for r in range(matrix.rows)]
+        return [
+            [format_name(self.notation.format_expression(matrix[r, c])) for c in range(matrix.cols)]
+            for r in range(matrix.rows)
+        ]

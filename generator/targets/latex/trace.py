@@ -1,4 +1,4 @@
-"""Traces rows, entries, terms, joints, bodies and laws to the lines of C and YAML that belong to them, by tokens.
+"""Links equations, joints, bodies and laws in a page to their lines of C and YAML, for highlighting.
 
 Selecting anything on a page highlights whatever shares a token with it (light.js). The lines of C that compute a row
 are determined from the functions themselves (generator/ir/dependence.py), not from their text.
@@ -14,22 +14,28 @@ from functools import partial
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.branches import Branch
-from gudgeon.generator.ir.dependence import NO_MARKS, Marks, free_names, slices
+from gudgeon.generator.ir.dependence import NO_MARKS, Marks, find_symbol_names, propagate_marks
 from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.ir.readable import readable
+from gudgeon.generator.ir.readable import make_readable
 from gudgeon.generator.ir.signatures import RHS
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels.driven_chains import STEP
 from gudgeon.generator.kernels.program import Program, make_program
-from gudgeon.generator.mechanism import quantities
+from gudgeon.generator.mechanism import iterate_quantities
 from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
-from gudgeon.generator.symbols.symbols import made_name
+from gudgeon.generator.symbols.symbols import make_identifier
 from gudgeon.generator.targets.c import functions
-from gudgeon.generator.targets.c.emit import describe_program, emit, file_names, render
-from gudgeon.generator.targets.c.lines import Stored, find_function, find_stores_in_text, locate_text
-from gudgeon.generator.targets.c.play import pin_functions
-from gudgeon.generator.targets.javascript.module import right_hand_sides, tree_functions
-from gudgeon.generator.targets.latex.document import entries_of, entry_token, joint_tokens, row_token, sum_token
+from gudgeon.generator.targets.c.emit import describe_program, emit_scene, list_file_names, render_template
+from gudgeon.generator.targets.c.lines import StoredLines, locate_function, locate_stores, locate_text
+from gudgeon.generator.targets.c.play import print_joint_functions
+from gudgeon.generator.targets.javascript.module import find_right_hand_side_locals, print_tree_functions
+from gudgeon.generator.targets.latex.document import (
+    list_entry_tokens,
+    list_joint_tokens,
+    make_entry_token,
+    make_row_token,
+    make_sum_token,
+)
 
 # Functions of the closed linkage by the letter of what they give: `constraints` gives phi[r].
 GIVES = {"constraints": "phi", "jacobian": "phi_q", "velocity_rhs": "nu", "acceleration_rhs": "gamma"}
@@ -58,13 +64,13 @@ class Trace(Functions):
     numbers: Mapping[str, Marks]
 
 
-def functions_of(model: Model) -> Functions:
+def make_functions(model: Model) -> Functions:
     """Return the functions of a scene and the names of its C files, without printing the C."""
     program = make_program(model)
-    return Functions(program.model, program, describe_program(program, {}), file_names(program))
+    return Functions(program.model, program, describe_program(program, {}), list_file_names(program))
 
 
-def trace(model: Model, source: KernelSource | None = None) -> Trace:
+def make_trace(model: Model, source: KernelSource | None = None) -> Trace:
     """Return the scene's functions, its C, and the highlighting tokens of each line of C in the document of `model`.
 
     source: the emitted C of the scene, if it is known. It is printed anew if it is missing or has another
@@ -72,7 +78,7 @@ def trace(model: Model, source: KernelSource | None = None) -> Trace:
     """
     program = make_program(model)
     if source is None or source.formulation != program.formulation:
-        source = emit(program)
+        source = emit_scene(program)
     collector = _TokenCollector(program, source)
     collector.collect_all()
     lines = {file: {k: frozenset(v) for k, v in sorted(own.items())} for file, own in collector.lines.items()}
@@ -95,16 +101,16 @@ class _TokenCollector:
         self.numbers: defaultdict[Key, set[str]] = defaultdict(set)
         self.number_of = {row.name: k for k, row in enumerate(self.model.rows, 1)}
         self.every = self.model.all_rows
-        self.computed = right_hand_sides(program.dynamics, self.model)
-        self.in_tree = tree_functions(program, set())
+        self.computed = find_right_hand_side_locals(program.dynamics, self.model)
+        self.in_tree = print_tree_functions(program, set())
         self.laws = {kernel.name for kernel in program.laws}
-        self.multipliers = {made_name(f"lambda_{row.name}"): k for k, row in enumerate(self.model.rows, 1)}
-        members = map(self.model.slots.field, self.model.slots.members())
+        self.multipliers = {make_identifier(f"lambda_{row.name}"): k for k, row in enumerate(self.model.rows, 1)}
+        members = map(self.model.parameter_table.find_field_name, self.model.parameter_table.list_symbols())
         self.place_in_p = {f"{PARAMETERS}.{member}": k for k, member in enumerate(members, 1)}
         tree = program.tree
         in_chains = tree.chains.chain.rows if tree and tree.chains else ()
-        self.in_chains = {made_name(f"phi_{row.name}"): row.name for row in in_chains}
-        self.shown = {name for row in self.model.rows for name in free_names(row.phi)}
+        self.in_chains = {make_identifier(f"phi_{row.name}"): row.name for row in in_chains}
+        self.shown = {name for row in self.model.rows for name in find_symbol_names(row.phi)}
 
     def collect_all(self) -> None:
         """Collect tokens and values of every function that concerns constraint equations, bodies or laws.
@@ -112,38 +118,38 @@ class _TokenCollector:
         `prepare` comes last, since its lines get the tokens of the parameters that they compute.
         """
         program = self.program
-        tree_kernels = program.tree.every if program.tree else ()
-        for kernel in (*program.closed, program.dynamics, *tree_kernels):
+        tree_kernels = program.tree.all_kernels if program.tree else ()
+        for kernel in (*program.closed_linkage, program.dynamics, *tree_kernels):
             self._collect_function(kernel)
-        for pin in program.pins:
+        for pin in program.joints:
             contact = self.model.scene.play[pin.clearance.joint.name].contact.name
-            joint_marks = frozenset(joint_tokens(pin.clearance))
+            joint_marks = frozenset(list_joint_tokens(pin.clearance))
             for call in pin.laws.values():
                 law_marks = frozenset({f"law-{contact}", *joint_marks})
-                self._mark_text(functions.kernel(call.kernel), law_marks)
+                self._mark_text(functions.print_kernel(call.kernel), law_marks)
                 self._add_stores(call.kernel, {})
-                for number in call.numbers:
+                for number in call.parameters:
                     self.numbers[number] |= law_marks
-            for part in pin_functions(pin, render, self.model.law_states):
+            for part in print_joint_functions(pin, render_template, self.model.law_states):
                 self._mark_text(part.text, joint_marks)
-                file, stored_lines = find_stores_in_text(part.text, part.stores, self.files)
+                file, stored_lines = locate_stores(part.text, part.stores, self.files)
                 for stored_line in stored_lines:
                     self._add_value(file, stored_line, f"law.{part.name}.{{}}".format)
         self._collect_prepare()
 
     def _collect_function(self, kernel: Kernel) -> None:
         """Collect the tokens of one function's lines, and those of the parameters that these lines depend on."""
-        dependence = slices(readable(kernel), lambda line: self._find_marks(kernel.name, line))
-        for number, marks in dependence.numbers.items():
+        dependence = propagate_marks(make_readable(kernel), lambda line: self._find_marks(kernel.name, line))
+        for number, marks in dependence.by_parameter.items():
             self.numbers[number] |= marks
-        self._add_stores(kernel, dependence.stored)
+        self._add_stores(kernel, dependence.by_target)
 
     def _add_stores(self, kernel: Kernel, marks_by_target: Mapping[Key, Marks]) -> None:
         """Add tokens and values of all stores of a kernel to `lines` and `values`.
 
         marks_by_target: the tokens of each stored value.
         """
-        for function_lines in find_function(kernel, self.files):
+        for function_lines in locate_function(kernel, self.files):
             for stored_line in function_lines.lines:
                 marks = marks_by_target.get(stored_line.target, NO_MARKS) | self._get_line_mark(
                     kernel.name, stored_line.target
@@ -154,7 +160,7 @@ class _TokenCollector:
                     function_lines.file, stored_line, partial(self._name_local, kernel.name, function_lines.own.names)
                 )
 
-    def _add_value(self, file: str, stored_line: Stored, name_value: Callable[[Key], str]) -> None:
+    def _add_value(self, file: str, stored_line: StoredLines, name_value: Callable[[Key], str]) -> None:
         """Add the name of the value that a line stores to `values`, on its last line; nothing if the value has no name.
 
         A branch is added with its sign and the name of its condition. name_value: function from a local to the
@@ -200,7 +206,7 @@ class _TokenCollector:
             return f"rhs.{key}"
         array, index = _split_element(key)
         row = self.model.rows[index].name if 0 <= index < len(self.model.rows) else ""
-        name = made_name(f"{array}_{row}")
+        name = make_identifier(f"{array}_{row}")
         if row and array == "lambda":
             return f"lambda.{index + 1}"
         if isinstance(key, str) and key in self.multipliers:
@@ -208,9 +214,10 @@ class _TokenCollector:
         return f"rhs.{name}" if row and name in self.computed else ""
 
     def _find_marks(self, function: str, line: Statement | Branch) -> Marks:
-        """Return the tokens of what a line stores: rows for Φ, Φ_q, ν, γ, bodies for masses, and named terms.
+        """Return the highlighting tokens of the value that a line of a C function stores.
 
-        A value that belongs to no row of the scene has none.
+        A mass gets the token of its body, an entry of Φ, ν or γ that of its row, and an entry of Φ_q its own. Named
+        terms, values of the dynamics and closures, and values of a step of driven loops get theirs. Others get none.
         """
         target, (array, index) = line.target, _split_element(line.target)
         if function == "mass_matrix" and index >= 0:
@@ -222,12 +229,12 @@ class _TokenCollector:
             if function == "jacobian":
                 row, column = divmod(index, len(self.model.q))
                 number = self.number_of.get(self.every[row].name)
-                return name_marks | ({entry_token(number, column + 1)} if number else NO_MARKS)
+                return name_marks | ({make_entry_token(number, column + 1)} if number else NO_MARKS)
             return name_marks | self._get_row_mark(self.every[index].name)
         if function in ("dynamics", "closures", "closure_rates"):
-            return self._find_dynamics_marks(function, line.defines, array, index)
+            return self._find_dynamics_marks(function, line.declared_local, array, index)
         if function == STEP:
-            return self._get_row_mark(self.in_chains.get(line.defines, ""))
+            return self._get_row_mark(self.in_chains.get(line.declared_local, ""))
         return NO_MARKS
 
     def _find_dynamics_marks(self, function: str, local: str, array: str, index: int) -> Marks:
@@ -235,12 +242,12 @@ class _TokenCollector:
         rows = self.model.rows if function == "dynamics" else self.program.integrated.system.rows
         if index >= 0 and array in ("phi", "phi_dot", "out"):
             return self._get_row_mark(rows[index].name)
-        name = next((row.name for row in rows if local == made_name(f"rhs_{row.name}")), "")
+        name = next((row.name for row in rows if local == make_identifier(f"rhs_{row.name}")), "")
         return self._get_row_mark(name)
 
     def _get_row_mark(self, name: str) -> Marks:
         """Return the token of a constraint equation by its name as a set; empty if the scene does not have it."""
-        return frozenset({row_token(self.number_of[name])}) if name in self.number_of else NO_MARKS
+        return frozenset({make_row_token(self.number_of[name])}) if name in self.number_of else NO_MARKS
 
     def _get_term_mark(self, target: Key) -> Marks:
         """Return the token of a term that the document shows by name as a set; empty for other terms."""
@@ -254,7 +261,7 @@ class _TokenCollector:
         array, index = _split_element(target)
         if function == "constraints" and index >= 0:
             number = self.number_of.get(self.every[index].name)
-            return frozenset({sum_token(number)} if number else ())
+            return frozenset({make_sum_token(number)} if number else ())
         if function == "dynamics" and array == "lambda" and 0 <= index < len(self.model.rows):
             return self._get_row_mark(self.model.rows[index].name)
         return NO_MARKS
@@ -268,23 +275,25 @@ class _TokenCollector:
     def _collect_prepare(self) -> None:
         """Collect the tokens of the lines of `prepare` from those of the parameters that they compute."""
         kernel = self.program.prepare
-        places = {s.name: self.model.slots.place(s) for s in self.model.slots.members()}
-        entry_names = {entry.symbol.name for entry in self.model.slots.entries.values()}
+        places = {s.name: self.model.parameter_table.find_place(s) for s in self.model.parameter_table.list_symbols()}
+        entry_names = {entry.symbol.name for entry in self.model.parameter_table.entries.values()}
         marks_by_name = {
             name: self.numbers[home] | ({f"number-{name}"} if name in entry_names else set())
             for name, home in places.items()
         }
-        dependence = slices(
-            readable(kernel), lambda line: frozenset(marks_by_name.get(_find_stored_parameter(line, places), ()))
+        dependence = propagate_marks(
+            make_readable(kernel), lambda line: frozenset(marks_by_name.get(_find_stored_parameter(line, places), ()))
         )
-        for target, marks in dependence.stored.items():
+        for target, marks in dependence.by_target.items():
             self.numbers[target] |= marks
-        self._add_stores(kernel, dependence.stored)
+        self._add_stores(kernel, dependence.by_target)
 
     def get_marks_by_address(self) -> dict[str, Marks]:
         """Return {address: tokens} of all run-time parameters."""
-        slots = self.model.slots
-        return {entry.address: frozenset(self.numbers[slots.place(entry.symbol)]) for entry in slots.entries.values()}
+        slots = self.model.parameter_table
+        return {
+            entry.address: frozenset(self.numbers[slots.find_place(entry.symbol)]) for entry in slots.entries.values()
+        }
 
 
 def _split_element(target: Key) -> tuple[str, int]:
@@ -300,7 +309,7 @@ def _find_stored_parameter(line: Statement | Branch, places: Mapping[str, Place]
     return next((name for name, place in places.items() if line.target in (name, place)), "")
 
 
-def yaml_tokens(model: Model, trace_: Trace) -> dict[int, Marks]:
+def list_yaml_tokens(model: Model, trace_: Trace) -> dict[int, Marks]:
     """Return the tokens of each line of the mechanism's file: of its entries, and of what depends on its numbers.
 
     Rows belong to the line of their joint or drive. Lines without any token are left out.
@@ -315,11 +324,11 @@ def yaml_tokens(model: Model, trace_: Trace) -> dict[int, Marks]:
         for name, line in lines.items():
             tokens[line].add(f"{kind}-{name}")
     for number, row in enumerate(model.rows, 1):
-        tokens[line_of[row.kind][row.owner]] |= {row_token(number), *entries_of(model, number, row)}
+        tokens[line_of[row.kind][row.owner]] |= {make_row_token(number), *list_entry_tokens(model, number, row)}
     for play in model.scene.play.values():
-        for quantity in quantities(play.contact):
+        for quantity in iterate_quantities(play.contact):
             tokens[quantity.where.line].add(f"law-{play.contact.name}")
-    for quantity in (*quantities(mechanism), *model.scene.parameters.values()):
+    for quantity in (*iterate_quantities(mechanism), *model.scene.parameters.values()):
         if quantity.address in trace_.numbers:
             tokens[quantity.where.line] |= trace_.numbers[quantity.address]
     return {line: frozenset({f"yaml-{line}", *line_tokens}) for line, line_tokens in tokens.items()}

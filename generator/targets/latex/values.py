@@ -1,4 +1,4 @@
-"""Writes the numbers of a file as cells of tables: letter, value, unit, and the expression that a number follows."""
+"""Writes the values of a file as cells of tables: symbol, value, unit, and the expression that gives the value."""
 
 from __future__ import annotations
 
@@ -8,20 +8,20 @@ from types import MappingProxyType
 
 import sympy as sp
 
-from gudgeon.generator.equations.fields import VariableNames
+from gudgeon.generator.equations.fields import MotionNameResolver
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.field import OF_CAM_ANGLE
 from gudgeon.generator.mechanism import Quantity, Vector
-from gudgeon.generator.symbols.from_expressions import quantity_to_sympy
+from gudgeon.generator.symbols.from_expressions import convert_quantity_to_sympy
 from gudgeon.generator.symbols.parameter_table import ParameterEntry
-from gudgeon.generator.targets.latex.document import Block, Equation, Text, cells, paragraph
+from gudgeon.generator.targets.latex.document import Block, Equation, Text, make_paragraph, make_row
 from gudgeon.generator.targets.latex.letters import Name
-from gudgeon.generator.targets.latex.notation import Notation, of_address
-from gudgeon.generator.targets.latex.printers import LONG, as_angle, number_text, share_of_pi
-from gudgeon.language.output_units import angle_power
-from gudgeon.language.plot_units import pretty
-from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, names
-from gudgeon.language.units import DIMENSIONLESS, RATE, si_unit
+from gudgeon.generator.targets.latex.notation import Notation, name_parameter
+from gudgeon.generator.targets.latex.printers import LONG, find_fraction_of_pi, format_angle, format_number
+from gudgeon.language.output_units import find_angle_power
+from gudgeon.language.plot_units import format_unit
+from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, iterate_names
+from gudgeon.language.units import DIMENSIONLESS, RATE, find_si_unit
 
 LONGEST = 30  # characters of a formula in a cell
 SMALL = 1e-3  # below it a number is written with a power of ten
@@ -35,7 +35,7 @@ class Values:
     """
 
     def __init__(self, model: Model, notation: Notation) -> None:
-        self._model, self._slots, self._notation = model, model.slots, notation
+        self._model, self._slots, self._notation = model, model.parameter_table, notation
         self._long: list[Block] = []  # what numbers follow, where it is longer than a cell is wide
 
     def cell(self, quantity: Quantity | None) -> Text:
@@ -52,51 +52,57 @@ class Values:
         An expression of a cam's angle, or with named expressions, stays as the file writes it.
         """
         notation, model = self._notation, self._model
-        file_text = as_written(quantity.value, 0, model.scene.mechanism.expressions)
-        is_cam_angle = any(name.path == OF_CAM_ANGLE for name in names(quantity.value))
-        if is_cam_angle or file_text != as_written(quantity.value):
+        file_text = format_as_written(quantity.value, 0, model.scene.mechanism.expressions)
+        is_cam_angle = any(name.path == OF_CAM_ANGLE for name in iterate_names(quantity.value))
+        if is_cam_angle or file_text != format_as_written(quantity.value):
             return (file_text,)
-        value = notation.expand(quantity_to_sympy(quantity, VariableNames(model.geometry, model.t)))
-        if len((formula := notation.math(value)).text) <= 2 * LONGEST:
+        value = notation.expand(convert_quantity_to_sympy(quantity, MotionNameResolver(model.geometry, model.t)))
+        if len((formula := notation.format_expression(value)).text) <= 2 * LONGEST:
             return (formula,)
-        left = of_address(quantity.address)
+        left = name_parameter(quantity.address)
         self._long.append(Equation(left, notation.terms(value)))
         return (left,)
 
     def slot(self, entry: ParameterEntry) -> Text:
         """Return the cell "letter = value" of a parameter."""
-        return self._notation.math(entry.symbol), " = ", *self.value(entry)
+        return self._notation.format_expression(entry.symbol), " = ", *self.value(entry)
 
     def value(self, entry: ParameterEntry) -> Text:
         """Return the default of a parameter in the unit of the file.
 
         A dependent number has its expression and the value in SI.
         """
-        if (measured := _split_unit(entry.written)) is not None:
+        if (measured := _split_unit(entry.expression)) is not None:
             return self._format_with_unit(*measured)
-        return self.followed(entry) + self._format_with_unit(entry.default, si_unit_of(entry), exact=not entry.follows)
+        return self.format_dependency(entry) + self._format_with_unit(
+            entry.default, get_si_unit(entry), exact=not entry.depends_on_parameters
+        )
 
     def format_in_si(self, entry: ParameterEntry) -> Text:
         """Return the default of a parameter in SI without its unit, after the text of the file if that differs."""
-        written, may_be_angle = entry.written, entry.dimension in (DIMENSIONLESS, RATE)
-        angle_text = as_angle(entry.default) if may_be_angle and share_of_pi(entry.default) else None
-        number = angle_text or self._format_number(entry.default, exact=isinstance(written, Number))
-        if written is None or entry.follows:
-            return (*self.followed(entry), number)
-        if isinstance(written, Number):
-            differs = unit_of(written) not in ("", si_unit(entry.dimension), si_unit_of(entry))
+        expression, may_be_angle = entry.expression, entry.dimension in (DIMENSIONLESS, RATE)
+        angle_text = format_angle(entry.default) if may_be_angle and find_fraction_of_pi(entry.default) else None
+        number = angle_text or self._format_number(entry.default, exact=isinstance(expression, Number))
+        if expression is None or entry.depends_on_parameters:
+            return (*self.format_dependency(entry), number)
+        if isinstance(expression, Number):
+            differs = get_unit(expression) not in ("", find_si_unit(entry.dimension), get_si_unit(entry))
         else:
             differs = angle_text is None
-        return (f"{as_written(written)} = ", angle_text or self._format_number(entry.default)) if differs else (number,)
+        return (
+            (f"{format_as_written(expression)} = ", angle_text or self._format_number(entry.default))
+            if differs
+            else (number,)
+        )
 
-    def followed(self, entry: ParameterEntry) -> Text:
+    def format_dependency(self, entry: ParameterEntry) -> Text:
         """Return the expression of a dependent number and " = "; () for an independent one.
 
         A long expression is collected for `below`, and () is returned.
         """
-        if not entry.follows:
+        if not entry.depends_on_parameters:
             return ()
-        formula = self._notation.math(entry.value)
+        formula = self._notation.format_expression(entry.value)
         if len(formula.text) <= LONGEST:
             return formula, " = "
         self._long += self._split_long_formula(entry)
@@ -108,16 +114,16 @@ class Values:
         The argument of a long root gets a letter, since lines cannot break in it.
         """
         notation, value, blocks = self._notation, entry.value, list[Block]()
-        left_side = notation.math(entry.symbol)
+        left_side = notation.format_expression(entry.symbol)
         for root in sorted(value.atoms(sp.Pow), key=sp.default_sort_key):
-            if root.exp == sp.Rational(1, 2) and len(notation.math(root).text) > LONG:
+            if root.exp == sp.Rational(1, 2) and len(notation.format_expression(root).text) > LONG:
                 latex, text = (name.partition("_")[1:] for name in (left_side.latex, left_side.text))
                 primes = "'" * len(blocks)
                 inner_name = Name("".join(("D", *latex, primes)), "".join(("D", *text, primes)))
                 inner_symbol = sp.Symbol(inner_name.text)
                 blocks.append(Equation(inner_name, notation.terms(root.base)))
                 notation, value = (
-                    notation.called({inner_symbol: inner_name}),
+                    notation.rename_symbols({inner_symbol: inner_name}),
                     value.xreplace({root: sp.sqrt(inner_symbol)}),
                 )
         return [*blocks, Equation(left_side, notation.terms(value))]
@@ -130,18 +136,20 @@ class Values:
         number = self._format_number(x, unit == "rad", exact)
         if unit == "deg":
             return (Name(rf"{number.latex}^{{\circ}}", f"{number.text}°"),)
-        return (number, f" {pretty(unit)}") if unit and not any(sign in number.text for sign in "π°") else (number,)
+        return (
+            (number, f" {format_unit(unit)}") if unit and not any(sign in number.text for sign in "π°") else (number,)
+        )
 
     def _format_number(self, x: float, angle: bool = False, exact: bool = False) -> Name:
         """Return a number as people write it: rounded to six digits unless `exact`, small ones with a power of ten.
 
         angle: whether it may be written as a fraction of π or in degrees.
         """
-        if angle and (known := as_angle(x)) is not None:
-            return known
+        if angle and (angle_name := format_angle(x)) is not None:
+            return angle_name
         rounded = x if exact else float(f"{x:.6g}")
         if not 0.0 < abs(rounded) < SMALL:
-            return Name(*(self._notation.math(sp.Float(rounded, 17)).latex, number_text(rounded)))
+            return Name(*(self._notation.format_expression(sp.Float(rounded, 17)).latex, format_number(rounded)))
         digits, _, power = f"{Decimal(repr(rounded)).normalize():e}".partition("e")
         factor = "" if digits == "1" else rf"{digits} \cdot "
         return Name(rf"{factor}10^{{{int(power)}}}", f"{digits}e{power}")
@@ -152,16 +160,16 @@ class Values:
             (e, e.address.split(".")) for e in self._slots.entries.values() if e.address.startswith("bodies.")
         ]
         return [
-            cells(f"{path[1]}.{'.'.join(path[3:])}", self.slot(e))
+            make_row(f"{path[1]}.{'.'.join(path[3:])}", self.slot(e))
             for e, path in entries_with_path
-            if path[2] == part and not (e.words or part == "sides" and len(path) > 4)
+            if path[2] == part and not (e.choice_words or part == "sides" and len(path) > 4)
         ]
 
     def list_densities(self) -> list[tuple[Text, ...]]:
         """Return the table rows of the densities of materials."""
-        entries_with_path = [(e, e.address.split(".")) for e in self._slots.entries.values() if not e.words]
+        entries_with_path = [(e, e.address.split(".")) for e in self._slots.entries.values() if not e.choice_words]
         return [
-            cells(path[1], self.slot(e))
+            make_row(path[1], self.slot(e))
             for e, path in entries_with_path
             if path[0] == "materials" and path[2:] == ["density"]
         ]
@@ -169,13 +177,13 @@ class Values:
     def below(self) -> list[Block]:
         """Return the long expressions since the last call, to be placed below a table, and forget them; [] for none."""
         long_blocks, self._long = list(dict.fromkeys(self._long)), []
-        return [paragraph("In full:"), *long_blocks] if long_blocks else []
+        return [make_paragraph("In full:"), *long_blocks] if long_blocks else []
 
     def vector(self, vector: Vector) -> Text:
         """Return the cell of a vector; a zero next to a parameter is written as "letter = 0"."""
         is_parameter = [component.address in self._slots.entries for component in vector]
         x, y = (
-            (of_address(component.address), " = 0")
+            (name_parameter(component.address), " = 0")
             if component.is_zero
             and any(is_parameter)
             and component.address.endswith(axis)
@@ -190,12 +198,12 @@ def _split_unit(tree: Expr | None) -> tuple[float, str] | None:
     """Return (value, unit) of a number in the file with a unit, negative ones included; None for other expressions."""
     if isinstance(tree, Unary) and (operand := _split_unit(tree.operand)) is not None:
         return -operand[0], operand[1]
-    if not isinstance(tree, Number) or not unit_of(tree) or tree.text.startswith("pi"):
+    if not isinstance(tree, Number) or not get_unit(tree) or tree.text.startswith("pi"):
         return None
-    return float(tree.text.removesuffix(unit_of(tree))), unit_of(tree)
+    return float(tree.text.removesuffix(get_unit(tree))), get_unit(tree)
 
 
-def unit_of(number: Number) -> str:
+def get_unit(number: Number) -> str:
     """Return the unit of a number of the file, such as "rpm"; "" if it has none."""
     text = number.text.strip().removeprefix("pi") if number.has_unit else ""
     return text[max((k for k in range(len(text) + 1) if _is_number(text[:k])), default=0) :].strip()
@@ -210,14 +218,16 @@ def _is_number(text: str) -> bool:
     return True
 
 
-def si_unit_of(entry: ParameterEntry) -> str:
+def get_si_unit(entry: ParameterEntry) -> str:
     """Return the SI unit of a parameter; rad and rad/s for angles and their rates if the file writes them as such."""
-    if entry.written is not None and angle_power(entry.written) == 1:
-        return {DIMENSIONLESS: "rad", RATE: "rad/s"}.get(entry.dimension, si_unit(entry.dimension))
-    return si_unit(entry.dimension)
+    if entry.expression is not None and find_angle_power(entry.expression) == 1:
+        return {DIMENSIONLESS: "rad", RATE: "rad/s"}.get(entry.dimension, find_si_unit(entry.dimension))
+    return find_si_unit(entry.dimension)
 
 
-def as_written(tree: Expr, outer_strength: int = 0, expressions: Mapping[str, Quantity] = MappingProxyType({})) -> str:
+def format_as_written(
+    tree: Expr, outer_strength: int = 0, expressions: Mapping[str, Quantity] = MappingProxyType({})
+) -> str:
     """Return an expression as in the file, with its numbers, units and names, and brackets where they are needed.
 
     outer_strength: how strongly the operator around it binds. expressions: named expressions, which appear by their
@@ -231,21 +241,23 @@ def as_written(tree: Expr, outer_strength: int = 0, expressions: Mapping[str, Qu
         case Number(value=value, text=text):
             return text or repr(value)
         case Unary(operand=operand):
-            text, strength = f"-{as_written(operand, 3, expressions)}", 3
+            text, strength = f"-{format_as_written(operand, 3, expressions)}", 3
         case Binary(operator=operator, left=left, right=right):
             strength = _STRENGTH[operator]
             operand_strengths = (strength + 1, strength) if operator == "**" else (strength, strength + 1)
-            written = [
-                as_written(side, outer_strength, expressions)
+            operand_texts = [
+                format_as_written(side, outer_strength, expressions)
                 for side, outer_strength in zip((left, right), operand_strengths, strict=True)
             ]
             for k, side in enumerate((left, right)):  # t / (1 s): a number and its unit are one
-                if (operator, k) in (("/", 1), ("**", 0)) and isinstance(side, Number) and unit_of(side):
-                    written[k] = f"({written[k]})"
-            text = f" {operator} ".join(written)
+                if (operator, k) in (("/", 1), ("**", 0)) and isinstance(side, Number) and get_unit(side):
+                    operand_texts[k] = f"({operand_texts[k]})"
+            text = f" {operator} ".join(operand_texts)
         case Call(function=function, arguments=arguments):
-            written = [as_written(a, 0, expressions) for a in arguments]
-            call_arguments = [" < ".join(written[:2]), *written[2:]] if function == "where" else written
+            operand_texts = [format_as_written(a, 0, expressions) for a in arguments]
+            call_arguments = (
+                [" < ".join(operand_texts[:2]), *operand_texts[2:]] if function == "where" else operand_texts
+            )
             return f"{function}({', '.join(call_arguments)})"
         case _:
             return tree.path

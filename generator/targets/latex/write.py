@@ -1,4 +1,4 @@
-"""Writes a model's equations as a document."""
+"""Writes the equations of a scene as one document in LaTeX, plain text or HTML."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.equations.notes import scene_notes as notes
+from gudgeon.generator.equations.notes import write_scene_notes as notes
 from gudgeon.generator.targets.latex.document import (
     Block,
     Document,
@@ -18,23 +18,23 @@ from gudgeon.generator.targets.latex.document import (
     Sketch,
     Table,
     Text,
-    cells,
-    paragraph,
-    sentence,
-    table,
+    make_paragraph,
+    make_row,
+    make_sentence,
+    make_tables,
 )
-from gudgeon.generator.targets.latex.kinematics import kinematics_sections
+from gudgeon.generator.targets.latex.kinematics import make_kinematics_sections
 from gudgeon.generator.targets.latex.letters import Name
-from gudgeon.generator.targets.latex.listings import listing_sections
-from gudgeon.generator.targets.latex.listings import scripts as own_scripts
-from gudgeon.generator.targets.latex.mechanism import part_sections
-from gudgeon.generator.targets.latex.motion import motion_sections
+from gudgeon.generator.targets.latex.listings import make_listing_sections
+from gudgeon.generator.targets.latex.listings import print_scripts as own_scripts
+from gudgeon.generator.targets.latex.mechanism import make_part_sections
+from gudgeon.generator.targets.latex.motion import make_motion_sections
 from gudgeon.generator.targets.latex.notation import Notation, make_notation
-from gudgeon.generator.targets.latex.play import play_sections
-from gudgeon.generator.targets.latex.reduction import reduction_sections
-from gudgeon.generator.targets.latex.render import render
-from gudgeon.generator.targets.latex.trace import Functions, functions_of, trace
-from gudgeon.language.shown import one_line
+from gudgeon.generator.targets.latex.play import make_play_sections
+from gudgeon.generator.targets.latex.reduction import make_reduction_sections
+from gudgeon.generator.targets.latex.render import render_document
+from gudgeon.generator.targets.latex.trace import Functions, make_functions, make_trace
+from gudgeon.language.text_output import format_one_line
 
 # docs/physics.md
 PAPER = (
@@ -52,36 +52,46 @@ def make_document(model: Model, functions: Functions) -> Document:
     mechanism, notation = model.scene.mechanism, make_notation(model)
     notes_ = notes(model)
     sections = [
-        *part_sections(model, notation),
-        *kinematics_sections(model, notation),
-        *motion_sections(model, notation),
-        *play_sections(model, notation, functions),
-        *reduction_sections(functions),
-        *([Section("Left out of this scene", tuple(paragraph(sentence(n)) for n in notes_))] if notes_ else []),
+        *make_part_sections(model, notation),
+        *make_kinematics_sections(model, notation),
+        *make_motion_sections(model, notation),
+        *make_play_sections(model, notation, functions),
+        *make_reduction_sections(functions),
+        *(
+            [Section("Left out of this scene", tuple(make_paragraph(make_sentence(n)) for n in notes_))]
+            if notes_
+            else []
+        ),
     ]
     facts = (("mechanism ", mechanism.name, ", scene ", model.scene.name),)
-    return Document(one_line(mechanism.title or mechanism.name), facts, with_paper(with_letters(sections, notation)))
+    return Document(
+        format_one_line(mechanism.title or mechanism.name),
+        facts,
+        add_paper_section(add_letters_section(sections, notation)),
+    )
 
 
-def with_letters(sections: Sequence[Section], notation: Notation) -> tuple[Section, ...]:
+def add_letters_section(sections: Sequence[Section], notation: Notation) -> tuple[Section, ...]:
     """Return the sections, preceded by a table of the primed letters and their meaning if there are any."""
-    table_blocks = primes(
+    table_blocks = make_primes_table(
         notation, (name for section in sections for block in section.blocks for name in _list_formulas(block))
     )
     return (Section("Letters", tuple(table_blocks)), *sections) if table_blocks else (*sections,)
 
 
-def primes(notation: Notation, formulas: Iterable[Name]) -> list[Block]:
+def make_primes_table(notation: Notation, formulas: Iterable[Name]) -> list[Block]:
     """Return the table of primed symbols that occur in the given formulas; [] if there are none."""
     text = " ".join(name.text for name in formulas)
     rows = [
-        cells(primed_symbol.name, primed_symbol.what, primed_symbol.letter, primed_symbol.other)
+        make_row(primed_symbol.name, primed_symbol.what, primed_symbol.letter, primed_symbol.other)
         for primed_symbol in notation.primed_symbols
         if primed_symbol.name.text in text
     ]
-    introduction = paragraph("A prime tells apart what would have the letter of something else; it is no derivative:")
-    header = cells("letter", "what it is", "without the prime", "that is")
-    return [introduction, *table(header, rows, (3,))] if rows else []
+    introduction = make_paragraph(
+        "A prime tells apart what would have the letter of something else; it is no derivative:"
+    )
+    header = make_row("letter", "what it is", "without the prime", "that is")
+    return [introduction, *make_tables(header, rows, (3,))] if rows else []
 
 
 def _list_formulas(block: Block) -> Iterator[Name]:
@@ -98,13 +108,13 @@ def _list_texts(block: Block) -> list[Text]:
     return [block.text] if isinstance(block, Paragraph) else []
 
 
-def with_paper(sections: Sequence[Section]) -> tuple[Section, ...]:
+def add_paper_section(sections: Sequence[Section]) -> tuple[Section, ...]:
     """Return the sections, followed by one that names the paper if any block mentions it."""
-    is_named = any(_mentions_paper(block) for section in sections for block in section.blocks)
-    return (*sections, Section("The paper", (paragraph(PAPER),))) if is_named else (*sections,)
+    is_named = any(_has_mention_of_paper(block) for section in sections for block in section.blocks)
+    return (*sections, Section("The paper", (make_paragraph(PAPER),))) if is_named else (*sections,)
 
 
-def _mentions_paper(block: Block) -> bool:
+def _has_mention_of_paper(block: Block) -> bool:
     """Return whether a sketch, a sentence or a cell mentions the paper."""
     if isinstance(block, (Sketch, Picture)):
         return any("the paper" in line for line in block.lines)
@@ -113,12 +123,12 @@ def _mentions_paper(block: Block) -> bool:
 
 def equations_tex(model: Model) -> str:
     """Return the equations of a scene as a LaTeX file for pdflatex and amsmath, in ASCII."""
-    return render(make_document(model, functions_of(model)), "tex")
+    return render_document(make_document(model, make_functions(model)), "tex")
 
 
 def equations_text(model: Model) -> str:
     """Return the equations of a scene as plain Unicode text, 100 columns wide."""
-    return render(make_document(model, functions_of(model)), "txt")
+    return render_document(make_document(model, make_functions(model)), "txt")
 
 
 def equations_html(
@@ -129,7 +139,7 @@ def equations_html(
     head, app, scripts: further HTML in the page's head, below its title and at its end. source: the emitted C, if it
     is known. Raises GudgeonError without the extra `docs`.
     """
-    page_trace = trace(model, source)
+    page_trace = make_trace(model, source)
     document = make_document(model, page_trace)
-    document = replace(document, sections=(*document.sections, *listing_sections(model, page_trace)))
-    return render(document, "html", head=head, app=app, scripts=own_scripts() + scripts)
+    document = replace(document, sections=(*document.sections, *make_listing_sections(model, page_trace)))
+    return render_document(document, "html", head=head, app=app, scripts=own_scripts() + scripts)

@@ -23,12 +23,12 @@ class NumPyLinkage:
         self,
         model: Model,
         source: KernelSource,
-        given: Mapping[str, float | str] | None = None,
+        given_values: Mapping[str, float | str] | None = None,
         closed: ClosedLinkage | None = None,
     ) -> None:
         self.source, self.n, self.closed = source, len(model.q), closed or ClosedLinkage(model)
-        self.defaults = self.closed.prepare(given)
-        self.names = [model.slots.field(symbol) for symbol in model.slots.members()]
+        self.defaults = self.closed.prepare(given_values)
+        self.names = [model.parameter_table.find_field_name(symbol) for symbol in model.parameter_table.list_symbols()]
         self.p = np.array([_get_parameter(self.defaults, name) for name in self.names])
 
     def get_parameters(self, p: Array) -> SimpleNamespace:
@@ -36,7 +36,7 @@ class NumPyLinkage:
         if p is self.p:
             return self.defaults
         values = dict(zip(self.names, np.asarray(p).tolist(), strict=True))
-        tables = self.closed.model.slots.tables
+        tables = self.closed.model.parameter_table.tables
         lists = {name: [values[f"{name}[{k}]"] for k in range(len(symbols))] for name, symbols in tables.items()}
         return SimpleNamespace(**values | lists)
 

@@ -17,25 +17,25 @@ from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.statements import Guard
 from gudgeon.generator.ir.values import Test, Threshold
 from gudgeon.generator.kernels import closed_linkage
-from gudgeon.generator.kernels.play import Pin
+from gudgeon.generator.kernels.play import JointFunctions
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.shared import SharedFunctionCall
-from gudgeon.generator.symbols.curves import c_name
+from gudgeon.generator.symbols.curves import make_curve_name
 from gudgeon.generator.targets.numpy.printer import (
     WIDTH,
-    assigned,
-    code,
-    docstring,
-    function,
-    indented,
-    lines,
-    name,
-    remark,
+    break_code,
+    indent_lines,
+    print_assignment,
+    print_comment,
+    print_docstring,
+    print_function,
+    print_name,
+    print_statements,
 )
-from gudgeon.language.argument_checks import mapping, number_of
+from gudgeon.language.argument_checks import check_mapping, check_number
 from gudgeon.language.curves import MARGIN, Curve
-from gudgeon.language.names import unknown, unknown_name
-from gudgeon.language.quantities import number_of_text
+from gudgeon.language.names import make_unknown_error, make_unknown_name_error
+from gudgeon.language.quantities import parse_quantity
 
 Array = NDArray[np.float64]
 _ABOUT = (
@@ -62,14 +62,16 @@ class ClosedLinkage:
 
     def __init__(self, model: Model) -> None:
         kernels = [
-            closed_linkage.mass_kernel(model),
-            *closed_linkage.row_kernels(model),
-            closed_linkage.start_kernel(model),
-            closed_linkage.prepare_kernel(model),
+            closed_linkage.make_mass_kernel(model),
+            *closed_linkage.make_row_kernels(model),
+            closed_linkage.make_start_kernel(model),
+            closed_linkage.make_prepare_kernel(model),
         ]
         self.model, self.n, self.m = model, len(model.q), len(model.all_rows)
-        text = "\n\n\n".join(map(function, kernels)) + "\n"
-        self.source = f"{_print_module_docstring(model)}\n\n\n{with_curves(model.scene.mechanism.curves, text)}{text}"
+        text = "\n\n\n".join(map(print_function, kernels)) + "\n"
+        self.source = (
+            f"{_print_module_docstring(model)}\n\n\n{print_called_curves(model.scene.mechanism.curves, text)}{text}"
+        )
         self.functions = _compile_functions(self.source)
 
     def prepare(self, given: Mapping[str, float | str] | None = None) -> SimpleNamespace:
@@ -80,7 +82,7 @@ class ClosedLinkage:
         two keys specify.
         """
         values = self._convert_given_values(
-            mapping(given, "given", "{address or parameter name: a float in SI, or '0.5 mm'}")
+            check_mapping(given, "given", "{address or parameter name: a float in SI, or '0.5 mm'}")
         )
         p = self._compute_parameters(values)
         chosen = self._find_chosen_properties(values, p)
@@ -91,8 +93,8 @@ class ClosedLinkage:
 
         Parameters without a value have their defaults.
         """
-        addresses = self.model.slots.entries
-        p = _Doubles(**{name: [0.0] * len(table) for name, table in self.model.slots.tables.items()})
+        addresses = self.model.parameter_table.entries
+        p = _Doubles(**{name: [0.0] * len(table) for name, table in self.model.parameter_table.tables.items()})
         ordered_values = [values.get(address, 0.0) for address in addresses]
         with np.errstate(all="ignore"):
             self.functions["prepare"](ordered_values, [address in values for address in addresses], p)
@@ -104,39 +106,39 @@ class ClosedLinkage:
         values: those that the run specifies, by address; a choice is the index of its name. p: the parameters before
         the choice.
         """
-        slots, properties = self.model.slots, dict[str, float]()
-        for choice in (address for address in values if slots.entries[address].words):
-            name = slots.entries[choice].words[int(values[choice])]
+        slots, properties = self.model.parameter_table, dict[str, float]()
+        for choice in (address for address in values if slots.entries[address].choice_words):
+            name = slots.entries[choice].choice_words[int(values[choice])]
             for address in slots.entries:
                 if address.startswith(f"{choice}."):
                     entry = slots.entries[f"materials.{name}.{address.removeprefix(f'{choice}.')}"]
-                    properties[address] = getattr(p, slots.field(entry.symbol))
+                    properties[address] = getattr(p, slots.find_field_name(entry.symbol))
         return properties
 
-    def _convert_given_values(self, given: Mapping[str, float | str]) -> dict[str, float]:
+    def _convert_given_values(self, given_values: Mapping[str, float | str]) -> dict[str, float]:
         """Return the given values by full address in SI; a choice becomes the index of its name.
 
         A key may be a full address or the name of a parameter. Raises UnknownNameError and BadValueError (`prepare`).
         """
-        entries, values = self.model.slots.entries, dict[str, float]()
-        for key, value in given.items():
+        entries, values = self.model.parameter_table.entries, dict[str, float]()
+        for key, value in given_values.items():
             address = key if key in entries else f"parameters.{key}"
             if address not in entries:
                 known_names = (*(a.removeprefix("parameters.") for a in entries), *entries)
-                raise unknown(
+                raise make_unknown_error(
                     f"no number of this scene has the address {key!r}", key, tuple(dict.fromkeys(known_names))
                 )
             if address in values:
                 raise BadValueError(f"{address} is given twice, once as {key!r}", hint="give it once")
-            if choices := entries[address].words:
+            if choices := entries[address].choice_words:
                 if not isinstance(value, str) or value.strip() not in choices:
-                    raise unknown_name(f"choice of {address}", str(value).strip(), choices, None)
+                    raise make_unknown_name_error(f"choice of {address}", str(value).strip(), choices, None)
                 values[address] = float(choices.index(value.strip()))
                 continue
             dimension = entries[address].dimension
             exponents = float(dimension.length), float(dimension.mass), float(dimension.time)
-            number = number_of_text(value, address, exponents) if isinstance(value, str) else value
-            values[address] = number_of(number, address)
+            number = parse_quantity(value, address, exponents) if isinstance(value, str) else value
+            values[address] = check_number(number, address)
         return values
 
     def _evaluate(self, function_name: str, size: int, *arguments: Any) -> Array:
@@ -187,12 +189,12 @@ class NumPyModel(ClosedLinkage):
 
     def __init__(self, program: Program) -> None:
         super().__init__(program.model)
-        contours = [CONTOUR] * any(own.clearance.contour is not None for own in program.pins)
-        laws = [*contours, *map(function, program.laws), *map(pin, program.pins)]
-        parts = [*_print_thresholds(program.dynamics), *laws, function(program.dynamics)]
+        contours = [CONTOUR] * any(joint_functions.clearance.contour is not None for joint_functions in program.joints)
+        laws = [*contours, *map(print_function, program.laws), *map(print_joint_function, program.joints)]
+        parts = [*_print_thresholds(program.dynamics), *laws, print_function(program.dynamics)]
         self.program = program
         text = "\n\n\n".join(parts) + "\n"
-        curves = with_curves(program.model.scene.mechanism.curves, text, self.source)
+        curves = print_called_curves(program.model.scene.mechanism.curves, text, self.source)
         self.source += f"\n\n{curves}{text}"
         self.functions = _compile_functions(self.source)
 
@@ -216,7 +218,7 @@ class NumPyModel(ClosedLinkage):
         ArrayError for another number of latches or modes.
         """
         model = self.model
-        approach_speeds = _one_each(
+        approach_speeds = _convert_numbers_by_name(
             "latches", latches, [c.name for c in model.clearances], [np.nan] * len(model.clearances)
         )
         inner_states = np.broadcast_to(
@@ -227,7 +229,7 @@ class NumPyModel(ClosedLinkage):
                 SimpleNamespace(closed=bool(x == x), deltadot_minus=float(x), force=np.nan, state=z)
                 for x, z in zip(approach_speeds, inner_states, strict=True)
             ],
-            mode=_one_each("modes", modes, [friction.name for friction in model.frictions]),
+            mode=_convert_numbers_by_name("modes", modes, [friction.name for friction in model.frictions]),
         )
         m = len(model.rows)
         rhs = SimpleNamespace(
@@ -256,7 +258,7 @@ def _print_module_docstring(model: Model) -> str:
         f"    q[{3 * k}:{3 * k + 3}], v[{3 * k}:{3 * k + 3}]: {', '.join(info[q].meaning for q in body.q)}"
         for k, body in enumerate(model.bodies)
     ]
-    return "\n".join([*docstring(docstring_lines), "", "import numpy as np"])
+    return "\n".join([*print_docstring(docstring_lines), "", "import numpy as np"])
 
 
 def _print_thresholds(kernel: Kernel) -> list[str]:
@@ -265,21 +267,23 @@ def _print_thresholds(kernel: Kernel) -> list[str]:
     [] if there are none.
     """
     tests = (line.test for section in kernel.sections for line in section.statements if isinstance(line, Guard))
-    bounds = (x for test in tests if isinstance(test, Test) and not test.of_itself for x in test.bound)
+    bounds = (x for test in tests if isinstance(test, Test) and not test.is_relative_to_value for x in test.bound)
     limits = {x.name: float(x) for x in bounds if isinstance(x, Threshold)}
-    head = remark("A row fails where less than such a share of it is left by the others.")
+    head = print_comment("A row fails where less than such a share of it is left by the others.")
     return ["\n".join([*head, *(f"{name} = {value!r}" for name, value in sorted(limits.items()))])] if limits else []
 
 
-def _one_each(what: str, values: ArrayLike, names: list[str], none: list[float] | None = None) -> list[float]:
-    """Return one number for each name; `none` are the values if nothing is given. Raises ArrayError."""
-    found = np.asarray(values, dtype=float)
-    if found.shape == (0,) and none is not None:
-        return none
-    if found.shape != (len(names),):
-        message = f"{what} of shape {found.shape}: expected ({len(names)},)"
+def _convert_numbers_by_name(
+    argument_name: str, values: ArrayLike, names: list[str], default_numbers: list[float] | None = None
+) -> list[float]:
+    """Return one number for each name; `default_numbers` are the values if nothing is given. Raises ArrayError."""
+    numbers = np.asarray(values, dtype=float)
+    if numbers.shape == (0,) and default_numbers is not None:
+        return default_numbers
+    if numbers.shape != (len(names),):
+        message = f"{argument_name} of shape {numbers.shape}: expected ({len(names)},)"
         raise ArrayError(message, hint=f"one each for {', '.join(names)}" if names else "this scene has none")
-    return _list(found)
+    return _list(numbers)
 
 
 def _list(values: ArrayLike) -> list[float]:
@@ -316,12 +320,12 @@ def knots(of, x):
     return np.where(k % 2, -1.0, 1.0) * np.where(x == of[k], 0.0, 1.0)'''
 
 
-def with_curves(curves: Mapping[str, Curve], text: str, existing: str = "") -> str:
+def print_called_curves(curves: Mapping[str, Curve], text: str, existing: str = "") -> str:
     """Return the Python tables of the curves that a text calls, and the functions that evaluate them.
 
     Parts that the text `existing` contains are left out; "" is returned if the text calls no curve.
     """
-    called_curves = [curve for curve in curves.values() if f"({c_name(curve.name)}," in text]
+    called_curves = [curve for curve in curves.values() if f"({make_curve_name(curve.name)}," in text]
     parts = [_CURVE, *map(_print_curve_table, called_curves)] if called_curves else []
     return "".join(f"{part}\n\n\n" for part in parts if part not in existing)
 
@@ -335,11 +339,11 @@ def _print_curve_table(curve: Curve) -> str:
         x, c = (np.asarray(table, "<f8").tobytes().hex() for table in (curve.x, curve.coefficients))
         return "\n".join(
             [
-                *remark(f"{curve.name}: {curve.message()}"),
-                f"{c_name(curve.name)} = (",
+                *print_comment(f"{curve.name}: {curve.describe()}"),
+                f"{make_curve_name(curve.name)} = (",
                 f'    np.frombuffer(bytes.fromhex("{x}"), "<f8"),',
                 f'    np.frombuffer(bytes.fromhex("{c}"), "<f8").reshape(-1, 4),',
-                f"    {curve.repeats},",
+                f"    {curve.is_periodic},",
                 ")",
             ]
         )
@@ -347,15 +351,15 @@ def _print_curve_table(curve: Curve) -> str:
     pieces = [f"        [{', '.join(map(repr, piece))}]," for piece in curve.coefficients]
     return "\n".join(
         [
-            *remark(f"{curve.name}: {curve.message()}"),
-            f"{c_name(curve.name)} = (",
+            *print_comment(f"{curve.name}: {curve.describe()}"),
+            f"{make_curve_name(curve.name)} = (",
             "    np.array([",
             *(f"        {line}," for line in knots),
             "    ]),",
             "    np.array([",
             *pieces,
             "    ]),",
-            f"    {curve.repeats},",
+            f"    {curve.is_periodic},",
             ")",
         ]
     )
@@ -378,7 +382,7 @@ def contour(depth, order, angle):
 _FILM = ("F_r", "F_along_t_film", "M_i_film", "M_j_film")
 
 
-def pin(joint_with_play: Pin) -> str:
+def print_joint_function(joint_with_play: JointFunctions) -> str:
     """Return the Python function `clearance_<joint>`, which fills `out` with the force in one joint with play.
 
     A contact acts where the bodies overlap, δ > 0; rigid contacts act if they are closed.
@@ -387,8 +391,8 @@ def pin(joint_with_play: Pin) -> str:
     description = f"Force of joint {clearance.name} on the journal, from the eccentricity e and its rate."
     if clearance.wall:
         description = f"Force on corner {clearance.name}, from where it is, seen from the guide's point, and its rate."
-    body = [*docstring([description])]
-    body += lines(joint_with_play.gap)
+    body = [*print_docstring([description])]
+    body += print_statements(joint_with_play.gap)
     if clearance.normal is None:
         body += [*_print_film(joint_with_play), "F = F_r, F_along_t_film, M_i_film, M_j_film", "v_t = 0.0"]
     elif clearance.film is None:
@@ -396,7 +400,7 @@ def pin(joint_with_play: Pin) -> str:
         body += [
             "F, v_t = (0.0, 0.0, 0.0, 0.0), 0.0",
             f"if {condition}:",
-            *indented(_print_dry_contact(joint_with_play)),
+            *indent_lines(_print_dry_contact(joint_with_play)),
         ]
     else:
         body += [
@@ -404,10 +408,10 @@ def pin(joint_with_play: Pin) -> str:
             "F, v_t = (F_r, F_along_t_film, M_i_film, M_j_film), 0.0",
             "if delta > 0:",
         ]
-        body += indented(
+        body += indent_lines(
             [
                 *_print_dry_contact(joint_with_play),
-                *lines(joint_with_play.share),
+                *print_statements(joint_with_play.share),
                 "if share < 1:",
                 f"    film = {', '.join(_FILM)}",
                 "    F = tuple(b + share*(a - b) for a, b in zip(F, film))",
@@ -422,39 +426,43 @@ def pin(joint_with_play: Pin) -> str:
     ]
     further_arguments = ", n_x, n_y" if clearance.wall else ", theta_i" if clearance.contour else ""
     signature = f"def clearance_{joint}_(e_x, e_y, de_x, de_y, omega_i, omega_j{further_arguments}, contact, p, out):"
-    return "\n".join([*code(signature), *indented(body)])
+    return "\n".join([*break_code(signature), *indent_lines(body)])
 
 
-def _print_dry_contact(pin_: Pin) -> list[str]:
+def _print_dry_contact(pin_: JointFunctions) -> list[str]:
     """Return the lines of dry contact for δ > 0; at an onset the approach speed is the present one, ratio 1.
 
     Without friction its force is 0.
     """
     ratio, states = "unclipped" if pin_.clearance.clip_ratio else "ratio", range(len(pin_.clearance.states))
     states_read, rates = [f"contact.state[{k}]" for k in states], [f"out.state_rate[{k}]" for k in states]
-    normal_force = "F_N" if pin_.pressing else "F_n"
+    normal_force = "F_N" if pin_.contour_normal_force else "F_n"
     friction_call = (
         _print_law_call(pin_.laws["friction"], normal_force, "v_t", *states_read) if "friction" in pin_.laws else "0.0"
     )
     return [
         f"{ratio} = deltadot / contact.deltadot_minus if contact.closed else 1.0",
-        *lines(pin_.before_dry),
-        *assigned("F_n", _print_law_call(pin_.laws["normal"], "delta", "ratio", *map(name, pin_.given)), is_call=True),
-        *lines(pin_.pressing),
-        *assigned(", ".join(["F_along_t_dry", *rates]), friction_call, is_call=True),
-        *lines(pin_.after_dry),
+        *print_statements(pin_.before_dry),
+        *print_assignment(
+            "F_n",
+            _print_law_call(pin_.laws["normal"], "delta", "ratio", *map(print_name, pin_.further_places)),
+            is_call=True,
+        ),
+        *print_statements(pin_.contour_normal_force),
+        *print_assignment(", ".join(["F_along_t_dry", *rates]), friction_call, is_call=True),
+        *print_statements(pin_.after_dry),
         f"F = -{normal_force}, {', '.join(_DRY[1:])}",
     ]
 
 
-def _print_film(pin_: Pin) -> list[str]:
+def _print_film(pin_: JointFunctions) -> list[str]:
     """Return the lines that compute a film's forces and moments."""
-    film_call = assigned(
+    film_call = print_assignment(
         "F_r, F_along_t_film, T0", _print_law_call(pin_.laws["film"], "epsilon", "w_n", "w_t"), is_call=True
     )
-    return [*lines(pin_.before_film), *film_call, *lines(pin_.after_film)]
+    return [*print_statements(pin_.before_film), *film_call, *print_statements(pin_.after_film)]
 
 
 def _print_law_call(call: SharedFunctionCall, *arguments: str) -> str:
     """Return the call of a law in Python: its arguments, then the parameters of this joint."""
-    return f"{call.kernel.name}({', '.join([*arguments, *map(name, call.numbers)])})"
+    return f"{call.kernel.name}({', '.join([*arguments, *map(print_name, call.parameters)])})"

@@ -14,10 +14,10 @@ from functools import reduce
 import sympy as sp
 from sympy.printing.pycode import PythonCodePrinter
 
-from gudgeon.generator.ir.branches import Branch, JointsAlone
+from gudgeon.generator.ir.branches import Branch, ReturnIfOnlyJoints
 from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.ir.readable import Readable, readable, share_of_pi
-from gudgeon.generator.ir.readable import lines as readable_lines
+from gudgeon.generator.ir.readable import Readable, convert_to_fraction_of_pi, make_readable
+from gudgeon.generator.ir.readable import make_readable_statements as readable_lines
 from gudgeon.generator.ir.signatures import BRANCHES
 from gudgeon.generator.ir.statements import (
     Branches,
@@ -26,62 +26,68 @@ from gudgeon.generator.ir.statements import (
     Jump,
     Largest,
     Line,
-    Rescue,
     Return,
+    SolveDependentRows,
     Statement,
     Status,
     When,
 )
-from gudgeon.generator.ir.values import Conditional, Defaulted, Sum, Test, Threshold, Value
-from gudgeon.generator.symbols.curves import ContourOf, CurveOf, CurveOn, KnotsOf, c_name
+from gudgeon.generator.ir.values import Conditional, ParameterOrDefault, Sum, Test, Threshold, Value
+from gudgeon.generator.symbols.curves import ContourOf, CurveOf, CurveOn, KnotsOf, make_curve_name
 from gudgeon.generator.symbols.from_expressions import CLASSES
-from gudgeon.generator.symbols.storage import Key, Place, Result, key_of
+from gudgeon.generator.symbols.storage import Key, Place, Result, find_key
 from gudgeon.generator.targets import line_breaks
 from gudgeon.generator.targets.cached_printer import CachedPrinter
 
-_NOWHERE = (Status, JointsAlone, Jump, Rescue, Branches)  # vanished pivots, held corners, what single runs ask for
+_NOWHERE = (
+    Status,
+    ReturnIfOnlyJoints,
+    Jump,
+    SolveDependentRows,
+    Branches,
+)  # vanished pivots, held corners, what single runs ask for
 _HELD = tuple(Place(argument.name) for argument in BRANCHES)
 _SIDES = ("branch", "g", "corner")
 
 
-def name(key: Key) -> str:
+def print_name(key: Key) -> str:
     """Return the Python expression of a local or place; the field `lambda` becomes `rhs.lambda_[3]`."""
     if isinstance(key, Place):
-        members = (f"[{step}]" if isinstance(step, int) else f".{name(step)}" for step in key.path)
-        return name(key.base) + "".join(members)
+        members = (f"[{step}]" if isinstance(step, int) else f".{print_name(step)}" for step in key.path)
+        return print_name(key.base) + "".join(members)
     return f"{key}_" if keyword.iskeyword(key) else key
 
 
 class NumPyPrinter(CachedPrinter, PythonCodePrinter):
     """Print expressions as Python for numbers and arrays alike; conditions of C become np.where."""
 
-    def __init__(self, of: Readable) -> None:
+    def __init__(self, readable_lines: Readable) -> None:
         super().__init__({"fully_qualified_modules": False})
-        self.of = of
+        self.of = readable_lines
 
     def get_name(self, key: Key) -> str:
         """Return the name of a local or place in this function."""
-        return name(self.of.names.get(key, key))
+        return print_name(self.of.names.get(key, key))
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         """Print a symbol by its name in the function."""
-        return self.get_name(key_of(expr))
+        return self.get_name(find_key(expr))
 
     def _print_Float(self, expr: sp.Float) -> str:
         """Print a float, a fraction of π as such."""
-        share = share_of_pi(expr)
-        return share.text("np.pi") if share else repr(float(expr))
+        fraction = convert_to_fraction_of_pi(expr)
+        return fraction.format("np.pi") if fraction else repr(float(expr))
 
     def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
         """Print an expression, in brackets if it binds less than `level`; a fraction of π counts as one number."""
-        if item.is_Float and (share := share_of_pi(item)) and not share.is_one:
+        if item.is_Float and (fraction := convert_to_fraction_of_pi(item)) and not fraction.is_one:
             return f"({self._print(item)})"
         return super().parenthesize(item, level, strict)
 
     def _print_Mul(self, expr: sp.Mul) -> str:
         """Print a product, a fraction of π as such."""
-        share = share_of_pi(expr)
-        return share.text("np.pi") if share else str(super()._print_Mul(expr))
+        fraction = convert_to_fraction_of_pi(expr)
+        return fraction.format("np.pi") if fraction else str(super()._print_Mul(expr))
 
     def _print_Rational(self, expr: sp.Rational) -> str:
         """Print a rational number as a quotient."""
@@ -138,8 +144,8 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
         """Print a choice by the sign of its first argument."""
         if expr in self.of.branches:
             return self.get_name(self.of.branches[expr])
-        side, a, b = map(self._print, expr.args)
-        return f"np.where({side} < 0, {b}, {a})"
+        branch, a, b = map(self._print, expr.args)
+        return f"np.where({branch} < 0, {b}, {a})"
 
     def _print_ContourOf(self, expr: ContourOf) -> str:
         """Print the depth of a contour or its derivative (symbols/curves.py)."""
@@ -147,7 +153,7 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
         """Print the value of a curve or its derivative."""
-        return f"curve({c_name(expr.name)}, {expr.order}, {self._print(expr.args[2])})"
+        return f"curve({make_curve_name(expr.name)}, {expr.order}, {self._print(expr.args[2])})"
 
     def _print_CurveOn(self, expr: CurveOn) -> str:
         """Print the value of a curve; the piece is not frozen."""
@@ -155,7 +161,7 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
 
     def _print_KnotsOf(self, expr: KnotsOf) -> str:
         """Print the event function of a curve's knots."""
-        return f"knots({c_name(expr.name)}, {self._print(expr.args[1])})"
+        return f"knots({make_curve_name(expr.name)}, {self._print(expr.args[1])})"
 
     def _print_ModOf(self, expr: sp.Expr) -> str:
         """Print a remainder; the period is not frozen."""
@@ -196,8 +202,8 @@ class LinePrinter:
     Raises ValueError for a kind of line without a counterpart.
     """
 
-    def __init__(self, of: Readable) -> None:
-        self.printer = NumPyPrinter(of)
+    def __init__(self, readable_lines: Readable) -> None:
+        self.printer = NumPyPrinter(readable_lines)
 
     def print_lines(self, items: Iterable[Line]) -> list[str]:
         """Return lines of a kernel as Python, broken to fit; lines for single runs of C are left out."""
@@ -212,8 +218,8 @@ class LinePrinter:
                 then, otherwise = self.expression(value.then), self.expression(value.otherwise)
                 return f"np.where({self._print_test(value.test)}, {then}, {otherwise})"
             case Sum():
-                return " + ".join(map(name, value.places))
-            case Defaulted():
+                return " + ".join(map(print_name, value.places))
+            case ParameterOrDefault():
                 return f"given[{value.k}] if is_given[{value.k}] else {self.expression(value.default)}"
             case _:
                 return str(self.printer.doprint(value))
@@ -221,8 +227,8 @@ class LinePrinter:
     def _print_test(self, item: Test) -> str:
         """Return a comparison as Python; a test of a value itself checks that it is positive and finite."""
         value = self.expression(item.value)
-        left_side = f"np.abs({value})" if item.size else value
-        if item.of_itself:
+        left_side = f"np.abs({value})" if item.compares_magnitude else value
+        if item.is_relative_to_value:
             return f"0 < {left_side} < np.inf"
         bound = " * ".join(map(self._print_factor, item.bound))
         return f"{left_side} {item.relation} {bound}" if item.relation else left_side
@@ -234,36 +240,40 @@ class LinePrinter:
         return repr(value) if isinstance(value, float) else self.expression(value)
 
     def _print_line(self, item: Line) -> list[str]:
-        """Return one line of a kernel as lines of Python.
+        """Return one line of a kernel as lines of Python, broken to fit.
 
-        Raises ValueError for a kind of line without a counterpart.
+        A branch becomes np.where. A test of a pivot that fails returns its number, the end of the function 0. Raises
+        ValueError for a kind of line without a counterpart.
         """
         match item:
             case Statement():
                 target, value = self.printer.get_name(item.target), self.expression(item.value)
-                return assigned(target, value, item.comment, isinstance(item.value, Conditional))
+                return print_assignment(target, value, item.comment, isinstance(item.value, Conditional))
             case Branch():
-                side, then, otherwise = map(self.expression, (item.side, item.then, item.otherwise))
-                value = f"np.where({side} < 0, {otherwise}, {then})"
-                return assigned(self.printer.get_name(item.target), value, item.comment, is_call=True)
+                branch, then, otherwise = map(self.expression, (item.branch, item.value_above, item.value_below))
+                value = f"np.where({branch} < 0, {otherwise}, {then})"
+                return print_assignment(self.printer.get_name(item.target), value, item.comment, is_call=True)
             case When():
-                return [*code(f"if {self._print_test(item.test)}:"), *indented(self._print_line(item.statement))]
+                return [
+                    *break_code(f"if {self._print_test(item.test)}:"),
+                    *indent_lines(self._print_line(item.statement)),
+                ]
             case Call():
                 arguments = [self.expression(x) for x in (*item.given, *item.results) if x not in _HELD]
-                return code(f"{item.function}({', '.join(arguments)})")
+                return break_code(f"{item.function}({', '.join(arguments)})")
             case Guard(test=Test() as test):
-                condition = f"{self._print_test(item.only)} and " if item.only else ""
-                return [*code(f"if {condition}not ({self._print_test(test)}):"), f"    return {item.number}"]
+                condition = f"{self._print_test(item.condition)} and " if item.condition else ""
+                return [*break_code(f"if {condition}not ({self._print_test(test)}):"), f"    return {item.number}"]
             case Largest():
                 inner = ", ".join(f"np.abs({self.expression(x)})" for x in item.values)
                 value = f"max({inner}, 0.0)" if item.values else "0.0"
-                return assigned(f"{item.target}[0]", value, is_call=True)
+                return print_assignment(f"{item.target}[0]", value, is_call=True)
             case Return():
                 return ["return 0"]
         raise ValueError(f"a line of a function that has no counterpart in Python: {item}")
 
 
-def lines(items: Sequence[Statement]) -> list[str]:
+def print_statements(items: Sequence[Statement]) -> list[str]:
     """Return statements as lines of Python for a function that is not a kernel."""
     readable_statements = readable_lines(items)
     return LinePrinter(readable_statements).print_lines(
@@ -271,20 +281,22 @@ def lines(items: Sequence[Statement]) -> list[str]:
     )
 
 
-def function(kernel: Kernel) -> str:
+def print_function(kernel: Kernel) -> str:
     """Return a kernel as a Python function with its docstring.
 
     Numbers that C returns through pointers are returned. The arguments for branches are left out.
     """
     targets = [line.target for section in kernel.sections for line in section.statements if isinstance(line, Statement)]
     returned = [a.name for a in kernel.arguments if Result(a.name) in targets]
-    argument_names = [name(a.name) for a in kernel.arguments if a.name not in (*_SIDES, *returned)]
-    text = [*code(f"def {kernel.name}({', '.join(argument_names)}):"), *indented(docstring(kernel.doc))]
-    readable_kernel = readable(kernel)
+    argument_names = [print_name(a.name) for a in kernel.arguments if a.name not in (*_SIDES, *returned)]
+    text = [*break_code(f"def {kernel.name}({', '.join(argument_names)}):"), *indent_lines(print_docstring(kernel.doc))]
+    readable_kernel = make_readable(kernel)
     for section in readable_kernel.sections:
         body = LinePrinter(readable_kernel).print_lines(section.statements)
-        has_rescue = any(isinstance(line, Rescue) for line in section.statements)  # of which the title tells
-        text += indented([*remark("" if has_rescue else section.title), *body]) if body else []
+        has_rescue = any(
+            isinstance(line, SolveDependentRows) for line in section.statements
+        )  # of which the title tells
+        text += indent_lines([*print_comment("" if has_rescue else section.title), *body]) if body else []
     return "\n".join([*text, *([f"    return {', '.join(returned)}"] if returned else [])])
 
 
@@ -292,30 +304,30 @@ WIDTH = 100
 _WIDTH = WIDTH - 12  # of what stands in a function and in two conditions at most
 
 
-def code(text: str) -> list[str]:
+def break_code(text: str) -> list[str]:
     """Return a line of Python as lines, broken inside brackets if it is long."""
-    return line_breaks.broken(text, _WIDTH, min_depth=1)
+    return line_breaks.break_code(text, _WIDTH, min_depth=1)
 
 
-def assigned(target: str, value: str, comment: str = "", is_call: bool = False) -> list[str]:
+def print_assignment(target: str, value: str, comment: str = "", is_call: bool = False) -> list[str]:
     """Return `target = value` as lines of Python; a long value that is not one call is put in brackets.
 
     The comment follows if it fits, else precedes.
     """
     line = f"{target} = {value}"
-    lines = code(line if is_call or len(line) <= _WIDTH else f"{target} = ({value})")
+    lines = break_code(line if is_call or len(line) <= _WIDTH else f"{target} = ({value})")
     comment_text = f"# {remove_line_breaks(comment)}" if comment else ""
     if len(lines) == 1 and len(line) + 2 + len(comment_text) <= _WIDTH:
         return [f"{line}  {comment_text}".rstrip()]
-    return [*remark(comment), *lines]
+    return [*print_comment(comment), *lines]
 
 
-def remark(text: str) -> list[str]:
+def print_comment(text: str) -> list[str]:
     """Return a text as comment lines; [] for an empty text."""
     return [f"# {line}" for line in textwrap.wrap(remove_line_breaks(text), _WIDTH - 2)]
 
 
-def docstring(doc: Sequence[str]) -> list[str]:
+def print_docstring(doc: Sequence[str]) -> list[str]:
     """Return the lines of a docstring from paragraphs; long ones are wrapped and continued with an indent."""
     printable = (remove_line_breaks(line, keep_spaces=True).replace("\\", "/").replace('"', "'") for line in doc)
     first, *others = [part for line in printable for part in _wrap_docstring_line(line)]
@@ -340,6 +352,6 @@ def remove_line_breaks(text: str, keep_spaces: bool = False) -> str:
     return printable.rstrip() if keep_spaces else " ".join(printable.split())
 
 
-def indented(text: Iterable[str]) -> list[str]:
+def indent_lines(text: Iterable[str]) -> list[str]:
     """Return lines indented by four columns."""
     return [f"    {line}" if line else "" for line in text]

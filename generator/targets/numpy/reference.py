@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.boundary import N_ENERGY, N_REACTION_COLUMNS
-from gudgeon.contract.kernel_source import KernelSource, given_parameters
+from gudgeon.contract.kernel_source import KernelSource, make_given_parameters
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.kernels.outputs import constraining_joints, element_series
+from gudgeon.generator.kernels.outputs import find_constraining_joints, find_element_series
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.targets.numpy.linkage import NumPyLinkage, _get_parameter
-from gudgeon.generator.targets.numpy.module import NumPyModel, _compile_functions, with_curves
-from gudgeon.generator.targets.numpy.printer import function
+from gudgeon.generator.targets.numpy.module import NumPyModel, _compile_functions, print_called_curves
+from gudgeon.generator.targets.numpy.printer import print_function
 
 Array = NDArray[np.float64]
 MAX_COORDINATES = 300  # for larger linkages Python takes longer to compile the text than C
@@ -31,11 +31,11 @@ NEARBY = 1e-12
 CLOSINGS = 6  # Gauss–Newton steps towards a closed linkage
 
 
-def reference_values(program: Program, source: KernelSource) -> dict[str, Any]:
+def compute_reference_values(program: Program, source: KernelSource) -> dict[str, Any]:
     """Return {"p": parameters, "given": …, "states": [{t, q, v, memory, values}]} for the emitted `source`.
 
     Numbers are SI; "values" has the arrays of an Evaluation by name, flat, and phi, nu, gamma and mass. "given" has the
-    parameters where every second slot is given (`given_parameters`), from the first and from the second on. {} for
+    parameters where every second slot is given (`make_given_parameters`), from the first and from the second on. {} for
     large linkages.
     """
     if len(program.model.q) > MAX_COORDINATES:
@@ -56,8 +56,8 @@ def _compute_reference(program: Program, source: KernelSource) -> dict[str, Any]
     numpy_model = NumPyModel(program)
     linkage, rng = NumPyLinkage(model, source, closed=numpy_model), np.random.default_rng(1)
     clearances = [abs(float(linkage.p[joint.clearance])) for joint in source.clearances]
-    text = function(program.closed[-1]) + "\n"
-    imports = f"import numpy as np\n\n\n{with_curves(model.scene.mechanism.curves, text)}"
+    text = print_function(program.closed_linkage[-1]) + "\n"
+    imports = f"import numpy as np\n\n\n{print_called_curves(model.scene.mechanism.curves, text)}"
     outputs = _compile_functions(f"{imports}{text}")["outputs"]
     states, candidates = [], []
     for k in range(N_STATES):
@@ -98,7 +98,7 @@ def _compute_given_parameters(numpy_model: NumPyModel, linkage: NumPyLinkage) ->
     for first in range(2):
         with np.errstate(all="ignore"):
             p = numpy_model._compute_parameters(
-                {slots[k].address: value for k, value in given_parameters(slots, first).items()}
+                {slots[k].address: value for k, value in make_given_parameters(slots, first).items()}
             )
         parameters.append(_round_to_seven_digits(np.array([_get_parameter(p, name) for name in linkage.names])))
     return parameters
@@ -115,7 +115,7 @@ def _find_contact_states(
     model, (t, q, _, (latches, modes, _)) = numpy_model.model, start_state
     if not model.clearances:
         return []
-    tried: tuple[list[Any], list[Any]] = [], []  # in contact; free, or in a film
+    candidates: tuple[list[Any], list[Any]] = [], []  # in contact; free, or in a film
     q = _find_near_closed(numpy_model, t, p, 0.0, rng)
     for n in range(N_TRIED):
         if n % 2 == 0:
@@ -136,8 +136,8 @@ def _find_contact_states(
         except (ArithmeticError, ValueError):
             continue
         if not result.status and np.isfinite(result.a).all():
-            tried[int(is_free)].append((_list_features(result), state))
-    return [state for states in tried for state in _select_most_different(states)]
+            candidates[int(is_free)].append((_list_features(result), state))
+    return [state for states in candidates for state in _select_most_different(states)]
 
 
 def _select_most_different(candidates: list[tuple[set[tuple[Any, ...]], Any]]) -> list[Any]:
@@ -231,8 +231,8 @@ def _evaluate_functions(
         "mass": numpy_model.mass(p),
         "clearance": np.array([[clearance.Fx, clearance.Fy] for clearance in result.clearance]).ravel(),
     }
-    reactions, drives = N_REACTION_COLUMNS * len(constraining_joints(model)), len(model.scene.mechanism.drives)
-    out = [np.zeros(size) for size in (reactions, drives, len(element_series(model)), N_ENERGY)]
+    reactions, drives = N_REACTION_COLUMNS * len(find_constraining_joints(model)), len(model.scene.mechanism.drives)
+    out = [np.zeros(size) for size in (reactions, drives, len(find_element_series(model)), N_ENERGY)]
     try:
         with np.errstate(all="ignore"):
             outputs(t, q.tolist(), v.tolist(), p, result.lambda_, *out)

@@ -1,1 +1,1 @@
-"""Others' integrators on our right-hand side: cross-checks."""
+"""Integrate a scene's compiled right-hand side by SciPy and SUNDIALS, as independent checks of gudgeon's methods."""

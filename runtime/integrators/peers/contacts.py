@@ -1,4 +1,4 @@
-"""Treat joints with play in a run that Python drives: contact states, events on a step's interpolant, peaks.
+"""Handle joints with play in runs by SciPy or SUNDIALS: contact states, events on the dense output, peaks.
 
 This module is independent of engine/watch/events.c, since a cross-check must not share the code that it checks. Events
 are located on the method's dense output, not by its built-in search. SciPy's and CVODE's searches see only sign changes
@@ -37,17 +37,17 @@ ROUNDED = 1e-7  # of the bearing's radius, in addition
 
 
 @dataclass(frozen=True)
-class Piece:
-    """Hold one accepted step: the solver's interpolant `at`, and `projected`, the same projected onto the
+class AcceptedStep:
+    """Hold one accepted step: the solver's interpolant `at`, and `evaluate_projected`, the same projected onto the
     constraints.
     """
 
     t0: float
     t1: float
-    at: Callable[[float], Array]
-    projected: Callable[[float], Array]
+    evaluate: Callable[[float], Array]
+    evaluate_projected: Callable[[float], Array]
 
-    def nodes(self) -> Array:
+    def compute_sample_times(self) -> Array:
         """Return the times (s) at which the step is sampled for events, both ends included."""
         t = self.t0 + NODES * (self.t1 - self.t0)
         t[-1] = self.t1
@@ -55,7 +55,7 @@ class Piece:
 
 
 @dataclass(frozen=True)
-class View:
+class ContactQuantities:
     """Hold the quantities of joints with play at N states, (N, n_clearances) each."""
 
     delta: Array  # m
@@ -94,34 +94,36 @@ class Contacts:
         touching = np.where(self.compressing, CODE_IMPACT, CODE_CONTACT)
         return np.where(self.closed, touching, CODE_FREE).astype(np.int8)
 
-    def view(self, t: Array, y: Array) -> View:
+    def evaluate(self, t: Array, y: Array) -> ContactQuantities:
         """Evaluate the quantities of joints with play at times t (N,) and states y (N, 2n or more), for the present
         contacts.
         """
         n = self.compiled.n
         memory = np.broadcast_to(self.memory, (len(t), self.count))
-        found = self.compiled.evaluate(t, y[:, :n], y[:, n : 2 * n], memory, self.p).clearance
-        force = np.hypot(found[..., CLEARANCE_Fn], found[..., CLEARANCE_Ft])
-        return View(found[..., CLEARANCE_delta], found[..., CLEARANCE_deltadot], force, found[..., CLEARANCE_e])
+        columns = self.compiled.evaluate(t, y[:, :n], y[:, n : 2 * n], memory, self.p).clearance
+        force = np.hypot(columns[..., CLEARANCE_Fn], columns[..., CLEARANCE_Ft])
+        return ContactQuantities(
+            columns[..., CLEARANCE_delta], columns[..., CLEARANCE_deltadot], force, columns[..., CLEARANCE_e]
+        )
 
-    def begin(self, t: float, y: Array, compute_onset_speeds: Callable[[], Array]) -> None:
+    def close_initial_contacts(self, t: float, y: Array, compute_onset_speeds: Callable[[], Array]) -> None:
         """Close the contacts that the start y lies in, and resume those that are closed already.
 
         `compute_onset_speeds` returns the approach speeds δ̇⁻ (n_memory,) of the former; it is called only if there are
         any.
         """
-        now = self.view(np.array([t]), y[None])
+        now = self.evaluate(np.array([t]), y[None])
         self.open = [(t, 0.0, t)] * self.count
         began = np.flatnonzero(~self.closed & (now.delta[0] >= 0.0)).tolist()
-        known = compute_onset_speeds() if began else self.memory
+        onset_speeds = compute_onset_speeds() if began else self.memory
         for k in began:
-            self._close_contact(k, t, float(known[k]))
+            self._close_contact(k, t, float(onset_speeds[k]))
 
-    def change(self, t: float, y: Array, joint: int) -> None:
+    def switch_contacts(self, t: float, y: Array, joint: int) -> None:
         """Switch joint `joint` between free and contact at t (s), and every other joint that is past its switching
         point.
         """
-        now = self.view(np.array([t]), y[None])
+        now = self.evaluate(np.array([t]), y[None])
         sign = np.where(self.closed, 1.0, -1.0)
         over = (sign * now.delta[0] < 0.0) & (sign * now.deltadot[0] < 0.0)
         over[joint] = True
@@ -146,7 +148,7 @@ class Contacts:
         self.impacts.append((k, onset, t, float(self.memory[k]), F, t_peak))
         self.memory[k] = np.nan
 
-    def update_peaks(self, t: Array, view: View) -> None:
+    def update_peaks(self, t: Array, view: ContactQuantities) -> None:
         """Update the largest forces and eccentricities of all joints by the quantities `view` at accepted states at
         times t.
         """
@@ -162,13 +164,13 @@ class Contacts:
         if self.closed[k] and self.open[k][1] < F:
             self.open[k] = (self.open[k][0], F, t)
 
-    def end_of_step(self, t: float, y: Array) -> int | None:
+    def update_after_step(self, t: float, y: Array) -> int | None:
         """Update velocity ratios and peaks at an accepted state y at t (s); return the index of a lost contact, or
         None.
 
         A contact is lost if a joint that counts as free lies clearly beyond its wall.
         """
-        now = self.view(np.array([t]), y[None])
+        now = self.evaluate(np.array([t]), y[None])
         self.update_peaks(np.array([t]), now)
         closed = self.closed
         for ratio in (now.deltadot[0] / self.memory)[closed]:
@@ -178,7 +180,7 @@ class Contacts:
         lost = np.flatnonzero(~closed & (now.delta[0] > LOST * self.c + ROUNDED * self.R))
         return int(lost[0]) if len(lost) else None
 
-    def inner_peaks(self, step: Piece, t: Array, quantities: View) -> None:
+    def refine_peaks(self, step: AcceptedStep, t: Array, quantities: ContactQuantities) -> None:
         """Refine the largest forces inside a step by minimisation, from the samples `quantities` at times t before the
         step's end.
 
@@ -188,28 +190,28 @@ class Contacts:
 
         for k in range(self.count):
             i = int(np.argmax(quantities.F[:, k]))
-            known = self.open[k][1] if self.closed[k] else self.peaks[k, PEAK_F]
+            peak = self.open[k][1] if self.closed[k] else self.peaks[k, PEAK_F]
             bounds = (t[max(i - 1, 0)], t[min(i + 1, len(t) - 1)])
-            if bounds[0] < bounds[1] and quantities.F[i, k] > KEPT * known:
+            if bounds[0] < bounds[1] and quantities.F[i, k] > KEPT * peak:
                 top = minimize_scalar(
-                    lambda x, k=k: -self._evaluate_at(step.at, x).F[0, k],
+                    lambda x, k=k: -self._evaluate_at(step.evaluate, x).F[0, k],
                     bounds=bounds,
                     method="bounded",
                     options={"xatol": 1e-5 * (bounds[1] - bounds[0])},
                 )
                 self._update_peak(k, float(top.x), -float(top.fun))
 
-    def _evaluate_at(self, state_function: Callable[[float], Array], t: float) -> View:
+    def _evaluate_at(self, state_function: Callable[[float], Array], t: float) -> ContactQuantities:
         """Return the quantities of joints with play at time t, for the state given by a function of time."""
-        return self.view(np.array([t]), state_function(t)[None])
+        return self.evaluate(np.array([t]), state_function(t)[None])
 
-    def first_event(self, step: Piece, t: Array, quantities: View) -> tuple[float, int] | None:
+    def find_first_event(self, step: AcceptedStep, t: Array, quantities: ContactQuantities) -> tuple[float, int] | None:
         """Return time (s) and joint index of the first contact that begins or ends inside a step; None without one.
 
         `quantities`: quantities at the sampled times t of the step.
         """
         sign = np.where(self.closed, 1.0, -1.0)
-        found = [
+        zeros = [
             (
                 self._find_first_zero(
                     step, k, t, sign[k] * quantities.delta[:, k], sign[k] * quantities.deltadot[:, k]
@@ -218,10 +220,12 @@ class Contacts:
             )
             for k in range(self.count)
         ]
-        times = [(at, k) for at, k in found if at is not None]
+        times = [(zero_time, k) for zero_time, k in zeros if zero_time is not None]
         return min(times) if times else None
 
-    def _find_first_zero(self, step: Piece, k: int, t: Array, event_function: Array, rate: Array) -> float | None:
+    def _find_first_zero(
+        self, step: AcceptedStep, k: int, t: Array, event_function: Array, rate: Array
+    ) -> float | None:
         """Return the first time (s) in the step at which joint k's event function becomes negative, or None.
 
         `event_function` and `rate`: samples (N,) of the function and its rate at times t. A minimum between two
@@ -237,12 +241,12 @@ class Contacts:
                 if not rate[i - 1] < 0.0 < rate[i]:
                     continue
                 high = self._locate_zero(step, k, low, high, of_rate=True) or high  # where the margin is least
-            at = self._locate_zero(step, k, low, high)
-            if at is not None:
-                return at
+            zero_time = self._locate_zero(step, k, low, high)
+            if zero_time is not None:
+                return zero_time
         return None
 
-    def _locate_zero(self, step: Piece, k: int, low: float, high: float, of_rate: bool = False) -> float | None:
+    def _locate_zero(self, step: AcceptedStep, k: int, low: float, high: float, of_rate: bool = False) -> float | None:
         """Return the time (s) between low and high at which the event function of joint k, projected, becomes negative,
         or None.
 
@@ -252,7 +256,7 @@ class Contacts:
 
         def value(t: float) -> float:
             """Return the projected event function, or its rate, at t."""
-            view = self._evaluate_at(step.projected, t)
+            view = self._evaluate_at(step.evaluate_projected, t)
             number = view.deltadot[0, k] if of_rate else view.delta[0, k]
             return float(number if self.closed[k] else -number)
 

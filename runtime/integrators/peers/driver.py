@@ -20,15 +20,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.assembly.linkage import residuals
+from gudgeon.assembly.linkage import compute_residuals
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, NonFiniteError, SolverError
-from gudgeon.integrators.adaptive import tolerances
-from gudgeon.integrators.batch import integrate
-from gudgeon.integrators.peers.contacts import Contacts, Piece
+from gudgeon.integrators.adaptive import compute_tolerances
+from gudgeon.integrators.batch import integrate_problem
+from gudgeon.integrators.peers.contacts import AcceptedStep, Contacts
 from gudgeon.integrators.peers.stepper import SCIPY, Equations, Stepper
-from gudgeon.integrators.steps import Shown
+from gudgeon.integrators.steps import StepCollector
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 from gudgeon.model.compiled import Array
 
@@ -39,7 +39,7 @@ MAX_STUCK = 200  # largest number of successive events at one time
 GROWN = 2.0  # growth of the speed after which the tolerances are set anew
 
 
-def unfit(source: KernelSource) -> str:
+def explain_unfit(source: KernelSource) -> str:
     """Return the reason why the reference solvers cannot integrate a scene; "" if they can."""
     if source.degrees_of_freedom == 0:
         return "nothing is integrated"
@@ -52,12 +52,12 @@ def unfit(source: KernelSource) -> str:
     return ""
 
 
-def run(problem: Problem) -> Trajectory:
+def integrate_by_reference_solver(problem: Problem) -> Trajectory:
     """Integrate a run with the reference solver that problem.method names, and return its Trajectory.
 
     Raises BadValueError for a scene that does not fit, for events that would end the run, and for a fixed step.
     """
-    if reason := unfit(problem.compiled.source):
+    if reason := explain_unfit(problem.compiled.source):
         raise BadValueError(
             f"method {problem.method!r}: {reason}",
             hint="use auto, dop853 or rodas5p, or a smooth_step in place of a ramp",
@@ -99,13 +99,13 @@ class _Driver:
         self.stepper: Stepper
         self.began = math.nan  # s, time after the packages were imported
         duration = float(problem.t[-1] - problem.t[0])
-        self.scale, least = tolerances(problem.compiled, problem.p, problem.rtol)
+        self.scale, least = compute_tolerances(problem.compiled, problem.p, problem.rtol)
         self.speed_floor = least / max(duration, 1e-300)
         self.angle = np.array([name.endswith(".theta") for name in problem.compiled.source.coordinates])
         self.t, self.y = float(problem.t[0]), np.concatenate([problem.q, problem.v, np.zeros(N_WORK)])
         self.speed, self.controlled = np.zeros(2), np.zeros(2)
         self.steps = self.n_events_at_one_time = 0
-        self.shown = Shown(problem.compiled, problem.look)
+        self.shown = StepCollector(problem.compiled, problem.observer)
         self.is_after_change = True  # whether this is the first step, or something changed at the end of the last one
         self.worst = np.zeros(2)  # largest |Φ|, |Φ̇|
         self.times: list[float] = []
@@ -124,7 +124,7 @@ class _Driver:
             self._restart()
             while len(self.samples) < len(self.problem.t):
                 self._step()
-                self.problem.take()
+                self.problem.poll_cancellation()
         except KeyboardInterrupt:
             interrupted = True
             self._store_last()
@@ -142,11 +142,11 @@ class _Driver:
     def _compute_approach_speeds(self) -> Array:
         """Return δ̇⁻ (n_memory,) of contacts that the run begins in, from the C loop; this is not cross-checked."""
         start = replace(self.problem, method="rk4", t=self.problem.t[:1], step=1.0, progress=None)
-        return np.asarray(integrate(start).memory[0])
+        return np.asarray(integrate_problem(start).memory[0])
 
     def _store_start(self) -> None:
         """Set the contacts of the start, and store it if it is a sample."""
-        self.contacts.begin(self.t, self.y, self._compute_approach_speeds)
+        self.contacts.close_initial_contacts(self.t, self.y, self._compute_approach_speeds)
         self._update_state()
         self._store_present_sample()
 
@@ -164,15 +164,17 @@ class _Driver:
     def _step(self) -> None:
         """Advance by one step of the solver, or by its part up to an event."""
         t1 = self.stepper.step()
-        piece = Piece(self.t, t1, self.stepper.at, lambda t: self.equations.project(t, self.stepper.at(t)))
-        end = self.stepper.at(t1)
+        piece = AcceptedStep(
+            self.t, t1, self.stepper.interpolate, lambda t: self.equations.project(t, self.stepper.interpolate(t))
+        )
+        end = self.stepper.interpolate(t1)
         if not np.isfinite(end).all():
             raise self.equations.failure or NonFiniteError(f"the motion is no longer finite at t = {t1:.9g} s", t1)
         event = self._find_event(piece)
         t_new = t1 if event is None else event[0]
         self._store_samples_before(piece, t_new)
         self._pass_step(piece, t_new)
-        y = piece.projected(t_new)
+        y = piece.evaluate_projected(t_new)
         self.n_events_at_one_time = self.n_events_at_one_time + 1 if t_new - self.t < 1e-9 * (t1 - self.t) else 0
         self.t, self.y = t_new, y
         self.steps += 1
@@ -180,7 +182,7 @@ class _Driver:
         if event is not None:
             if self.n_events_at_one_time > MAX_STUCK:
                 raise SolverError(f"contacts change without end near t = {t_new:.9g} s", t_new)
-            self.contacts.change(t_new, y, event[1])
+            self.contacts.switch_contacts(t_new, y, event[1])
             self.is_after_change = True
         self._continue_solver(event is not None, end)
         self._store_present_sample()
@@ -188,32 +190,32 @@ class _Driver:
             t = self.problem.t
             self.problem.progress((t_new - t[0]) / max(t[-1] - t[0], 1e-300), "integrating")
 
-    def _pass_step(self, step: Piece, t_new: float) -> None:
+    def _pass_step(self, step: AcceptedStep, t_new: float) -> None:
         """Pass the sampled states of this step, up to t_new (s), to the observer, with the contacts that it began with.
 
         Do nothing without an observer. The first state is included only after a change.
         """
-        if self.problem.look:
-            nodes = step.nodes()
+        if self.problem.observer:
+            nodes = step.compute_sample_times()
             nodes = nodes if self.is_after_change else nodes[1:]
             times = np.append(nodes[nodes < t_new], t_new)
-            states = [step.projected(t) for t in times.tolist()]
+            states = [step.evaluate_projected(t) for t in times.tolist()]
             self.shown.add(times, np.array(states), self.contacts.memory, self.contacts.codes, self.is_after_change)
         self.is_after_change = False
 
-    def _find_event(self, step: Piece) -> tuple[float, int] | None:
+    def _find_event(self, step: AcceptedStep) -> tuple[float, int] | None:
         """Return time and joint of the contact event that ends the step, or None; update the peaks of forces before
         it.
         """
         if not self.contacts.count:
             return None
-        t = step.nodes()
-        view = self.contacts.view(t, np.array([step.at(x) for x in t.tolist()]))
-        event = self.contacts.first_event(step, t, view)
+        t = step.compute_sample_times()
+        view = self.contacts.evaluate(t, np.array([step.evaluate(x) for x in t.tolist()]))
+        event = self.contacts.find_first_event(step, t, view)
         before = t < (math.inf if event is None else event[0])
         if before.any():
             part = type(view)(*(array[before] for array in vars(view).values()))
-            self.contacts.inner_peaks(step, t[before], part)
+            self.contacts.refine_peaks(step, t[before], part)
         return event
 
     def _update_state(self) -> None:
@@ -222,8 +224,8 @@ class _Driver:
         kinds = [v[~self.angle].max(initial=0.0), v[self.angle].max(initial=0.0)]
         self.speed = np.maximum(self.speed, kinds)
         q, v = self.y[: self.n], self.y[self.n : 2 * self.n]
-        self.worst = np.maximum(self.worst, residuals(self.problem.compiled, self.t, q, v, self.equations.p))
-        lost = self.contacts.end_of_step(self.t, self.y) if self.contacts.count else None
+        self.worst = np.maximum(self.worst, compute_residuals(self.problem.compiled, self.t, q, v, self.equations.p))
+        lost = self.contacts.update_after_step(self.t, self.y) if self.contacts.count else None
         if lost is not None:
             name = self.problem.compiled.source.clearances[lost].name
             raise SolverError(f"a contact was lost at t = {self.t:.9g} s: {name}, free, is beyond its wall", self.t)
@@ -239,14 +241,16 @@ class _Driver:
         distance = float((np.abs(self.y - solver_state) / self.atol).max())
         if is_event or (self.speed > GROWN * (self.controlled + self.speed_floor)).any():
             self._restart()
-        elif distance > self.stepper.patience:
-            self.stepper.move(self.t, self.y, self.atol)
+        elif distance > self.stepper.max_distance:
+            self.stepper.set_state(self.t, self.y, self.atol)
 
-    def _store_samples_before(self, step: Piece, t_new: float) -> None:
+    def _store_samples_before(self, step: AcceptedStep, t_new: float) -> None:
         """Store the samples at output times before t_new (s), projected, with the contacts that the step began with."""
         times = self.problem.t
         while len(self.samples) < len(times) and times[len(self.samples)] < t_new:
-            self._store_sample(float(times[len(self.samples)]), step.projected(float(times[len(self.samples)])))
+            self._store_sample(
+                float(times[len(self.samples)]), step.evaluate_projected(float(times[len(self.samples)]))
+            )
 
     def _store_present_sample(self) -> None:
         """Store the present state if it is a sample."""
@@ -270,7 +274,7 @@ class _Driver:
         from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
         contacts, equations, n = self.contacts, self.equations, self.n
-        self.shown.hand_on()
+        self.shown.pass_steps()
         if not self.samples:  # the start at least
             self.times.append(self.t)
             self.samples.append((self.y, np.full(n, np.nan), contacts.memory.copy(), contacts.codes))

@@ -30,7 +30,7 @@ class ScipyStepper(Stepper):
         from scipy import integrate
 
         self.name, self.kind = name, getattr(integrate, name)
-        self.patience = 1e-3 if name in ONE_STEP else 10.0  # to move a method of several steps is to begin anew
+        self.max_distance = 1e-3 if name in ONE_STEP else 10.0  # to move a method of several steps is to begin anew
         self.solver: Any = None
         self.dense: Any = None
 
@@ -43,7 +43,7 @@ class ScipyStepper(Stepper):
         mean = 1.0 if self.name == "LSODA" else math.sqrt(len(y))
         options = {} if self.name in EXPLICIT else {"jac": self.equations.jacobian}
         controlled = {"rtol": RELATIVE, "atol": atol / mean}
-        self.solver = self.kind(self.equations.rates, t, y.copy(), self.t_end, **controlled, **options)
+        self.solver = self.kind(self.equations.compute_rates, t, y.copy(), self.t_end, **controlled, **options)
 
     def step(self) -> float:
         """Make one step and return its end (s). Raise SolverError, with SciPy's message, if no step is small enough.
@@ -59,16 +59,16 @@ class ScipyStepper(Stepper):
         self.dense = self.solver.dense_output()
         return float(self.solver.t)
 
-    def at(self, t: float) -> Array:
+    def interpolate(self, t: float) -> Array:
         """Return the state (2n + 3,) at t (s) inside the last step, by SciPy's interpolant; at its end the exact
         state.
         """
         return np.array(self.solver.y if t == self.solver.t else self.dense(t), dtype=np.float64)
 
-    def move(self, t: float, y: Array, atol: Array) -> None:
+    def set_state(self, t: float, y: Array, atol: Array) -> None:
         """Continue from the projected state y at t (s). A one-step method gets new state and rates; others restart."""
         if self.name not in ONE_STEP:
             self.restart(t, y, atol)
             return
         self.solver.y = y.copy()
-        self.solver.f = self.equations.rates(t, y)
+        self.solver.f = self.equations.compute_rates(t, y)

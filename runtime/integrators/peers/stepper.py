@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from gudgeon.assembly.linkage import project
+from gudgeon.assembly.linkage import project_state
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.errors import SolverError
 from gudgeon.integrators.peers.contacts import Contacts
@@ -26,11 +26,13 @@ class Equations:
         self.size = 2 * self.compiled.n + N_WORK
         self.calls = self.jacobians = 0
         self.failure: SolverError | None = None  # error of a call inside the solver, which may swallow it
-        self.take = problem.take if problem.method in SCIPY else None  # Ctrl-C: through C of others no exception goes
+        self.take = (
+            problem.poll_cancellation if problem.method in SCIPY else None
+        )  # Ctrl-C: through C of others no exception goes
         exact = hasattr(self.compiled.lib, "gudgeon_jacobian")
         self.jacobian: Callable[[float, Array], Array] | None = self._jacobian if exact else None  # None: differences
 
-    def rates(self, t: float, y: Array) -> Array:
+    def compute_rates(self, t: float, y: Array) -> Array:
         """Return ẏ (2n + 3,), and count the call; NaN where the equations cannot be solved, so that a smaller step is
         tried.
 
@@ -53,14 +55,14 @@ class Equations:
     def project(self, t: float, y: Array) -> Array:
         """Return the state projected onto the constraints; the works stay."""
         n = self.compiled.n
-        q, v = project(self.compiled, t, y[:n], y[n : 2 * n], self.p)
+        q, v = project_state(self.compiled, t, y[:n], y[n : 2 * n], self.p)
         return np.concatenate([q, v, y[2 * n :]])
 
 
 class Stepper(ABC):
-    """Define one solver. `patience`: distance from the constraints, in tolerances, above which it is moved."""
+    """Define one solver. `max_distance`: distance from the constraints, in tolerances, above which it is moved."""
 
-    patience = 0.0
+    max_distance = 0.0
 
     def __init__(self, equations: Equations, t_end: float) -> None:
         self.equations, self.t_end = equations, t_end
@@ -74,9 +76,9 @@ class Stepper(ABC):
         """Make one accepted step towards t_end and return the time of its end. Raise SolverError."""
 
     @abstractmethod
-    def at(self, t: float) -> Array:
+    def interpolate(self, t: float) -> Array:
         """Return the state at t inside the last step, from the method's own interpolant."""
 
     @abstractmethod
-    def move(self, t: float, y: Array, atol: Array) -> None:
+    def set_state(self, t: float, y: Array, atol: Array) -> None:
         """Continue from y, the projected end of the last step."""

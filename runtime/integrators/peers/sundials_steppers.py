@@ -22,7 +22,7 @@ RELATIVE = 1e-15  # rtol (times |y|); gudgeon's tolerances are absolute
 class CvodeStepper(Stepper):
     """Run the method `name` of CVODE: cvode or cvode_adams."""
 
-    patience = 10.0  # tolerances: to move a method of several steps is to begin anew
+    max_distance = 10.0  # tolerances: to move a method of several steps is to begin anew
 
     def __init__(self, equations: Equations, t_end: float, name: str) -> None:
         super().__init__(equations, t_end)
@@ -40,13 +40,13 @@ class CvodeStepper(Stepper):
         options: dict[str, Any] = {"method": self.kind, "rtol": RELATIVE, "atol": atol / math.sqrt(len(y))}
         if self.equations.jacobian is not None:
             options["jacfn"] = self._jacobian
-        self.solver = self.cvode(self._rates, max_num_steps=10**6, **options)
+        self.solver = self.cvode(self._compute_rates, max_num_steps=10**6, **options)
         self.solver.init_step(t, y.copy())
         self.t, self.y = t, y.copy()
 
-    def _rates(self, t: float, y: Array, out: Array) -> None:
+    def _compute_rates(self, t: float, y: Array, out: Array) -> None:
         """Write ẏ into `out`, as CVODE calls it."""
-        out[:] = self.equations.rates(t, y)
+        out[:] = self.equations.compute_rates(t, y)
 
     def _jacobian(self, t: float, y: Array, rates: Array, out: Array) -> None:
         """Write the Jacobian into `out`, as CVODE calls it."""
@@ -61,23 +61,23 @@ class CvodeStepper(Stepper):
         self.equations.failure = None
         before = self.t
         for _ in range(2):
-            found = self._call_solver(self.t_end, "onestep")
+            solution = self._call_solver(self.t_end, "onestep")
             if self.t > before:
                 return self.t
-        raise SolverError(f"CVODE made no step at t = {before:.9g} s: {found.message}", before)
+        raise SolverError(f"CVODE made no step at t = {before:.9g} s: {solution.message}", before)
 
-    def at(self, t: float) -> Array:
+    def interpolate(self, t: float) -> Array:
         """Return the state (2n + 3,) at t (s) inside the last step, from CVODE's polynomial; at its end a copy of
         the state.
         """
         if t == self.t:
             return self.y.copy()
         end, y = self.t, self.y
-        found = self._call_solver(t, "normal")
+        solution = self._call_solver(t, "normal")
         self.t, self.y = end, y
-        return np.array(found.y, dtype=np.float64).reshape(-1)
+        return np.array(solution.y, dtype=np.float64).reshape(-1)
 
-    def move(self, t: float, y: Array, atol: Array) -> None:
+    def set_state(self, t: float, y: Array, atol: Array) -> None:
         """Restart at the projected end of the last step."""
         self.restart(t, y, atol)
 
@@ -87,11 +87,13 @@ class CvodeStepper(Stepper):
 
         Raises SolverError, or the error of the right-hand side, if it fails.
         """
-        found = self.solver.step(t, method=mode, tstop=self.t_end)
-        if not found.success:
-            raise self.equations.failure or SolverError(f"CVODE stopped at t = {self.t:.9g} s: {found.message}", self.t)
-        self.t, self.y = float(np.ravel(found.t)[-1]), np.array(found.y, dtype=np.float64).reshape(-1)
-        return found
+        solution = self.solver.step(t, method=mode, tstop=self.t_end)
+        if not solution.success:
+            raise self.equations.failure or SolverError(
+                f"CVODE stopped at t = {self.t:.9g} s: {solution.message}", self.t
+            )
+        self.t, self.y = float(np.ravel(solution.t)[-1]), np.array(solution.y, dtype=np.float64).reshape(-1)
+        return solution
 
 
 def _import_cvode() -> Any:

@@ -15,19 +15,24 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.drawing.labels import Names
-from gudgeon.drawing.page import PIXELS, page
-from gudgeon.drawing.picture import STYLE, draw_on, size_of
+from gudgeon.drawing.labels import NameLabels
+from gudgeon.drawing.page import PIXELS, write_animation_page
+from gudgeon.drawing.picture import STYLE, compute_figure_size, draw_sketch
 from gudgeon.drawing.plan import make_plan
 from gudgeon.drawing.roles import EDGES, ROLES, TINTS
-from gudgeon.drawing.sketch import make_sketch, room_of_all
+from gudgeon.drawing.sketch import compute_common_box, make_sketch
 from gudgeon.errors import BadValueError, GudgeonError, OutputError
-from gudgeon.files.writing import check_target, telling, write_bytes, write_text
-from gudgeon.language.argument_checks import flag, function, number_of, path, refuse
-from gudgeon.language.shown import one_line
-from gudgeon.results.figures.mechanism_plots import arrows_of, path_lines, points_of, touching_at
-from gudgeon.results.figures.plots import caption_of
-from gudgeon.results.figures.postures import posture_at, postures_of
+from gudgeon.files.writing import check_target, convert_os_errors, write_bytes, write_text
+from gudgeon.language.argument_checks import check_callable, check_flag, check_number, check_path, raise_bad_value
+from gudgeon.language.text_output import format_one_line
+from gudgeon.results.figures.mechanism_plots import (
+    build_path_lines,
+    check_points,
+    draw_requested_arrows,
+    find_contacts_at_posture,
+)
+from gudgeon.results.figures.plots import format_caption
+from gudgeon.results.figures.postures import compute_posture, select_postures
 
 import matplotlib  # isort: skip  (labels.py says where it is missing)
 from matplotlib.animation import PillowWriter  # isort: skip
@@ -65,7 +70,7 @@ class Animation:
 
 
 @dataclass(frozen=True)
-class Expected:
+class AnimationOptions:
     """Checked options of an animation: times of the run (s), duration (s), points with paths, arrows."""
 
     times: Any
@@ -78,15 +83,17 @@ class Expected:
 
 def check_animation_options(
     run: Result, seconds: Any, rate: Any, points: Any, velocities: Any, forces: Any, progress: Any = None
-) -> Expected:
+) -> AnimationOptions:
     """Return the checked options of an animation, with the times of its pictures.
 
     A default is set for `seconds`. Raises BadValueError for options out of range or too many pictures, UnknownNameError
     for a point.
     """
     duration = float(run.t[-1] - run.t[0])
-    seconds = (duration if SLOW <= duration <= QUICK else SHOWN) if seconds is None else number_of(seconds, "seconds")
-    rate = number_of(rate, "rate")
+    seconds = (
+        (duration if SLOW <= duration <= QUICK else SHOWN) if seconds is None else check_number(seconds, "seconds")
+    )
+    rate = check_number(rate, "rate")
     if not (seconds > 0.0 and rate > 0.0):
         raise BadValueError(f"seconds {seconds:g}, rate {rate:g}: expected numbers above 0")
     n_pictures = max(2, round(seconds * rate))
@@ -94,21 +101,21 @@ def check_animation_options(
         hint = "ask for fewer seconds, or a lower rate"
         raise BadValueError(f"{n_pictures} pictures: expected at most {LONGEST}", hint=hint)
     times = np.linspace(float(run.t[0]), float(run.t[-1]), n_pictures)
-    arrows = flag(velocities, "velocities"), flag(forces, "forces")
-    return Expected(times, seconds, points_of(run, [points]), *arrows, function(progress, "progress"))
+    arrows = check_flag(velocities, "velocities"), check_flag(forces, "forces")
+    return AnimationOptions(times, seconds, check_points(run, [points]), *arrows, check_callable(progress, "progress"))
 
 
-def animate(run: Result, target: Any, options: Expected) -> Animation | None:
+def write_animation(run: Result, target: Any, options: AnimationOptions) -> Animation | None:
     """Write an animation as x.gif, x.mp4 or x.html; return an Animation for a page or if `target` is None, else None.
 
     Raises BadValueError for another name, GudgeonError if ffmpeg is missing, OutputError if writing fails.
     """
     if target is None:
         return _build_page(run, options)
-    file = Path(path(target, "the file of an animation"))
+    file = Path(check_path(target, "the file of an animation"))
     suffix = file.suffix.lower()
     if suffix not in SUFFIXES or os.fspath(target).endswith(os.sep):
-        refuse("the file of an animation", os.fspath(target), "a name that ends in .gif, .mp4 or .html")
+        raise_bad_value("the file of an animation", os.fspath(target), "a name that ends in .gif, .mp4 or .html")
     if suffix == ".mp4" and shutil.which("ffmpeg") is None:
         message = f"{file}: a film needs the program ffmpeg, which is not there"
         raise GudgeonError(f"{message}\n  install it, or name a .gif or .html")
@@ -118,7 +125,7 @@ def animate(run: Result, target: Any, options: Expected) -> Animation | None:
         write_text(file, animation.html)
         return animation
     try:
-        with telling(file):  # a folder of its own, and what is written there first
+        with convert_os_errors(file):  # a folder of its own, and what is written there first
             film_bytes = _write_film(run, options, suffix)
     except subprocess.CalledProcessError as error:
         raise OutputError(file, f"ffmpeg ended with {error.returncode}") from error
@@ -126,32 +133,32 @@ def animate(run: Result, target: Any, options: Expected) -> Animation | None:
     return None
 
 
-def sketches(run: Result, options: Expected) -> Iterator[Sketch]:
+def draw_sketches(run: Result, options: AnimationOptions) -> Iterator[Sketch]:
     """Yield the drawing of each picture of an animation, all in one box and to one scale, and report the progress."""
-    motion = postures_of(run, 60)
+    motion = select_postures(run, 60)
     plan = make_plan(motion)
-    box, paths = room_of_all(motion, [plan]), path_lines(run, options.points)
+    box, paths = compute_common_box(motion, [plan]), build_path_lines(run, options.points)
     previous_time = options.times[0]
     for k, t in enumerate(options.times):
         if options.progress:
             options.progress(k / len(options.times), f"picture {k + 1} of {len(options.times)}")
-        posture = posture_at(run, float(t))
-        scaled_plan, arrows = arrows_of(run, posture, motion, plan, options.velocities, options.forces)
+        posture = compute_posture(run, float(t))
+        scaled_plan, arrows = draw_requested_arrows(run, posture, motion, plan, options.velocities, options.forces)
         sketch = make_sketch(
             posture,
             scaled_plan,
-            more=paths,
+            shapes_on_top=paths,
             arrows=arrows,
-            touching=touching_at(run, posture),
-            touched=touching_between(run, previous_time, t),
+            touching=find_contacts_at_posture(run, posture),
+            touched=find_contacts_between(run, previous_time, t),
             box=box,
-            still=False,
+            shows_zero_loads=False,
         )
         yield replace(sketch, notes=(*sketch.notes, RED)) if sketch.notes else sketch
         previous_time = t
 
 
-def touching_between(run: Result, begin: float, end: float) -> frozenset[str]:
+def find_contacts_between(run: Result, begin: float, end: float) -> frozenset[str]:
     """Return the joints and slider corners with play that were in contact between two times (s), by name.
 
     Both impacts and stored contact states count, since an impact may be shorter than a picture.
@@ -163,45 +170,47 @@ def touching_between(run: Result, begin: float, end: float) -> frozenset[str]:
     return frozenset(name for k, name in enumerate(names) if k in indices_in_contact or (states[:, k] > 0).any())
 
 
-def _format_caption(run: Result, t: float, options: Expected) -> str:
+def _format_caption(run: Result, t: float, options: AnimationOptions) -> str:
     """Return the caption of a picture: mechanism, scene, time, and how much slower or faster the animation plays."""
     slowdown = options.seconds / float(run.t[-1] - run.t[0]) if run.t[-1] > run.t[0] else 1.0
     speed_text = f", {slowdown:.3g} times slower" if slowdown > 1.0 else f", {1 / slowdown:.3g} times faster"
-    title = textwrap.shorten(caption_of(run), NAMED, placeholder="…")
+    title = textwrap.shorten(format_caption(run), NAMED, placeholder="…")
     return f"{title}, t = {t:.4f} s{speed_text if abs(slowdown - 1.0) > 1e-9 else ''}"
 
 
-def _build_page(run: Result, options: Expected) -> Animation:
+def _build_page(run: Result, options: AnimationOptions) -> Animation:
     """Return the Animation of an HTML page.
 
     matplotlib places the names once; each then keeps its offset from its part until it would overlap another.
     """
-    sketch_list = list(sketches(run, options))
+    sketch_list = list(draw_sketches(run, options))
     figure, name_artist = _draw_canvas(sketch_list[0], _format_caption(run, options.times[0], options))
     offsets = _get_name_offsets(figure, name_artist)
     half_sizes = (
         {part: 0.5 * (np.array(box[2:]) - box[:2]) for part, box in name_artist.boxes.items()} if name_artist else {}
     )
     width = float(figure.get_size_inches()[0]) * PIXELS
-    title = one_line(f"{run.source.title or run.source.mechanism}: {run.source.scene}")
-    text = page(title, sketch_list, [float(t) for t in options.times], options.seconds, width, offsets, half_sizes)
+    title = format_one_line(f"{run.source.title or run.source.mechanism}: {run.source.scene}")
+    text = write_animation_page(
+        title, sketch_list, [float(t) for t in options.times], options.seconds, width, offsets, half_sizes
+    )
     return Animation(text, width, width * float(np.divide(*(sketch_list[0].high - sketch_list[0].low)[::-1])))
 
 
-def _draw_canvas(sketch: Sketch, caption: str) -> tuple[Figure, Names | None]:
+def _draw_canvas(sketch: Sketch, caption: str) -> tuple[Figure, NameLabels | None]:
     """Return a figure of the sketch with a caption at PIXELS per inch, and its names; None without names."""
-    width, height = size_of(sketch, 7.0)
+    width, height = compute_figure_size(sketch, 7.0)
     figure = Figure(figsize=(width, height + 0.3), dpi=PIXELS)
     ax = figure.add_axes((0.0, 0.0, 1.0, height / (height + 0.3)))
-    draw_on(ax, sketch)
+    draw_sketch(ax, sketch)
     figure.text(0.01, 0.99, caption, va="top", fontsize=9, parse_math=False)
-    return figure, next((artist for artist in ax.get_children() if isinstance(artist, Names)), None)
+    return figure, next((artist for artist in ax.get_children() if isinstance(artist, NameLabels)), None)
 
 
-def _get_name_offsets(picture: Figure, names: Names | None) -> dict[str, tuple[float, float]]:
+def _get_name_offsets(picture: Figure, names: NameLabels | None) -> dict[str, tuple[float, float]]:
     """Return the offsets of the placed names after the layout of a figure."""
     picture.draw_without_rendering()
-    return names.beside if names is not None else {}
+    return names.label_offsets if names is not None else {}
 
 
 class _GifWriter(PillowWriter):
@@ -239,7 +248,7 @@ def _append_colour_stripes(image: Any) -> Any:
     return extended_image
 
 
-def _write_film(run: Result, options: Expected, suffix: str) -> bytes:
+def _write_film(run: Result, options: AnimationOptions, suffix: str) -> bytes:
     """Return the bytes of a GIF or MP4 file, written by matplotlib into a temporary directory.
 
     `suffix` is ".gif" or ".mp4". Raises CalledProcessError if ffmpeg fails.
@@ -251,10 +260,10 @@ def _write_film(run: Result, options: Expected, suffix: str) -> bytes:
     offsets: dict[str, tuple[float, float]] = {}
     with matplotlib.rc_context(STYLE), tempfile.TemporaryDirectory() as directory:
         file = os.path.join(directory, f"film{suffix}")
-        for t, sketch in zip(options.times, sketches(run, options), strict=True):
+        for t, sketch in zip(options.times, draw_sketches(run, options), strict=True):
             figure, name_artist = _draw_canvas(sketch, _format_caption(run, float(t), options))
             if name_artist is not None:
-                name_artist.held = offsets
+                name_artist.previous_offsets = offsets
             offsets = _get_name_offsets(figure, name_artist)
             if t == options.times[0]:
                 writer.setup(figure, file, PIXELS)

@@ -1,10 +1,10 @@
-"""Own the curves of joints with play in figures: forces and paths from the envelope over the steps, not from samples.
+"""Compute curves of joints with play for figures: force extremes and journal paths over all steps of a run.
 
 Contacts are a thousand times shorter than runs, and samples miss their peaks. The time loop in C stores for each joint,
 over groups of consecutive steps, the smallest and largest force and the outermost and last position of the journal
 (engine/run/envelope.c). If its rows are used up, pairs of rows are merged, so that an envelope has at most ROWS rows. A
 curve through it contains every extreme. Batches, the cross-checks and older files have no envelope: their curves go
-through the samples and the peaks of all contacts. `panels` assigns forces to the panels of a figure.
+through the samples and the peaks of all contacts. `assign_panels` assigns forces to the panels of a figure.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ if TYPE_CHECKING:
 MOST = 4  # panels of a figure
 
 
-def force(run: Result, joint: str) -> tuple[Array, Array]:
+def get_force_curve(run: Result, joint: str) -> tuple[Array, Array]:
     """Return times and magnitudes of the force at a joint by time, (k,) each: samples, and extremes of the steps
     between.
 
     The extremes are those of the envelope, or without one the peaks of all impacts with a duration. For a joint without
     play there are samples only.
     """
-    k = _clearance_index(run, joint)
+    k = _find_clearance_index(run, joint)
     if k is None:
         return run.t, run[f"{joint}.F"]
     if run.trace is None:
@@ -46,12 +46,12 @@ def force(run: Result, joint: str) -> tuple[Array, Array]:
     return _sort_by_time(np.concatenate([run.t, *extreme_times]), np.concatenate([run[f"{joint}.F"], *extreme_forces]))
 
 
-def path(run: Result, joint: str) -> tuple[Array, Array, Array]:
+def get_journal_path(run: Result, joint: str) -> tuple[Array, Array, Array]:
     """Return times, x and y (m) of the journal in its bearing by time, (k,) each: samples, and positions of the
     envelope.
     """
     t, x, y = [run.t], [run[f"{joint}.ex"]], [run[f"{joint}.ey"]]
-    k = _clearance_index(run, joint)
+    k = _find_clearance_index(run, joint)
     if run.trace is not None and k is not None:
         x_out, y_out, t_out, x_end, y_end = run.trace.joints[:, k, 4:].T
         t, x, y = [*t, t_out, run.trace.t], [*x, x_out, x_end], [*y, y_out, y_end]
@@ -59,7 +59,7 @@ def path(run: Result, joint: str) -> tuple[Array, Array, Array]:
     return times, x_sorted, _sort_by_time(np.concatenate(t), np.concatenate(y))[1]
 
 
-def _clearance_index(run: Result, joint: str) -> int | None:
+def _find_clearance_index(run: Result, joint: str) -> int | None:
     """Return the number of a joint with play; None for another name."""
     names = [clearance.name for clearance in run.source.clearances]
     return names.index(joint) if joint in names else None
@@ -71,7 +71,7 @@ def _sort_by_time(t: Array, values: Array) -> tuple[Array, Array]:
     return t[order], values[order]
 
 
-def panels(runs: Iterable[Result]) -> dict[str, list[str]]:
+def assign_panels(runs: Iterable[Result]) -> dict[str, list[str]]:
     """Return the names of the series of each panel of forces, by the panel's title; at most MOST panels.
 
     A bearing has a panel for its force. A guide has panels for force and moment on its slider, at samples, and for the
@@ -87,12 +87,12 @@ def panels(runs: Iterable[Result]) -> dict[str, list[str]]:
     return dict([*series_by_title.items()][:MOST])
 
 
-def curve(run: Result, name: str) -> tuple[Array, Array]:
+def get_curve(run: Result, name: str) -> tuple[Array, Array]:
     """Return times and values of a series of a panel, (k,) each."""
-    return force(run, name.removesuffix(".F")) if name.endswith(".F") else (run.t, run[name])
+    return get_force_curve(run, name.removesuffix(".F")) if name.endswith(".F") else (run.t, run[name])
 
 
-def peaks(run: Result, name: str) -> Iterator[tuple[float, float]]:
+def find_peaks(run: Result, name: str) -> Iterator[tuple[float, float]]:
     """Yield time and value of the peak of a series over all steps, if it is known.
 
     It is known for forces in joints with play, and for series whose peaks were requested.

@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.drawing.arrows import LONGEST, Arrows, arrows, velocities_of
-from gudgeon.drawing.insets import in_contact
-from gudgeon.drawing.picture import as_bytes, draw_on, figure_of
+from gudgeon.drawing.arrows import LONGEST, Arrows, compute_velocities, draw_arrows
+from gudgeon.drawing.insets import find_contacts
+from gudgeon.drawing.picture import build_figure, draw_sketch, encode_figure
 from gudgeon.drawing.plan import Plan, make_plan
-from gudgeon.drawing.posture import Posture, type_of
+from gudgeon.drawing.posture import Posture, get_joint_type
 from gudgeon.drawing.shapes import Line, Sketch
-from gudgeon.drawing.sketch import make_sketch, room_of_all
-from gudgeon.language.argument_checks import flag, names
-from gudgeon.language.names import unknown
-from gudgeon.results.figures.plots import cycle
-from gudgeon.results.figures.postures import loads_at, posture_at, postures_of, time_of
+from gudgeon.drawing.sketch import compute_common_box, make_sketch
+from gudgeon.language.argument_checks import check_flag, check_names
+from gudgeon.language.names import make_unknown_error
+from gudgeon.results.figures.plots import choose_colours
+from gudgeon.results.figures.postures import compute_posture, evaluate_loads, read_time, select_postures
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,19 +30,19 @@ POINTS = "the name of a point that moves, or a list of such names"
 MANY = 60  # names for which a panel has no room
 
 
-def sketch_at(run: Result, t: Any, velocities: bool = False, forces: bool = False) -> Sketch:
+def draw_sketch_at_time(run: Result, t: Any, velocities: bool = False, forces: bool = False) -> Sketch:
     """Return the drawing of the mechanism at a time of the run, with arrows of velocities or forces if requested.
 
     `t` is a number in s or a text with a unit. Raises BadValueError, UnknownNameError.
     """
-    velocities, forces = flag(velocities, "velocities"), flag(forces, "forces")
-    posture, motion = posture_at(run, time_of(run, t)), postures_of(run)
+    velocities, forces = check_flag(velocities, "velocities"), check_flag(forces, "forces")
+    posture, motion = compute_posture(run, read_time(run, t)), select_postures(run)
     plan = make_plan(motion)
-    plan, all_arrows = arrows_of(run, posture, motion, plan, velocities, forces)
-    return make_sketch(posture, plan, arrows=all_arrows, touching=touching_at(run, posture))
+    plan, all_arrows = draw_requested_arrows(run, posture, motion, plan, velocities, forces)
+    return make_sketch(posture, plan, arrows=all_arrows, touching=find_contacts_at_posture(run, posture))
 
 
-def touching_at(run: Result, posture: Posture) -> frozenset[str]:
+def find_contacts_at_posture(run: Result, posture: Posture) -> frozenset[str]:
     """Return the names of joints and slider corners with play that are in contact at a posture's time.
 
     The stored contact state decides at a sample; between two samples, the overlap in the drawing.
@@ -51,10 +51,10 @@ def touching_at(run: Result, posture: Posture) -> frozenset[str]:
         return frozenset(
             joint.name for k, joint in enumerate(run.source.clearances) if run.state[sample_indices[0], k] > 0
         )
-    return in_contact(posture)
+    return find_contacts(posture)
 
 
-def arrows_of(
+def draw_requested_arrows(
     run: Result, posture: Posture, motion: Sequence[Posture], plan: Plan, velocities: bool, forces: bool
 ) -> tuple[Plan, list[Arrows]]:
     """Return the plan, and a list of the requested arrows of velocities and forces.
@@ -62,85 +62,85 @@ def arrows_of(
     `motion` has postures of the whole run, to which the scale of velocities belongs. With `forces` the returned plan
     draws applied forces to the scale of the reactions.
     """
-    all_arrows = [velocity_arrows(posture, motion, plan)] if velocities else []
+    all_arrows = [draw_velocity_arrows(posture, motion, plan)] if velocities else []
     if not forces:
         return plan, all_arrows
-    reactions, force_scale = force_arrows(run, posture, plan)
+    reactions, force_scale = draw_force_arrows(run, posture, plan)
     return replace(plan, newton=force_scale), [*all_arrows, reactions]
 
 
-def velocity_arrows(posture: Posture, motion: Sequence[Posture], plan: Plan) -> Arrows:
+def draw_velocity_arrows(posture: Posture, motion: Sequence[Posture], plan: Plan) -> Arrows:
     """Return the velocity arrows of all points at a posture, with the largest speed of the whole run as scale."""
     speeds = [
         float(np.hypot(*vector))
         for sample_posture in (*motion, posture)
-        for _, (_, vector) in velocities_of(sample_posture)
+        for _, (_, vector) in compute_velocities(sample_posture)
     ]
-    return arrows("velocity", dict(velocities_of(posture)), "m/s", plan.unit, max(speeds, default=0.0))
+    return draw_arrows("velocity", dict(compute_velocities(posture)), "m/s", plan.unit, max(speeds, default=0.0))
 
 
-def force_arrows(run: Result, posture: Posture, plan: Plan) -> tuple[Arrows, float]:
+def draw_force_arrows(run: Result, posture: Posture, plan: Plan) -> tuple[Arrows, float]:
     """Return the arrows of joint forces at a posture, and the length of 1 N (m of the drawing; 0 without forces).
 
     Forces act on the second body, for a joint with play on the journal, and are interpolated between samples. The
     longest arrow is the largest force of this moment, applied forces included, since a scale for the whole run would
     shrink most forces to nothing next to impacts. Raises UnknownNameError without masses.
     """
-    reactions = dict(_joint_forces(run, posture))
-    applied_forces = [posture.loads[part.name] for part in posture.parts("forces", "force")]
+    reactions = dict(_iterate_joint_forces(run, posture))
+    applied_forces = [posture.loads[part.name] for part in posture.iterate_parts("forces", "force")]
     magnitudes = [
         float(np.hypot(*vector)) for vector in (*(vector for _, vector in reactions.values()), *applied_forces)
     ]
     max_magnitude = max((magnitude for magnitude in magnitudes if np.isfinite(magnitude)), default=0.0)
     acting_on = " on the second body, applied force" if np.any(applied_forces) else " on the second body"
-    reaction_arrows = replace(arrows("reaction", reactions, "N", plan.unit, max_magnitude), on=acting_on)
+    reaction_arrows = replace(draw_arrows("reaction", reactions, "N", plan.unit, max_magnitude), on=acting_on)
     return reaction_arrows, LONGEST * plan.unit / max_magnitude if max_magnitude > 0.0 else 0.0
 
 
-def _joint_forces(run: Result, posture: Posture) -> Iterator[tuple[str, tuple[Array, Array]]]:
+def _iterate_joint_forces(run: Result, posture: Posture) -> Iterator[tuple[str, tuple[Array, Array]]]:
     """Yield name, position and force vector of each joint that connects points; (name, ((2,) in m, (2,) in N))."""
-    for part in posture.parts("joints"):
-        joint_type = type_of(part)
+    for part in posture.iterate_parts("joints"):
+        joint_type = get_joint_type(part)
         if joint_type.joins == "points":
             vector = [float(np.interp(posture.t, run.t, run[f"{part.name}.F{axis}"])) for axis in "xy"]
-            position = posture.place(part.ends[0 if joint_type.reaction_at == "first" else 1])
+            position = posture.get_position(part.ends[0 if joint_type.reaction_at == "first" else 1])
             yield part.name, (position, np.array(vector))
 
 
-def start_sketch(run: Result) -> Sketch:
+def draw_start_sketch(run: Result) -> Sketch:
     """Return the drawing at the start of the run, without insets.
 
     Names are left out if there are more than MANY.
     """
-    motion = postures_of(run)
-    sketch = make_sketch(motion[0], make_plan(motion), inset=False)
+    motion = select_postures(run)
+    sketch = make_sketch(motion[0], make_plan(motion), shows_insets=False)
     return sketch if len(sketch.labels) <= MANY else replace(sketch, labels=())
 
 
-def start_picture(scene_or_run: Any) -> bytes:
+def draw_start_picture(scene_or_run: Any) -> bytes:
     """Return the PNG bytes that a notebook displays for a run or a scene: the mechanism at the start, with names and
     insets.
 
     The start of a scene is assembled first.
     """
     if hasattr(scene_or_run, "names"):
-        sketch = sketch_at(scene_or_run, float(scene_or_run.t[0]))
+        sketch = draw_sketch_at_time(scene_or_run, float(scene_or_run.t[0]))
     else:
         start = scene_or_run.start()
-        loads = loads_at(scene_or_run.source, scene_or_run.p, start.q, start.v)
+        loads = evaluate_loads(scene_or_run.source, scene_or_run.p, start.q, start.v)
         posture = Posture(scene_or_run.source, scene_or_run.p, start.q, 0.0, start.v, loads)
         sketch = make_sketch(posture, make_plan([posture]))
-    return as_bytes(figure_of([sketch], [""], ""), ".png", dpi=90)
+    return encode_figure(build_figure([sketch], [""], ""), ".png", dpi=90)
 
 
-def path_sketch(run: Result) -> Sketch:
+def draw_path_sketch(run: Result) -> Sketch:
     """Return the drawing at the start of the run in a box that contains the whole motion.
 
     Its only label is that of the scale.
     """
-    motion = postures_of(run)
+    motion = select_postures(run)
     plan = make_plan(motion)
-    sketch = make_sketch(motion[0], plan, box=room_of_all(motion, [plan]), inset=False)
+    sketch = make_sketch(motion[0], plan, box=compute_common_box(motion, [plan]), shows_insets=False)
     return replace(sketch, labels=tuple(label for label in sketch.labels if label.role == "scale"))
 
 
@@ -149,26 +149,28 @@ def draw_path(run: Result, sketch: Sketch, points: Sequence[str], ax: Axes) -> N
 
     The mechanism of `sketch` lies under them in grey.
     """
-    draw_on(ax, sketch, is_background=True)
-    for name, colour in zip(points, cycle(len(points)), strict=True):
+    draw_sketch(ax, sketch, is_background=True)
+    for name, colour in zip(points, choose_colours(len(points)), strict=True):
         x, y = run[f"{name}.x"], run[f"{name}.y"]
         ax.plot(x, y, color=colour, lw=1.4, label=name, gid=f"path-{name}", zorder=5)
         ax.plot(x[:1], y[:1], "o", ms=4, mfc="white", mec=colour, mew=1.0, zorder=5.1)
     ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=8)  # outside: it hides nothing
 
 
-def path_lines(run: Result, points: Sequence[str]) -> list[Line]:
+def build_path_lines(run: Result, points: Sequence[str]) -> list[Line]:
     """Return the paths of points over the run as lines of a drawing."""
     return [Line(f"path {name}", "path", np.column_stack([run[f"{name}.x"], run[f"{name}.y"]])) for name in points]
 
 
-def points_of(run: Result, points: Iterable[Any]) -> list[str]:
+def check_points(run: Result, points: Iterable[Any]) -> list[str]:
     """Return names of moving points, such as "coupler.tracer", or of bodies for their centres of mass, without
     repetitions.
 
     `points` has names and lists of names. Raises BadValueError, UnknownNameError with the nearest name.
     """
-    point_names = dict.fromkeys(name for names_argument in points for name in names(names_argument, "points", POINTS))
+    point_names = dict.fromkeys(
+        name for names_argument in points for name in check_names(names_argument, "points", POINTS)
+    )
     return [_check_point(run, name) for name in point_names]
 
 
@@ -181,4 +183,6 @@ def _check_point(run: Result, name: str) -> str:
     bodies = [body.name for body in run.source.bodies]
     if name in moving_points or name in bodies:
         return name
-    raise unknown(f"the scene {run.source.scene!r} has no point {name!r} that moves", name, (*moving_points, *bodies))
+    raise make_unknown_error(
+        f"the scene {run.source.scene!r} has no point {name!r} that moves", name, (*moving_points, *bodies)
+    )

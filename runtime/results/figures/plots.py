@@ -1,4 +1,4 @@
-"""Own the figure of several scenes, and the components of the figures of one run (run_plots.py).
+"""Draw the figure that compares several scenes, and the parts that figures of one run share (run_plots.py).
 
 matplotlib is imported with this module, hence only for drawing, and pyplot only if the caller uses it: no display is
 needed, and no figure stays in memory.
@@ -16,12 +16,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.drawing.picture import report_missing_glyphs
-from gudgeon.errors import GudgeonError, shortened
+from gudgeon.errors import GudgeonError, shorten_path
 from gudgeon.files.writing import write_bytes
-from gudgeon.language.plot_units import drawn, label, quantity, scale
-from gudgeon.language.shown import figure_title, one_line
+from gudgeon.language.plot_units import choose_plot_unit, choose_prefix, format_label, format_quantity
+from gudgeon.language.text_output import format_figure_title, format_one_line
 from gudgeon.results.figures import joint_curves
-from gudgeon.results.series import rates
+from gudgeon.results.series import find_rate_names
 
 import matplotlib  # isort: skip  (labels.py says where it is missing)
 from matplotlib.figure import Figure  # isort: skip
@@ -58,7 +58,7 @@ STYLE = {
 }
 
 
-def cycle(count: int) -> list[str]:
+def choose_colours(count: int) -> list[str]:
     """Return `count` colours, as texts "#rrggbb", for curves in one panel; distinct up to twenty, then repeated."""
     if count <= len(COLOURS):
         return list(COLOURS[:count])
@@ -67,26 +67,26 @@ def cycle(count: int) -> list[str]:
     return [reordered_colours[i % len(reordered_colours)] for i in range(count)]
 
 
-def peak_of(values: Any) -> float:
+def find_largest_magnitude(values: Any) -> float:
     """Return the largest magnitude of the values, 0 for none."""
     return float(np.nanmax(np.abs(values), initial=0.0))
 
 
-def caption_of(run: Result) -> str:
+def format_caption(run: Result) -> str:
     """Return mechanism and scene as a caption, as in `gudgeon draw`."""
-    return f"{one_line(run.source.title or run.source.mechanism)}: {run.source.scene}"
+    return f"{format_one_line(run.source.title or run.source.mechanism)}: {run.source.scene}"
 
 
-def orbit_half_width(run: Result, joint: str) -> float:
+def compute_orbit_half_width(run: Result, joint: str) -> float:
     """Return half the side of a square that contains a journal's orbit and its clearance circle, in units of c.
 
     It is at least 1.04.
     """
-    _, x, y = joint_curves.path(run, joint)
-    return 1.04 * max(1.0, peak_of(np.hypot(x, y)) / run.constants[f"{joint}.c"])
+    _, x, y = joint_curves.get_journal_path(run, joint)
+    return 1.04 * max(1.0, find_largest_magnitude(np.hypot(x, y)) / run.constants[f"{joint}.c"])
 
 
-def _horizon_within_run(run: Result) -> float | None:
+def _get_horizon_within_run(run: Result) -> float | None:
     """Return the predictability horizon (s) if it lies within the run, else None."""
     horizon = run.diagnostics.horizon
     return horizon if np.isfinite(horizon) and horizon < run.t[-1] else None
@@ -97,7 +97,7 @@ def mark_horizon(ax: Axes, run: Result, colour: str) -> None:
 
     Nothing is drawn if the horizon is unknown or beyond the end.
     """
-    if (horizon := _horizon_within_run(run)) is not None:
+    if (horizon := _get_horizon_within_run(run)) is not None:
         ax.axvspan(horizon, float(run.t[-1]), color=UNTRUSTED, alpha=0.1, lw=0, zorder=0)
         ax.axvline(horizon, color=colour, lw=0.8, ls=":", zorder=1)
 
@@ -108,10 +108,10 @@ def draw_orbit(ax: Axes, run: Result, joint: str, colour: str, half_width: float
     Beyond the predictability horizon the path is grey. `half_width` is half the side of the square, in units of c.
     """
     c = run.constants[f"{joint}.c"]
-    t, x, y = joint_curves.path(run, joint)
+    t, x, y = joint_curves.get_journal_path(run, joint)
     x, y, angle = x / c, y / c, np.linspace(0.0, 2 * np.pi, 181)
     ax.fill(np.cos(angle), np.sin(angle), facecolor="#f6f6f6", edgecolor="#777777", lw=0.9, zorder=1)
-    end_time = _horizon_within_run(run) or float(run.t[-1])
+    end_time = _get_horizon_within_run(run) or float(run.t[-1])
     touching, is_reliable = np.hypot(x, y) >= 1.0, t <= end_time
     is_after = t >= t[is_reliable][-1]  # from the last point before the horizon on, so that the path has no gap
     ax.plot(x[is_reliable], y[is_reliable], color=colour, lw=0.7, alpha=0.8, zorder=2)
@@ -120,12 +120,12 @@ def draw_orbit(ax: Axes, run: Result, joint: str, colour: str, half_width: float
         ax.plot(x[is_after], y[is_after], color=UNTRUSTED, lw=0.5, alpha=0.6, zorder=1.5)
     ax.plot(x[:1], y[:1], "o", ms=4, mfc="white", mec=IDEAL, mew=0.9, zorder=4)
     ax.set(xlim=(-half_width, half_width), ylim=(-half_width, half_width), aspect="equal", xticks=[], yticks=[])
-    factor, text = scale(c, "m")
+    factor, text = choose_prefix(c, "m")
     ax.set_title(f"{joint}, {run.source.scene}: c = {c * factor:.4g} {text}")
     ax.spines[:].set_visible(False)
 
 
-def figure(
+def draw_run_figure(
     runs: Mapping[str, Result], reference: Result | Mapping[str, Result], watched_series: Sequence[str]
 ) -> Figure:
     """Return the figure of `gudgeon run`, the effect of play by scene.
@@ -138,11 +138,15 @@ def figure(
     references = dict(reference) if isinstance(reference, Mapping) else dict.fromkeys(runs_with_play, reference)
     shown_runs = runs_with_play or dict(runs)
     colours = dict(
-        zip(shown_runs, cycle(len(shown_runs)) if runs_with_play else [IDEAL, *cycle(len(shown_runs) - 1)], strict=True)
+        zip(
+            shown_runs,
+            choose_colours(len(shown_runs)) if runs_with_play else [IDEAL, *choose_colours(len(shown_runs) - 1)],
+            strict=True,
+        )
     )
-    force_panels = joint_curves.panels(runs_with_play.values())
+    force_panels = joint_curves.assign_panels(runs_with_play.values())
     derived_series = {
-        name for position_name in watched_series for name in rates(position_name)
+        name for position_name in watched_series for name in find_rate_names(position_name)
     }  # shown below what they are rates of
     watched_series = [name for name in dict.fromkeys(watched_series) if name not in derived_series][:2]
     with matplotlib.rc_context(STYLE):
@@ -192,12 +196,12 @@ def _split_figure(picture: Figure, n_orbits: int, has_mechanism: bool) -> tuple[
 
 def _draw_mechanism(area: Any, run: Result) -> None:
     """Draw the mechanism at the start of the run in a subfigure, with the time as title."""
-    from gudgeon.drawing.picture import draw_on
-    from gudgeon.results.figures.mechanism_plots import start_sketch
+    from gudgeon.drawing.picture import draw_sketch
+    from gudgeon.results.figures.mechanism_plots import draw_start_sketch
 
     ax = area.add_subplot()
-    draw_on(ax, start_sketch(run))
-    ax.set_title(f"t = {quantity(float(run.t[0]), 's', 6)}")
+    draw_sketch(ax, draw_start_sketch(run))
+    ax.set_title(f"t = {format_quantity(float(run.t[0]), 's', 6)}")
 
 
 def _draw_motion(
@@ -213,7 +217,7 @@ def _draw_motion(
 
     Scenes with a reference show the difference from it. A series that no scene has is left out.
     """
-    names = [series for series in (name, *rates(name)) if series]
+    names = [series for series in (name, *find_rate_names(name)) if series]
     for row, series in enumerate(names):
         compared_scenes = [scene for scene in runs if scene in references and series in references[scene]]
         values_by_scene = {scene: runs[scene][series] - references[scene][series] for scene in compared_scenes}
@@ -222,15 +226,15 @@ def _draw_motion(
         if not values_by_scene:
             continue
         ax = area.add_subplot(grid[row, column] if len(names) > 1 else grid[:3, column])
-        factor, text = drawn(
-            max(map(peak_of, values_by_scene.values())), runs[next(iter(values_by_scene))].unit(series)
+        factor, text = choose_plot_unit(
+            max(map(find_largest_magnitude, values_by_scene.values())), runs[next(iter(values_by_scene))].unit(series)
         )
         for scene, values in values_by_scene.items():
             ax.plot(runs[scene].t, values * factor, color=colours[scene], lw=0.9)
             mark_horizon(ax, runs[scene], colours[scene])
         quantity_name = f"error of {series}" if compared_scenes else series
         _format_time_axis(
-            ax, label(quantity_name, text), [runs[scene].t for scene in values_by_scene], row == len(names) - 1
+            ax, format_label(quantity_name, text), [runs[scene].t for scene in values_by_scene], row == len(names) - 1
         )
 
 
@@ -248,7 +252,7 @@ def _draw_forces(
     """
     for ax, (title, names) in zip(axes, panels.items(), strict=True):
         available = [(scene, run, name) for scene, run in runs.items() for name in names if name in run]
-        curves = [(*joint_curves.curve(run, name), colours[scene], 0.8, "-") for scene, run, name in available]
+        curves = [(*joint_curves.get_curve(run, name), colours[scene], 0.8, "-") for scene, run, name in available]
         ideal_run = max(
             (reference for reference in references.values() if names[0] in reference),
             key=lambda reference: reference.t[-1],
@@ -256,17 +260,17 @@ def _draw_forces(
         )
         if ideal_run is not None:
             curves.append((ideal_run.t, ideal_run[names[0]], IDEAL, 1.0, "--"))
-        max_magnitude = max((peak_of(values) for _, values, *_ in curves), default=0.0)
-        factor, text = scale(max_magnitude, available[0][1].unit(names[0]))
+        max_magnitude = max((find_largest_magnitude(values) for _, values, *_ in curves), default=0.0)
+        factor, text = choose_prefix(max_magnitude, available[0][1].unit(names[0]))
         for t, values, colour, width, dashes in curves:
             ax.plot(t, values * factor, color=colour, lw=width, ls=dashes)
         for scene, run, name in available:
             mark_horizon(ax, run, colours[scene])
-            for time, peak in joint_curves.peaks(run, name):
+            for time, peak in joint_curves.find_peaks(run, name):
                 ax.plot([time], [peak * factor], "v", color=colours[scene], ms=4, clip_on=False)
         if names[0].endswith(".F"):
             ax.set_ylim(bottom=0)
-        _format_time_axis(ax, label(title, text), [t for t, *_ in curves], ax is axes[-1])
+        _format_time_axis(ax, format_label(title, text), [t for t, *_ in curves], ax is axes[-1])
 
 
 def _format_time_axis(ax: Axes, text: str, times: Sequence[Any], is_last_row: bool) -> None:
@@ -279,9 +283,9 @@ def _format_time_axis(ax: Axes, text: str, times: Sequence[Any], is_last_row: bo
     ax.set_xlim(start, end if end > start else start + 1.0)
     ax.tick_params(labelbottom=is_last_row)
     if is_last_row:
-        factor, text = scale(end, "s")
+        factor, text = choose_prefix(end, "s")
         ax.xaxis.set_major_formatter(lambda t, _: f"{t * factor:g}")
-        ax.set_xlabel(label("t", text))
+        ax.set_xlabel(format_label("t", text))
     ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 2.5, 5, 10], min_n_ticks=3))
 
 
@@ -308,7 +312,7 @@ def _draw_orbits(area: Any, joints: Sequence[str], runs: Mapping[str, Result], c
     grid = area.add_gridspec(len(joints) * n_rows, n_columns)
     joint_scenes = [(joint, scene) for joint in joints for scene in scenes if f"{joint}.e" in runs[scene]]
     half_width = max(
-        orbit_half_width(runs[scene], joint) for joint, scene in joint_scenes
+        compute_orbit_half_width(runs[scene], joint) for joint, scene in joint_scenes
     )  # one scale: all circles are equally large
     for joint, scene in joint_scenes:
         row, column = divmod(scenes.index(scene), n_columns)
@@ -328,13 +332,13 @@ def _draw_title_and_legend(
     from matplotlib.patches import Patch
 
     run = next(iter(runs.values()))
-    title = figure_title(run.source.title or run.source.mechanism, TITLE)
+    title = format_figure_title(run.source.title or run.source.mechanism, TITLE)
     figure.suptitle(title, fontsize=13, fontweight="bold", x=0.012, ha="left")
-    labels = {scene: f"{scene}{_early_end_text(scene, runs)}" for scene in colours}
+    labels = {scene: f"{scene}{_format_early_end(scene, runs)}" for scene in colours}
     handles: list[Any] = [Line2D([], [], color=colour, lw=2.2, label=labels[s]) for s, colour in colours.items()]
     if has_reference:
         handles.append(Line2D([], [], color=IDEAL, lw=1.4, ls="--", label="ideal"))
-    if any(_horizon_within_run(run) is not None for run in runs.values()):
+    if any(_get_horizon_within_run(run) is not None for run in runs.values()):
         handles.append(Patch(facecolor=UNTRUSTED, alpha=0.25, lw=0, label="not to be trusted"))
     if len(handles) > BESIDE:  # outside, below all panels
         figure.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), BESIDE), fontsize=9.5)
@@ -342,7 +346,7 @@ def _draw_title_and_legend(
     figure.legend(handles=handles, loc="upper right", ncols=len(handles), fontsize=9.5, bbox_to_anchor=(0.995, 0.998))
 
 
-def _early_end_text(scene: str, runs: Mapping[str, Result]) -> str:
+def _format_early_end(scene: str, runs: Mapping[str, Result]) -> str:
     """Return ", to T s" for a scene whose run ends before others in the figure, else ""."""
     run_end, last_end = (float(max(run.t[-1] for run in some_runs)) for some_runs in ([runs[scene]], runs.values()))
     return f", to {run_end:.4g} s" if run_end < (1.0 - 1e-9) * last_end else ""
@@ -360,6 +364,6 @@ def save_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
         with report_missing_glyphs():
             figure.savefig(buffer, format=suffix, metadata={"Software": None} if suffix == "png" else None)
     except (ValueError, ArithmeticError) as error:  # matplotlib finds no ticks for numbers near the largest one
-        message = f"no picture {shortened(path)}: its numbers cannot be drawn ({error})"
+        message = f"no picture {shorten_path(path)}: its numbers cannot be drawn ({error})"
         raise GudgeonError(f"{message}\n  watch others") from error
     write_bytes(path, buffer.getvalue())

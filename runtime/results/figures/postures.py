@@ -1,4 +1,4 @@
-"""Compute the positions of a run for its drawings: a stored sample, or a point of the cubic between two samples."""
+"""Compute the positions of a mechanism during a run for its drawings: at samples, or interpolated between samples."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.assembly.linkage import project
+from gudgeon.assembly.linkage import project_state
 from gudgeon.drawing.posture import Posture
 from gudgeon.errors import BadValueError
-from gudgeon.language.argument_checks import number_of, refuse
+from gudgeon.language.argument_checks import check_number, raise_bad_value
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
@@ -21,19 +21,19 @@ CLOSING = 4  # times that a position between samples is led to Φ = 0
 OF_MOTION = 24  # positions that stand for a motion where a drawing makes room for it
 
 
-def time_of(run: Result, t: Any) -> float:
+def read_time(run: Result, t: Any) -> float:
     """Return a time of the run in s from a number or a text such as '0.2 s'.
 
     Raises BadValueError for None, another unit, or a time outside the run.
     """
     if t is None:
-        refuse("t", t, "a time")
+        raise_bad_value("t", t, "a time")
     if isinstance(t, str):
-        from gudgeon.language.quantities import number_of_text
-        from gudgeon.model.parameters import spaced
+        from gudgeon.language.quantities import parse_quantity
+        from gudgeon.model.parameters import insert_space_before_unit
 
-        t = number_of_text(spaced(t), "t", (0, 0, 1))
-    time, begin, end = number_of(t, "t"), float(run.t[0]), float(run.t[-1])
+        t = parse_quantity(insert_space_before_unit(t), "t", (0, 0, 1))
+    time, begin, end = check_number(t, "t"), float(run.t[0]), float(run.t[-1])
     if not begin <= time <= end:
         raise BadValueError(
             f"t is {time:g} s: the run goes from {begin:g} s to {end:g} s", hint="take a time within it"
@@ -41,7 +41,7 @@ def time_of(run: Result, t: Any) -> float:
     return time
 
 
-def posture_at(run: Result, t: float) -> Posture:
+def compute_posture(run: Result, t: float) -> Posture:
     """Return the posture of the mechanism at t (s), with its forces and torques.
 
     At a sample the stored state is used. Between samples it is a cubic, projected onto the constraints if the compiled
@@ -62,11 +62,11 @@ def posture_at(run: Result, t: float) -> Posture:
         q, v = _interpolate_cubic(run, k, t)
         if run.compiled is not None:  # between coarse samples the cubic takes joints apart
             for _ in range(CLOSING):
-                q, v = project(run.compiled, t, q, v, run.p)
+                q, v = project_state(run.compiled, t, q, v, run.p)
     return Posture(run.source, run.p, q, t, v, loads)
 
 
-def postures_of(run: Result, count: int = OF_MOTION) -> list[Posture]:
+def select_postures(run: Result, count: int = OF_MOTION) -> list[Posture]:
     """Return up to `count` postures at samples spread evenly over the whole run, the start first."""
     sample_indices = np.unique(np.linspace(0, len(run.t) - 1, count).round().astype(int))
     series = [*_load_series(run)]
@@ -96,16 +96,18 @@ def _interpolate_cubic(run: Result, k: int, t: float) -> tuple[Any, Any]:
     return q, v
 
 
-def loads_at(source: KernelSource, p: Array, q: Array, v: Array) -> dict[str, tuple[float, float]]:
+def evaluate_loads(source: KernelSource, p: Array, q: Array, v: Array) -> dict[str, tuple[float, float]]:
     """Return the loads of the file's force and torque elements at t = 0, by name, for the state q, v (n,).
 
     A force has its components in ground axes (N), a torque its value and 0 (N·m). Used for scenes that have no run.
     """
-    from gudgeon.results.results import bare
+    from gudgeon.results.results import make_evaluated_samples
 
     no_works = np.zeros((1, 0))
     contact_states = np.zeros((1, len(source.clearances)), np.int8)
-    sample = bare(source, None, p, np.zeros(1), q[None], v[None], no_works, no_works, contact_states, frozenset())
+    sample = make_evaluated_samples(
+        source, None, p, np.zeros(1), q[None], v[None], no_works, no_works, contact_states, frozenset()
+    )
     expressions = {entry.address: entry.tree for entry in source.written}
     parameters = {parameter.address: float(x) for parameter, x in zip(source.slots, p, strict=False)}
 

@@ -16,10 +16,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.errors import BadValueError, UnknownNameError
-from gudgeon.language.argument_checks import flag, message, positive, refuse
-from gudgeon.language.argument_checks import names as listed_names
-from gudgeon.language.plot_units import drawn, label
-from gudgeon.language.shown import figure_title
+from gudgeon.language.argument_checks import check_flag, check_positive, raise_bad_value, shorten_value
+from gudgeon.language.argument_checks import check_names as listed_names
+from gudgeon.language.plot_units import choose_plot_unit, format_label
+from gudgeon.language.text_output import format_figure_title
 from gudgeon.results.figures import joint_curves
 from gudgeon.results.figures.plots import (
     COLOURS,
@@ -27,14 +27,14 @@ from gudgeon.results.figures.plots import (
     STYLE,
     TITLE,
     UNTRUSTED,
-    caption_of,
-    cycle,
+    choose_colours,
+    compute_orbit_half_width,
     draw_orbit,
+    find_largest_magnitude,
+    format_caption,
     mark_horizon,
-    orbit_half_width,
-    peak_of,
 )
-from gudgeon.results.series import default_watch, drive_series, rates
+from gudgeon.results.series import choose_watched_series, find_rate_names, list_drive_series
 
 import matplotlib  # isort: skip  (labels.py says where it is missing)
 from matplotlib.axes import Axes  # isort: skip
@@ -70,20 +70,22 @@ class Plot:
         requested_names = [name for names_argument in names for name in listed_names(names_argument, "names", SERIES)]
         run, panels = self.run, dict[str, list[str]]()
         joints = [joint.name for joint in run.source.clearances or run.source.joints]
-        forces = {f"{joint}.F": joint_curves.force(run, joint) for joint in joints}  # with the extremes of all steps
+        forces = {
+            f"{joint}.F": joint_curves.get_force_curve(run, joint) for joint in joints
+        }  # with the extremes of all steps
         guides = [f"{guide}.{last}" for guide in run.source.guides for last in "FM"]
-        for name in requested_names or (*default_watch(run), *drive_series(run.source), *forces, *guides):
+        for name in requested_names or (*choose_watched_series(run), *list_drive_series(run.source), *forces, *guides):
             panels.setdefault(run.unit(name), []).append(name)
         n_columns = 1 if len(panels) < 3 else 2
         n_rows = -(-len(panels) // n_columns)
         with matplotlib.rc_context(STYLE):
-            figure = _new_figure(6.5 * n_columns + 1.5, 2.6 * n_rows + 0.6)
+            figure = _create_figure(6.5 * n_columns + 1.5, 2.6 * n_rows + 0.6)
             for k, panel_names in enumerate(panels.values()):
                 ax = figure.add_subplot(n_rows, n_columns, k + 1, axes_class=ShownAxes)
                 self._plot_curves({name: forces.get(name, (run.t, run[name])) for name in panel_names}, ax).set_title(
                     ""
                 )
-            figure.suptitle(figure_title(caption_of(run), TITLE), fontsize=10)
+            figure.suptitle(format_figure_title(format_caption(run), TITLE), fontsize=10)
         return figure
 
     def series(self, *names: str | Sequence[str], ax: Axes | None = None) -> Axes:
@@ -101,12 +103,14 @@ class Plot:
         if not names:
             raise BadValueError("plot.series: expected the name of a series at least")
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(8.0, 3.6) if ax is None else check_axes(ax)
-            factor, text = drawn(max(peak_of(values) for _, values in curves.values()), run.unit(names[0]))
-            for (name, (t, values)), colour in zip(curves.items(), cycle(len(names)), strict=True):
+            ax = create_axes(8.0, 3.6) if ax is None else check_axes(ax)
+            factor, text = choose_plot_unit(
+                max(find_largest_magnitude(values) for _, values in curves.values()), run.unit(names[0])
+            )
+            for (name, (t, values)), colour in zip(curves.items(), choose_colours(len(names)), strict=True):
                 ax.plot(t, values * factor, color=colour, lw=1.0, label=name)
-            ax.set(xlabel=x_label, ylabel=label(names[0] if len(names) == 1 else "", text))
-            ax.set_title(figure_title(caption_of(run), TITLE))
+            ax.set(xlabel=x_label, ylabel=format_label(names[0] if len(names) == 1 else "", text))
+            ax.set_title(format_figure_title(format_caption(run), TITLE))
             if x_label == "t [s]":
                 mark_horizon(ax, run, IDEAL)
             if len(names) > 1:
@@ -120,20 +124,20 @@ class Plot:
         """
         source = self.run.source
         joints = [*(joint.name for joint in source.clearances or source.joints), *source.guides]
-        return self._plot_curves({f"{joint}.F": joint_curves.force(self.run, joint) for joint in joints}, ax)
+        return self._plot_curves({f"{joint}.F": joint_curves.get_force_curve(self.run, joint) for joint in joints}, ax)
 
     def orbit(self, joint: str, ax: Axes | None = None) -> Axes:
         """Plot the path of the journal's centre in its clearance circle, in units of the clearance.
 
         Raises UnknownNameError for a name that is not a journal with play.
         """
-        joints = [clearance.name for clearance in self.run.source.clearances if not clearance.at_wall]
+        joints = [clearance.name for clearance in self.run.source.clearances if not clearance.is_corner]
         if not isinstance(joint, str) or joint not in joints:
             hint = f"its journals with play: {', '.join(joints) or 'none'}"
-            raise UnknownNameError(f"no orbit of {message(joint)}: expected a journal with play", hint=hint)
+            raise UnknownNameError(f"no orbit of {shorten_value(joint)}: expected a journal with play", hint=hint)
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(4.2, 4.4) if ax is None else check_axes(ax)
-            draw_orbit(ax, self.run, joint, COLOURS[1], orbit_half_width(self.run, joint))
+            ax = create_axes(4.2, 4.4) if ax is None else check_axes(ax)
+            draw_orbit(ax, self.run, joint, COLOURS[1], compute_orbit_half_width(self.run, joint))
         return ax
 
     def phase(self, x: str, y: str | None = None, ax: Axes | None = None) -> Axes:
@@ -156,7 +160,7 @@ class Plot:
 
         Raises BadValueError if there is none, UnknownNameError for an unknown series.
         """
-        rate_name = next((rate for rate in rates(name) if rate in self.run), "")
+        rate_name = next((rate for rate in find_rate_names(name) if rate in self.run), "")
         if not rate_name:
             self.run.unit(name)  # UnknownNameError
             raise BadValueError(f"{name} has no rate by name: name the other series too")
@@ -170,15 +174,16 @@ class Plot:
         `style` is a line style of matplotlib: "-" adds a ring at the start. `suffix` is added to the caption.
         """
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(5.2, 4.4) if ax is None else check_axes(ax)
+            ax = create_axes(5.2, 4.4) if ax is None else check_axes(ax)
             (x_factor, x_unit), (y_factor, y_unit) = (
-                drawn(peak_of(values), self.run.unit(name)) for name, values in ((x, xs), (y, ys))
+                choose_plot_unit(find_largest_magnitude(values), self.run.unit(name))
+                for name, values in ((x, xs), (y, ys))
             )
             ax.plot(xs * x_factor, ys * y_factor, style, color=COLOURS[1], lw=0.8, ms=3.0)
             if style == "-":
                 ax.plot(xs[:1] * x_factor, ys[:1] * y_factor, "o", ms=4, mfc="white", mec=IDEAL, mew=0.9)
-            ax.set(xlabel=label(x, x_unit), ylabel=label(y, y_unit))
-            ax.set_title(figure_title(caption_of(self.run) + suffix, TITLE))
+            ax.set(xlabel=format_label(x, x_unit), ylabel=format_label(y, y_unit))
+            ax.set_title(format_figure_title(format_caption(self.run) + suffix, TITLE))
         return ax
 
     def spectrum(self, *names: str | Sequence[str], window: str = "hann", ax: Axes | None = None) -> Axes:
@@ -188,12 +193,12 @@ class Plot:
         amplitude A on a line of the spectrum has A (between lines the error of flattop is smallest). Raises
         BadValueError for uneven samples, or values that are not finite.
         """
-        from gudgeon.results.series import spectrum
+        from gudgeon.results.series import compute_spectrum
 
         series_names = [name for names_argument in names for name in listed_names(names_argument, "names", SERIES)]
-        spectra = {name: spectrum(self.run.t, self.run[name], window) for name in series_names}
+        spectra = {name: compute_spectrum(self.run.t, self.run[name], window) for name in series_names}
         ax = self._plot_curves(spectra, ax, "f [Hz]")
-        ax.set_title(figure_title(f"{caption_of(self.run)}, window {window}", TITLE))
+        ax.set_title(format_figure_title(f"{format_caption(self.run)}, window {window}", TITLE))
         return ax
 
     def low_pass(
@@ -208,16 +213,18 @@ class Plot:
         from gudgeon.results.series import low_pass
 
         run = self.run
-        smoothed = low_pass(run.t, run[name], positive(cutoff, "cutoff"), order, flag(causal, "causal"))
+        smoothed = low_pass(run.t, run[name], check_positive(cutoff, "cutoff"), order, check_flag(causal, "causal"))
         kind = "causal" if causal else "zero phase"
         filter_text = f"low-pass {cutoff:g} Hz, Butterworth of order {order}, {kind}"
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(8.0, 3.6) if ax is None else check_axes(ax)
-            factor, text = drawn(max(peak_of(run[name]), peak_of(smoothed)), run.unit(name))
+            ax = create_axes(8.0, 3.6) if ax is None else check_axes(ax)
+            factor, text = choose_plot_unit(
+                max(find_largest_magnitude(run[name]), find_largest_magnitude(smoothed)), run.unit(name)
+            )
             ax.plot(run.t, run[name] * factor, color=UNTRUSTED, lw=0.6, alpha=0.7, label=name)
             ax.plot(run.t, smoothed * factor, color=COLOURS[1], lw=1.2, label=filter_text)
-            ax.set(xlabel="t [s]", ylabel=label(name, text))
-            ax.set_title(figure_title(caption_of(run), TITLE))
+            ax.set(xlabel="t [s]", ylabel=format_label(name, text))
+            ax.set_title(format_figure_title(format_caption(run), TITLE))
             ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=2)
         return ax
 
@@ -230,12 +237,17 @@ class Plot:
         body. Between samples the position lies on the cubic through both. Raises BadValueError for a time outside the
         run.
         """
-        from gudgeon.drawing.picture import draw_on
-        from gudgeon.results.figures.mechanism_plots import sketch_at
-        from gudgeon.results.figures.postures import time_of
+        from gudgeon.drawing.picture import draw_sketch
+        from gudgeon.results.figures.mechanism_plots import draw_sketch_at_time
+        from gudgeon.results.figures.postures import read_time
 
-        sketch, caption = sketch_at(self.run, t, velocities, forces), f"t\u00a0=\u00a0{time_of(self.run, t):.6g}\u00a0s"
-        return self._draw_with_caption(sketch, ax, lambda on: draw_on(on, sketch), f"{caption_of(self.run)}, {caption}")
+        sketch, caption = (
+            draw_sketch_at_time(self.run, t, velocities, forces),
+            f"t\u00a0=\u00a0{read_time(self.run, t):.6g}\u00a0s",
+        )
+        return self._draw_with_caption(
+            sketch, ax, lambda on: draw_sketch(on, sketch), f"{format_caption(self.run)}, {caption}"
+        )
 
     def path(self, *points: str | Sequence[str], ax: Axes | None = None) -> Axes:
         """Draw the paths of points over the run ("coupler.tracer"; "S9" is its centre of mass), with the mechanism in
@@ -243,29 +255,29 @@ class Plot:
 
         Raises UnknownNameError with the nearest point.
         """
-        from gudgeon.results.figures.mechanism_plots import draw_path, path_sketch, points_of
+        from gudgeon.results.figures.mechanism_plots import check_points, draw_path, draw_path_sketch
 
-        if not (names := points_of(self.run, points)):
+        if not (names := check_points(self.run, points)):
             raise BadValueError("plot.path: expected the name of a point at least", hint='for example "coupler.head"')
-        sketch = path_sketch(self.run)
-        caption = f"{caption_of(self.run)}, drawn at t\u00a0=\u00a0{float(self.run.t[0]):.6g}\u00a0s"
+        sketch = draw_path_sketch(self.run)
+        caption = f"{format_caption(self.run)}, drawn at t\u00a0=\u00a0{float(self.run.t[0]):.6g}\u00a0s"
         return self._draw_with_caption(sketch, ax, lambda on: draw_path(self.run, sketch, names, on), caption, LEGEND)
 
     def _draw_with_caption(
         self, sketch: Sketch, ax: Axes | None, draw: Callable[[Axes], None], caption: str, margin: float = 0.0
     ) -> Axes:
-        """Draw a sketch with caption and notes below it on new or given axes, which are returned.
+        """Draw a sketch on new or given axes, with the caption as title above and its notes below; return the axes.
 
         `draw` paints the sketch on axes. `margin` is space in inches that new axes leave for a legend.
         """
-        from gudgeon.drawing.picture import PER_INCH, size_of
+        from gudgeon.drawing.picture import PER_INCH, compute_figure_size
 
         with matplotlib.rc_context(STYLE):
-            width, height = size_of(sketch, 7.0)
+            width, height = compute_figure_size(sketch, 7.0)
             caption_width = TITLE if ax is not None else min(TITLE, int(PER_INCH * (width + margin)))
-            ax = new_axes(width + margin, height) if ax is None else check_axes(ax)
+            ax = create_axes(width + margin, height) if ax is None else check_axes(ax)
             draw(ax)
-            ax.set_title(figure_title(caption, caption_width))
+            ax.set_title(format_figure_title(caption, caption_width))
             ax.text(0.0, -0.01, "\n".join(sketch.notes), transform=ax.transAxes, va="top", fontsize=7.5)
         return ax
 
@@ -276,16 +288,16 @@ def plot_wear(wear: Wear, ax: Axes | None) -> Axes:
     The legend has the arc with 90 % of the worn volume.
     """
     with matplotlib.rc_context(STYLE):
-        ax = new_axes(8.0, 3.6) if ax is None else check_axes(ax)
+        ax = create_axes(8.0, 3.6) if ax is None else check_axes(ax)
         surfaces = {"bearing": wear.bearing, "journal": wear.journal}
-        factor, unit = drawn(max(surface.deepest for surface in surfaces.values()), "m")
+        factor, unit = choose_plot_unit(max(surface.deepest for surface in surfaces.values()), "m")
         for (name, surface), colour in zip(surfaces.items(), COLOURS, strict=False):
             label_text = (
                 f"{name}, 90 % on {np.degrees(surface.arc()):.3g}°" if surface.deepest > 0.0 else f"{name}: not worn"
             )
             ax.plot(np.degrees(wear.angle), surface.depth * factor, color=colour, lw=1.0, label=label_text)
-        ax.set(xlabel="angle in the body's own frame [°]", ylabel=label("depth", unit), xlim=(0.0, 360.0))
-        ax.set_title(figure_title(f"{wear.title}, {wear.joint}: wear by {wear.law.title()}", TITLE))
+        ax.set(xlabel="angle in the body's own frame [°]", ylabel=format_label("depth", unit), xlim=(0.0, 360.0))
+        ax.set_title(format_figure_title(f"{wear.title}, {wear.joint}: wear by {wear.law.title()}", TITLE))
         ax.legend(loc="best")
     return ax
 
@@ -312,7 +324,7 @@ class ShownAxes(Axes):
 
 
 @contextmanager
-def figures_for_page() -> Iterator[None]:
+def suppress_figure_display() -> Iterator[None]:
     """Create figures for a page within this context, without a manager of pyplot, so that nothing displays them."""
     token = _OF_A_PAGE.set(True)
     try:
@@ -321,10 +333,11 @@ def figures_for_page() -> Iterator[None]:
         _OF_A_PAGE.reset(token)
 
 
-def _new_figure(width: float, height: float) -> Figure:
+def _create_figure(width: float, height: float) -> Figure:
     """Return a new figure of a size in inches.
 
-    It is pyplot's if the caller has imported pyplot, so that plt.show() displays it, except within `figures_for_page`.
+    It is pyplot's if the caller has imported pyplot, so that plt.show() displays it, except within
+    `suppress_figure_display`.
     """
     if (pyplot := sys.modules.get("matplotlib.pyplot")) is not None and not _OF_A_PAGE.get():
         figure: Figure = pyplot.figure(figsize=(width, height), layout="constrained", FigureClass=ShownFigure)
@@ -332,9 +345,9 @@ def _new_figure(width: float, height: float) -> Figure:
     return ShownFigure(figsize=(width, height), layout="constrained")
 
 
-def new_axes(width: float, height: float) -> Axes:
+def create_axes(width: float, height: float) -> Axes:
     """Return axes on a new figure of the given size, inches."""
-    return _new_figure(width, height).add_subplot(axes_class=ShownAxes)
+    return _create_figure(width, height).add_subplot(axes_class=ShownAxes)
 
 
 def check_axes(ax: Any) -> Axes:
@@ -343,5 +356,5 @@ def check_axes(ax: Any) -> Axes:
     Raises BadValueError for other objects, and for polar, map and 3-D axes.
     """
     if not isinstance(ax, Axes) or ax.name != "rectilinear" or ax.figure is None:
-        refuse("ax", ax, "Axes of matplotlib with plain x and y, of a figure, or None")
+        raise_bad_value("ax", ax, "Axes of matplotlib with plain x and y, of a figure, or None")
     return ax

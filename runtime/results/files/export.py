@@ -15,15 +15,22 @@ import numpy as np
 
 from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.files.free_space import check_disk, check_memory
-from gudgeon.files.writing import written
-from gudgeon.language.argument_checks import listed, refuse
-from gudgeon.language.argument_checks import names as plain_names
-from gudgeon.language.argument_checks import path as named
-from gudgeon.language.shown import in_spreadsheet
-from gudgeon.results.batch import Batch, check_series_names, given_columns, iterate_rows, series, series_column
+from gudgeon.files.writing import open_atomic
+from gudgeon.language.argument_checks import check_list, raise_bad_value
+from gudgeon.language.argument_checks import check_names as plain_names
+from gudgeon.language.argument_checks import check_path as named
+from gudgeon.language.text_output import escape_for_spreadsheet
+from gudgeon.results.batch import (
+    Batch,
+    check_series_names,
+    collect_given_columns,
+    collect_series,
+    iterate_rows,
+    name_series_column,
+)
 from gudgeon.results.files.netcdf import import_xarray
 from gudgeon.results.results import Array, Result
-from gudgeon.results.series import catalogue
+from gudgeon.results.series import get_catalogue
 
 if TYPE_CHECKING:
     import pandas
@@ -62,7 +69,7 @@ KEYWORDS = frozenset(
 )
 
 
-def requested_series(run: Result, names: Iterable[str] | None) -> list[str]:
+def list_requested_series(run: Result, names: Iterable[str] | None) -> list[str]:
     """Return the names of series without t and without repetitions, or all for None.
 
     Raises UnknownNameError for an unknown name, BadValueError for a text instead of a list.
@@ -70,49 +77,49 @@ def requested_series(run: Result, names: Iterable[str] | None) -> list[str]:
     if names is None:
         return list(run.names)
     if isinstance(names, str):
-        refuse("names", names, "a list of names of series")
+        raise_bad_value("names", names, "a list of names of series")
     unique_names = list(dict.fromkeys(plain_names(names, "names", "a list of names of series")))
     for name in unique_names:
         run.unit(name)
     return [name for name in unique_names if name != "t"]
 
 
-def dataframe(run: Result, names: Iterable[str] | None) -> pandas.DataFrame:
+def build_dataframe(run: Result, names: Iterable[str] | None) -> pandas.DataFrame:
     """Return series of a run as a pandas table with t (s) as index; see Result.to_dataframe.
 
     Units and origin are in `attrs`.
     """
     pandas_module = _import_pandas()
-    series = requested_series(run, names)
+    series = list_requested_series(run, names)
     table: pandas.DataFrame = pandas_module.DataFrame(
         {name: run[name] for name in series}, index=pandas_module.Index(run.t, name="t"), copy=True
     )
-    table.attrs = {"units": {"t": "s"} | {name: run.unit(name) for name in series}} | _origin_attributes(run)
+    table.attrs = {"units": {"t": "s"} | {name: run.unit(name) for name in series}} | _get_origin_attributes(run)
     return table
 
 
-def batch_dataframe(batch: Batch, names: Iterable[str] | None) -> pandas.DataFrame:
+def build_batch_dataframe(batch: Batch, names: Iterable[str] | None) -> pandas.DataFrame:
     """Return series of a batch as a long pandas table with a row for each reached sample; see Batch.to_dataframe.
 
     Raises MemoryError if the table would exceed the free memory.
     """
     pandas_module = _import_pandas()
-    n_columns = len(_series_of_batch(batch, names)) + len(batch.parameters) + 2
+    n_columns = len(_select_batch_series(batch, names)) + len(batch.parameters) + 2
     check_memory(2 * 8.0 * n_columns * _count_rows(batch), f"a table of {len(batch)} runs")
-    columns_by_run = list(_columns_by_run(batch, names))
+    columns_by_run = list(_iterate_columns_by_run(batch, names))
     columns = (
         {name: np.concatenate([run_columns[name] for run_columns in columns_by_run]) for name in columns_by_run[0]}
         if columns_by_run
         else {}
     )
-    units = {"t": "s"} | {name: series.unit for name, series in catalogue(batch.source).items()}
+    units = {"t": "s"} | {name: series.unit for name, series in get_catalogue(batch.source).items()}
     units |= {parameter.address: parameter.unit for parameter in batch.source.slots}
     table: pandas.DataFrame = pandas_module.DataFrame(columns)
-    table.attrs = {"units": {name: units.get(name, "") for name in columns}} | _origin_attributes(batch)
+    table.attrs = {"units": {name: units.get(name, "") for name in columns}} | _get_origin_attributes(batch)
     return table
 
 
-def _origin_attributes(result: Result | Batch) -> dict[str, str]:
+def _get_origin_attributes(result: Result | Batch) -> dict[str, str]:
     """Return mechanism, scene and title of a result as attributes of a table."""
     return {"mechanism": result.source.mechanism, "scene": result.source.scene, "title": result.source.title}
 
@@ -126,26 +133,28 @@ def _import_pandas() -> Any:
     return pandas
 
 
-def _series_of_batch(batch: Batch, names: Iterable[str] | None) -> list[str]:
+def _select_batch_series(batch: Batch, names: Iterable[str] | None) -> list[str]:
     """Return the names of the series of a batch to export, without t and repetitions; None selects all."""
-    available_names = batch.kept if batch.states is None else catalogue(batch.source)
+    available_names = batch.kept if batch.states is None else get_catalogue(batch.source)
     return [
         name for name in (available_names if names is None else check_series_names(batch.source, names)) if name != "t"
     ]
 
 
-def _columns_by_run(batch: Batch, names: Iterable[str] | None) -> Iterator[Columns]:
+def _iterate_columns_by_run(batch: Batch, names: Iterable[str] | None) -> Iterator[Columns]:
     """Yield the columns of one run after the other: run, given parameters, t, series.
 
     A run that did not begin has none.
     """
-    columns = given_columns(batch)
-    for i, t, series_by_name in iterate_rows(batch, _series_of_batch(batch, names)):
+    columns = collect_given_columns(batch)
+    for i, t, series_by_name in iterate_rows(batch, _select_batch_series(batch, names)):
         given_values = {name: values[i] for name, values in columns.items()}
         constant_columns = {"run": np.full(len(t), i)} | {
             name: np.full(len(t), value) for name, value in given_values.items()
         }
-        yield constant_columns | {"t": t} | {series_column(name): values for name, values in series_by_name.items()}
+        yield (
+            constant_columns | {"t": t} | {name_series_column(name): values for name, values in series_by_name.items()}
+        )
 
 
 def _count_rows(batch: Batch) -> float:
@@ -153,15 +162,15 @@ def _count_rows(batch: Batch) -> float:
     return float(batch.samples.sum())
 
 
-def csv(run: Result, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
+def write_csv(run: Result, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
     """Write series of a run as CSV. See Result.to_csv."""
-    series = requested_series(run, names)
+    series = list_requested_series(run, names)
     _write_csv(path, iter([{"t": run.t} | {name: run[name] for name in series}]), len(run.t))
 
 
-def batch_csv(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
+def write_batch_csv(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
     """Write series of a batch as CSV. See Batch.to_csv."""
-    _write_csv(path, _columns_by_run(batch, names), _count_rows(batch))
+    _write_csv(path, _iterate_columns_by_run(batch, names), _count_rows(batch))
 
 
 def _write_csv(path: str | os.PathLike[str], columns_by_run: Iterator[Columns], n_rows: float) -> None:
@@ -169,7 +178,7 @@ def _write_csv(path: str | os.PathLike[str], columns_by_run: Iterator[Columns], 
 
     Raises OutputError at once if `n_rows` lines of the length of some of the first do not fit on the disk.
     """
-    with written(named(path, "path")) as file:
+    with open_atomic(named(path, "path")) as file:
         for k, run_columns in enumerate(columns_by_run):
             columns = list(run_columns.values())
             if k == 0:
@@ -195,33 +204,36 @@ def _format_lines(columns: Sequence[Array]) -> list[str]:
 
 def _format_cell(value: object) -> str:
     """Return a number's digits, or the name of a choice, which contains no comma."""
-    return str(in_spreadsheet(value)) if isinstance(value, str) else repr(value)
+    return str(escape_for_spreadsheet(value)) if isinstance(value, str) else repr(value)
 
 
-def mat(run: Result, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
+def write_mat(run: Result, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
     """Write series of a run as a MATLAB file. See Result.to_mat."""
-    series = ["t", *requested_series(run, names)]
+    series = ["t", *list_requested_series(run, names)]
     descriptions = [(name, run.unit(name), run.meaning(name)) for name in series]
     _write_mat(path, run, descriptions, {name: np.asarray(run[name], dtype=float) for name in series})
 
 
-def batch_mat(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
+def write_batch_mat(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
     """Write series of a batch as a MATLAB file; see Batch.to_mat.
 
     Raises MemoryError if the series would exceed the free memory.
     """
-    all_series, parameters = catalogue(batch.source), {parameter.address: parameter for parameter in batch.source.slots}
-    names_of_series = _series_of_batch(batch, names)
+    all_series, parameters = (
+        get_catalogue(batch.source),
+        {parameter.address: parameter for parameter in batch.source.slots},
+    )
+    names_of_series = _select_batch_series(batch, names)
     descriptions = [
         ("t", "s", "time"),
         *((name, all_series[name].unit, all_series[name].meaning) for name in names_of_series),
     ]
-    given = given_columns(batch)
+    given = collect_given_columns(batch)
     columns_and_addresses = zip(given, batch.parameters, strict=True)
     descriptions += [(column, parameters[name].unit, "given to each run") for column, name in columns_and_addresses]
     size = 8.0 * (len(names_of_series) + 1) * len(batch) * batch.t.shape[-1]
     check_memory(size, f"{len(names_of_series)} series of {len(batch)} runs")
-    _write_mat(path, batch, descriptions, series(batch, ["t", *names_of_series]) | given)
+    _write_mat(path, batch, descriptions, collect_series(batch, ["t", *names_of_series]) | given)
 
 
 def _write_mat(
@@ -241,7 +253,7 @@ def _write_mat(
     contents |= {"mechanism": result.source.mechanism, "scene": result.source.scene}
     path = named(path, "path")
     check_disk(Path(path).parent, sum(float(column.nbytes) for column in columns.values()), "it", path)
-    with written(path) as file:
+    with open_atomic(path) as file:
         savemat(file, contents, long_field_names=True, oned_as="column")
         file.seek(0)
         file.write(MATLAB.ljust(DATE))  # the same run gives the same bytes
@@ -276,7 +288,7 @@ def join(runs: Iterable[Result | Batch]) -> xarray.Dataset:
     scene, which are a batch, for results of two mechanisms, and for results mixed with batches.
     """
     classes: Any = (Result, Batch)
-    results: list[Result | Batch] = listed(runs, "runs", classes, "a list of results, one a scene")
+    results: list[Result | Batch] = check_list(runs, "runs", classes, "a list of results, one a scene")
     scenes = [run.source.scene for run in results]
     if not scenes or len({*map(type, results)}) > 1:
         raise BadValueError("join: expected results, or batches, of one scene or more")

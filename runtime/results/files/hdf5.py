@@ -24,10 +24,10 @@ from numpy.typing import NDArray
 
 from gudgeon.errors import GudgeonError
 from gudgeon.files.free_space import check_disk
-from gudgeon.files.writing import written
-from gudgeon.language.argument_checks import path as named
-from gudgeon.waiting.asking import apart
-from gudgeon.waiting.ctrl_c import CtrlC
+from gudgeon.files.writing import open_atomic
+from gudgeon.language.argument_checks import check_path as named
+from gudgeon.waiting.cancellation import run_interruptible
+from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 Array: TypeAlias = NDArray[Any]
 
@@ -77,12 +77,12 @@ class Table:
         return len(self.variables[0].values) if self.variables else 0
 
 
-def pieces(tables: Sequence[Table]) -> Iterator[Any]:
+def generate_file_chunks(tables: Sequence[Table]) -> Iterator[Any]:
     """Yield the bytes of an HDF5 file with these tables in order, and the checksum last.
 
     The layout is made in another thread; the arrays are not copied.
     """
-    image, offsets_and_values = apart(partial(_lay_out, tables))
+    image, offsets_and_values = run_interruptible(partial(_lay_out, tables))
     checksum = position = 0
     for offset, values in sorted(offsets_and_values, key=lambda offset_and_values: offset_and_values[0]):
         for chunk in (image.between(position, offset), np.ascontiguousarray(values).data.cast("B")):
@@ -94,7 +94,7 @@ def pieces(tables: Sequence[Table]) -> Iterator[Any]:
     yield SEAL % zlib.crc32(tail, checksum)
 
 
-def write(tables: Iterator[Table], path: str | os.PathLike[str]) -> None:
+def write_tables(tables: Iterator[Table], path: str | os.PathLike[str]) -> None:
     """Write a file with these tables under a temporary name, then move it into place.
 
     The tables are computed one after the other, and Ctrl-C is handled in between. Raises OutputError if the disk is too
@@ -105,17 +105,17 @@ def write(tables: Iterator[Table], path: str | os.PathLike[str]) -> None:
     except ModuleNotFoundError as error:
         raise GudgeonError("NetCDF files need h5py: pip install 'gudgeon[xarray]'") from error
     path, table_list = named(path, "path"), []
-    with CtrlC() as ctrl_c:  # Python drops what is raised in callbacks of weak references, Ctrl-C too
+    with DelayedCtrlC() as ctrl_c:  # Python drops what is raised in callbacks of weak references, Ctrl-C too
         for table in tables:
             table_list.append(table)
-            ctrl_c.take()
+            ctrl_c.raise_delayed()
         n_bytes = sum(variable.values.nbytes for table in table_list for variable in table.variables)
         check_disk(Path(path).parent, n_bytes, "it", path)
-        with written(path) as file:
-            for chunk in pieces(table_list):
+        with open_atomic(path) as file:
+            for chunk in generate_file_chunks(table_list):
                 file.write(chunk)
-                ctrl_c.take()
-    ctrl_c.take()
+                ctrl_c.raise_delayed()
+    ctrl_c.raise_delayed()
 
 
 def is_damaged(path: Path) -> bool:

@@ -1,10 +1,7 @@
 """Write and read results as NetCDF 4 files, and convert them to xarray Datasets.
 
-A file contains every series under its own name over `time`, so that any NetCDF tool can read it. Groups contain tables
-with other rows: `impacts`, `events`, the series `at_events`, `parameters`, `trace` and `peaks` over all steps
-(peaks.py), for readers. `compiled` has the kernel source and derived parameters, from which gudgeon restores the result
-bit for bit without a compiled library; `provenance` is described in diagnostics.py. Empty tables are left out. The only
-date is that of the run, in `provenance`: a result that is saved twice gives the same bytes.
+A file contains every series over `time`, so any NetCDF tool can read it, and groups with other tables. `compiled` has
+the kernel source, from which gudgeon restores the result bit for bit without a compiled library.
 """
 
 from __future__ import annotations
@@ -20,14 +17,14 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, GudgeonError
-from gudgeon.integrators.trajectory import EVENT_DTYPE, IMPACT_DTYPE, TRACE_COLUMNS, TRACED, Trace
-from gudgeon.language.argument_checks import mapping, message, text
-from gudgeon.model.choices import specified
+from gudgeon.integrators.trajectory import EVENT_DTYPE, IMPACT_DTYPE, TRACE_COLUMNS, TRACED, Envelope
+from gudgeon.language.argument_checks import check_mapping, check_text, shorten_value
+from gudgeon.model.choices import format_parameter
 from gudgeon.results.diagnostics import PROVENANCE, Diagnostics, Extremes
-from gudgeon.results.files.hdf5 import Table, Variable, write
+from gudgeon.results.files.hdf5 import Table, Variable, write_tables
 from gudgeon.results.files.untrusted import OLD_FORMAT, File, check_typed, open_result_file
 from gudgeon.results.results import Array, Result
-from gudgeon.results.series import DRIFT, MOTION, catalogue
+from gudgeon.results.series import DRIFT, MOTION, get_catalogue
 from gudgeon.results.state import State
 
 if TYPE_CHECKING:
@@ -63,35 +60,35 @@ OLD_NAMES = ("time", "impact", "event", "slot", "prepared")  # of the root of an
 NAME, UNIT = re.compile(r"[A-Za-z][\w.]*", re.ASCII), re.compile(r"[\w^*/. ()-]*", re.ASCII)
 
 
-def tables(run: Result) -> Iterator[Table]:
+def build_tables(run: Result) -> Iterator[Table]:
     """Yield all tables of the file of a run, also empty ones: series over `time` at its root, then groups."""
-    yield Table("", "time", tuple(_series_variables(run)), attributes(run))
-    yield Table(START, "time", () if run.start_row is None else tuple(_series_variables(run.start_row)), {})
-    yield Table(GIVEN_START, "row", tuple(_given_start_variables(run)), {})
+    yield Table("", "time", tuple(_iterate_series_variables(run)), build_attributes(run))
+    yield Table(START, "time", () if run.start_row is None else tuple(_iterate_series_variables(run.start_row)), {})
+    yield Table(GIVEN_START, "row", tuple(_iterate_start_variables(run)), {})
     joints = [joint.name for joint in run.source.clearances]
-    yield Table("impacts", "impact", tuple(records(run.impacts, IMPACTS, joints)), {})
+    yield Table("impacts", "impact", tuple(build_record_variables(run.impacts, IMPACTS, joints)), {})
     events = [event.name for event in run.source.events]
-    yield Table("events", "occurrence", tuple(records(run.events, EVENTS, events)), {})
-    yield Table(STATES, "occurrence", tuple(_event_state_variables(run, events)), {})
-    yield Table("parameters", "address", tuple(_parameter_variables(run)), {})
-    yield Table(TRACE, "t", tuple(_envelope_variables(run)), {})
-    yield Table(PEAKS, "row", tuple(_peak_variables(run)), {})
+    yield Table("events", "occurrence", tuple(build_record_variables(run.events, EVENTS, events)), {})
+    yield Table(STATES, "occurrence", tuple(_iterate_event_variables(run, events)), {})
+    yield Table("parameters", "address", tuple(_iterate_parameter_variables(run)), {})
+    yield Table(TRACE, "t", tuple(_iterate_envelope_variables(run)), {})
+    yield Table(PEAKS, "row", tuple(_iterate_peak_variables(run)), {})
     derived = Variable("value", run.p[len(run.given) :], "", "what was derived from the parameters, SI")
     yield Table(COMPILED, "derived", (derived,), {"source": run.source.to_json()})
     yield Table(PROVENANCE_GROUP, "", (), run.provenance)
 
 
-def _series_variables(run: Result) -> Iterator[Variable]:
+def _iterate_series_variables(run: Result) -> Iterator[Variable]:
     """Yield the time and every series of a run as variables; without the drift for a run of an older file."""
     yield Variable("time", run.t, "s", "time")
     missing_names = () if run.compiled or DRIFT[0] in run.stored else DRIFT  # read from a file that lacks it
     for name, unit in run.names.items():
         if name in missing_names:
             continue
-        yield Variable(variable(name), run[name], unit, run.meaning(name))
+        yield Variable(name_variable(name), run[name], unit, run.meaning(name))
 
 
-def _given_start_variables(run: Result) -> Iterator[Variable]:
+def _iterate_start_variables(run: Result) -> Iterator[Variable]:
     """Yield the state that the run was given as `start` as one column; nothing if it was given none."""
     if run.begun is not None:
         fields = ([run.begun.t], run.begun.q, run.begun.v, run.begun.state, run.begun.memory)
@@ -99,7 +96,7 @@ def _given_start_variables(run: Result) -> Iterator[Variable]:
         yield Variable("value", values, "", "time, coordinates, velocities, contact codes, memory, SI")
 
 
-def _event_state_variables(run: Result, events: list[str]) -> Iterator[Variable]:
+def _iterate_event_variables(run: Result, events: list[str]) -> Iterator[Variable]:
     """Yield the columns of events and every series at the events; nothing where the states are not known. `events` are
     the names of the scene's events.
     """
@@ -110,49 +107,55 @@ def _event_state_variables(run: Result, events: list[str]) -> Iterator[Variable]
     except GudgeonError:  # an older file, a motion that cannot be followed or evaluated there: the samples are whole
         return
     if values_by_name:
-        yield from list(records(run.events, EVENTS, events))
+        yield from list(build_record_variables(run.events, EVENTS, events))
     for name, values in values_by_name.items():
-        yield Variable(at_event(name), values, run.unit(name), run.meaning(name))
+        yield Variable(name_event_column(name), values, run.unit(name), run.meaning(name))
 
 
-def at_event(name: str) -> str:
+def name_event_column(name: str) -> str:
     """Return the name of a series in the table of events, other than the columns of that table."""
     return f"output.{name}" if name in (*EVENTS, "occurrence") else name
 
 
-def records(table: Array, columns: dict[str, tuple[str, str]], names: list[str]) -> Iterator[Variable]:
+def build_record_variables(table: Array, columns: dict[str, tuple[str, str]], names: list[str]) -> Iterator[Variable]:
     """Yield the columns of a table of impacts or events as variables. `columns` has unit and meaning of each; the first
     column holds indices, which are written as the `names`.
     """
     for k, (name, (unit, meaning)) in enumerate(columns.items()):
         yield Variable(
-            name, _as_text_array([names[index] for index in table[name]]) if k == 0 else table[name], unit, meaning
+            name,
+            _convert_to_text_array([names[index] for index in table[name]]) if k == 0 else table[name],
+            unit,
+            meaning,
         )
 
 
-def _parameter_variables(run: Result) -> Iterator[Variable]:
+def _iterate_parameter_variables(run: Result) -> Iterator[Variable]:
     """Yield the columns of the table of run-time parameters: address, value, unit, given value, name of a choice."""
     slots = run.source.slots
     yield Variable(
-        "address", _as_text_array([slot.address for slot in slots]), "", "where the number stands in the file"
+        "address", _convert_to_text_array([slot.address for slot in slots]), "", "where the number stands in the file"
     )
     yield Variable("value", run.p[: len(slots)], "", "what the run had, SI")
-    yield Variable("unit", _as_text_array([slot.unit for slot in slots]), "", "of the value")
+    yield Variable("unit", _convert_to_text_array([slot.unit for slot in slots]), "", "of the value")
     yield Variable("given", run.given, "", "overridden value, SI")
     yield Variable("is_given", run.is_given.astype(np.int8), "", "1 where it was overridden")
     if any(slot.words for slot in slots):
         choice_names = [
-            str(specified(slot, float(value))) if slot.words else "" for slot, value in zip(slots, run.p, strict=False)
+            str(format_parameter(slot, float(value))) if slot.words else ""
+            for slot, value in zip(slots, run.p, strict=False)
         ]
-        yield Variable("name", _as_text_array(choice_names), "", "of what was chosen where the value is its place")
+        yield Variable(
+            "name", _convert_to_text_array(choice_names), "", "of what was chosen where the value is its place"
+        )
 
 
-def _as_text_array(values: list[str]) -> Array:
+def _convert_to_text_array(values: list[str]) -> Array:
     """Return texts as an array of objects."""
     return np.array(values, dtype=object)
 
 
-def _envelope_variables(run: Result) -> Iterator[Variable]:
+def _iterate_envelope_variables(run: Result) -> Iterator[Variable]:
     """Yield times, extreme forces and positions of journals of the envelope over the steps; nothing without an
     envelope.
     """
@@ -164,16 +167,19 @@ def _envelope_variables(run: Result) -> Iterator[Variable]:
             yield Variable(f"{joint.name}.{name}", run.trace.joints[:, k, column], unit, meaning)
 
 
-def _peak_variables(run: Result) -> Iterator[Variable]:
+def _iterate_peak_variables(run: Result) -> Iterator[Variable]:
     """Yield the columns of peaks over all steps, for readers of the file; `diagnostics` restores them."""
     for name, (unit, meaning) in EXTREMES.items():
         values = [getattr(extremes, name) for extremes in run.diagnostics.extremes]
         yield Variable(
-            name, _as_text_array(values) if name in ("name", "against", "unit") else np.array(values), unit, meaning
+            name,
+            _convert_to_text_array(values) if name in ("name", "against", "unit") else np.array(values),
+            unit,
+            meaning,
         )
 
 
-def attributes(run: Result) -> dict[str, str]:
+def build_attributes(run: Result) -> dict[str, str]:
     """Return the attributes of the whole file: format, title, mechanism, scene, and the diagnostics as JSON."""
     return {
         "gudgeon": FORMAT,
@@ -184,7 +190,7 @@ def attributes(run: Result) -> dict[str, str]:
     }
 
 
-def variable(name: str) -> str:
+def name_variable(name: str) -> str:
     """Return the name of a series in the file: an output with the name of a group or of the time gets a prefix."""
     return f"output.{name}" if name in ("time", *PARTS, START, GIVEN_START, COMPILED, PROVENANCE_GROUP) else name
 
@@ -198,16 +204,16 @@ def import_xarray() -> Any:
     return xarray
 
 
-def dataset(run: Result, part: str = SERIES) -> xarray.Dataset:
+def build_dataset(run: Result, part: str = SERIES) -> xarray.Dataset:
     """Return a table of a run as an xarray Dataset: "series" or one of PARTS. Raises UnknownNameError, GudgeonError."""
     xarray = import_xarray()
-    part = text(part, "part", "the name of a table")
+    part = check_text(part, "part", "the name of a table")
     group = "" if part == SERIES else part
     if part not in (SERIES, *PARTS):
         from gudgeon.errors import UnknownNameError
 
         raise UnknownNameError(f"a result has no part {part!r}", hint=f"there are: {', '.join((SERIES, *PARTS))}")
-    table = next(table for table in tables(run) if table.group == group)
+    table = next(table for table in build_tables(run) if table.group == group)
     variables: dict[str, Any] = {item.name: (table.dimension, item.values, item.attributes) for item in table.variables}
     return xarray.Dataset(variables, attrs=dict(table.attributes))
 
@@ -216,22 +222,20 @@ def save(run: Result, path: str | os.PathLike[str], user_attributes: Mapping[str
     """Write a run to a NetCDF file, with `user_attributes` {name: text} in addition to its own. Raises OutputError if
     that fails, and leaves an older file unchanged; BadValueError for invalid attributes.
     """
-    root, *others = tables(run)
-    write(
+    root, *others = build_tables(run)
+    write_tables(
         iter([replace(root, attributes={**root.attributes, **_check_attributes(user_attributes, root)}), *others]), path
     )
 
 
 def _check_attributes(user_attributes: Any, root: Table) -> dict[str, str]:
-    """Return the attributes of the user as a dictionary of texts. Raises BadValueError for names that the format itself
-    uses, that are too long or not printable.
-    """
+    """Return the user's attributes as texts. Raises BadValueError for reserved, long or unprintable names."""
     checked = {}
-    for name, value in mapping(user_attributes, "attributes", "{name: text}").items():
+    for name, value in check_mapping(user_attributes, "attributes", "{name: text}").items():
         if not 0 < len(name) <= LONGEST or not name.isprintable() or name in root.attributes:
             hint = f"expected a name other than {', '.join(root.attributes)}"
-            raise BadValueError(f"attributes: {message(name)} is no name for one of your own", hint=hint)
-        checked[name] = text(value, f"attributes: {name}")
+            raise BadValueError(f"attributes: {shorten_value(name)} is no name for one of your own", hint=hint)
+        checked[name] = check_text(value, f"attributes: {name}")
     return checked
 
 
@@ -240,9 +244,9 @@ def read(path: str | os.PathLike[str]) -> Result:
     return open_result_file(path, lambda file, size: _read_result(File(file, size, (FORMAT, OLD_FORMAT))))
 
 
-def source_of(file: File) -> KernelSource:
+def read_source(file: File) -> KernelSource:
     """Return the kernel source of a file. Raises ValueError or TypeError for wrong types and names."""
-    source = KernelSource.from_json(file.text("source", "" if file.is_old else COMPILED))
+    source = KernelSource.from_json(file.read_text_attribute("source", "" if file.is_old else COMPILED))
     check_typed(source, KernelSource, "source")
     _check_names(source)
     return source
@@ -250,19 +254,17 @@ def source_of(file: File) -> KernelSource:
 
 def _read_result(file: File) -> Result:
     """Return the result of an open file."""
-    source = source_of(file)
-    run = result_of(file, source, tuple(catalogue(source)))
+    source = read_source(file)
+    run = read_result(file, source, tuple(get_catalogue(source)))
     run.provenance = read_provenance(file)
     return run
 
 
-def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Result:
-    """Return the result of an open file with the named series; it has no compiled library. Everything is checked before
-    it is used. Raises ValueError, TypeError or KeyError for a file that is not valid.
-    """
-    diagnostics = Diagnostics.from_json(file.text("diagnostics"))
+def read_result(file: File, source: KernelSource, names: tuple[str, ...]) -> Result:
+    """Return the checked result of an open file. Raises ValueError, TypeError or KeyError for an invalid file."""
+    diagnostics = Diagnostics.from_json(file.read_text_attribute("diagnostics"))
     check_typed(diagnostics, Diagnostics, "diagnostics")
-    t = file.numbers("time")
+    t = file.read_numbers("time")
     if not len(t):
         raise ValueError("it has no sample")
     check_times(t)
@@ -275,20 +277,20 @@ def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Resul
         given=given,
         is_given=is_given,
         t=t,
-        **samples_of(source, stored, len(t)),
-        impacts=impacts_of(file, source),
+        **rebuild_samples(source, stored, len(t)),
+        impacts=read_impacts(file, source),
         diagnostics=diagnostics,
-        events=events_of(file, source),
+        events=read_events(file, source),
         stored=stored,
         trace=_read_trace(file, source),
     )
     if file.has(START):
-        run.start_row = start_row(file, run)
+        run.start_row = read_start_row(file, run)
         check_times(np.append(run.start_row.t, t[0]))
     if file.has(GIVEN_START):
         run.begun = _read_given_start(file, run.final)
     if file.has(STATES):
-        run.__dict__["states_at_events"] = states_at_events(file, run)
+        run.__dict__["states_at_events"] = read_states_at_events(file, run)
     _ = run.names, run.parameters, run.constants, run.final  # what these need is there, or it is no result
     check_extremes(diagnostics.extremes, run.names)
     return run
@@ -342,85 +344,80 @@ def _has_series(file: File, name: str) -> bool:
 
 
 def _read_series(file: File, name: str, length: int) -> Array:
-    """Return a series of the file, read-only, with `length` values. Older files have other names for some outputs.
-    Contact states are integers, other series floats.
-    """
-    stored_name = f"output.{name}" if file.is_old and name in OLD_NAMES else name if file.is_old else variable(name)
+    """Return a series of the file, read-only, with `length` values; older files name some outputs otherwise."""
+    stored_name = (
+        f"output.{name}" if file.is_old and name in OLD_NAMES else name if file.is_old else name_variable(name)
+    )
     stored_name = (
         stored_name if file.has(stored_name) else name
     )  # an output that is called like a group that older files have not
-    values = file.numbers(stored_name, length, "i1" if name.endswith(".state") else "f8")
+    values = file.read_numbers(stored_name, length, "i1" if name.endswith(".state") else "f8")
     values.flags.writeable = False
     return values
 
 
 def _read_parameters(file: File, source: KernelSource) -> tuple[Array, Array, Array]:
-    """Return p, given and is_given of the file, as in Result. Raises ValueError if given values differ from those of
-    the run.
-    """
+    """Return p, given and is_given of the file, as in Result. Raises ValueError if given values differ."""
     n_parameters, n_derived = len(source.slots), len(source.derived)
     if file.is_old:
         p, given = (
-            file.numbers("parameters.prepared", n_parameters + n_derived),
-            file.numbers("parameters.given", n_parameters),
+            file.read_numbers("parameters.prepared", n_parameters + n_derived),
+            file.read_numbers("parameters.given", n_parameters),
         )
-        is_given = file.numbers("parameters.is_given", n_parameters, "i1")
+        is_given = file.read_numbers("parameters.is_given", n_parameters, "i1")
         _check_given(source, p, given, is_given)
         return p, given, is_given.astype(bool)
     values, given = (
-        file.numbers(f"parameters/{name}", n_parameters) if n_parameters else np.zeros(0) for name in ("value", "given")
+        file.read_numbers(f"parameters/{name}", n_parameters) if n_parameters else np.zeros(0)
+        for name in ("value", "given")
     )
-    is_given = file.numbers("parameters/is_given", n_parameters, "i1") if n_parameters else np.zeros(0)
-    derived_values = file.numbers(f"{COMPILED}/value", n_derived) if n_derived else np.zeros(0)
+    is_given = file.read_numbers("parameters/is_given", n_parameters, "i1") if n_parameters else np.zeros(0)
+    derived_values = file.read_numbers(f"{COMPILED}/value", n_derived) if n_derived else np.zeros(0)
     _check_given(source, values, given, is_given)
     return np.concatenate([values, derived_values]), given, is_given.astype(bool)
 
 
-def impacts_of(file: File, source: KernelSource) -> Array:
+def read_impacts(file: File, source: KernelSource) -> Array:
     """Return the contacts of the file's run, IMPACT_DTYPE."""
     return _read_records(file, "impact", IMPACT_DTYPE, [joint.name for joint in source.clearances])
 
 
-def events_of(file: File, source: KernelSource) -> Array:
+def read_events(file: File, source: KernelSource) -> Array:
     """Return the events of the file's run, EVENT_DTYPE."""
     return _read_records(file, "event", EVENT_DTYPE, [event.name for event in source.events])
 
 
 def _read_records(file: File, kind: str, dtype: np.dtype[Any], names: list[str]) -> Array:
-    """Return impacts or events from their columns as an array of `dtype`; empty without a group. The first column has
-    names of joints or events, which become indices in `names`. Raises ValueError for others.
-    """
+    """Return impacts or events as an array of `dtype`; empty without a group. Raises ValueError for unknown names."""
     owner_column, *other_columns = dtype.names or ()
     if not file.has(f"{kind}.{owner_column}" if file.is_old else f"{kind}s"):
         return np.zeros(0, dtype)
     if file.is_old:
-        owner_indices = file.numbers(f"{kind}.{owner_column}", None, "i4")
+        owner_indices = file.read_numbers(f"{kind}.{owner_column}", None, "i4")
     else:
         index: Mapping[str, int] = {name: k for k, name in enumerate(names)}
-        owner_indices = np.array([index[name] for name in file.texts(f"{kind}s/{owner_column}")], "i4")
+        owner_indices = np.array([index[name] for name in file.read_texts(f"{kind}s/{owner_column}")], "i4")
     if len(owner_indices) and not (owner_indices.min() >= 0 and owner_indices.max() < len(names)):
         raise ValueError(f"the {kind}s are of something that the scene does not have")
     table = np.empty(len(owner_indices), dtype)
     table[owner_column] = owner_indices
     for name in other_columns:
-        table[name] = file.numbers(f"{kind}.{name}" if file.is_old else f"{kind}s/{name}", len(owner_indices))
+        table[name] = file.read_numbers(f"{kind}.{name}" if file.is_old else f"{kind}s/{name}", len(owner_indices))
     return table
 
 
-def _read_trace(file: File, source: KernelSource) -> Trace | None:
+def _read_trace(file: File, source: KernelSource) -> Envelope | None:
     """Return the envelope over the steps; None if the run had none or the file is older."""
     if not file.has(TRACE):
         return None
-    t = file.numbers(f"{TRACE}/t")
+    t = file.read_numbers(f"{TRACE}/t")
     names = [[f"{TRACE}/{joint.name}.{name}" for name in TRACE_COLUMNS] for joint in source.clearances]
-    columns = [[file.numbers(name, len(t)) for name in joint_columns] for joint_columns in names]
-    return Trace(t, np.moveaxis(np.array(columns).reshape(len(columns), len(TRACE_COLUMNS), len(t)), 2, 0).copy())
+    columns = [[file.read_numbers(name, len(t)) for name in joint_columns] for joint_columns in names]
+    return Envelope(t, np.moveaxis(np.array(columns).reshape(len(columns), len(TRACE_COLUMNS), len(t)), 2, 0).copy())
 
 
-def samples_of(source: KernelSource, stored: Mapping[str, Array], length: int) -> dict[str, Any]:
-    """Return the arrays that the integrator stores, rebuilt from their series, by their names in a Result. `stored` has
-    the series by name, `length` samples each.
-    """
+def rebuild_samples(source: KernelSource, stored: Mapping[str, Array], length: int) -> dict[str, Any]:
+    """Return the arrays that the integrator stores, rebuilt from `length` samples of their series."""
     q, v, a = (_read_motion(source, stored, length, order) for order in range(3))
     return {
         "q": q,
@@ -464,37 +461,39 @@ def _list_memory_series(source: KernelSource) -> list[str]:
     return [*approach_speeds, *(f"{friction}.mode" for friction in source.frictions), *source.states]
 
 
-def states_at_events(file: File, run: Result) -> Result:
+def read_states_at_events(file: File, run: Result) -> Result:
     """Return the result whose samples are the start of the run and then its events, read from the file."""
     stored, count, start_row = {}, len(run.events), run.start_row or run
     for name in run.stored:
-        values = file.numbers(f"{STATES}/{at_event(name)}", count, "i1" if name.endswith(".state") else "f8")
+        values = file.read_numbers(
+            f"{STATES}/{name_event_column(name)}", count, "i1" if name.endswith(".state") else "f8"
+        )
         stored[name] = np.concatenate([start_row.stored[name][:1], values])
         stored[name].flags.writeable = False
-    t, arrays = np.concatenate([start_row.t[:1], run.events["t"]]), samples_of(run.source, stored, 1 + count)
+    t, arrays = np.concatenate([start_row.t[:1], run.events["t"]]), rebuild_samples(run.source, stored, 1 + count)
     return replace(run, t=t, **arrays, trace=None, stored=stored, start_row=None)
 
 
-def start_row(file: File, run: Result) -> Result:
+def read_start_row(file: File, run: Result) -> Result:
     """Return the start of a run whose samples begin later: a result of one sample, read from the file."""
-    t = file.numbers(f"{START}/time", 1)
-    datasets = {name: (f"{START}/{variable(name)}", values.dtype.str) for name, values in run.stored.items()}
-    stored = {name: file.numbers(dataset_name, 1, dtype) for name, (dataset_name, dtype) in datasets.items()}
+    t = file.read_numbers(f"{START}/time", 1)
+    datasets = {name: (f"{START}/{name_variable(name)}", values.dtype.str) for name, values in run.stored.items()}
+    stored = {name: file.read_numbers(dataset_name, 1, dtype) for name, (dataset_name, dtype) in datasets.items()}
     for values in stored.values():
         values.flags.writeable = False
-    return replace(run, t=t, **samples_of(run.source, stored, 1), trace=None, stored=stored)
+    return replace(run, t=t, **rebuild_samples(run.source, stored, 1), trace=None, stored=stored)
 
 
 def _read_given_start(file: File, final: State) -> State:
     """Return the state that a run was given as `start`; identity and parameters are those of its final state."""
     offsets = np.cumsum([1, len(final.q), len(final.v), len(final.state), len(final.memory)])
-    t, q, v, state, memory = np.split(file.numbers(f"{GIVEN_START}/value", int(offsets[-1])), offsets[:-1])
+    t, q, v, state, memory = np.split(file.read_numbers(f"{GIVEN_START}/value", int(offsets[-1])), offsets[:-1])
     return replace(final, t=float(t[0]), q=q, v=v, state=state.astype(np.int8), memory=memory)
 
 
 def read_provenance(file: File) -> dict[str, str]:
     """Return the provenance in a file by the keys of PROVENANCE; empty for an older file."""
     try:
-        return {name: file.text(name, PROVENANCE_GROUP) for name in PROVENANCE}
+        return {name: file.read_text_attribute(name, PROVENANCE_GROUP) for name in PROVENANCE}
     except (KeyError, ValueError):
         return {}

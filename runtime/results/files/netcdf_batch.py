@@ -1,10 +1,6 @@
-"""Write a batch as one NetCDF 4 file and read it bit for bit: the tables of its runs one after the other, each row with
-its run.
+"""Write a batch of runs as one NetCDF 4 file, and read it bit for bit; each table row has its run's number.
 
-`series` are long tables over the reached samples, as are `impacts`, `events` and the others of the file of one run
-(netcdf.py). `runs` has a row for each run: diagnostics, failure, end and peaks. `given` has the given parameters,
-`times` the requested times, of all runs or of each. If series were stored instead of states, the table is `kept`.
-Reading needs no compiled library and checks the file like that of one run.
+The group `runs` has a row for each run; `series`, `impacts` and others are long tables; `given` has the parameters.
 """
 
 from __future__ import annotations
@@ -22,15 +18,15 @@ from gudgeon import errors
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, UnknownNameError
 from gudgeon.integrators.trajectory import Counts
-from gudgeon.language.argument_checks import text
+from gudgeon.language.argument_checks import check_text
 from gudgeon.results.batch import (
     Batch,
     States,
-    as_failures,
     check_series_names,
-    given_columns,
-    series,
-    series_column,
+    collect_given_columns,
+    collect_series,
+    make_failures,
+    name_series_column,
 )
 from gudgeon.results.diagnostics import Extremes, extremes_from_json, extremes_to_json
 from gudgeon.results.files import netcdf
@@ -38,16 +34,16 @@ from gudgeon.results.files.hdf5 import Table, Variable
 from gudgeon.results.files.netcdf import (
     check_extremes,
     check_times,
-    events_of,
-    impacts_of,
+    read_events,
+    read_impacts,
     read_provenance,
-    result_of,
-    source_of,
+    read_result,
+    read_source,
 )
 from gudgeon.results.files.untrusted import File, check_typed, open_result_file
-from gudgeon.results.peaks import PEAK_DTYPE, run_columns
-from gudgeon.results.results import Array, Result, blank
-from gudgeon.results.series import MOTION_UNITS, catalogue, rates
+from gudgeon.results.peaks import PEAK_DTYPE, build_extreme_columns
+from gudgeon.results.results import Array, Result, make_empty_result
+from gudgeon.results.series import MOTION_UNITS, find_rate_names, get_catalogue
 
 if TYPE_CHECKING:
     import xarray
@@ -60,16 +56,16 @@ COUNTS = (*(field.name for field in fields(Counts)), "seconds")
 
 def save(batch: Batch, path: str | os.PathLike[str]) -> None:
     """Write a batch to a file. See Batch.save."""
-    netcdf.write(tables(batch), path)
+    netcdf.write_tables(build_batch_tables(batch), path)
 
 
-def tables(batch: Batch) -> Iterator[Table]:
+def build_batch_tables(batch: Batch) -> Iterator[Table]:
     """Yield all tables of the file of a batch: runs, given parameters, times, and the long tables of all runs. A batch
     without states has the table `kept` of its stored series instead of all series.
     """
     runs_with_states = range(len(batch) if batch.states else 0)
     runs = {i: run for i in runs_with_states if (run := batch.partial(i)) is not None}
-    tables_by_run = [(i, table) for i, run in runs.items() for table in netcdf.tables(run)]
+    tables_by_run = [(i, table) for i, run in runs.items() for table in netcdf.build_tables(run)]
     batch_values = {"seconds": repr(batch.seconds), "threads": batch.threads, "interrupted": batch.interrupted}
     batch_values |= {"own_times": batch.t.ndim == 2} | ({} if batch.states else {"kept": [*batch.kept]})
     attributes = {
@@ -80,10 +76,10 @@ def tables(batch: Batch) -> Iterator[Table]:
         "batch": json.dumps(batch_values),
     }
     yield Table("", "run", (Variable("run", np.arange(len(batch)), "", "number of the run"),), attributes)
-    yield times(batch)
+    yield build_times_table(batch)
     if not batch.states:
-        tables_by_run += stored_series_tables(batch)
-        yield long_table(KEPT, [(i, table) for i, table in tables_by_run if table.group == KEPT], {})
+        tables_by_run += build_stored_series_tables(batch)
+        yield build_long_table(KEPT, [(i, table) for i, table in tables_by_run if table.group == KEPT], {})
     yield Table(RUNS, NUMBER, tuple(_run_variables(batch, runs)), {})
     units = {slot.address: slot.unit for slot in batch.source.slots}
     given_variables = (
@@ -93,11 +89,11 @@ def tables(batch: Batch) -> Iterator[Table]:
     for group in ("", *netcdf.PARTS, netcdf.START, netcdf.GIVEN_START, netcdf.COMPILED):
         filled_tables = [(i, table) for i, table in tables_by_run if table.group == group and table.length]
         source = {"source": batch.source.to_json()} if group == netcdf.COMPILED else {}
-        yield long_table(group or netcdf.SERIES, filled_tables, source)
+        yield build_long_table(group or netcdf.SERIES, filled_tables, source)
     yield Table(netcdf.PROVENANCE_GROUP, "", (), next((run.provenance for run in runs.values()), {}))
 
 
-def long_table(group: str, tables_by_run: list[tuple[int, Table]], attributes: dict[str, str]) -> Table:
+def build_long_table(group: str, tables_by_run: list[tuple[int, Table]], attributes: dict[str, str]) -> Table:
     """Return the same table of several runs as one, whose first column is the number of the run. `tables_by_run` has
     (run, table) of each run with rows; without any, the result has no variables.
     """
@@ -105,21 +101,21 @@ def long_table(group: str, tables_by_run: list[tuple[int, Table]], attributes: d
     variables = [Variable(OWNER, np.concatenate(run_numbers), "", "number of the run")] if tables_by_run else []
     for k, first in enumerate(tables_by_run[0][1].variables if tables_by_run else ()):
         values = np.concatenate([table.variables[k].values for _, table in tables_by_run])
-        variables.append(Variable(column_name(first.name), values, first.unit, first.meaning))
+        variables.append(Variable(name_column(first.name), values, first.unit, first.meaning))
     return Table(group, "row", tuple(variables), attributes)
 
 
-def column_name(name: str) -> str:
+def name_column(name: str) -> str:
     """Return the name of a series in a long table, other than the column of runs and the dimension."""
     return f"output.{name}" if name in (OWNER, "row") else name
 
 
-def _stored_name(name: str) -> str:
+def _format_stored_name(name: str) -> str:
     """Return the name of a series in the table `kept`."""
-    return "time" if name == "t" else netcdf.variable(name)
+    return "time" if name == "t" else netcdf.name_variable(name)
 
 
-def times(batch: Batch) -> Table:
+def build_times_table(batch: Batch) -> Table:
     """Return the table of requested times: (N,) if all runs have the same; else a long table with those of each run."""
     meaning = "time that was asked for"
     if batch.t.ndim == 1:
@@ -127,18 +123,18 @@ def times(batch: Batch) -> Table:
     variables = (
         (i, Variable("time", run_times[~np.isnan(run_times)], "s", meaning)) for i, run_times in enumerate(batch.t)
     )
-    return long_table(TIMES, [(i, Table(TIMES, "row", (variable,), {})) for i, variable in variables], {})
+    return build_long_table(TIMES, [(i, Table(TIMES, "row", (variable,), {})) for i, variable in variables], {})
 
 
-def stored_series_tables(batch: Batch) -> Iterator[tuple[int, Table]]:
+def build_stored_series_tables(batch: Batch) -> Iterator[tuple[int, Table]]:
     """Yield (run, table) of a batch without states for stored series, impacts and events, without empty tables."""
-    source, empty_result = batch.source, blank(batch.source)
+    source, empty_result = batch.source, make_empty_result(batch.source)
     joints, events = [joint.name for joint in source.clearances], [event.name for event in source.events]
     for i, n_samples in enumerate(batch.samples.tolist()):
         stored_columns = ((name, values[i, :n_samples]) for name, values in batch.kept.items())
         variables = (
             Variable(
-                _stored_name(column),
+                _format_stored_name(column),
                 x,
                 empty_result.unit(column),
                 empty_result.meaning(column),
@@ -147,22 +143,26 @@ def stored_series_tables(batch: Batch) -> Iterator[tuple[int, Table]]:
         )
         run_tables = (
             Table(KEPT, "row", tuple(variables), {}),
-            Table("impacts", "impact", tuple(netcdf.records(batch.impacts[i], netcdf.IMPACTS, joints)), {}),
-            Table("events", "occurrence", tuple(netcdf.records(batch.events[i], netcdf.EVENTS, events)), {}),
+            Table(
+                "impacts", "impact", tuple(netcdf.build_record_variables(batch.impacts[i], netcdf.IMPACTS, joints)), {}
+            ),
+            Table(
+                "events", "occurrence", tuple(netcdf.build_record_variables(batch.events[i], netcdf.EVENTS, events)), {}
+            ),
         )
         yield from ((i, table) for table in run_tables if table.length)
 
 
-def dataset(batch: Batch, names: Iterable[str] | str = (), part: str = netcdf.SERIES) -> xarray.Dataset:
+def build_batch_dataset(batch: Batch, names: Iterable[str] | str = (), part: str = netcdf.SERIES) -> xarray.Dataset:
     """Return a batch as an xarray Dataset over run and time, or one of its other tables; see Batch.to_xarray. A text as
     `names` is the name of such a part. Raises UnknownNameError.
     """
     names, part = ((), names) if isinstance(names, str) else (names, part)
     xarray = netcdf.import_xarray()
-    if text(part, "part", "the name of a table") != netcdf.SERIES:
+    if check_text(part, "part", "the name of a table") != netcdf.SERIES:
         variables = {
             variable.name: ("row", variable.values, variable.attributes)
-            for variable in _part_table(batch, part).variables
+            for variable in _read_part_table(batch, part).variables
         }
         return xarray.Dataset(variables)
     failure_texts = dict((failure.run, str(failure.error)) for failure in batch.failures)
@@ -174,15 +174,15 @@ def dataset(batch: Batch, names: Iterable[str] | str = (), part: str = netcdf.SE
     columns |= {name: ("run", values) for name, values in batch.diagnostics.items()}
     for k, joint in enumerate(batch.source.clearances):
         columns |= {f"{joint.name}.peak.{name}": ("run", batch.peaks[name][:, k]) for name in PEAK_DTYPE.names or ()}
-    columns |= {name: ("run", values, {"units": unit}) for name, unit, values in run_columns(batch.extremes)}
-    columns |= _sample_variables(batch, names)
+    columns |= {name: ("run", values, {"units": unit}) for name, unit, values in build_extreme_columns(batch.extremes)}
+    columns |= _iterate_sample_variables(batch, names)
     coordinates: dict[str, Any] = {"time": ("time", batch.t, {"units": "s"})} if batch.t.ndim == 1 else {}
-    coordinates |= {name: ("run", values) for name, values in given_columns(batch).items()}
+    coordinates |= {name: ("run", values) for name, values in collect_given_columns(batch).items()}
     attributes = {"mechanism": batch.source.mechanism, "scene": batch.source.scene, "title": batch.source.title}
     return xarray.Dataset(columns, coordinates, attributes)
 
 
-def _sample_variables(batch: Batch, names: Iterable[str]) -> dict[str, Any]:
+def _iterate_sample_variables(batch: Batch, names: Iterable[str]) -> dict[str, Any]:
     """Return the variables over run and time by name: coordinates, velocities, works, stored series and those of
     `names`. Each is (dimensions, values) or (dimensions, values, attributes).
     """
@@ -190,32 +190,35 @@ def _sample_variables(batch: Batch, names: Iterable[str]) -> dict[str, Any]:
     if batch.t.ndim == 2:
         variables["t"] = dimensions, batch.t, {"units": "s"}
     for k, name in enumerate(batch.source.coordinates if batch.states else ()):
-        for order, (column, values) in enumerate(((name, batch.q), (rates(name)[0], batch.v))):
+        for order, (column, values) in enumerate(((name, batch.q), (find_rate_names(name)[0], batch.v))):
             variables[column] = dimensions, values[:, :, k], {"units": MOTION_UNITS[k % 3][order]}
     for k, name in enumerate(() if batch.source.massless or not batch.states else ("drives", "forces", "clearances")):
         variables[f"work.{name}"] = dimensions, batch.work[:, :, k], {"units": "J"}
     names = [*(name for name in batch.kept if name != "t"), *check_series_names(batch.source, names)]
-    return variables | {series_column(name): (dimensions, values) for name, values in series(batch, names).items()}
+    return variables | {
+        name_series_column(name): (dimensions, values) for name, values in collect_series(batch, names).items()
+    }
 
 
-def _part_table(batch: Batch, part: str) -> Table:
+def _read_part_table(batch: Batch, part: str) -> Table:
     """Return one of netcdf.PARTS of all runs as one table, with the run of each row. Raises UnknownNameError."""
     if part not in netcdf.PARTS:
         raise UnknownNameError(f"a batch has no part {part!r}", hint=f"there are: series, {', '.join(netcdf.PARTS)}")
     if batch.states is None and part in ("impacts", "events"):
-        filled_tables = [(i, table) for i, table in stored_series_tables(batch) if table.group == part]
+        filled_tables = [(i, table) for i, table in build_stored_series_tables(batch) if table.group == part]
     else:
         begun_runs = [(i, run) for i in range(len(batch)) if (run := batch.partial(i)) is not None]
         filled_tables = [
-            (i, table) for i, run in begun_runs for table in netcdf.tables(run) if table.group == part and table.length
+            (i, table)
+            for i, run in begun_runs
+            for table in netcdf.build_tables(run)
+            if table.group == part and table.length
         ]
-    return long_table(part, filled_tables, {})
+    return build_long_table(part, filled_tables, {})
 
 
 def _run_variables(batch: Batch, runs: Mapping[int, Result]) -> Iterator[Variable]:
-    """Yield the columns of the table `runs`: diagnostics or extremes, failure, number of samples, end, counts and
-    peaks. `runs` are the results of the runs that began.
-    """
+    """Yield the columns of the table `runs`, one row a run. `runs` are the results of the runs that began."""
     errors_by_run = {failure.run: failure.error for failure in batch.failures}
     if batch.states:
         texts = [runs[i].diagnostics.to_json() if i in runs else "" for i in range(len(batch))]
@@ -223,7 +226,7 @@ def _run_variables(batch: Batch, runs: Mapping[int, Result]) -> Iterator[Variabl
     elif batch.extremes:
         texts = [extremes_to_json(run_extremes) for run_extremes in batch.extremes]
         yield Variable(EXTREMES, np.array(texts, dtype=object), "", "peaks over all steps, JSON")
-    texts = [_error_to_json(errors_by_run[i]) if i in errors_by_run else "" for i in range(len(batch))]
+    texts = [_convert_error_to_json(errors_by_run[i]) if i in errors_by_run else "" for i in range(len(batch))]
     yield Variable("failure", np.array(texts, dtype=object), "", "why it did not come to its end, JSON")
     yield Variable("samples", batch.samples.astype(np.int64), "", "output times that were reached")
     yield Variable("t_last", batch.t_last, "s", "where the run ended")
@@ -234,7 +237,7 @@ def _run_variables(batch: Batch, runs: Mapping[int, Result]) -> Iterator[Variabl
             yield Variable(f"{joint.name}.peak.{name}", np.ascontiguousarray(batch.peaks[name][:, k]), "", "peak")
 
 
-def _error_to_json(error: GudgeonError) -> str:
+def _convert_error_to_json(error: GudgeonError) -> str:
     """Return an error as JSON: class, text, time, and the fields of a SingularError."""
     time = repr(float(getattr(error, "time", math.nan)))
     other_fields = {"pivot": getattr(error, "pivot", ""), "outside_model": bool(getattr(error, "outside_model", False))}
@@ -243,8 +246,8 @@ def _error_to_json(error: GudgeonError) -> str:
     )
 
 
-def _error_from_json(text: str, partial: Result | None) -> GudgeonError:
-    """Return the error that `_error_to_json` wrote, with the partial result. Raises ValueError for an unknown class."""
+def _read_error_json(text: str, partial: Result | None) -> GudgeonError:
+    """Return the error from its JSON, with the partial result. Raises ValueError for an unknown class."""
     data = json.loads(text)
     cls = getattr(errors, str(data["kind"]), None)
     if not (isinstance(cls, type) and issubclass(cls, GudgeonError)):
@@ -271,15 +274,15 @@ class _RunRows(File):
         """Return whether the run has rows in a group, or the file has a series of that name."""
         return self.whole.count(group, self.run) > 0 or self.whole.file.has(f"{netcdf.SERIES}/{group}")
 
-    def text(self, key: str, group: str = "") -> str:
+    def read_text_attribute(self, key: str, group: str = "") -> str:
         """Return the diagnostics of the run, JSON."""
         return self.whole.diagnostics[self.run]
 
-    def numbers(self, name: str, length: int | None = None, dtype: str = "f8") -> Array:
+    def read_numbers(self, name: str, length: int | None = None, dtype: str = "f8") -> Array:
         """Return the run's rows of a numeric column."""
         return self._check_length(name, length, self.whole.column(name, dtype)[self.whole.rows(name, self.run)])
 
-    def texts(self, name: str, length: int | None = None) -> list[str]:
+    def read_texts(self, name: str, length: int | None = None) -> list[str]:
         """Return the run's rows of a text column."""
         return list(self._check_length(name, length, self.whole.column(name, "")[self.whole.rows(name, self.run)]))
 
@@ -298,14 +301,14 @@ class LongTables:
         has_diagnostics = n_runs and has_states
         self.file, self.diagnostics = (
             file,
-            file.texts(f"{RUNS}/diagnostics", n_runs) if has_diagnostics else [""] * n_runs,
+            file.read_texts(f"{RUNS}/diagnostics", n_runs) if has_diagnostics else [""] * n_runs,
         )
         self.columns: dict[str, Array] = {}
         self.begins: dict[str, Array] = {}
         for group in (netcdf.SERIES, *netcdf.PARTS, netcdf.START, netcdf.GIVEN_START, netcdf.COMPILED, KEPT, TIMES):
             run_numbers, needs_run_numbers = np.zeros(0, np.int32), group not in (netcdf.COMPILED, TIMES)
             if file.has(group) and (needs_run_numbers or file.has(f"{group}/{OWNER}")):
-                run_numbers = file.numbers(f"{group}/{OWNER}", None, "i4")
+                run_numbers = file.read_numbers(f"{group}/{OWNER}", None, "i4")
             if len(run_numbers) and (
                 run_numbers[0] < 0 or run_numbers[-1] >= n_runs or (np.diff(run_numbers) < 0).any()
             ):
@@ -323,14 +326,12 @@ class LongTables:
         return slice(int(begins[run]), int(begins[run + 1]))
 
     def column(self, name: str, dtype: str) -> Array:
-        """Return a column of all runs by "group/name" or name of a series, read on first access; `dtype` "" means
-        texts.
-        """
-        name = f"{name.rpartition('/')[0] or netcdf.SERIES}/{column_name(name.rpartition('/')[2])}"
+        """Return a column of all runs by "group/name" or name of a series, read on first access (dtype "": texts)."""
+        name = f"{name.rpartition('/')[0] or netcdf.SERIES}/{name_column(name.rpartition('/')[2])}"
         if name not in self.columns:
             n_rows = int(self.begins[name.rpartition("/")[0]][-1])
-            texts = np.array(self.file.texts(name, n_rows), dtype=object) if not dtype else None
-            self.columns[name] = self.file.numbers(name, n_rows, dtype) if texts is None else texts
+            texts = np.array(self.file.read_texts(name, n_rows), dtype=object) if not dtype else None
+            self.columns[name] = self.file.read_numbers(name, n_rows, dtype) if texts is None else texts
         return self.columns[name]
 
 
@@ -347,7 +348,7 @@ class _StoredResults:
             raise self.errors[i]
         return self.runs[i]
 
-    def bare(self, i: int, parts: frozenset[str]) -> Result | None:
+    def evaluate_samples(self, i: int, parts: frozenset[str]) -> Result | None:
         """Return run i, of which every series is stored; None if it did not begin."""
         return self.runs.get(i)
 
@@ -357,28 +358,29 @@ class _StoredResults:
 
 
 def _read_batch(opened_file: Any, size: int) -> Batch:
-    """Return the batch of an open HDF5 file of `size` bytes. Everything is checked before it is used. Raises
-    ValueError, TypeError or KeyError for a file that is not valid.
-    """
+    """Return the batch of an open HDF5 file of `size` bytes. Raises ValueError, TypeError or KeyError if invalid."""
     file = File(opened_file, size, FORMATS)
-    source, count = source_of(file), len(file.numbers(OWNER, None, "i8"))
-    batch_values = json.loads(file.text("batch"))
+    source, count = read_source(file), len(file.read_numbers(OWNER, None, "i8"))
+    batch_values = json.loads(file.read_text_attribute("batch"))
     stored_names = batch_values.get("kept")
-    series_names, long_tables = tuple(catalogue(source)), LongTables(file, count, stored_names is None)
+    series_names, long_tables = tuple(get_catalogue(source)), LongTables(file, count, stored_names is None)
     begun_runs = [i for i in range(count) if long_tables.diagnostics[i]]
     runs, provenance = (
-        {i: result_of(_RunRows(long_tables, i), source, series_names) for i in begun_runs},
+        {i: read_result(_RunRows(long_tables, i), source, series_names) for i in begun_runs},
         read_provenance(file),
     )
     for run in runs.values():
         run.provenance = provenance
-    failure_texts = file.texts(f"{RUNS}/failure", count)
-    errors_by_run = {i: _error_from_json(text, runs.get(i)) for i, text in enumerate(failure_texts) if text}
+    failure_texts = file.read_texts(f"{RUNS}/failure", count)
+    errors_by_run = {i: _read_error_json(text, runs.get(i)) for i, text in enumerate(failure_texts) if text}
     if missing_runs := [i for i in range(count) if stored_names is None and i not in runs and i not in errors_by_run]:
         raise ValueError(f"run {missing_runs[0]} has neither a result nor a failure")
     t = read_times(long_tables, count, bool(batch_values.get("own_times")))
-    counts = {name: file.either(f"{RUNS}/{name}", count) for name in COUNTS}
-    run_files, samples = [_RunRows(long_tables, i) for i in range(count)], file.numbers(f"{RUNS}/samples", count, "i8")
+    counts = {name: file.read_integers_or_floats(f"{RUNS}/{name}", count) for name in COUNTS}
+    run_files, samples = (
+        [_RunRows(long_tables, i) for i in range(count)],
+        file.read_numbers(f"{RUNS}/samples", count, "i8"),
+    )
     padded = [_pad_runs(runs, name, count, t.shape[-1], source) for name in ("q", "v", "work", "state")]
     return Batch(
         source=source,
@@ -388,13 +390,13 @@ def _read_batch(opened_file: Any, size: int) -> Batch:
         kept={}
         if stored_names is None
         else read_stored_series(long_tables, stored_names, series_names, samples, t.shape[-1]),
-        t_last=file.numbers(f"{RUNS}/t_last", count),
+        t_last=file.read_numbers(f"{RUNS}/t_last", count),
         parameters=_read_given(file, source, count, runs),
-        impacts=tuple(impacts_of(run, source) for run in run_files),
-        events=tuple(events_of(run, source) for run in run_files),
+        impacts=tuple(read_impacts(run, source) for run in run_files),
+        events=tuple(read_events(run, source) for run in run_files),
         peaks=_read_peaks(file, source, count),
         diagnostics=counts,
-        failures=as_failures(errors_by_run),
+        failures=make_failures(errors_by_run),
         seconds=float(batch_values["seconds"]),
         threads=int(batch_values["threads"]),
         interrupted=bool(batch_values["interrupted"]),
@@ -405,7 +407,7 @@ def _read_batch(opened_file: Any, size: int) -> Batch:
 
 def read_times(long_tables: LongTables, n_runs: int, is_separate: bool) -> Array:
     """Return the requested times: (N,), or (n, N) padded with NaN where each run has its own. Raises ValueError."""
-    t = long_tables.file.numbers(f"{TIMES}/time")
+    t = long_tables.file.read_numbers(f"{TIMES}/time")
     if not is_separate:
         check_times(t)
         return t
@@ -436,8 +438,8 @@ def read_stored_series(
         raise ValueError("the series that were kept are not those of its runs")
     series_by_name = {}
     for name in stored_names:
-        dataset_name = f"{KEPT}/{column_name(_stored_name(name))}"
-        column = long_tables.file.numbers(dataset_name) if long_tables.file.has(KEPT) else np.zeros(0)
+        dataset_name = f"{KEPT}/{name_column(_format_stored_name(name))}"
+        column = long_tables.file.read_numbers(dataset_name) if long_tables.file.has(KEPT) else np.zeros(0)
         series_by_name[name] = _unroll_column(long_tables, KEPT, column, len(samples), n_columns)
     return series_by_name
 
@@ -450,9 +452,9 @@ def _read_extremes(file: File, source: KernelSource, n_runs: int, runs: Mapping[
         return tuple(runs[i].diagnostics.extremes if i in runs else () for i in range(n_runs))
     if not file.has(f"{RUNS}/{EXTREMES}"):
         return ()
-    extremes = tuple(map(extremes_from_json, file.texts(f"{RUNS}/{EXTREMES}", n_runs)))
+    extremes = tuple(map(extremes_from_json, file.read_texts(f"{RUNS}/{EXTREMES}", n_runs)))
     check_typed(extremes, tuple[tuple[Extremes, ...], ...], EXTREMES)
-    return tuple(check_extremes(run_extremes, catalogue(source)) for run_extremes in extremes)
+    return tuple(check_extremes(run_extremes, get_catalogue(source)) for run_extremes in extremes)
 
 
 def _pad_runs(runs: Mapping[int, Result], name: str, n_runs: int, n_samples: int, source: KernelSource) -> Array:
@@ -467,18 +469,16 @@ def _pad_runs(runs: Mapping[int, Result], name: str, n_runs: int, n_samples: int
 
 
 def _read_given(file: File, source: KernelSource, n_runs: int, runs: Mapping[int, Result]) -> dict[str, Array]:
-    """Return the given parameters of the runs, (n,) each, by address. Raises ValueError for unknown parameters and
-    choices, and for values that differ from those of the results.
-    """
+    """Return the given parameters of the runs, (n,) each, by address. Raises ValueError for invalid ones."""
     if not file.has(GIVEN):
         return {}
     given_slots = {slot.address: slot for slot in source.slots if file.has(f"{GIVEN}/{slot.address}")}
-    if unknown_names := sorted({*file.names(GIVEN)} - {*given_slots, NUMBER}):
+    if unknown_names := sorted({*file.list_names(GIVEN)} - {*given_slots, NUMBER}):
         raise ValueError(f"{unknown_names[0][:64]!r} was given, and is no number of its scene")
     given = {
-        address: np.array(file.texts(f"{GIVEN}/{address}", n_runs), dtype=object)
+        address: np.array(file.read_texts(f"{GIVEN}/{address}", n_runs), dtype=object)
         if slot.words
-        else file.numbers(f"{GIVEN}/{address}", n_runs)
+        else file.read_numbers(f"{GIVEN}/{address}", n_runs)
         for address, slot in given_slots.items()
     }
     for address, values in given.items():
@@ -496,5 +496,5 @@ def _read_peaks(file: File, source: KernelSource, n_runs: int) -> Array:
     peaks = np.full((n_runs, len(source.clearances)), np.nan, dtype=PEAK_DTYPE)
     for k, joint in enumerate(source.clearances):
         for name in PEAK_DTYPE.names or ():
-            peaks[name][:, k] = file.numbers(f"{RUNS}/{joint.name}.peak.{name}", n_runs)
+            peaks[name][:, k] = file.read_numbers(f"{RUNS}/{joint.name}.peak.{name}", n_runs)
     return peaks

@@ -16,9 +16,9 @@ from typing import Any, TypeVar, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from gudgeon.errors import GudgeonError, InputError, in_a_line
+from gudgeon.errors import GudgeonError, InputError, escape_line_breaks
 from gudgeon.files.reading import check_regular
-from gudgeon.language.argument_checks import path as named
+from gudgeon.language.argument_checks import check_path as named
 from gudgeon.results.files.hdf5 import is_damaged
 from gudgeon.results.state import Array
 
@@ -41,7 +41,7 @@ def open_result_file(path: str | os.PathLike[str], read_content: Callable[[Any, 
         import h5py
     except ModuleNotFoundError as error:
         raise GudgeonError("NetCDF files need h5py: pip install 'gudgeon[xarray]'") from error
-    path, path_text = Path(named(path, "path")), in_a_line(os.fspath(path))
+    path, path_text = Path(named(path, "path")), escape_line_breaks(os.fspath(path))
     try:
         status = path.stat()
     except OSError:  # a name that is too long, too
@@ -68,12 +68,12 @@ class File:
         Raises InputError for a file of the other kind of result, ValueError for any other format.
         """
         self._file, self._left = file, float(size)
-        stored_format = self.text("gudgeon")
+        stored_format = self.read_text_attribute("gudgeon")
         format_name = stored_format.partition("/")[0]
         if format_name in LOADERS and not formats[0].startswith(f"{format_name}/"):
             content, loader = LOADERS[format_name]
             raise InputError(
-                f"{in_a_line(file.filename)} holds {content} ({stored_format})", hint=f"read it with {loader}"
+                f"{escape_line_breaks(file.filename)} holds {content} ({stored_format})", hint=f"read it with {loader}"
             )
         if stored_format not in formats:
             raise ValueError(f"expected the attribute gudgeon = {formats[0]!r}, found {stored_format!r}")
@@ -83,50 +83,50 @@ class File:
         """Return whether the file contains a group or dataset."""
         return group in self._file
 
-    def names(self, group: str) -> list[str]:
+    def list_names(self, group: str) -> list[str]:
         """Return the names of the entries of a group."""
-        return list(self._group(group))
+        return list(self._get_group(group))
 
-    def text(self, key: str, group: str = "") -> str:
+    def read_text_attribute(self, key: str, group: str = "") -> str:
         """Return a text attribute of the file or of a group.
 
         Raises ValueError if it is not a text, KeyError if there is none.
         """
-        value = (self._group(group) if group else self._file).attrs[key]
+        value = (self._get_group(group) if group else self._file).attrs[key]
         if isinstance(value, bytes):
             value = value.decode()
         if not isinstance(value, str):
             raise ValueError(f"the attribute {key!r} is no text")
         return str(value)
 
-    def numbers(self, name: str, length: int | None = None, dtype: str = "f8") -> Array:
+    def read_numbers(self, name: str, length: int | None = None, dtype: str = "f8") -> Array:
         """Return a numeric array (n,) of the file; raise ValueError for another type or length.
 
         `length` None allows any length.
         """
-        item = self._dataset(name, length)
+        item = self._get_dataset(name, length)
         if item.dtype.newbyteorder("=") != np.dtype(dtype):
             raise ValueError(f"{name} has numbers of type {item.dtype}, expected {dtype}")
         values: Array = item[...].astype(dtype, copy=False)
         return values
 
-    def either(self, name: str, length: int) -> Array:
+    def read_integers_or_floats(self, name: str, length: int) -> Array:
         """Return an array of integers or floats, as stored."""
-        return self.numbers(name, length, "i8" if self._dataset(name, length).dtype.kind == "i" else "f8")
+        return self.read_numbers(name, length, "i8" if self._get_dataset(name, length).dtype.kind == "i" else "f8")
 
-    def texts(self, name: str, length: int | None = None) -> list[str]:
+    def read_texts(self, name: str, length: int | None = None) -> list[str]:
         """Return an array of texts of the file as a list; raise ValueError for numbers or another length.
 
         `length` None allows any length.
         """
         import h5py
 
-        item = self._dataset(name, length)
+        item = self._get_dataset(name, length)
         if h5py.check_string_dtype(item.dtype) is None:
             raise ValueError(f"{name} has numbers, expected texts")
         return [str(text) for text in item.asstr()[...]]
 
-    def _dataset(self, name: str, length: int | None) -> Any:
+    def _get_dataset(self, name: str, length: int | None) -> Any:
         """Return a one-dimensional dataset whose data is in this file and no larger than the file allows.
 
         Its size is subtracted from what remains of the file. Raises ValueError otherwise. `length` None allows any
@@ -136,7 +136,7 @@ class File:
         from h5py import h5d
 
         group, _, entry_name = name.rpartition("/")
-        item = _get_hard_linked_entry(self._group(group) if group else self._file, entry_name)
+        item = _get_hard_linked_entry(self._get_group(group) if group else self._file, entry_name)
         if not isinstance(item, h5py.Dataset) or len(item.shape or ()) != 1:
             raise ValueError(f"{name} is no variable over one dimension")
         if length is not None and item.shape[0] != length:
@@ -150,7 +150,7 @@ class File:
             raise ValueError(f"{name} has more values than the file has room for")
         return item
 
-    def _group(self, name: str) -> Any:
+    def _get_group(self, name: str) -> Any:
         """Return a group. Raises ValueError if there is none."""
         import h5py
 
@@ -189,7 +189,7 @@ def check_typed(value: Any, expected_type: Any, location: str) -> None:
             raise TypeError(f"{location} is {type(value).__name__}, expected {expected_type}")
     elif isinstance(expected_type, type) and is_dataclass(expected_type):
         _check_class(value, expected_type, location)
-        for name, member_type in _field_types(expected_type).items():
+        for name, member_type in _get_field_types(expected_type).items():
             check_typed(getattr(value, name), member_type, f"{location}.{name}")
     else:
         _check_class(value, {float: (float, int)}.get(expected_type, expected_type), location)
@@ -223,7 +223,7 @@ def _check_class(value: Any, expected_class: Any, location: str) -> None:
 
 
 @cache
-def _field_types(kind: Any) -> dict[str, Any]:
+def _get_field_types(kind: Any) -> dict[str, Any]:
     """Return the type hints of the fields of a dataclass."""
     hints = get_type_hints(kind)
     return {field.name: hints[field.name] for field in fields(kind)}

@@ -1,6 +1,7 @@
 """Compare runs by their main values: peak errors against the ideal scene, peak forces, accuracy and cost.
 
-`compare` computes them, `tables` displays them (rich, imported on first use), `as_json` returns them for scripts.
+`compute_scene_report` computes them, `build_tables` displays them (rich, imported on first use),
+`convert_to_json_values` returns them for scripts.
 """
 
 from __future__ import annotations
@@ -13,11 +14,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.language.plot_units import drawn, quantity
+from gudgeon.language.plot_units import choose_plot_unit, format_quantity
 from gudgeon.results.diagnostics import Diagnostics
-from gudgeon.results.peaks import Extreme, sample_extreme, table_rows
+from gudgeon.results.peaks import Extreme, build_extreme_rows, find_sample_extreme
 from gudgeon.results.results import Result
-from gudgeon.results.series import MOTION_UNITS, drive_series, rates, rigid_guides
+from gudgeon.results.series import MOTION_UNITS, find_rate_names, find_rigid_guides, list_drive_series
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -47,30 +48,30 @@ class SceneReport:
     scales: Mapping[str, float] = field(default_factory=dict)  # unit -> how large such numbers are in this run
 
 
-def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> SceneReport:
+def compute_scene_report(run: Result, reference: Result | None, watch: Sequence[str]) -> SceneReport:
     """Return the main values of one run for tables and JSON.
 
     `reference` is the ideal run at the same times, None for the ideal run itself; `watch` are names of series, which
     are shown with their rates. Names that the run lacks are left out.
     """
     watched_and_rates = dict.fromkeys(
-        name for position_name in watch for name in (position_name, *rates(position_name)) if name
+        name for position_name in watch for name in (position_name, *find_rate_names(position_name)) if name
     )
     series = [name for name in watched_and_rates if name in run]
-    motion = tuple(sample_extreme(name, run.unit(name), run.t, run[name]) for name in series)
+    motion = tuple(find_sample_extreme(name, run.unit(name), run.t, run[name]) for name in series)
     errors: tuple[Extreme, ...] = ()
     if reference is not None:
         common_names = [name for name in series if name in reference]
         errors = tuple(
-            sample_extreme(name, run.unit(name), run.t, run[name] - reference[name]) for name in common_names
+            find_sample_extreme(name, run.unit(name), run.t, run[name] - reference[name]) for name in common_names
         )
     forces = {peak.joint: (peak.F, peak.t) for peak in run.diagnostics.peaks}
     for joint in run.source.joints if not (run.source.clearances or run.source.massless) else ():
-        reaction = sample_extreme("", "N", run.t, run[f"{joint.name}.F"])
+        reaction = find_sample_extreme("", "N", run.t, run[f"{joint.name}.F"])
         forces[joint.name] = reaction.peak, reaction.t
     events = {event.name: tuple(run.events_of(event.name).tolist()) for event in run.source.events}
-    drive_names = () if run.source.massless else drive_series(run.source)
-    ideal_guides = [joint.name for joint in rigid_guides(run.source) if not run.source.clearances]
+    drive_names = () if run.source.massless else list_drive_series(run.source)
+    ideal_guides = [joint.name for joint in find_rigid_guides(run.source) if not run.source.clearances]
     guide_names = [
         f"{name}.{component}"
         for name in run.source.guides or ideal_guides
@@ -78,7 +79,7 @@ def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> Scen
         if not run.source.massless
     ]
     drives, guides = (
-        tuple(sample_extreme(name, run.unit(name), run.t, run[name]) for name in names)
+        tuple(find_sample_extreme(name, run.unit(name), run.t, run[name]) for name in names)
         for names in (drive_names, guide_names)
     )
     remaining_rows = run.source.rows if run.source.formulation == "full" else run.source.closures
@@ -86,11 +87,11 @@ def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> Scen
     return SceneReport(
         *values,
         bool(remaining_rows) or run.diagnostics.phi_max > 0.0,
-        _largest_by_unit(run, forces, (*drives, *guides)),
+        _find_largest_by_unit(run, forces, (*drives, *guides)),
     )
 
 
-def _largest_by_unit(
+def _find_largest_by_unit(
     run: Result, forces: Mapping[str, tuple[float, float]], drives_and_guides: Sequence[Extreme]
 ) -> dict[str, float]:
     """Return the largest magnitude in a run by unit, with which rounding errors are compared.
@@ -116,7 +117,7 @@ def _largest_by_unit(
     return largest
 
 
-def as_json(reports: Sequence[SceneReport]) -> dict[str, Any]:
+def convert_to_json_values(reports: Sequence[SceneReport]) -> dict[str, Any]:
     """Return the values of all scenes as a dictionary for `--json`, by scene; NaN and infinity, which JSON lacks, are
     None.
     """
@@ -156,7 +157,7 @@ def replace_non_finite(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def tables(title: str, reports: Sequence[SceneReport], width: int, verbose: bool = False) -> list[Table]:
+def build_tables(title: str, reports: Sequence[SceneReport], width: int, verbose: bool = False) -> list[Table]:
     """Return tables with a column for each scene and a row for each quantity.
 
     Each table has as many columns as fit `width` characters, at most COLUMNS, at least one. `verbose` adds the rows of
@@ -164,9 +165,9 @@ def tables(title: str, reports: Sequence[SceneReport], width: int, verbose: bool
     """
     from rich.measure import Measurement
 
-    from gudgeon.language.shown import plain_console
+    from gudgeon.language.text_output import make_plain_console
 
-    wide_console = plain_console(10_000)
+    wide_console = make_plain_console(10_000)
     rows = [row for row in _build_rows(reports) if verbose or not row[0].endswith(NEED_A_LEGEND)]
     table_list: list[Table] = []
     for n_columns in range(min(COLUMNS, len(reports)), 0, -1):
@@ -185,9 +186,9 @@ def _build_table(
     from rich.table import Table
     from rich.text import Text
 
-    from gudgeon.language.shown import one_line
+    from gudgeon.language.text_output import format_one_line
 
-    title = one_line(title)
+    title = format_one_line(title)
     table = Table(title=title or None, title_justify="left", title_style="bold", box=SIMPLE_HEAD, pad_edge=False)
     table.add_column("", no_wrap=True)
     for report in reports[columns]:
@@ -208,37 +209,37 @@ def _build_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     """
     rows: list[tuple[str, list[str]]] = []
     for heading, section_rows in (
-        ("Peak error against ideal", _error_rows(reports)),
-        ("Peak error against ideal, all steps", _extreme_rows(reports, True)),
-        ("Peaks, all steps", _extreme_rows(reports, False)),
-        ("Motion", _motion_rows(reports)),
+        ("Peak error against ideal", _format_error_rows(reports)),
+        ("Peak error against ideal, all steps", _format_extreme_rows(reports, True)),
+        ("Peaks, all steps", _format_extreme_rows(reports, False)),
+        ("Motion", _format_motion_rows(reports)),
         (
             "Peak force"
             if any(scene_report.diagnostics.peaks for scene_report in reports)
             else "Peak force, of samples",
-            _force_rows(reports),
+            _format_force_rows(reports),
         ),
-        ("Peak of guides, of samples", _guide_rows(reports)),
-        ("Peak of drives, of samples", _peak_rows(reports, [report.drives for report in reports])),
-        ("Joints with play", _play_rows(reports)),
-        ("Events", _event_rows(reports)),
-        ("Trust", _trust_rows(reports)),
-        ("Cost", _cost_rows(reports)),
+        ("Peak of guides, of samples", _format_guide_rows(reports)),
+        ("Peak of drives, of samples", _format_peak_rows(reports, [report.drives for report in reports])),
+        ("Joints with play", _format_play_rows(reports)),
+        ("Events", _format_event_rows(reports)),
+        ("Trust", _format_accuracy_rows(reports)),
+        ("Cost", _format_cost_rows(reports)),
     ):
         filled_rows = [(name, cells) for name, cells in section_rows if any(cell not in ("", "–") for cell in cells)]
         rows += [(heading, []), *filled_rows] if filled_rows else []
     return rows
 
 
-def _peak_cell(value: float, unit: str, t: float, scales: Mapping[str, float]) -> str:
+def _format_peak_cell(value: float, unit: str, t: float, scales: Mapping[str, float]) -> str:
     """Return a peak and its time as a cell, "–" if it is not known, "≈ 0" if it is rounding error.
 
     `scales` has the largest magnitude of the run by unit.
     """
     if math.isfinite(t) and _is_noise(abs(value), unit, scales):
         return ZERO
-    factor, unit_text = drawn(value, unit)
-    time_text = quantity(t, "s") if 0.0 < abs(t) < 1e-3 else f"{t:.4f} s"
+    factor, unit_text = choose_plot_unit(value, unit)
+    time_text = format_quantity(t, "s") if 0.0 < abs(t) < 1e-3 else f"{t:.4f} s"
     return f"{value * factor + 0.0:.4g} {unit_text}".strip() + f" at {time_text}" if math.isfinite(t) else "–"
 
 
@@ -247,46 +248,46 @@ def _is_noise(size: float, unit: str, scales: Mapping[str, float]) -> bool:
     return 0.0 < size < NOISE * scales.get(unit, 0.0)
 
 
-def _error_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+def _format_error_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     """Return the rows (error, one cell a scene) of peak errors against the ideal scene at the samples."""
     names = dict.fromkeys(error.name for report in reports for error in report.errors)
     cells_by_scene = [
-        {error.name: _peak_cell(error.peak, error.unit, error.t, report.scales) for error in report.errors}
+        {error.name: _format_peak_cell(error.peak, error.unit, error.t, report.scales) for error in report.errors}
         for report in reports
     ]
     return [(name, [cells.get(name, "–") for cells in cells_by_scene]) for name in names]
 
 
-def _motion_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+def _format_motion_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     """Return the rows (series, one cell a scene) of smallest and largest value of the watched series at the samples."""
     cells_by_scene = [
-        {extreme.name: _range_cell(extreme, report.scales) for extreme in report.motion} for report in reports
+        {extreme.name: _format_range_cell(extreme, report.scales) for extreme in report.motion} for report in reports
     ]
     names = dict.fromkeys(extreme.name for report in reports for extreme in report.motion)
     return [(name, [cells.get(name, "–") for cells in cells_by_scene]) for name in names]
 
 
-def _extreme_rows(reports: Sequence[SceneReport], of_errors: bool) -> list[tuple[str, list[str]]]:
+def _format_extreme_rows(reports: Sequence[SceneReport], of_errors: bool) -> list[tuple[str, list[str]]]:
     """Return the rows of peaks over all steps of the series in `peaks:` of a scene.
 
     With `of_errors` they are those of the errors against another scene.
     """
-    formatters = [partial(_peak_cell, scales=report.scales) for report in reports]
-    return table_rows([report.diagnostics.extremes for report in reports], formatters, of_errors)
+    formatters = [partial(_format_peak_cell, scales=report.scales) for report in reports]
+    return build_extreme_rows([report.diagnostics.extremes for report in reports], formatters, of_errors)
 
 
-def _range_cell(extreme: Extreme, scales: Mapping[str, float]) -> str:
+def _format_range_cell(extreme: Extreme, scales: Mapping[str, float]) -> str:
     """Return the smallest and largest value of a series as a cell; "≈ 0" if both are rounding errors."""
     if _is_noise(magnitude := max(abs(extreme.low), abs(extreme.high)), extreme.unit, scales):
         return ZERO
-    factor, unit_text = drawn(magnitude, extreme.unit)
+    factor, unit_text = choose_plot_unit(magnitude, extreme.unit)
     low, high = (
         0.0 if _is_noise(abs(value), extreme.unit, scales) else value * factor for value in (extreme.low, extreme.high)
     )
     return f"{low:.5g} … {high:.5g} {unit_text}".strip()
 
 
-def _force_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+def _format_force_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     """Return the rows of peak forces at the joints that have play in any scene, or else at all joints."""
     joints_with_play = dict.fromkeys(peak.joint for report in reports for peak in report.diagnostics.peaks)
     joints = joints_with_play or dict.fromkeys(joint for report in reports for joint in report.forces)
@@ -295,7 +296,7 @@ def _force_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         (
             joint,
             [
-                _peak_cell(
+                _format_peak_cell(
                     scene_report.forces.get(joint, unknown_peak)[0],
                     "N",
                     scene_report.forces.get(joint, unknown_peak)[1],
@@ -308,7 +309,7 @@ def _force_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     ]
 
 
-def _guide_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+def _format_guide_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     """Return the rows of peak forces and moments of the guides that have play in any scene, at the samples."""
     prefixes = {
         f"{peak.joint.partition('.')[0]}."
@@ -319,13 +320,15 @@ def _guide_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     guide_extremes = [
         tuple(extreme for extreme in report.guides if extreme.name[:-1] in prefixes) for report in reports
     ]
-    return _peak_rows(reports, guide_extremes)
+    return _format_peak_rows(reports, guide_extremes)
 
 
-def _peak_rows(reports: Sequence[SceneReport], peaks: Sequence[tuple[Extreme, ...]]) -> list[tuple[str, list[str]]]:
+def _format_peak_rows(
+    reports: Sequence[SceneReport], peaks: Sequence[tuple[Extreme, ...]]
+) -> list[tuple[str, list[str]]]:
     """Return the rows of peaks at the samples of each scene, without series whose peaks over all steps are known."""
     cells_by_scene = [
-        {peak.name: _peak_cell(peak.peak, peak.unit, peak.t, scene_report.scales) for peak in scene_peaks}
+        {peak.name: _format_peak_cell(peak.peak, peak.unit, peak.t, scene_report.scales) for peak in scene_peaks}
         for scene_report, scene_peaks in zip(reports, peaks, strict=True)
     ]
     names_over_all_steps = {
@@ -337,34 +340,34 @@ def _peak_rows(reports: Sequence[SceneReport], peaks: Sequence[tuple[Extreme, ..
     return [(name, [cells.get(name, "–") for cells in cells_by_scene]) for name in names]
 
 
-def _play_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+def _format_play_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     """Return the rows of each joint with play: first contact, its peak, largest eccentricity, constants of its laws."""
     peaks_by_scene = [{peak.joint: peak for peak in report.diagnostics.peaks} for report in reports]
     rows = []
     for joint in dict.fromkeys(name for peaks_by_joint in peaks_by_scene for name in peaks_by_joint):
         joint_peaks = [peaks_by_joint.get(joint) for peaks_by_joint in peaks_by_scene]
         contact_times = [joint_peak.first_contact if joint_peak else math.nan for joint_peak in joint_peaks]
-        rows.append((f"{joint} first contact", [quantity(t, "s") for t in contact_times]))
+        rows.append((f"{joint} first contact", [format_quantity(t, "s") for t in contact_times]))
         rows.append(
             (
                 f"{joint} peak of that contact",
-                [quantity(joint_peak.first_peak, "N", 5) if joint_peak else "–" for joint_peak in joint_peaks],
+                [format_quantity(joint_peak.first_peak, "N", 5) if joint_peak else "–" for joint_peak in joint_peaks],
             )
         )
         rows.append(
             (
                 f"{joint} largest e",
-                [quantity(joint_peak.e_max, "m", 5) if joint_peak else "–" for joint_peak in joint_peaks],
+                [format_quantity(joint_peak.e_max, "m", 5) if joint_peak else "–" for joint_peak in joint_peaks],
             )
         )
         for name, (unit, meaning) in CONSTANTS.items():
             values = (report.constants.get(f"{joint}.{name}", math.nan) for report in reports)
             label = meaning.replace("clearance", "gap") if "." in joint else meaning
-            rows.append((f"{joint} {label}", [quantity(value, unit) for value in values]))
+            rows.append((f"{joint} {label}", [format_quantity(value, unit) for value in values]))
     return rows
 
 
-def _event_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+def _format_event_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     """Return the rows of events: their number and first time; a dash in scenes that do not have the event."""
 
     def cell(times: tuple[float, ...] | None) -> str:
@@ -377,7 +380,7 @@ def _event_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     return [(name, [cell(report.events.get(name)) for report in reports]) for name in names]
 
 
-def _trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+def _format_accuracy_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     """Return the rows of accuracy: drift, energy residual, predictability horizon, contacts, audit."""
     diagnostics = [report.diagnostics for report in reports]
     has_play = [bool(run.peaks) for run in diagnostics]
@@ -399,9 +402,9 @@ def _trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
                 for scene_report in reports
             ],
         ),
-        ("energy residual", [quantity(run.energy_residual, "J", 3) for run in diagnostics]),
-        ("energy turned over", [quantity(run.energy_turned_over, "J", 3) for run in diagnostics]),
-        ("trusted until", [_horizon_cell(run.horizon) for run in diagnostics]),
+        ("energy residual", [format_quantity(run.energy_residual, "J", 3) for run in diagnostics]),
+        ("energy turned over", [format_quantity(run.energy_turned_over, "J", 3) for run in diagnostics]),
+        ("trusted until", [_format_horizon_cell(run.horizon) for run in diagnostics]),
         (
             "contacts that began",
             [str(run.onsets) if has_contacts else "–" for run, has_contacts in zip(diagnostics, has_play, strict=True)],
@@ -411,11 +414,11 @@ def _trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
             "steps with it outside ±1",
             [str(run.ratio_outside) if math.isfinite(run.ratio_min) else "–" for run in diagnostics],
         ),
-        *_audit_rows(reports),
+        *_format_audit_rows(reports),
     ]
 
 
-def _audit_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+def _format_audit_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     """Return a row with the largest value of the audit, in limits, and one for each check that is above rounding."""
     worst_by_scene = [
         {worst_by_check.check: worst_by_check.worst for worst_by_check in report.diagnostics.audit}
@@ -440,18 +443,22 @@ def _audit_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     ]
 
 
-def _horizon_cell(horizon: float) -> str:
+def _format_horizon_cell(horizon: float) -> str:
     """Return the predictability horizon as a cell; NaN: not requested. See predictability.py."""
-    return "to the end" if horizon == math.inf else quantity(horizon, "s", 3)
+    return "to the end" if horizon == math.inf else format_quantity(horizon, "s", 3)
 
 
-def _cost_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    """Return the rows of cost: method, steps, evaluations of the right-hand side, and run time."""
+def _format_cost_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    """Return the rows of cost (label, one cell a report), from the diagnostics of the reports.
+
+    The rows are the method, the step and the last step (s), the tolerance, the number of steps, the evaluations of the
+    right-hand side, and the run time in seconds per simulated second. An unknown tolerance or a count of 0 is "–".
+    """
     diagnostics = [report.diagnostics for report in reports]
     return [
         ("method", [run.method for run in diagnostics]),
-        ("step", [quantity(run.step, "s") for run in diagnostics]),
-        ("last step", [quantity(run.last_step, "s") for run in diagnostics]),
+        ("step", [format_quantity(run.step, "s") for run in diagnostics]),
+        ("last step", [format_quantity(run.last_step, "s") for run in diagnostics]),
         ("tolerance of a step", [f"{run.rtol:.3g}" if math.isfinite(run.rtol) else "–" for run in diagnostics]),
         ("steps", [f"{run.steps:,}" if run.steps else "–" for run in diagnostics]),
         ("right-hand sides", [f"{run.right_hand_sides:,}" if run.right_hand_sides else "–" for run in diagnostics]),

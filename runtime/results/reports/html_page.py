@@ -1,6 +1,6 @@
 """Build a self-contained HTML page of headings, tables and figures; light and dark, for screens, phones and paper.
 
-Text from a file must be escaped: use `escape`, or pass it to `table` or `lines`, which escape it.
+Text from a file must be escaped: use `escape`, or pass it to `build_table` or `build_paragraphs`, which escape it.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from html import escape
 
-from gudgeon.language.shown import one_line, visible
+from gudgeon.language.text_output import escape_invisible, format_one_line
 
 Section = tuple[str, str]  # heading, text; what is under it, HTML
 _PLACE = "chapter-"  # of a heading to which a link goes
@@ -64,24 +64,27 @@ body {{ margin: 0; }} body > .g-report {{ max-width: 68rem; margin: 0 auto; padd
 """
 
 
-def page(title: str, description: str, sections: Iterable[Section], chapters: Iterable[str] = ()) -> str:
+def build_page(title: str, description: str, sections: Iterable[Section], chapters: Iterable[str] = ()) -> str:
     """Return the text of a complete HTML file; sections without content are left out.
 
     `title` and `description` are text; `chapters` are headings to which links are listed at the top.
     """
-    head = f"<h1>{text(title)}</h1><p class='g-quiet'>{escape(visible(description))}</p>"
+    head = f"<h1>{escape_line(title)}</h1><p class='g-quiet'>{escape(escape_invisible(description))}</p>"
     filled_sections = [(name, content) for name, content in sections if content]
     linked_headings = [
         name for name in dict.fromkeys(chapters) if any(name == section_name for section_name, _ in filled_sections)
     ]
     links = "".join(
-        f'<li><a href="#{_PLACE}{k}">{escape(visible(name))}</a></li>' for k, name in enumerate(linked_headings)
+        f'<li><a href="#{_PLACE}{k}">{escape(escape_invisible(name))}</a></li>'
+        for k, name in enumerate(linked_headings)
     )
     table_of_contents = f"<nav class='g-contents'><ul>{links}</ul></nav>" if links else ""
-    return PAGE.format(title=text(title), article=article(filled_sections, head + table_of_contents, linked_headings))
+    return PAGE.format(
+        title=escape_line(title), article=build_article(filled_sections, head + table_of_contents, linked_headings)
+    )
 
 
-def article(sections: Iterable[Section], head: str = "", linked_headings: Sequence[str] = ()) -> str:
+def build_article(sections: Iterable[Section], head: str = "", linked_headings: Sequence[str] = ()) -> str:
     """Return the HTML article of a page with its style, as a notebook displays it; sections without content are left
     out.
 
@@ -89,34 +92,36 @@ def article(sections: Iterable[Section], head: str = "", linked_headings: Sequen
     """
     id_attributes = {name: f' id="{_PLACE}{k}"' for k, name in enumerate(linked_headings)}
     section_elements = [
-        f"<section{id_attributes.pop(name, '')}><h2>{escape(visible(name))}</h2>{content}</section>"
+        f"<section{id_attributes.pop(name, '')}><h2>{escape(escape_invisible(name))}</h2>{content}</section>"
         for name, content in sections
         if content
     ]
     return f"<article class='g-report'><style>{STYLE}</style>{head}{''.join(section_elements)}</article>"
 
 
-def text(content: str) -> str:
+def escape_line(content: str) -> str:
     """Return a text of a file as one escaped line."""
-    return escape(one_line(content))
+    return escape(format_one_line(content))
 
 
-def table(column_names: Sequence[str], rows: Iterable[Sequence[str]], holds_words: bool = False) -> str:
+def build_table(column_names: Sequence[str], rows: Iterable[Sequence[str]], holds_words: bool = False) -> str:
     """Return an HTML table of escaped cells; "" without rows.
 
     `holds_words` aligns the cells as words, not as numbers. Empty `column_names` leave out the header.
     """
-    body_rows = "".join(f"<tr>{''.join(f'<td>{escape(visible(cell))}</td>' for cell in row)}</tr>" for row in rows)
+    body_rows = "".join(
+        f"<tr>{''.join(f'<td>{escape(escape_invisible(cell))}</td>' for cell in row)}</tr>" for row in rows
+    )
     if not body_rows:
         return ""
-    header_cells = "".join(f"<th scope='col'>{escape(visible(name))}</th>" for name in column_names)
+    header_cells = "".join(f"<th scope='col'>{escape(escape_invisible(name))}</th>" for name in column_names)
     head_element = f"<thead><tr>{header_cells}</tr></thead>" if any(column_names) else ""
     class_attribute = " class='g-words'" if holds_words else "" if any(column_names) else " class='g-pairs'"
     element = f"<table{class_attribute}>{head_element}<tbody>{body_rows}</tbody></table>"
     return f"<div class='g-wide' tabindex='0'>{element}</div>"
 
 
-def lines(texts: Iterable[str], css_class: str = "") -> str:
+def build_paragraphs(texts: Iterable[str], css_class: str = "") -> str:
     """Return an HTML paragraph of escaped text for each text, of the CSS class `css_class` if it is not empty."""
     class_attribute = f" class='{css_class}'" if css_class else ""
-    return "".join(f"<p{class_attribute}>{escape(visible(text))}</p>" for text in texts)
+    return "".join(f"<p{class_attribute}>{escape(escape_invisible(text))}</p>" for text in texts)

@@ -1,4 +1,4 @@
-"""Build the report of a run as an HTML page and as text, from the same rows."""
+"""Build the report of a run as an HTML page and as text, from the same table rows."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.language.plot_units import quantity
-from gudgeon.language.shown import one_line, visible
+from gudgeon.language.plot_units import format_quantity
+from gudgeon.language.text_output import escape_invisible, format_one_line
 from gudgeon.results.figures import joint_curves
-from gudgeon.results.reports.html_page import Section, lines, page, table
+from gudgeon.results.reports.html_page import Section, build_page, build_paragraphs, build_table
 from gudgeon.results.reports.run_report import NOT_ASKED
 
 if TYPE_CHECKING:
@@ -22,31 +22,36 @@ SIDE, MOST = 260, 6000  # pixels of an orbit, its points
 Rows = list[tuple[str, str]]
 
 
-def page_of(run: Result, report: Mapping[str, Any]) -> str:
+def build_report_page(run: Result, report: Mapping[str, Any]) -> str:
     """Return the report as a complete HTML file."""
-    return page(_title(report), _describe_run(report), sections(run, report))
+    return build_page(_format_title(report), _describe_run(report), build_sections(run, report))
 
 
-def sections(run: Result, report: Mapping[str, Any]) -> Iterator[Section]:
+def build_sections(run: Result, report: Mapping[str, Any]) -> Iterator[Section]:
     """Yield (heading, HTML) of each section of the report: warnings, guides, joints, energy, accuracy, laws.
 
     A section without content has an empty HTML text. `report` has the values of RunReport.
     """
-    yield "What to know", lines(report["warnings"], "g-warning")
+    yield "What to know", build_paragraphs(report["warnings"], "g-warning")
     for name, guide in report["guides"].items():
-        yield f"Guide {name}", table(("", ""), guide_rows(guide, report["trust"]["asked"]))
+        yield f"Guide {name}", build_table(("", ""), build_guide_rows(guide, report["trust"]["asked"]))
     for name, joint in report["joints"].items():
-        orbit_element = "" if "." in name else orbit_svg(run, name)  # of a journal, no corner of a slider
-        content = f"{orbit_element}<div>{table(('', ''), joint_rows(joint, report['trust']['asked']))}</div>"
+        orbit_element = "" if "." in name else draw_orbit_svg(run, name)  # of a journal, no corner of a slider
+        content = (
+            f"{orbit_element}<div>{build_table(('', ''), build_joint_rows(joint, report['trust']['asked']))}</div>"
+        )
         yield f"{'Corner' if '.' in name else 'Joint'} {name}", f"<div class='g-beside'>{content}</div>"
-    yield "Energy", table(("", ""), energy_rows(report))
+    yield "Energy", build_table(("", ""), build_energy_rows(report))
     trust = report["trust"]
-    yield "How far to believe it", table(("", ""), trust_rows(trust)) + lines(trust["notes"], "g-quiet")
+    yield (
+        "How far to believe it",
+        build_table(("", ""), build_accuracy_rows(trust)) + build_paragraphs(trust["notes"], "g-quiet"),
+    )
     yield (
         "Laws",
         "".join(
-            f"<h3>{escape(visible(law['title']))}</h3>"
-            + lines(
+            f"<h3>{escape(escape_invisible(law['title']))}</h3>"
+            + build_paragraphs(
                 [
                     *([f"Options: {law['options']}."] if law["options"] else []),
                     f"Valid: {law['valid']}.",
@@ -58,17 +63,17 @@ def sections(run: Result, report: Mapping[str, Any]) -> Iterator[Section]:
     )
 
 
-def as_text(report: Mapping[str, Any]) -> str:
+def format_report(report: Mapping[str, Any]) -> str:
     """Return the report as text for a terminal, section by section, with warnings and notes at the end."""
     parts: list[tuple[str, Rows]] = [("", [("", _describe_run(report))])]
     has_examination = report["trust"]["asked"]
-    parts += [(f"guide {name}", guide_rows(values, has_examination)) for name, values in report["guides"].items()]
+    parts += [(f"guide {name}", build_guide_rows(values, has_examination)) for name, values in report["guides"].items()]
     parts += [
-        (f"{'corner' if values['corner'] else 'joint'} {name}", joint_rows(values, has_examination))
+        (f"{'corner' if values['corner'] else 'joint'} {name}", build_joint_rows(values, has_examination))
         for name, values in report["joints"].items()
     ]
-    parts += [("energy", energy_rows(report)), ("how far to believe it", trust_rows(report["trust"]))]
-    lines_of_text = [_title(report)]
+    parts += [("energy", build_energy_rows(report)), ("how far to believe it", build_accuracy_rows(report["trust"]))]
+    lines_of_text = [_format_title(report)]
     for heading, rows in parts:
         lines_of_text += [heading] if heading and rows else []
         lines_of_text += [f"  {name:<34}  {cell}".rstrip() if name else f"  {cell}" for name, cell in rows]
@@ -76,16 +81,16 @@ def as_text(report: Mapping[str, Any]) -> str:
         f"law: {law['title']}{'; ' * bool(law['options'])}{law['options']}; valid: {law['valid']}"
         for law in report["laws"]
     ]
-    return visible(
+    return escape_invisible(
         "\n".join(
             [*lines_of_text, *(f"note: {sentence}" for sentence in (*report["warnings"], *report["trust"]["notes"]))]
         )
     )
 
 
-def _title(report: Mapping[str, Any]) -> str:
+def _format_title(report: Mapping[str, Any]) -> str:
     """Return title and scene in one line."""
-    return f"{one_line(report['title'] or report['mechanism'])}: {report['scene']}"
+    return f"{format_one_line(report['title'] or report['mechanism'])}: {report['scene']}"
 
 
 def _describe_run(report: Mapping[str, Any]) -> str:
@@ -96,7 +101,7 @@ def _describe_run(report: Mapping[str, Any]) -> str:
     )
 
 
-def joint_rows(joint: Mapping[str, Any], has_examination: bool) -> Rows:
+def build_joint_rows(joint: Mapping[str, Any], has_examination: bool) -> Rows:
     """Return the rows (name, cell) of a joint with play, or of a slider's corner.
 
     `has_examination` is whether additional runs were requested: otherwise rows that need them say how to request them.
@@ -107,7 +112,7 @@ def joint_rows(joint: Mapping[str, Any], has_examination: bool) -> Rows:
         f"{name} {100 * fraction:.4g} %" for name, fraction in time_fractions if fraction or name == "free"
     )
     rows = [
-        ("gap c" if joint["corner"] else "clearance c", quantity(joint["c"], "m")),
+        ("gap c" if joint["corner"] else "clearance c", format_quantity(joint["c"], "m")),
         ("share of the time", time_text),
     ]
     closed_text = f", {joint['still_closed']} to the end" if joint["still_closed"] else ""
@@ -119,37 +124,45 @@ def joint_rows(joint: Mapping[str, Any], has_examination: bool) -> Rows:
         text = "" if free_restitution is None else f", of which a free impact delivers {free_restitution:.5g}"
         rows.append(("restitution asked for", f"{joint['asked']:g}{text}"))
     if joint["approach"]:
-        rows.append(("approach, least … median … largest", _range_cell(joint["approach"], "m/s")))
+        rows.append(("approach, least … median … largest", _format_range_cell(joint["approach"], "m/s")))
         restitution = joint["restitution"]
         is_known = restitution is not None and math.isfinite(restitution["median"])
         reason = "no contact that met at a rate ended" if restitution is not None else NOT_ASKED
-        rows.append(("restitution delivered, the same", _range_cell(restitution, "") if is_known else reason))
-    rows.append(("peak force", f"{quantity(joint['peak']['F'], 'N')} at {quantity(joint['peak']['t'], 's')}"))
-    rows.append((f"RMS force, of {joint['rms_of']}", quantity(joint["rms"], "N")))
-    rows += [] if joint["corner"] else _ideal_rows(joint, has_examination)  # of a guide the sum has one
+        rows.append(("restitution delivered, the same", _format_range_cell(restitution, "") if is_known else reason))
+    rows.append(
+        ("peak force", f"{format_quantity(joint['peak']['F'], 'N')} at {format_quantity(joint['peak']['t'], 's')}")
+    )
+    rows.append((f"RMS force, of {joint['rms_of']}", format_quantity(joint["rms"], "N")))
+    rows += [] if joint["corner"] else _format_ideal_rows(joint, has_examination)  # of a guide the sum has one
     if math.isfinite(joint["penetration"]):
-        text = f"{quantity(joint['penetration'], 'm')}, {joint['penetration_share']:.3g} c"
+        text = f"{format_quantity(joint['penetration'], 'm')}, {joint['penetration_share']:.3g} c"
         rows.append(("deepest penetration", text if joint["penetration"] else "none"))
     if math.isfinite(joint["film_least"]):
-        rows.append(("least film thickness", quantity(joint["film_least"], "m")))
-    return rows + _work_rows(joint["work"], has_examination)
+        rows.append(("least film thickness", format_quantity(joint["film_least"], "m")))
+    return rows + _format_work_rows(joint["work"], has_examination)
 
 
-def guide_rows(guide: Mapping[str, Any], has_examination: bool) -> Rows:
+def build_guide_rows(guide: Mapping[str, Any], has_examination: bool) -> Rows:
     """Return the rows (name, cell) of a guide with play: force and moment on the slider, and the ideal force.
 
-    `has_examination` as in `joint_rows`.
+    `has_examination` as in `build_joint_rows`.
     """
     peak, moment = guide["peak"], guide["M"]
     return [
-        ("force on the slider, peak of samples", f"{quantity(peak['F'], 'N')} at {quantity(peak['t'], 's')}"),
-        ("RMS force, of samples", quantity(guide["rms"], "N")),
-        ("moment on the slider, peak of samples", f"{quantity(moment['peak'], 'N*m')} at {quantity(moment['t'], 's')}"),
-        *_ideal_rows(guide, has_examination),
+        (
+            "force on the slider, peak of samples",
+            f"{format_quantity(peak['F'], 'N')} at {format_quantity(peak['t'], 's')}",
+        ),
+        ("RMS force, of samples", format_quantity(guide["rms"], "N")),
+        (
+            "moment on the slider, peak of samples",
+            f"{format_quantity(moment['peak'], 'N*m')} at {format_quantity(moment['t'], 's')}",
+        ),
+        *_format_ideal_rows(guide, has_examination),
     ]
 
 
-def _ideal_rows(joint: Mapping[str, Any], has_examination: bool) -> Rows:
+def _format_ideal_rows(joint: Mapping[str, Any], has_examination: bool) -> Rows:
     """Return the rows of peak and RMS force in the ideal scene, each with the ratio to them.
 
     If they are not known, one row says so, or how to request them.
@@ -157,12 +170,12 @@ def _ideal_rows(joint: Mapping[str, Any], has_examination: bool) -> Rows:
     if not (ideal := joint["ideal"]):
         return [("ideal forces", NOT_ASKED if not has_examination else "not known")]
     return [
-        ("ideal peak force", f"{quantity(ideal['F'], 'N')}{_ratio_text(joint['peak']['F'], ideal['F'])}"),
-        ("ideal RMS force", f"{quantity(ideal['rms'], 'N')}{_ratio_text(joint['rms'], ideal['rms'])}"),
+        ("ideal peak force", f"{format_quantity(ideal['F'], 'N')}{_format_ratio(joint['peak']['F'], ideal['F'])}"),
+        ("ideal RMS force", f"{format_quantity(ideal['rms'], 'N')}{_format_ratio(joint['rms'], ideal['rms'])}"),
     ]
 
 
-def _work_rows(work: Mapping[str, float] | None, has_examination: bool) -> Rows:
+def _format_work_rows(work: Mapping[str, float] | None, has_examination: bool) -> Rows:
     """Return the rows of the energies that contact, friction and film dissipate, without those that are not finite.
 
     If `work` is None, one row says that they are not known, or how to request them.
@@ -176,20 +189,20 @@ def _work_rows(work: Mapping[str, float] | None, has_examination: bool) -> Rows:
         "friction": "taken by friction",
         "film": "taken by the film",
     }
-    return [(label, quantity(work[name], "J")) for name, label in names.items() if math.isfinite(work[name])]
+    return [(label, format_quantity(work[name], "J")) for name, label in names.items() if math.isfinite(work[name])]
 
 
-def _range_cell(quantiles: Mapping[str, float], unit: str) -> str:
+def _format_range_cell(quantiles: Mapping[str, float], unit: str) -> str:
     """Return minimum, median and maximum as a cell."""
-    return " … ".join(quantity(quantiles[name], unit) for name in ("min", "median", "max"))
+    return " … ".join(format_quantity(quantiles[name], unit) for name in ("min", "median", "max"))
 
 
-def _ratio_text(value: float, ideal: float) -> str:
+def _format_ratio(value: float, ideal: float) -> str:
     """Return the ratio of a value to the ideal one as a text; "" if that is 0."""
     return f", with play {value / ideal:.3g} times that" if ideal > 0.0 else ""
 
 
-def energy_rows(report: Mapping[str, Any]) -> Rows:
+def build_energy_rows(report: Mapping[str, Any]) -> Rows:
     """Return the rows (name, cell) of the energy balance.
 
     Without masses one row says that it is not known. Works of joints with play have a row only if there are such
@@ -207,37 +220,43 @@ def energy_rows(report: Mapping[str, Any]) -> Rows:
         "residual": "largest residual of the balance",
         "turned_over": "turned over",
     }
-    rows = [(label, quantity(energy[name], "J")) for name, label in names.items() if name in energy]
+    rows = [(label, format_quantity(energy[name], "J")) for name, label in names.items() if name in energy]
     return [row for row in rows if report["joints"] or row[0] != names["clearances"]]
 
 
-def trust_rows(trust: Mapping[str, Any]) -> Rows:
+def build_accuracy_rows(accuracy: Mapping[str, Any]) -> Rows:
     """Return the rows (name, cell) of the accuracy of a run: drift, tolerance or step, predictability horizon,
     differences.
     """
-    rows = [("drift, max |Φ|", f"{trust['phi_max']:.2e}"), ("drift, max |Φ̇|", f"{trust['phi_dot_max']:.2e}")]
-    if math.isfinite(trust["rtol"]):
-        rows.append(("tolerance of a step", f"{trust['rtol']:.3g}"))
-    if math.isfinite(trust["step"]):
-        rows.append(("step", quantity(trust["step"], "s")))
-    horizon = trust["horizon"]
+    rows = [("drift, max |Φ|", f"{accuracy['phi_max']:.2e}"), ("drift, max |Φ̇|", f"{accuracy['phi_dot_max']:.2e}")]
+    if math.isfinite(accuracy["rtol"]):
+        rows.append(("tolerance of a step", f"{accuracy['rtol']:.3g}"))
+    if math.isfinite(accuracy["step"]):
+        rows.append(("step", format_quantity(accuracy["step"], "s")))
+    horizon = accuracy["horizon"]
     horizon_text = (
-        horizon if isinstance(horizon, str) else quantity(horizon, "s") if math.isfinite(horizon) else "not sought"
+        horizon
+        if isinstance(horizon, str)
+        else format_quantity(horizon, "s")
+        if math.isfinite(horizon)
+        else "not sought"
     )
     rows.append(("believed until (horizon)", horizon_text))
-    for difference in trust["differences"]:
-        text = f"{quantity(difference['largest'], difference['unit'])} at {quantity(difference['t'], 's')}"
-        rows.append((f"{difference['name']}, against {trust['compared_with']}", text))
-    return rows if trust["asked"] else [*rows, ("against smaller steps", NOT_ASKED)]
+    for difference in accuracy["differences"]:
+        text = (
+            f"{format_quantity(difference['largest'], difference['unit'])} at {format_quantity(difference['t'], 's')}"
+        )
+        rows.append((f"{difference['name']}, against {accuracy['compared_with']}", text))
+    return rows if accuracy["asked"] else [*rows, ("against smaller steps", NOT_ASKED)]
 
 
-def orbit_svg(run: Result, joint: str) -> str:
+def draw_orbit_svg(run: Result, joint: str) -> str:
     """Return the journal's path through all steps in the circle e = c as an SVG figure, thinned to MOST points.
 
     `joint` is a bearing with play. The start is a small circle.
     """
     c = run.constants[f"{joint}.c"]
-    _, x, y = joint_curves.path(run, joint)
+    _, x, y = joint_curves.get_journal_path(run, joint)
     is_finite = np.isfinite(x) & np.isfinite(y)
     x, y = x[is_finite] / c, y[is_finite] / c
     half_width = 1.06 * max(1.0, float(np.hypot(x, y).max(initial=0.0)))

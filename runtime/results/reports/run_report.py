@@ -16,9 +16,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.results.diagnostics import Examined
-from gudgeon.results.peaks import sample_extreme
+from gudgeon.results.peaks import find_sample_extreme
 from gudgeon.results.reports.comparison import replace_non_finite
-from gudgeon.results.samples import with_start
+from gudgeon.results.samples import join_start
 
 if TYPE_CHECKING:
     from gudgeon.contract.clearance_info import ClearanceInfo
@@ -45,8 +45,8 @@ class RunReport:
     @cached_property
     def _found(self) -> dict[str, Any]:
         """All values of the report by section, in SI, as a dictionary that `to_dict`, the page and the text share."""
-        run = with_start(self.run)
-        joints = {joint.name: _joint_values(run, k, joint) for k, joint in enumerate(run.source.clearances)}
+        run = join_start(self.run)
+        joints = {joint.name: _compute_joint_values(run, k, joint) for k, joint in enumerate(run.source.clearances)}
         return {
             "title": run.source.title,
             "mechanism": run.source.mechanism,
@@ -55,11 +55,11 @@ class RunReport:
             "samples": len(self.run.t),
             "method": run.diagnostics.method,
             "joints": joints,
-            "guides": {name: _guide_values(run, name) for name in run.source.guides},
-            "energy": _energy_balance(run),
-            "trust": _accuracy_values(run),
-            "laws": laws_of(run.source),
-            "warnings": [*run.diagnostics.notes, *_validity_warnings(run, joints)],
+            "guides": {name: _compute_guide_values(run, name) for name in run.source.guides},
+            "energy": _compute_energy_balance(run),
+            "trust": _collect_accuracy_values(run),
+            "laws": read_laws(run.source),
+            "warnings": [*run.diagnostics.notes, *_list_validity_warnings(run, joints)],
         }
 
     def to_dict(self) -> dict[str, Any]:
@@ -69,29 +69,29 @@ class RunReport:
 
     def to_html(self) -> str:
         """Return a self-contained HTML page with tables, and each joint's orbit as SVG."""
-        from gudgeon.results.reports.run_page import page_of
+        from gudgeon.results.reports.run_page import build_report_page
 
-        return page_of(self.run, self._found)
+        return build_report_page(self.run, self._found)
 
     def _repr_html_(self) -> str:
         """Return the report as HTML for a notebook."""
-        from gudgeon.results.reports.html_page import article
-        from gudgeon.results.reports.run_page import sections
+        from gudgeon.results.reports.html_page import build_article
+        from gudgeon.results.reports.run_page import build_sections
 
-        return article(sections(self.run, self._found))
+        return build_article(build_sections(self.run, self._found))
 
     def __str__(self) -> str:
         """Return the report as text."""
-        from gudgeon.results.reports.run_page import as_text
+        from gudgeon.results.reports.run_page import format_report
 
-        return as_text(self._found)
+        return format_report(self._found)
 
     def __repr__(self) -> str:
         """Return mechanism and scene in one line."""
         return f"<RunReport {self.run.source.mechanism}/{self.run.source.scene}>"
 
 
-def _joint_values(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
+def _compute_joint_values(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
     """Return the values of a joint with play by the keys of the report.
 
     Peak and eccentricity are over all steps, fractions of time from onsets and separations. Restitution and works are
@@ -99,7 +99,7 @@ def _joint_values(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
     """
     peak, clearance = run.diagnostics.peak(joint.name), float(run.p[joint.clearance])
     impacts = run.impacts[run.impacts["joint"] == k]
-    examined, max_penetration = _joint_statistics(run, joint.name), peak.e_max - clearance
+    examined, max_penetration = _compute_joint_statistics(run, joint.name), peak.e_max - clearance
     mean_clearance = float(run.p[joint.constants.get("mean_clearance", joint.clearance)])  # rough surfaces: their means
     if any(contour.joint == joint.name for contour in run.source.contours) and len(run.t):
         max_penetration = float(
@@ -107,14 +107,14 @@ def _joint_values(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
         )  # at the samples, since the depth depends on the angle
     values = {
         "c": clearance,
-        "corner": joint.at_wall,
-        "time": _time_fractions(run, k, joint, impacts),
+        "corner": joint.is_corner,
+        "time": _compute_time_fractions(run, k, joint, impacts),
         "contacts": len(impacts),
         "still_closed": int(np.isnan(impacts["t_off"]).sum()),
-        "approach": _quantiles(impacts["deltadot"][impacts["deltadot"] > 0.0]),
+        "approach": _compute_quantiles(impacts["deltadot"][impacts["deltadot"] > 0.0]),
         "restitution": None,
         "stiffness": _find_stiffness(run, joint),
-        "asked": _specified_restitution(run, joint),
+        "asked": _find_specified_restitution(run, joint),
         "free_impact": _compute_free_restitution(run, joint),
         "peak": {"F": peak.F, "t": peak.t},
         "rms": _compute_rms_force(run, joint.name),
@@ -140,12 +140,12 @@ def _joint_values(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
     return values | {"ideal": _find_ideal_force(run, joint.name)}
 
 
-def _guide_values(run: Result, name: str) -> dict[str, Any]:
+def _compute_guide_values(run: Result, name: str) -> dict[str, Any]:
     """Return peak and rms of force and moment on the slider of a guide with play, at the samples.
 
     The ideal force is included if it is known.
     """
-    force, moment = (sample_extreme("", "", run.t, run[f"{name}.{component}"]) for component in "FM")
+    force, moment = (find_sample_extreme("", "", run.t, run[f"{name}.{component}"]) for component in "FM")
     values = {
         "peak": {"F": force.peak, "t": force.t},
         "rms": _compute_rms_force(run, name),
@@ -169,13 +169,13 @@ def _find_stiffness(run: Result, joint: ClearanceInfo) -> dict[str, Any] | None:
     """
     for name in ("K", "spring"):
         if name in joint.constants:
-            exponent = float(run.parameters.get(f"contacts.{_contact_name(run, joint)}.normal.exponent", 1.0))
+            exponent = float(run.parameters.get(f"contacts.{_find_contact_name(run, joint)}.normal.exponent", 1.0))
             unit = "N/m" if name == "spring" or exponent == 1.0 else f"N/m^{exponent:g}"
             return {"K": float(run.p[joint.constants[name]]), "unit": unit}
     return None
 
 
-def _contact_name(run: Result, joint: ClearanceInfo) -> str:
+def _find_contact_name(run: Result, joint: ClearanceInfo) -> str:
     """Return the name of the contact whose normal law a joint has; "" if it is not known.
 
     Derived parameters of a law contain the name of its contact. Without them, the only contact of a scene with one
@@ -203,9 +203,9 @@ def _contact_name(run: Result, joint: ClearanceInfo) -> str:
     )
 
 
-def _specified_restitution(run: Result, joint: ClearanceInfo) -> float | None:
+def _find_specified_restitution(run: Result, joint: ClearanceInfo) -> float | None:
     """Return the coefficient of restitution that the file specifies for a joint's contact; None if there is none."""
-    restitution = run.parameters.get(f"contacts.{_contact_name(run, joint)}.normal.restitution")
+    restitution = run.parameters.get(f"contacts.{_find_contact_name(run, joint)}.normal.restitution")
     return None if restitution is None else float(restitution)
 
 
@@ -214,12 +214,16 @@ def _compute_free_restitution(run: Result, joint: ClearanceInfo) -> float | None
 
     Returns None for a law without such damping.
     """
-    from gudgeon.generator.kinds.laws.dissipation import delivered
+    from gudgeon.generator.kinds.laws.dissipation import compute_delivered_restitution
 
-    return delivered(float(run.p[joint.constants["hysteresis"]])) if "hysteresis" in joint.constants else None
+    return (
+        compute_delivered_restitution(float(run.p[joint.constants["hysteresis"]]))
+        if "hysteresis" in joint.constants
+        else None
+    )
 
 
-def _joint_statistics(run: Result, joint: str) -> Any:
+def _compute_joint_statistics(run: Result, joint: str) -> Any:
     """Return the contact statistics of a joint from the second pass through the run.
 
     Returns None if they were not requested.
@@ -228,7 +232,7 @@ def _joint_statistics(run: Result, joint: str) -> Any:
     return next((statistics for statistics in examined.joints if statistics.joint == joint), None)
 
 
-def _time_fractions(run: Result, k: int, joint: ClearanceInfo, impacts: Array) -> dict[str, float]:
+def _compute_time_fractions(run: Result, k: int, joint: ClearanceInfo, impacts: Array) -> dict[str, float]:
     """Return the fractions of the time by mode: free, impacting (from an onset to the first maximum of δ), contact,
     film.
 
@@ -241,7 +245,7 @@ def _time_fractions(run: Result, k: int, joint: ClearanceInfo, impacts: Array) -
     end_times = np.where(np.isnan(impacts["t_off"]), end, impacts["t_off"])
     contact_times = np.clip(end_times, begin, end) - np.clip(impacts["t_on"], begin, end)
     contact_fraction = float(contact_times.sum()) / (end - begin)
-    examined = _joint_statistics(run, joint.name)
+    examined = _compute_joint_statistics(run, joint.name)
     if examined is not None and joint.dry:
         impacting_fraction = min(examined.impacting, contact_fraction)
     else:
@@ -258,7 +262,7 @@ def _time_fractions(run: Result, k: int, joint: ClearanceInfo, impacts: Array) -
     }
 
 
-def _quantiles(values: Array) -> dict[str, float] | None:
+def _compute_quantiles(values: Array) -> dict[str, float] | None:
     """Return minimum, median and maximum of the values by name; None without values."""
     if not len(values):
         return None
@@ -274,7 +278,7 @@ def _compute_rms_force(run: Result, joint: str) -> float:
     return math.sqrt(float(np.trapezoid(force**2, run.t)) / duration) if duration > 0.0 else float(force[0])
 
 
-def _energy_balance(run: Result) -> dict[str, float] | None:
+def _compute_energy_balance(run: Result) -> dict[str, float] | None:
     """Return the works up to the end and the terms of the energy balance, in J; None for a scene without masses.
 
     "not_told_apart" is the work of joints that statistics do not assign; it needs statistics of all joints.
@@ -289,7 +293,7 @@ def _energy_balance(run: Result) -> dict[str, float] | None:
         "residual": diagnostics.energy_residual,
         "turned_over": diagnostics.energy_turned_over,
     }
-    statistics = [_joint_statistics(run, joint.name) for joint in run.source.clearances]
+    statistics = [_compute_joint_statistics(run, joint.name) for joint in run.source.clearances]
     if statistics and all(statistics):
         dissipated = [
             energy
@@ -305,7 +309,7 @@ def _energy_balance(run: Result) -> dict[str, float] | None:
     return terms
 
 
-def _accuracy_values(run: Result) -> dict[str, Any]:
+def _collect_accuracy_values(run: Result) -> dict[str, Any]:
     """Return the values of a run's accuracy by the keys of the report: drift, horizon, steps, differences, notes."""
     diagnostics, examined = run.diagnostics, run.diagnostics.examined or Examined()
     horizon: Any = "to the end" if diagnostics.horizon == math.inf else diagnostics.horizon
@@ -324,7 +328,7 @@ def _accuracy_values(run: Result) -> dict[str, Any]:
     }
 
 
-def laws_of(source: KernelSource) -> list[dict[str, str]]:
+def read_laws(source: KernelSource) -> list[dict[str, str]]:
     """Return title, source, validity and options of each law of contact, friction and film, without repetitions.
 
     They are read from the comments of the scene's generated C.
@@ -340,7 +344,7 @@ def laws_of(source: KernelSource) -> list[dict[str, str]]:
     return list(laws.values())
 
 
-def _validity_warnings(run: Result, joints: dict[str, dict[str, Any]]) -> list[str]:
+def _list_validity_warnings(run: Result, joints: dict[str, dict[str, Any]]) -> list[str]:
     """Return sentences for runs beyond the validity of their laws: damping outside impacts, films, work that is not
     assigned.
 
@@ -353,8 +357,8 @@ def _validity_warnings(run: Result, joints: dict[str, dict[str, Any]]) -> list[s
             f" {diagnostics.ratio_min:.3g} … {diagnostics.ratio_max:.3g}: damping laws are made"
             " for impacts that nothing drives on"
         )
-    warnings += beyond(run)
-    energy = _energy_balance(run) or {}
+    warnings += find_exceeded_limits(run)
+    energy = _compute_energy_balance(run) or {}
     is_balance_complete = not run.source.rigid  # the energy loss of rigid impacts is in no other term
     if is_balance_complete and abs(energy.get("not_told_apart", 0.0)) > OFF * max(
         abs(energy.get("clearances", 0.0)), 1e-300
@@ -366,12 +370,12 @@ def _validity_warnings(run: Result, joints: dict[str, dict[str, Any]]) -> list[s
     return warnings
 
 
-def beyond(run: Result) -> list[str]:
+def find_exceeded_limits(run: Result) -> list[str]:
     """Return a sentence for each limit of validity that a film of the run exceeds; an empty list without films."""
-    return [note for joint in run.source.clearances if joint.film for note in _exceeded_limits(run, joint)]
+    return [note for joint in run.source.clearances if joint.film for note in _iterate_exceeded_limits(run, joint)]
 
 
-def _exceeded_limits(run: Result, joint: ClearanceInfo) -> Iterator[str]:
+def _iterate_exceeded_limits(run: Result, joint: ClearanceInfo) -> Iterator[str]:
     """Yield a sentence for each limit that the film of a joint exceeds: L/D, eccentricity ratio, fast squeezing.
 
     Nothing is yielded for an unknown law.
@@ -398,7 +402,7 @@ def _exceeded_limits(run: Result, joint: ClearanceInfo) -> Iterator[str]:
         yield (
             f"{joint.name}: {location} ε is over {law.limits.epsilon:g}, beyond {law.name}; it reaches {max_ratio:.4g}"
         )
-    fast_fraction = _fast_squeeze_fraction(run, joint) if law.limits.slow_squeeze else 0.0
+    fast_fraction = _compute_fast_squeeze_fraction(run, joint) if law.limits.slow_squeeze else 0.0
     if fast_fraction > 0.0:
         yield (
             f"{joint.name}: at {100 * fast_fraction:.3g} % of the samples on the film |ε̇| is over half the"
@@ -411,7 +415,7 @@ def _find_film_law(source: KernelSource, joint: ClearanceInfo) -> Law | None:
 
     Of several laws whose names begin alike, it is the one with the longest name.
     """
-    from gudgeon.generator.kinds.laws.law import called
+    from gudgeon.generator.kinds.laws.law import find_laws_of_role
 
     # without the "_": runs that were saved before names of a file ended in one
     function_text = re.search(
@@ -419,7 +423,9 @@ def _find_film_law(source: KernelSource, joint: ClearanceInfo) -> Law | None:
     )
     call_match = function_text and re.search(r"^\s+(\w+)\(epsilon, w_n, w_t", function_text[0], re.MULTILINE)
     matching_laws = [
-        law for law in called("film").values() if call_match and f"{call_match[1]}_".startswith(f"{law.name}_")
+        law
+        for law in find_laws_of_role("film").values()
+        if call_match and f"{call_match[1]}_".startswith(f"{law.name}_")
     ]
     return max(matching_laws, key=lambda law: len(law.name), default=None)
 
@@ -427,11 +433,11 @@ def _find_film_law(source: KernelSource, joint: ClearanceInfo) -> Law | None:
 def _compute_length_ratio(run: Result, joint: ClearanceInfo) -> float:
     """Return length over diameter of the journal of a joint with a film."""
     bearing_address = run.source.slots[joint.constants["R_i"]].address.rpartition(".")[0]
-    length = run.p[run.source.place[f"{bearing_address}.length"]]
+    length = run.p[run.source.slot_index[f"{bearing_address}.length"]]
     return float(length / (2.0 * run.p[joint.constants["R_j"]]))
 
 
-def _fast_squeeze_fraction(run: Result, joint: ClearanceInfo) -> float:
+def _compute_fast_squeeze_fraction(run: Result, joint: ClearanceInfo) -> float:
     """Return the fraction of the samples on the film at which |ε̇| is over SQUEEZE times the mean rotation of the
     surfaces.
 

@@ -1,1 +1,1 @@
-"""Run the ensembles of a study file in blocks on disk, and collect the measures in one Dataset: `gudgeon study`."""
+"""Run the ensembles of a study file (`gudgeon study`), and collect their measures in one xarray Dataset."""

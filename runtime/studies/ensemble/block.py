@@ -1,4 +1,4 @@
-"""Run one block of a study's runs: the job that a process receives, its execution, and the picklable result."""
+"""Run one block of a study, a group of runs that one process computes, and return a picklable result."""
 
 from __future__ import annotations
 
@@ -9,31 +9,42 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
 from gudgeon.errors import BadValueError, GudgeonError, InputError, UnknownNameError
-from gudgeon.integrators.lanes import followed_by
+from gudgeon.integrators.lanes import announce_later_runs
 from gudgeon.language.tree import Expr
-from gudgeon.model.default_step import scene_end, scene_number
-from gudgeon.model.parameter_sets import given_each, prepare_sets
+from gudgeon.model.default_step import evaluate_scene_end, evaluate_scene_number
+from gudgeon.model.parameter_sets import prepare_values_of_runs, read_given_parameters_of_runs
 from gudgeon.results.batch import Array
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.simulation.wear import rate_of
-from gudgeon.simulation.wear_loop import Loop, Wearing, share
-from gudgeon.studies.ensemble.exponents import follow
-from gudgeon.studies.ensemble.libraries import load_library, method_in
+from gudgeon.simulation.wear import parse_wear_rate
+from gudgeon.simulation.wear_loop import WearLoop, WearModel, scale_progress
+from gudgeon.studies.ensemble.exponents import measure_neighbours
+from gudgeon.studies.ensemble.libraries import choose_method, load_library
 from gudgeon.studies.ensemble.measures import (
     Spans,
+    find_sampled_interval,
     is_within,
+    list_peak_series,
+    list_sampled_series,
+    list_sliding_requests,
     measure_runs,
-    peak_series_of,
-    sampled_interval,
-    series_of,
-    sliding_requests_of,
 )
-from gudgeon.studies.ensemble.notes import Note, collect_guess_notes, gathered, merge_notes
-from gudgeon.studies.ensemble.numbers import ROUNDING, evaluate_for_runs, find_impossible, key_of, real_value, slot_of
-from gudgeon.studies.ensemble.origins import origin_of, origin_over_steps, origin_series
+from gudgeon.studies.ensemble.notes import Note, collect_guess_notes, group_notes, merge_notes
+from gudgeon.studies.ensemble.origins import (
+    compute_subtracted_series,
+    find_scene_subtracted_over_steps,
+    load_subtracted_scene,
+)
+from gudgeon.studies.ensemble.parameter_values import (
+    ROUNDING,
+    evaluate_for_runs,
+    find_impossible,
+    find_parameter,
+    find_parameter_key,
+    parse_real_value,
+)
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Measure, WearRounds
@@ -54,7 +65,7 @@ class Expected:
     method: str
     rtol: float | None
     stop: bool
-    wear: Wearing | None = None
+    wear: WearModel | None = None
     rounds: int = 0  # of wear before the runs that are measured
 
 
@@ -110,19 +121,21 @@ def run_block(job: Job, progress: Progress | None = None, simulation: Simulation
     failures = [table.bad.get(i, "") for i in range(job.n)]
     valid_runs = np.array([i for i in range(job.n) if i not in table.bad], dtype=int)
     collector = _Collector(job, table)
-    with collect_guess_notes(simulation.source, job.first) as guess_notes, followed_by(job.later):
+    with collect_guess_notes(simulation.source, job.first) as guess_notes, announce_later_runs(job.later):
         try:
             if len(valid_runs):
-                collector.take(valid_runs, _run_batch(simulation, job, table, valid_runs, progress), failures)
+                collector.add_batch(valid_runs, _run_batch(simulation, job, table, valid_runs, progress), failures)
         except InputError:  # usually of one run; run by run it is found
             for i in valid_runs:
                 try:
-                    collector.take(np.array([i]), _run_batch(simulation, job, table, np.array([i]), None), failures)
+                    collector.add_batch(
+                        np.array([i]), _run_batch(simulation, job, table, np.array([i]), None), failures
+                    )
                 except InputError as error:
                     failures[i] = str(error)
     collector.notes.append(guess_notes)
-    collector.add(follow(simulation, job, table, collector.t_last, failures, progress), failures)
-    return collector.block(failures)
+    collector.add_measures(measure_neighbours(simulation, job, table, collector.t_last, failures, progress), failures)
+    return collector.build_block(failures)
 
 
 class Table:
@@ -137,31 +150,37 @@ class Table:
         """
         self.source, self.compiled, expected = simulation.source, simulation.compiled, job.expected
         self.bad: dict[int, str] = {}
-        self.columns = {key: values for name, values in job.columns.items() if (key := key_of(self.source, name))}
+        self.columns = {
+            key: values for name, values in job.columns.items() if (key := find_parameter_key(self.source, name))
+        }
         self.p, errors = self._fill_parameter_table(job.n)
-        if perturbed_columns := self._perturbed_parameters(job):
+        if perturbed_columns := self._perturb_parameters(job):
             self.columns |= perturbed_columns
             self.p, errors = self._fill_parameter_table(job.n)
         self.bad |= {i: str(error) for i, error in errors.items() if i not in self.bad}
         self.t_end = self._evaluate_end_times(expected.t_end)
-        known = {"t_end": self.t_end}
-        self.output = self._evaluate_output_counts(expected.output, known)
+        values_by_name = {"t_end": self.t_end}
+        self.output = self._evaluate_output_counts(expected.output, values_by_name)
         self.step: Array | None = None
         if expected.step is not None and self.source.degrees_of_freedom:
-            self.step = evaluate_for_runs(self.source, expected.step, self.p, known)
+            self.step = evaluate_for_runs(self.source, expected.step, self.p, values_by_name)
             self._mark_impossible("step", self.step)
-        self.spans = self._evaluate_windows(expected.windows, known)
+        self.spans = self._evaluate_windows(expected.windows, values_by_name)
 
-    def _perturbed_parameters(self, job: Job) -> dict[str, Array]:
+    def _perturb_parameters(self, job: Job) -> dict[str, Array]:
         """Return the parameters of perturbed starts by address: p (1 + relative) + absolute, (n,) each.
 
         Parameters that the scene lacks are left out; the result is empty for a job without deviations.
         """
         index_of_address, parameters = {slot.address: k for k, slot in enumerate(self.source.slots)}, dict[str, Array]()
         for name in dict.fromkeys((*job.relative, *job.absolute)):
-            if (slot := slot_of(self.source, name)) is None:
+            if (slot := find_parameter(self.source, name)) is None:
                 continue
-            base, key, zero = self.p[:, index_of_address[slot.address]], key_of(self.source, name), np.zeros(job.n)
+            base, key, zero = (
+                self.p[:, index_of_address[slot.address]],
+                find_parameter_key(self.source, name),
+                np.zeros(job.n),
+            )
             deviation = base * job.relative.get(name, zero) + job.absolute.get(name, zero)
             parameters[key] = parameters.get(key, base) + deviation  # another ensemble may spell it otherwise
         return parameters
@@ -178,8 +197,8 @@ class Table:
                     rows[i][name] = value
                 else:
                     self.bad.setdefault(i, f"{name} is {value}: expected a finite number")
-        given, is_given = given_each(self.source, rows)
-        p, _, errors = prepare_sets(self.compiled, given, is_given, False)
+        given, is_given = read_given_parameters_of_runs(self.source, rows)
+        p, _, errors = prepare_values_of_runs(self.compiled, given, is_given, False)
         return p, errors
 
     def _evaluate_windows(
@@ -190,7 +209,7 @@ class Table:
         known_values: names besides parameters in the expressions, such as t_end. A run that does not contain its window
         is entered in `bad`.
         """
-        found: dict[str, tuple[Array | None, ...]] = {}
+        spans: dict[str, tuple[Array | None, ...]] = {}
         for name, ends in windows.items():
             ends_of_runs = [
                 None if expr is None else evaluate_for_runs(self.source, expr, self.p, known_values) for expr in ends
@@ -201,8 +220,8 @@ class Table:
             for i in np.flatnonzero(~is_valid).tolist():
                 message = f"window {name} goes from {begin[i]:g} s to {end[i]:g} s with this run's numbers"
                 self.bad.setdefault(i, f"{message}: expected a part of the run, to {self.t_end[i]:g} s")
-            found[name] = tuple(ends_of_runs)
-        return found
+            spans[name] = tuple(ends_of_runs)
+        return spans
 
     def _mark_impossible(self, name: str, values: Array) -> None:
         """Enter the runs with an impossible value of `name` (t_end, output or step) in `bad`, with value and
@@ -220,10 +239,10 @@ class Table:
         Runs with an impossible end are entered in `bad`.
         """
         if expr is not None:
-            found = evaluate_for_runs(self.source, expr, self.p, {})
-            self._mark_impossible("t_end", found)
-            return found
-        return self._evaluate_for_each_run(lambda p: scene_end(self.source, p))
+            end_times = evaluate_for_runs(self.source, expr, self.p, {})
+            self._mark_impossible("t_end", end_times)
+            return end_times
+        return self._evaluate_for_each_run(lambda p: evaluate_scene_end(self.source, p))
 
     def _evaluate_output_counts(self, expr: Expr | None, known_values: Mapping[str, Array]) -> Array:
         """Return the number of output intervals of each run, (n,), as floats with integer values.
@@ -232,7 +251,9 @@ class Table:
         Runs with an impossible number are entered in `bad`.
         """
         if expr is None:
-            return self._evaluate_for_each_run(lambda p: scene_number(self.source, "output", p, DEFAULT_OUTPUT))
+            return self._evaluate_for_each_run(
+                lambda p: evaluate_scene_number(self.source, "output", p, DEFAULT_OUTPUT)
+            )
         counts = np.rint(evaluate_for_runs(self.source, expr, self.p, known_values))
         self._mark_impossible("output", counts)
         return counts
@@ -264,21 +285,26 @@ def _run_batch(simulation: Simulation, job: Job, table: Table, runs: Array, prog
     KeyboardInterrupt if Ctrl-C ended a run, InputError for invalid parameters.
     """
     expected, ends, counts = job.expected, table.t_end[runs], table.output[runs].astype(int)
-    spans = None if expected.keep else sampled_interval(expected.measures, table.spans, runs)
+    spans = None if expected.keep else find_sampled_interval(expected.measures, table.spans, runs)
     same_times = spans is None and len(set(counts.tolist())) == 1
     output: Any = int(counts[0])
     if not same_times:
         output = [np.linspace(0.0, end, k + 1) for end, k in zip(ends, counts, strict=True)]
         output = (
-            output if spans is None else [_select_stored_times(t, *own) for t, *own in zip(output, *spans, strict=True)]
+            output
+            if spans is None
+            else [_select_stored_times(t, *span) for t, *span in zip(output, *spans, strict=True)]
         )
     same_end = len(set(ends.tolist())) == 1
     t_end: Any = None if not same_times else float(ends[0]) if same_end else ends
     parameters: Any = {name: list(map(_to_python_value, values[runs])) for name, values in table.columns.items()}
     source, step = simulation.source, None if table.step is None else table.step[runs]
-    origin, sliding = origin_over_steps(expected.measures, source), sliding_requests_of(expected.measures, source)
+    origin, sliding = (
+        find_scene_subtracted_over_steps(expected.measures, source),
+        list_sliding_requests(expected.measures, source),
+    )
     options: dict[str, Any] = {
-        "method": method_in(source, expected.method),
+        "method": choose_method(source, expected.method),
         "rtol": expected.rtol if source.degrees_of_freedom else None,
         "step": step,
         "threads": job.threads,
@@ -293,9 +319,9 @@ def _run_batch(simulation: Simulation, job: Job, table: Table, runs: Array, prog
         **options,
         progress=progress,
         contour=contour,
-        keep=series_of(expected.measures, expected.keep, source),
-        peaks=(*peak_series_of(expected.measures, source), *sliding),
-        against=origin_of(job, origin) if origin else None,
+        keep=list_sampled_series(expected.measures, expected.keep, source),
+        peaks=(*list_peak_series(expected.measures, source), *sliding),
+        against=load_subtracted_scene(job, origin) if origin else None,
     )
     if batch.interrupted:
         raise KeyboardInterrupt
@@ -313,12 +339,12 @@ class _Collector:
     def __init__(self, job: Job, table: Table) -> None:
         """Create NaN measures and end times for all runs of a job."""
         self.job, self.table, n = job, table, job.n
-        self.measures = {one.name: np.full(n, np.nan) for one in job.expected.measures}
+        self.measures = {measure.name: np.full(n, np.nan) for measure in job.expected.measures}
         self.t_last = np.full(n, np.nan)
         self.kept: list[tuple[Array, Array, Mapping[str, Array]]] = []
         self.notes: list[Mapping[str, Note]] = []
 
-    def take(self, runs: Array, batch: Batch, failures: list[str]) -> None:
+    def add_batch(self, runs: Array, batch: Batch, failures: list[str]) -> None:
         """Add the measures, end times, notes and series of a batch.
 
         runs: indices of the batch's runs within the job. Reasons of failed runs are entered in `failures`; their
@@ -330,23 +356,23 @@ class _Collector:
         failed = {failure.run: str(failure.error) for failure in batch.failures}
         for i, message in failed.items():
             failures[runs[i]] = message
-        origins = origin_series(self.job, self.table, runs, batch, failures)
+        origins = compute_subtracted_series(self.job, self.table, runs, batch, failures)
         is_valid = np.array([not failures[i] for i in runs])
-        for one in self.job.expected.measures:
-            self.measures[one.name][runs] = np.where(is_valid, measure_runs(batch, one, spans, origins), np.nan)
+        for measure in self.job.expected.measures:
+            self.measures[measure.name][runs] = np.where(is_valid, measure_runs(batch, measure, spans, origins), np.nan)
         has_begun = np.asarray(batch.samples) > 0
         self.t_last[runs] = np.where(has_begun, batch.t_last, np.nan)
         notes_by_run = batch.result.notes()
-        self.notes.append(gathered((self.job.first + int(runs[i]), notes_by_run[i]) for i in sorted(notes_by_run)))
+        self.notes.append(group_notes((self.job.first + int(runs[i]), notes_by_run[i]) for i in sorted(notes_by_run)))
         if self.job.expected.keep:
             self.kept.append((runs, batch.t, batch.kept))  # the batch itself holds what C has stored
 
-    def add(self, values: Mapping[str, Array], failures: list[str]) -> None:
+    def add_measures(self, values: Mapping[str, Array], failures: list[str]) -> None:
         """Add further measures of all runs, (n,) by name, and set all measures of failed runs to NaN."""
-        for name, own in (self.measures | dict(values)).items():
-            self.measures[name] = np.where([not message for message in failures], own, np.nan)
+        for name, measure_values in (self.measures | dict(values)).items():
+            self.measures[name] = np.where([not message for message in failures], measure_values, np.nan)
 
-    def block(self, failures: list[str]) -> Block:
+    def build_block(self, failures: list[str]) -> Block:
         """Return the collected results as a Block, with one axis of times if all runs that began share it.
 
         Series of shorter runs are padded with NaN.
@@ -369,13 +395,13 @@ class _Collector:
         return Block(job.number, job.first, self.measures, tuple(failures), self.t_last, t, series, notes)
 
 
-def resolve_wear(wear: WearRounds, sources: Sequence[KernelSource]) -> Wearing:
+def resolve_wear(wear: WearRounds, sources: Sequence[KernelSource]) -> WearModel:
     """Return the wear model of a study, with the wear rate from k and hardness in SI.
 
     sources: all scenes of the study. Raises UnknownNameError for a joint without a contour in any scene, InputError for
     invalid values, each at its location.
     """
-    joints_with_contour = {one.joint for source in sources for one in source.contours}
+    joints_with_contour = {contour.joint for source in sources for contour in source.contours}
     for joint in wear.joints:
         if joint not in joints_with_contour:
             hint = (
@@ -385,18 +411,22 @@ def resolve_wear(wear: WearRounds, sources: Sequence[KernelSource]) -> Wearing:
             )
             raise UnknownNameError(f"wear.joints: no scene has a contour at {joint}", joint.where, hint)
     try:
-        rate = rate_of(wear.k, wear.hardness, "wear.k", "wear.hardness")
+        rate = parse_wear_rate(wear.k, wear.hardness, "wear.k", "wear.hardness")
     except InputError as error:
         raise type(error)(error.message, wear.k.where, error.hint) from None
-    scale = 1.0 if wear.scale is None else real_value(wear.scale, Slot("wear.scale", "", 1.0, False, (0, 0, 0)))
+    scale = (
+        1.0
+        if wear.scale is None
+        else parse_real_value(wear.scale, RuntimeParameter("wear.scale", "", 1.0, False, (0, 0, 0)))
+    )
     if wear.scale is not None and not scale > 0.0:
         raise BadValueError(f"wear.scale is {scale:g}", wear.scale.where, "expected a positive number of runs")
-    return Wearing(tuple(map(str, wear.joints)), rate, wear.law, scale)
+    return WearModel(tuple(map(str, wear.joints)), rate, wear.law, scale)
 
 
 def run_wear_rounds(
     simulation: Simulation,
-    wear: Wearing | None,
+    wear: WearModel | None,
     rounds: int,
     parameters: Any,
     ends: Array,
@@ -408,12 +438,12 @@ def run_wear_rounds(
     wear: None, or no joint of the scene with a contour, returns no contours and `progress` itself. parameters, ends
     (s): of each run. options: further arguments of `simulate_many`. Each round takes an equal part of the progress.
     """
-    joints_with_contour = {one.joint for one in simulation.source.contours}
+    joints_with_contour = {contour.joint for contour in simulation.source.contours}
     if wear is None or not joints_with_contour.intersection(wear.joints):
         return {}, progress
-    loop = Loop(
+    loop = WearLoop(
         simulation, replace(wear, joints=tuple(joint for joint in wear.joints if joint in joints_with_contour)), {}
     )
     for k in range(rounds):
-        loop.round(parameters, ends, progress=share(progress, k, rounds + 1), **options)
-    return loop.given, share(progress, rounds, rounds + 1)
+        loop.run_round(parameters, ends, progress=scale_progress(progress, k, rounds + 1), **options)
+    return loop.given, scale_progress(progress, rounds, rounds + 1)

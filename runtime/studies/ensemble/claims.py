@@ -1,6 +1,4 @@
-"""Convert the claims of a study file to checks on its runs; each part, coordinate, measure and unit is checked at its
-location.
-"""
+"""Convert the claims of a study file, published numbers and trends, to checks on its runs."""
 
 from __future__ import annotations
 
@@ -13,14 +11,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.contract.kernel_source import KernelSource, Slot
-from gudgeon.errors import BadValueError, InputError, UnknownKeyError, together
-from gudgeon.generator.study.spec import ALONG, COUNTS, NumberClaim, Selection, TrendClaim, Trial
-from gudgeon.language.names import unknown_name
-from gudgeon.language.units import unit
+from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
+from gudgeon.errors import BadValueError, InputError, UnknownKeyError, combine_errors
+from gudgeon.generator.study.spec import COUNTS, TRENDS_ALONG_DIMENSION, NumberClaim, Selection, TrendClaim, Trial
+from gudgeon.language.names import make_unknown_name_error
+from gudgeon.language.units import find_unit
 from gudgeon.results.batch import Array
-from gudgeon.studies.ensemble.judge import Cell, Check, Look
-from gudgeon.studies.ensemble.numbers import real_value
+from gudgeon.studies.ensemble.judge import Cell, Check, ReadMeasure
+from gudgeon.studies.ensemble.parameter_values import parse_real_value
 from gudgeon.studies.ensemble.plan import Coordinate, Plan, Plans
 
 if TYPE_CHECKING:
@@ -39,10 +37,10 @@ def limit_checks(checks: Iterable[Check], name: Text) -> tuple[Check, ...]:
 
     Raises BadValueError at the name of the claim if there are more.
     """
-    found = tuple(itertools.islice(checks, MOST_COMPARED + 1))
-    if len(found) > MOST_COMPARED:
+    first_checks = tuple(itertools.islice(checks, MOST_COMPARED + 1))
+    if len(first_checks) > MOST_COMPARED:
         raise BadValueError(f"{name} compares more than {MOST_COMPARED} pairs of runs", name.where, FEWER)
-    return found
+    return first_checks
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,18 +68,27 @@ class Selected:
                 for name, k in zip(self.indices_by_dimension, index, strict=True)
                 if self._is_free(name, fixed)
             ]
-            yield tuple((name, self._value(name, k)) for name, k in free), Cell(self.part, index)
+            yield tuple((name, self._get_coordinate_value(name, k)) for name, k in free), Cell(self.part, index)
 
     def _is_free(self, name: str, fixed: Mapping[str, int]) -> bool:
         """Return whether a dimension has several selected values and is not fixed."""
         return name not in fixed and len(self.indices_by_dimension[name]) > 1
 
-    def _value(self, name: str, k: int) -> Any:
+    def _get_coordinate_value(self, name: str, k: int) -> Any:
         """Return the value of the coordinate along a dimension at index k, as a Python value; k itself without a
         coordinate.
         """
-        found = next((one for one in self.plan.coordinates if one.name == name and one.over == (name,)), None)
-        return k if found is None else found.values[k].item() if hasattr(found.values[k], "item") else found.values[k]
+        coordinate = next(
+            (candidate for candidate in self.plan.coordinates if candidate.name == name and candidate.over == (name,)),
+            None,
+        )
+        return (
+            k
+            if coordinate is None
+            else coordinate.values[k].item()
+            if hasattr(coordinate.values[k], "item")
+            else coordinate.values[k]
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +117,7 @@ class Known:
     trends: tuple[KnownTrend, ...] = ()
 
 
-def known_claims(plans: Plans) -> Known:
+def resolve_claims(plans: Plans) -> Known:
     """Return all claims of a file with their cells and checks.
 
     Raises InputErrors with the errors of all claims that do not fit the runs, each at its location.
@@ -124,12 +131,12 @@ def known_claims(plans: Plans) -> Known:
             errors.append(error)
     for trend in claims.trends:
         try:
-            every = (check for one in trend.trials for check in _build_checks(plans, one))
+            every = (check for trial in trend.trials for check in _build_checks(plans, trial))
             trends.append(KnownTrend(trend, limit_checks(every, trend.name)))
         except InputError as error:
             errors.append(error)
     if errors:
-        raise together(errors)
+        raise combine_errors(errors)
     return Known(tuple(numbers), tuple(trends))
 
 
@@ -141,7 +148,9 @@ def _resolve_number(plans: Plans, claim: NumberClaim) -> KnownNumber:
     selected = _select(plans, claim.selection)
     cells = [cell for _, cell in selected.cells({})]
     if len(cells) > 1:
-        varying = [f"{name} ({len(own)})" for name, own in selected.indices_by_dimension.items() if len(own) > 1]
+        varying = [
+            f"{name} ({len(indices)})" for name, indices in selected.indices_by_dimension.items() if len(indices) > 1
+        ]
         hint = f"say in at: which value of {', '.join(varying)}"
         raise BadValueError(f"{claim.name} is about {len(cells)} scenes", claim.name.where, hint)
     unit_text = _find_unit(selected.plan, claim.measure)
@@ -152,9 +161,9 @@ def _resolve_number(plans: Plans, claim: NumberClaim) -> KnownNumber:
 
 def _find_unit(plan: Plan, measure: Text) -> str:
     """Return the SI unit of a measure in a plan. Raises UnknownNameError at the measure if the plan lacks it."""
-    known = [one.name for one in plan.expected.measures]
-    if measure not in known:
-        raise unknown_name("measure", measure, known, measure.where)
+    known_names = [candidate.name for candidate in plan.expected.measures]
+    if measure not in known_names:
+        raise make_unknown_name_error("measure", measure, known_names, measure.where)
     return plan.units[str(measure)]
 
 
@@ -163,13 +172,13 @@ def _parse_value_in(text: Text, unit_text: str) -> float:
 
     Raises an InputError at the text for another dimension or no number.
     """
-    known_dimension = unit(unit_text).dimension if unit_text and unit(unit_text) else None  # type: ignore[union-attr]
+    known_dimension = find_unit(unit_text).dimension if unit_text and find_unit(unit_text) else None  # type: ignore[union-attr]
     exponents = (
         (float(known_dimension.length), float(known_dimension.mass), float(known_dimension.time))
         if known_dimension
         else (0.0, 0.0, 0.0)
     )
-    return real_value(text, Slot("value", unit_text, 0.0, False, exponents))
+    return parse_real_value(text, RuntimeParameter("value", unit_text, 0.0, False, exponents))
 
 
 def _select(plans: Plans, selection: Selection) -> Selected:
@@ -184,18 +193,20 @@ def _select(plans: Plans, selection: Selection) -> Selected:
             raise UnknownKeyError("a claim on no part", where, f"expected part: one of {', '.join(plans.each)}")
         part = str(selection.part)
         if part not in plans.each:
-            raise unknown_name("part", part, list(plans.each), selection.part.where)
+            raise make_unknown_name_error("part", part, list(plans.each), selection.part.where)
     elif selection.part is not None:
         raise BadValueError("the file has no parts", selection.part.where, "leave part: out")
     plan = plans.each[part]
     indices_by_dimension = {name: tuple(range(length)) for name, length in zip(plan.dims, plan.shape, strict=True)}
     for name, value in selection.at.items():
-        one = _find_coordinate(plan, name)
-        matching = _find_indices(one, value)
-        if one.over:
-            indices_by_dimension[one.over[0]] = tuple(k for k in indices_by_dimension[one.over[0]] if k in matching)
-        if not matching or one.over and not indices_by_dimension[one.over[0]]:
-            raise BadValueError(f"no run has {name} {str(value)[:60]!r}", value.where, _list_values(one))
+        coordinate = _find_coordinate(plan, name)
+        matching = _find_indices(coordinate, value)
+        if coordinate.over:
+            indices_by_dimension[coordinate.over[0]] = tuple(
+                k for k in indices_by_dimension[coordinate.over[0]] if k in matching
+            )
+        if not matching or coordinate.over and not indices_by_dimension[coordinate.over[0]]:
+            raise BadValueError(f"no run has {name} {str(value)[:60]!r}", value.where, _list_values(coordinate))
     return Selected(
         part,
         plan,
@@ -209,11 +220,15 @@ def _find_coordinate(plan: Plan, name: Text) -> Coordinate:
 
     Coordinates along the dimensions of starts are not found. Raises UnknownNameError at the name.
     """
-    known = {one.name: one for one in plan.coordinates if len(one.over) < 2 and not set(one.over) & set(STARTS)}
-    found = known.get(str(name)) or known.get(str(name).removeprefix("parameters."))
-    if found is None:
-        raise unknown_name("coordinate", name, list(known), name.where)
-    return found
+    coordinates = {
+        candidate.name: candidate
+        for candidate in plan.coordinates
+        if len(candidate.over) < 2 and not set(candidate.over) & set(STARTS)
+    }
+    coordinate = coordinates.get(str(name)) or coordinates.get(str(name).removeprefix("parameters."))
+    if coordinate is None:
+        raise make_unknown_name_error("coordinate", name, list(coordinates), name.where)
+    return coordinate
 
 
 def _find_indices(coordinate: Coordinate, value: Text) -> set[int]:
@@ -250,7 +265,7 @@ def _build_checks(plans: Plans, trial: Trial) -> Iterator[Check]:
         return
     for measure in (*trial.measures, *trial.others):
         _find_unit(selected.plan, measure)
-    if trial.kind in ALONG:
+    if trial.kind in TRENDS_ALONG_DIMENSION:
         yield from _build_checks_along(selected, trial)
     elif trial.than is not None:
         yield from _build_checks_between(selected, _select(plans, trial.than), trial)
@@ -298,20 +313,20 @@ def _build_checks_of_row(cells: list[Cell], trial: Trial) -> Iterator[Check]:
             yield Check(tuple(cells), (measure, other), _make_range_condition(measure, other, len(cells)))
 
 
-def _make_larger_condition(measure: str, factor: float) -> Callable[[Look], Array]:
+def _make_larger_condition(measure: str, factor: float) -> Callable[[ReadMeasure], Array]:
     """Return the condition that a measure of the second cell exceeds `factor` times that of the first.
 
-    It is a function of `Look` that returns whether each combination of runs meets it.
+    It is a function of `ReadMeasure` that returns whether each combination of runs meets it.
     """
     return lambda x: x(1, measure) > factor * x(0, measure)
 
 
-def _make_alike_condition(measure: str, tolerance: float) -> Callable[[Look], Array]:
+def _make_alike_condition(measure: str, tolerance: float) -> Callable[[ReadMeasure], Array]:
     """Return the condition that a measure differs between two cells by at most the fraction `tolerance` of the larger
     value.
     """
 
-    def shows(x: Look) -> Array:
+    def shows(x: ReadMeasure) -> Array:
         """Return for each combination of runs whether both values are alike."""
         a, b = x(0, measure), x(1, measure)
         return np.asarray(np.abs(a - b) <= tolerance * np.maximum(np.abs(a), np.abs(b)))
@@ -319,10 +334,10 @@ def _make_alike_condition(measure: str, tolerance: float) -> Callable[[Look], Ar
     return shows
 
 
-def _make_range_condition(measure: str, other_measure: str, n: int) -> Callable[[Look], Array]:
+def _make_range_condition(measure: str, other_measure: str, n: int) -> Callable[[ReadMeasure], Array]:
     """Return the condition that the range of a measure over n cells exceeds the range of another measure."""
 
-    def spread(x: Look, name: str) -> Array:
+    def spread(x: ReadMeasure, name: str) -> Array:
         """Return the largest less the smallest value of a measure over the cells, for each combination of runs."""
         values = [x(k, name) for k in range(n)]
         return np.asarray(reduce(np.maximum, values) - reduce(np.minimum, values))
@@ -352,8 +367,9 @@ def _build_checks_between(first: Selected, second: Selected, trial: Trial) -> It
                 yield Check((cell, second_cells[key]), (measure, other), _make_fall_condition(measure, other))
 
 
-def _make_fall_condition(measure: str, other_measure: str) -> Callable[[Look], Array]:
-    """Return the condition that a measure falls by a larger factor than another one from the first cell to the second.
+def _make_fall_condition(measure: str, other_measure: str) -> Callable[[ReadMeasure], Array]:
+    """Return the condition that a measure falls by a larger factor than another one from the first cell to the
+    second.
     """
     return lambda x: np.abs(x(1, measure) * x(0, other_measure)) < np.abs(x(1, other_measure) * x(0, measure))
 
@@ -379,17 +395,19 @@ def _build_checks_of_cells(selected: Selected, trial: Trial) -> Iterator[Check]:
             yield Check((cell,), (measure,), _make_interval_condition(measure, low, high, trial.kind == "near"))
 
 
-def _make_excess_condition(measure: str, other_measure: str, factor: float) -> Callable[[Look], Array]:
+def _make_excess_condition(measure: str, other_measure: str, factor: float) -> Callable[[ReadMeasure], Array]:
     """Return the condition that a measure exceeds `factor` times another one of the same run."""
     return lambda x: x(0, measure) > factor * x(0, other_measure)
 
 
-def _make_interval_condition(measure: str, low: float, high: float, includes_ends: bool) -> Callable[[Look], Array]:
+def _make_interval_condition(
+    measure: str, low: float, high: float, includes_ends: bool
+) -> Callable[[ReadMeasure], Array]:
     """Return the condition that a measure lies between `low` and `high`; bounds are included if `includes_ends` is
     True.
     """
 
-    def shows(x: Look) -> Array:
+    def shows(x: ReadMeasure) -> Array:
         """Return for each run whether its value lies in the interval."""
         own = x(0, measure)
         return np.asarray((own >= low) & (own <= high) if includes_ends else (own > low) & (own < high))
@@ -399,9 +417,11 @@ def _make_interval_condition(measure: str, low: float, high: float, includes_end
 
 def _build_count_check(selected: Selected, trial: Trial) -> Check:
     """Return the check that scenes have the claimed numbers of components, which is the same in every run."""
-    structure = [one.length for one in selected.plan.structure]
+    structure = [coordinate.length for coordinate in selected.plan.structure]
     indices_by_dimension = [cell.index[: len(structure)] for _, cell in selected.cells({})]
-    parts = {int(np.ravel_multi_index(place, structure)) if structure else 0 for place in indices_by_dimension}
+    parts = {
+        int(np.ravel_multi_index(cell_index, structure)) if structure else 0 for cell_index in indices_by_dimension
+    }
     sources = [selected.plan.parts[k].simulation.source for k in sorted(parts)]
     is_true = all(
         _count_components(source)[str(name)] == count for source in sources for name, count in trial.counts.items()

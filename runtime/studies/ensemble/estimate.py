@@ -1,4 +1,4 @@
-"""Estimate the needs of a study: disk, memory, numbers of runs and blocks, and seconds from trial runs."""
+"""Estimate the needs of a study: disk, memory, number of runs, and seconds from trial runs."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ import numpy as np
 
 from gudgeon.files.free_space import check_disk, check_memory
 from gudgeon.integrators.threads import available_threads
-from gudgeon.model.evaluation import evaluated_bytes, sample_bytes
-from gudgeon.results.batch import evaluation_parts_of
+from gudgeon.model.evaluation import compute_evaluation_bytes, compute_sample_bytes
+from gudgeon.results.batch import find_evaluation_parts
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.block import Block, Job, run_block
 from gudgeon.studies.ensemble.folder import block_to_bytes
 from gudgeon.studies.ensemble.loop import SIDE_BY_SIDE
-from gudgeon.studies.ensemble.measures import series_of
+from gudgeon.studies.ensemble.measures import list_sampled_series
 from gudgeon.studies.ensemble.plan import Part, Plan, Plans
 
 READ = 3  # times a series is there while it is measured: kept, read, and what is between
@@ -40,11 +40,11 @@ def check_needs(plans: Plans, folder: Path, threads: int | None, in_process: boo
         check_memory(OF_A_BLOCK * plan.count_of_blocks, f"a study of {plan.runs} runs in {plan.count_of_blocks} blocks")
         for part in plan.parts if in_process else ():
             _check_block_memory(plan, part, cores)
-    size = sum(disk_bytes(plan) for plan in plans.each.values())
+    size = sum(estimate_disk_bytes(plan) for plan in plans.each.values())
     check_disk(folder, size - _sum_existing_bytes(folder), f"the study, {plans.runs} runs,")
 
 
-def disk_bytes(plan: Plan) -> float:
+def estimate_disk_bytes(plan: Plan) -> float:
     """Return the least size of all blocks and of the dataset of a plan, bytes: measures, ends of runs and stored
     series.
     """
@@ -55,8 +55,10 @@ def disk_bytes(plan: Plan) -> float:
 def _check_block_memory(plan: Plan, part: Part, cores: int) -> None:
     """Raise MemoryError if states and series of the blocks of a part that run at the same time do not fit."""
     compiled, most = part.simulation.compiled, min(cores, SIDE_BY_SIDE, plan.count_of_blocks)
-    names = series_of(plan.expected.measures, plan.expected.keep, compiled.source)
-    state = sample_bytes(compiled) + evaluated_bytes(compiled, evaluation_parts_of(compiled.source, names))
+    names = list_sampled_series(plan.expected.measures, plan.expected.keep, compiled.source)
+    state = compute_sample_bytes(compiled) + compute_evaluation_bytes(
+        compiled, find_evaluation_parts(compiled.source, names)
+    )
     size = state * min(max(cores, most), most * part.block) + most * part.block * 8 * READ * (len(names) + 1)
     runs = f"{most * part.block} runs" if most * part.block > 1 else "a run"
     check_memory(size * part.samples, f"{runs} of {part.samples:.0f} samples, under way at once,")
@@ -64,12 +66,12 @@ def _check_block_memory(plan: Plan, part: Part, cores: int) -> None:
 
 def _sum_existing_bytes(folder: Path) -> int:
     """Return the bytes of all files in a folder and its subfolders; 0 if it does not exist."""
-    found = 0
-    for place, _, names in os.walk(folder):
+    n_bytes = 0
+    for directory, _, names in os.walk(folder):
         for name in names:
             with suppress(OSError):
-                found += os.stat(os.path.join(place, name)).st_size
-    return found
+                n_bytes += os.stat(os.path.join(directory, name)).st_size
+    return n_bytes
 
 
 @dataclass(frozen=True)
@@ -85,7 +87,7 @@ class Estimate:
     reasons: tuple[str, ...]  # of these, each once
 
 
-def estimate(plan: Plan, threads: int | None) -> Estimate:
+def estimate_study(plan: Plan, threads: int | None) -> Estimate:
     """Return size and run time of a study, extrapolated from a few runs of each part, which are not stored.
 
     threads: None means the number of cores. A trial shorter than FIRST seconds is repeated, since the first time
@@ -95,10 +97,10 @@ def estimate(plan: Plan, threads: int | None) -> Estimate:
     runs = np.unique(np.linspace(0, plan.each - 1, count).astype(int))
     seconds, size, failures = 0.0, 0, list[str]()
     for k, part in enumerate(plan.parts):
-        job = plan.job_of(0, k, runs, threads)
-        block, used = _time_block(job, part.simulation)
+        job = plan.make_job(0, k, runs, threads)
+        block, used = _run_timed_block(job, part.simulation)
         if used < FIRST:
-            block, used = _time_block(job, part.simulation)
+            block, used = _run_timed_block(job, part.simulation)
         seconds += used * plan.each / len(runs)
         numbers = len(plan.expected.measures) + 3 + (len(plan.expected.keep) + 1) * block.t.shape[-1]
         more = max(0, len(block_to_bytes(block, plan.digest)) - 8 * numbers * len(runs))  # overhead of a file
@@ -108,7 +110,7 @@ def estimate(plan: Plan, threads: int | None) -> Estimate:
     return Estimate(plan.runs, len(plan.blocks), size, seconds, len(failures), len(runs) * len(plan.parts), reasons)
 
 
-def _time_block(job: Job, simulation: Simulation) -> tuple[Block, float]:
+def _run_timed_block(job: Job, simulation: Simulation) -> tuple[Block, float]:
     """Run a job and return its block and the wall time, s."""
     before = time.perf_counter()
     return run_block(job, simulation=simulation), time.perf_counter() - before

@@ -1,4 +1,4 @@
-"""Measure neighbouring trajectories of runs: Lyapunov exponents, predictability horizons, kinds of motion.
+"""Compute Lyapunov exponents, predictability horizons and kinds of motion for the runs of a study.
 
 A measure is of `run`, the whole motion, or of a section: an event of the file, or a period by each run's own
 parameters. Measures of one section and window share one computation.
@@ -21,10 +21,10 @@ from gudgeon.language.parser import parse
 from gudgeon.language.units import TIME
 from gudgeon.results.batch import Array
 from gudgeon.results.motion import CHAOTIC, PERIODIC, QUASI, UNDECIDED
-from gudgeon.simulation.lyapunov import neighbours_rtol
-from gudgeon.studies.ensemble.libraries import method_in
+from gudgeon.simulation.lyapunov import limit_rtol_of_neighbours
+from gudgeon.studies.ensemble.libraries import choose_method
 from gudgeon.studies.ensemble.notes import collect_guess_notes
-from gudgeon.studies.ensemble.numbers import ROUNDING, check_expression, evaluate_for_runs
+from gudgeon.studies.ensemble.parameter_values import ROUNDING, check_expression, evaluate_for_runs
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Measure, StudyFile
@@ -35,32 +35,34 @@ if TYPE_CHECKING:
 
 WHOLE = "run"  # in the place of a section
 OF_SECTION = ("lyapunov_per_return", "motion", "motion_confidence")
-FOLLOWED: Mapping[str, str] = {"lyapunov": "1/s", "lyapunov_error": "1/s", "believable": "s"} | dict.fromkeys(
-    OF_SECTION, ""
-)  # with their units
+NEIGHBOUR_STATISTICS: Mapping[str, str] = {
+    "lyapunov": "1/s",
+    "lyapunov_error": "1/s",
+    "believable": "s",
+} | dict.fromkeys(OF_SECTION, "")  # with their units
 KINDS: Mapping[str, float] = {QUASI: 0.0, CHAOTIC: -1.0, UNDECIDED: math.nan}  # a periodic motion is its period
 KINDS_TOLD = "its period in returns, 0: quasi-periodic, -1: chaotic, NaN: undecided"
 
 
-def check_followed(study: StudyFile, source: KernelSource) -> None:
+def check_neighbour_measures(study: StudyFile, source: KernelSource) -> None:
     """Check the measures of neighbouring trajectories (Lyapunov exponent, predictability, kind of motion) of a study.
 
     Raises BadValueError at the measure for a study with wear, a predictability with fixed steps, or a statistic of
     returns without a section; an InputError for a section that is neither an event nor a period.
     """
-    for one in (one for one in study.measures if one.statistic in FOLLOWED):
-        where, owner = one.of.where, f"measures.{one.name}"
+    for measure in (measure for measure in study.measures if measure.statistic in NEIGHBOUR_STATISTICS):
+        where, owner = measure.of.where, f"measures.{measure.name}"
         if study.wear is not None:
             message = f"{owner}: a neighbour is followed beside circles, not beside contours that wear"
             raise BadValueError(message, where, "leave out wear:, or this measure")
-        if one.statistic == "believable" and (study.step is not None or study.method == "rk4"):
+        if measure.statistic == "believable" and (study.step is not None or study.method == "rk4"):
             message = f"{owner}: what a fixed step errs by is not known"
             raise BadValueError(message, where, "expected a method that chooses its step, by rtol")
-        if one.of == WHOLE and one.statistic in OF_SECTION:
-            message = f"{owner}: {one.statistic.replace('_', ' ')} is of returns to a section"
+        if measure.of == WHOLE and measure.statistic in OF_SECTION:
+            message = f"{owner}: {measure.statistic.replace('_', ' ')} is of returns to a section"
             raise BadValueError(message, where, "expected an event of the file, or a period: 2*pi/omega")
-        if one.of != WHOLE and not _is_event_section(one, source):
-            _check_period(one, source)
+        if measure.of != WHOLE and not _is_event_section(measure, source):
+            _check_period(measure, source)
 
 
 def _is_event_section(measure: Measure, source: KernelSource) -> bool:
@@ -70,9 +72,9 @@ def _is_event_section(measure: Measure, source: KernelSource) -> bool:
 
 def _check_period(measure: Measure, source: KernelSource) -> None:
     """Raise an InputError unless the section of a measure is an expression with the dimension of time."""
-    from gudgeon.generator.study.spec import Written
+    from gudgeon.generator.study.spec import ParsedExpression
 
-    written = Written(parse(measure.of, measure.of.where), measure.of)
+    written = ParsedExpression(parse(measure.of, measure.of.where), measure.of)
     try:
         check_expression(source, written, TIME, {"t_end": TIME})
     except InputError as error:
@@ -81,7 +83,7 @@ def _check_period(measure: Measure, source: KernelSource) -> None:
         raise type(error)(error.message, error.where, hint) from None
 
 
-def follow(
+def measure_neighbours(
     simulation: Simulation, job: Job, table: Table, t_last: Array, failures: list[str], progress: Progress | None
 ) -> dict[str, Array]:
     """Compute the measures of neighbouring trajectories of all runs that have not failed, (n,) by name.
@@ -90,10 +92,10 @@ def follow(
     are spread over threads. All values are NaN in a scene without degrees of freedom; the result is empty without such
     measures.
     """
-    measures = [one for one in job.expected.measures if one.statistic in FOLLOWED]
-    found = {one.name: np.full(job.n, np.nan) for one in measures}
+    measures = [measure for measure in job.expected.measures if measure.statistic in NEIGHBOUR_STATISTICS]
+    values = {measure.name: np.full(job.n, np.nan) for measure in measures}
     if not measures or simulation.source.degrees_of_freedom <= 0:
-        return found
+        return values
     runs = [i for i in range(job.n) if not failures[i]]
     computation = _NeighbourComputation(simulation, job, table, t_last, progress)
     with ThreadPoolExecutor(job.threads or available_threads(), thread_name_prefix="gudgeon") as pool:
@@ -102,8 +104,8 @@ def follow(
                 failures[i] = values_or_reason
             else:
                 for name, value in values_or_reason.items():
-                    found[name][i] = value
-    return found
+                    values[name][i] = value
+    return values
 
 
 class _NeighbourComputation:
@@ -115,7 +117,7 @@ class _NeighbourComputation:
         """Store the job, its parameters, and the end of each run, t_last or the requested end."""
         self.simulation, self.job, self.table, self.progress = simulation, job, table, progress
         self.error = RTOL if job.expected.rtol is None else job.expected.rtol
-        self.rtol = neighbours_rtol(simulation.source, job.expected.rtol)
+        self.rtol = limit_rtol_of_neighbours(simulation.source, job.expected.rtol)
         is_cut = t_last < table.t_end * (1.0 - ROUNDING)
         self.t_last = np.where(is_cut, t_last, table.t_end)
 
@@ -130,13 +132,13 @@ class _NeighbourComputation:
             self.simulation.source, self.job.first
         ):  # notes of the run itself are reported already
             try:
-                for one in measures:
-                    key = (str(one.of), one.window)
+                for measure in measures:
+                    key = (str(measure.of), measure.window)
                     if key not in followed:
-                        followed[key] = self._compute_lyapunov(i, one)
-                    values[one.name] = _read_statistic(one.statistic, followed[key], self.error)
+                        followed[key] = self._compute_lyapunov(i, measure)
+                    values[measure.name] = _read_statistic(measure.statistic, followed[key], self.error)
             except GudgeonError as error:
-                return f"{one.name}: {error}"
+                return f"{measure.name}: {error}"
         return values
 
     def _compute_lyapunov(self, i: int, measure: Measure) -> Lyapunov | None:
@@ -145,20 +147,22 @@ class _NeighbourComputation:
         None if an event ended the run before the window or before one period of the section. Raises GudgeonError.
         """
         table, expected, source = self.table, self.job.expected, self.simulation.source
-        begin, end = (None if one is None else float(one[i]) for one in table.spans.get(measure.window, (None, None)))
+        begin, end = (
+            None if limit is None else float(limit[i]) for limit in table.spans.get(measure.window, (None, None))
+        )
         last, section = float(self.t_last[i]), self._resolve_section(i, measure)
         shortest = section if isinstance(section, float) else 0.0
         if last < table.t_end[i] and last - max(begin or 0.0, 0.0) <= shortest:
             return None
         parameters = {
             name: value if isinstance(value, str) else float(value)
-            for name, value in ((name, own[i]) for name, own in table.columns.items())
+            for name, value in ((name, column[i]) for name, column in table.columns.items())
         }
         return self.simulation.lyapunov(
             last if end is None else min(end, last),
             section=section,
             skip=max(begin or 0.0, 0.0),
-            method=method_in(source, expected.method),
+            method=choose_method(source, expected.method),
             rtol=self.rtol,
             parameters=parameters,
             step=None if table.step is None else float(table.step[i]),
@@ -166,17 +170,19 @@ class _NeighbourComputation:
         )
 
     def _resolve_section(self, i: int, measure: Measure) -> str | float | None:
-        """Return the section of a measure for run i: None for the whole motion, the name of an event, or a period (s).
+        """Return the section of a measure for run i: None for the whole motion, the name of an event, or a period
+        (s).
         """
         if measure.of == WHOLE:
             return None
         if _is_event_section(measure, self.simulation.source):
             return str(measure.of)
-        expr, known = parse(measure.of, measure.of.where), {"t_end": self.table.t_end}
-        return float(evaluate_for_runs(self.simulation.source, expr, self.table.p, known)[i])
+        expr, values_by_name = parse(measure.of, measure.of.where), {"t_end": self.table.t_end}
+        return float(evaluate_for_runs(self.simulation.source, expr, self.table.p, values_by_name)[i])
 
     def _report_progress(self, fraction: float, text: str) -> None:
-        """Call the progress function with fraction 1, so that the caller may cancel; the runs themselves are finished.
+        """Call the progress function with fraction 1, so that the caller may cancel; the runs themselves are
+        finished.
         """
         if self.progress:
             self.progress(1.0, text)

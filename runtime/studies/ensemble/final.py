@@ -1,4 +1,4 @@
-"""Write the dataset of a finished study as one NetCDF-4 file, block by block, so that it need not fit into memory."""
+"""Write the results of a finished study as one NetCDF 4 file, in portions, so that they need not fit into memory."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from gudgeon.files.writing import written
+from gudgeon.files.writing import open_atomic
 from gudgeon.results.batch import Array
 from gudgeon.studies.ensemble.block import Block
-from gudgeon.studies.ensemble.folder import DATASET, StudyFolder, h5py_module
-from gudgeon.studies.ensemble.measures import meaning
-from gudgeon.studies.ensemble.notes import MOST, Note, kind_of, merge_notes
+from gudgeon.studies.ensemble.folder import DATASET, StudyFolder, import_h5py
+from gudgeon.studies.ensemble.measures import describe_measure
+from gudgeon.studies.ensemble.notes import MOST, Note, merge_notes, reduce_to_kind
 from gudgeon.studies.ensemble.plan import Coordinate, Plan
 
 TOGETHER = 1 << 20  # bytes of blocks that are written at once
@@ -29,14 +29,14 @@ def write_dataset(folder: StudyFolder) -> None:
     Raises OutputError, or LookupError for a missing block.
     """
     t, common = _find_common_times(folder)
-    with written(folder.path / DATASET, sync=True) as file:
+    with open_atomic(folder.path / DATASET, sync=True) as file:
         _write_blocks(file, folder, t, common)
 
 
 def _read_blocks(folder: StudyFolder) -> Iterator[Block]:
     """Yield all blocks of a study in order, read from its folder. Raises LookupError for a missing or damaged one."""
     for description in folder.plan.blocks:
-        block = folder.read(description.number)
+        block = folder.read_block(description.number)
         if block is None:
             raise LookupError(f"block {description.number} is gone")
         yield block
@@ -68,14 +68,14 @@ def _concatenate_blocks(blocks: Sequence[Block]) -> Block:
     if len(blocks) == 1:
         return first
     t = first.t
-    if t.ndim > 1 or not all(np.array_equal(one.t, t) for one in blocks):
-        t = np.concatenate([np.broadcast_to(one.t, (len(one.t_last), t.shape[-1])) for one in blocks])
+    if t.ndim > 1 or not all(np.array_equal(block.t, t) for block in blocks):
+        t = np.concatenate([np.broadcast_to(block.t, (len(block.t_last), t.shape[-1])) for block in blocks])
     measures, series = (
-        {name: np.concatenate([getattr(one, of)[name] for one in blocks]) for name in getattr(first, of)}
-        for of in ("measures", "series")
+        {name: np.concatenate([getattr(block, group)[name] for block in blocks]) for name in getattr(first, group)}
+        for group in ("measures", "series")
     )
-    failures = tuple(message for one in blocks for message in one.failures)
-    t_last, notes = np.concatenate([one.t_last for one in blocks]), merge_notes(one.notes for one in blocks)
+    failures = tuple(message for block in blocks for message in block.failures)
+    t_last, notes = np.concatenate([block.t_last for block in blocks]), merge_notes(block.notes for block in blocks)
     return Block(first.number, first.first, measures, failures, t_last, t, series, notes)
 
 
@@ -100,15 +100,20 @@ def _write_blocks(binary_file: BinaryIO, folder: StudyFolder, t: Array, common: 
 
     t (N,): common sample times, or NaN if `common` is False; then the samples are numbered and each run has its times.
     """
-    h5py, plan = h5py_module(), folder.plan
+    h5py, plan = import_h5py(), folder.plan
     kinds: Counter[str] = Counter()
     first: dict[str, int] = {}
     notes: dict[str, Note] = {}
     with h5py.File(binary_file, "w", libver=("earliest", "v110")) as file:
         _write_attributes(file, plan)
-        scales = {one.name: one for one in plan.coordinates if one.over == (one.name,)}
-        for one in [*scales.values(), *(one for one in plan.coordinates if one.name not in scales)]:
-            _write_coordinate(h5py, file, one)
+        scales = {
+            coordinate.name: coordinate for coordinate in plan.coordinates if coordinate.over == (coordinate.name,)
+        }
+        for coordinate in [
+            *scales.values(),
+            *(coordinate for coordinate in plan.coordinates if coordinate.name not in scales),
+        ]:
+            _write_coordinate(h5py, file, coordinate)
         if plan.expected.keep:
             time = np.arange(len(t)) if not common else t
             message = ("time", "s", "time of the sample") if common else ("sample", "", "number of the sample")
@@ -119,7 +124,7 @@ def _write_blocks(binary_file: BinaryIO, folder: StudyFolder, t: Array, common: 
             notes = merge_notes((notes, block.notes))
             for run, why in enumerate(block.failures, block.first):
                 if why:
-                    kinds[kind := kind_of(why)] += 1
+                    kinds[kind := reduce_to_kind(why)] += 1
                     first.setdefault(kind, run)
         frequent = sorted(notes.values(), key=lambda note: (-note.runs, note.run, note.text))[:MOST]
         lines = (*plan.notes, *(_format_note(plan, note) for note in frequent))
@@ -131,9 +136,16 @@ def _write_blocks(binary_file: BinaryIO, folder: StudyFolder, t: Array, common: 
 
 def _format_note(plan: Plan, note: Note) -> str:
     """Return a note as a line: the number of runs that have it, and the first of them with its coordinates."""
-    at = dict(zip(plan.dims, np.unravel_index(note.run, plan.shape) if plan.shape else (), strict=True))
-    own = (one for one in plan.coordinates if one.over and set(one.over) <= {*at} and one.over == one.over[:1])
-    values = [f"{one.name}={_format_value(one.values[at[one.over[0]]])}" for one in own][:MOST_COORDINATES]
+    indices = dict(zip(plan.dims, np.unravel_index(note.run, plan.shape) if plan.shape else (), strict=True))
+    coordinates = (
+        coordinate
+        for coordinate in plan.coordinates
+        if coordinate.over and set(coordinate.over) <= {*indices} and coordinate.over == coordinate.over[:1]
+    )
+    values = [
+        f"{coordinate.name}={_format_value(coordinate.values[indices[coordinate.over[0]]])}"
+        for coordinate in coordinates
+    ][:MOST_COORDINATES]
     such = f" ({', '.join(values)})" if values else ""
     return f"{note.runs} of {plan.runs} runs, such as run {note.run}{such}: {' '.join(note.text.split())}"
 
@@ -172,15 +184,15 @@ def _write_coordinate(h5py: Any, file: Any, coordinate: Coordinate) -> None:
     """
     values = np.asarray(coordinate.values)
     kind = h5py.string_dtype() if values.dtype.kind in "OU" else values.dtype
-    found = file.create_dataset(
+    dataset = file.create_dataset(
         coordinate.name, data=values.astype(object) if kind != values.dtype else values, dtype=kind
     )
-    _set_attributes(found, coordinate.unit, coordinate.meaning)
+    _set_attributes(dataset, coordinate.unit, coordinate.meaning)
     if coordinate.over == (coordinate.name,):
-        found.make_scale(coordinate.name)
+        dataset.make_scale(coordinate.name)
     else:
         for k, name in enumerate(coordinate.over):
-            found.dims[k].attach_scale(file[name])
+            dataset.dims[k].attach_scale(file[name])
 
 
 def _set_attributes(variable: Any, unit: str, meaning: str) -> None:
@@ -196,30 +208,30 @@ def _create_variables(h5py: Any, file: Any, plan: Plan, n_samples: int, has_comm
 
     has_common_times: whether series are over `time`; otherwise over `sample`, with a variable `t`.
     """
-    found: dict[str, Any] = {}
+    variables: dict[str, Any] = {}
 
     def add(name: str, dimensions: tuple[str, ...], kind: Any, unit: str, message: str) -> None:
         """Create one variable over these dimensions, filled with NaN if it is a float."""
         shape = tuple(len(file[dimension]) for dimension in dimensions)
         more = {} if kind is not float else {"fillvalue": np.nan}
-        found[name] = file.create_dataset(name, shape, dtype=kind, **more)
-        _set_attributes(found[name], unit, message)
+        variables[name] = file.create_dataset(name, shape, dtype=kind, **more)
+        _set_attributes(variables[name], unit, message)
         for k, dimension in enumerate(dimensions):
-            found[name].dims[k].attach_scale(file[dimension])
+            variables[name].dims[k].attach_scale(file[dimension])
 
-    for one in plan.expected.measures:
-        add(one.name, plan.dims, float, plan.units[one.name], meaning(one))
+    for measure in plan.expected.measures:
+        add(measure.name, plan.dims, float, plan.units[measure.name], describe_measure(measure))
     add("t_last", plan.dims, float, "s", "where the run ended")
     add("failure", plan.dims, h5py.string_dtype(), "", "why the run failed, empty where it did not")
-    auxiliary = " ".join(one.name for one in plan.coordinates if one.over != (one.name,))
+    auxiliary = " ".join(measure.name for measure in plan.coordinates if measure.over != (measure.name,))
     over = (*plan.dims, "time" if has_common_times else "sample")
     for name in plan.expected.keep:
         add(name, over, float, plan.units[name], f"series {name}")
     if plan.expected.keep and not has_common_times:
         add("t", over, float, "s", "time of the sample")
-    for variable in found.values() if auxiliary else ():
+    for variable in variables.values() if auxiliary else ():
         variable.attrs["coordinates"] = auxiliary  # as CF has it
-    return found
+    return variables
 
 
 def _write_values(variables: dict[str, Any], plan: Plan, block: Block, has_common_times: bool) -> None:
@@ -231,22 +243,22 @@ def _write_values(variables: dict[str, Any], plan: Plan, block: Block, has_commo
         began = ~np.isnan(block.t_last)[:, None]
         values["t"] = np.where(began, np.broadcast_to(block.t, (n, block.t.shape[-1])), np.nan)
     for name, column in values.items():
-        for at, rows in slabs(plan.shape, block.first, block.first + n):
-            own = column[rows.start - block.first : rows.stop - block.first]
-            shape = _compute_slice_shape(plan.shape, at)
+        for index, rows in split_into_boxes(plan.shape, block.first, block.first + n):
+            column_part = column[rows.start - block.first : rows.stop - block.first]
+            shape = _compute_slice_shape(plan.shape, index)
             if column.ndim == 2:
-                variables[name][(*at, slice(0, column.shape[1]))] = own.reshape(*shape, column.shape[1])
+                variables[name][(*index, slice(0, column.shape[1]))] = column_part.reshape(*shape, column.shape[1])
             else:
-                variables[name][at] = own.reshape(shape) if shape or name == "failure" else own[0]
+                variables[name][index] = column_part.reshape(shape) if shape or name == "failure" else column_part[0]
 
 
 def _compute_slice_shape(shape: tuple[int, ...], index: tuple[Any, ...]) -> tuple[int, ...]:
     """Return the lengths of the slices of an index into an array of this shape; integers in it have no length."""
-    slices = (range(length)[one] for one, length in zip(index, shape, strict=True) if isinstance(one, slice))
-    return tuple(len(one) for one in slices)
+    slices = (range(length)[part] for part, length in zip(index, shape, strict=True) if isinstance(part, slice))
+    return tuple(len(part) for part in slices)
 
 
-def slabs(shape: tuple[int, ...], first: int, last: int) -> Iterable[tuple[tuple[Any, ...], slice]]:
+def split_into_boxes(shape: tuple[int, ...], first: int, last: int) -> Iterable[tuple[tuple[Any, ...], slice]]:
     """Yield boxes of an array of this shape that together hold its elements first … last − 1 in C order.
 
     Each is an index (integers and slices) and the slice of flat element numbers that it contains. An array of shape ()
@@ -266,5 +278,5 @@ def slabs(shape: tuple[int, ...], first: int, last: int) -> Iterable[tuple[tuple
             yield (slice(i + bool(low), j), *whole), slice((i + bool(low)) * inner, j * inner)
         parts += [(j, 0, high)] if high else []
     for row, a, b in parts:
-        for at, rows in slabs(shape[1:], a, b):
-            yield (row, *at), slice(row * inner + rows.start, row * inner + rows.stop)
+        for index, rows in split_into_boxes(shape[1:], a, b):
+            yield (row, *index), slice(row * inner + rows.start, row * inner + rows.stop)

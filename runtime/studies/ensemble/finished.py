@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gudgeon.errors import GudgeonError
-from gudgeon.files.writing import written
-from gudgeon.language.argument_checks import names, path
-from gudgeon.language.names import unknown
-from gudgeon.studies.ensemble.claimed import Claimed, read_claims_of
-from gudgeon.studies.ensemble.folder import DATASET, convert_read_errors, h5py_module
+from gudgeon.files.writing import open_atomic
+from gudgeon.language.argument_checks import check_names, check_path
+from gudgeon.language.names import make_unknown_error
+from gudgeon.studies.ensemble.claim_tables import Claimed, read_claims
+from gudgeon.studies.ensemble.folder import DATASET, convert_read_errors, import_h5py
 from gudgeon.studies.ensemble.names import Names, read_names
 
 if TYPE_CHECKING:
@@ -43,8 +43,8 @@ class Study:
 
     def __repr__(self) -> str:
         """Return mechanism, number of runs, dimensions and number of failures in one line."""
-        own = self.dataset["t_last"].sizes
-        sizes = " × ".join(f"{name} {size}" for name, size in own.items())
+        n_runs_by_dim = self.dataset["t_last"].sizes
+        sizes = " × ".join(f"{name} {size}" for name, size in n_runs_by_dim.items())
         failed = f", {self.failed} failed" if self.failed else ""
         return f"<Study of {self.dataset.attrs['mechanism']}: {self.runs} runs{f' ({sizes})' if sizes else ''}{failed}>"
 
@@ -57,11 +57,11 @@ class Study:
         """
         import xarray
 
-        h5py_module()
+        import_h5py()
         with convert_read_errors(path := self.folder / DATASET):
-            found = xarray.open_dataset(path, engine="h5netcdf", decode_times=False, decode_timedelta=False)
+            opened = xarray.open_dataset(path, engine="h5netcdf", decode_times=False, decode_timedelta=False)
         return (
-            found if self._keeps is None else found.load()
+            opened if self._keeps is None else opened.load()
         )  # a temporary folder may be deleted before the dataset is used
 
     @property
@@ -76,9 +76,9 @@ class Study:
         A part has the numbers about it. Raises GudgeonError for a file without claims.
         """
         if self._whole is None:
-            return read_claims_of(self.folder)
-        found = self._whole.claims
-        return found._replace(numbers=found.numbers[found.numbers["part"] == self.folder.name])
+            return read_claims(self.folder)
+        study_claims = self._whole.claims
+        return study_claims._replace(numbers=study_claims.numbers[study_claims.numbers["part"] == self.folder.name])
 
     @cached_property
     def names(self) -> Names:
@@ -126,11 +126,12 @@ class Study:
 
     @property
     def measures(self) -> tuple[str, ...]:
-        """Return the names of the measures: variables over all dimensions of the runs, except `t_last` and `failure`.
+        """Return the names of the measures: variables over all dimensions of the runs, except `t_last` and
+        `failure`.
         """
-        found, others = self.dataset, ("t_last", "failure")
-        own = (name for name, one in found.data_vars.items() if one.dims == found["t_last"].dims)
-        return tuple(str(name) for name in own if name not in others)
+        dataset, others = self.dataset, ("t_last", "failure")
+        names = (name for name, variable in dataset.data_vars.items() if variable.dims == dataset["t_last"].dims)
+        return tuple(str(name) for name in names if name not in others)
 
     def to_dataframe(self, series: Iterable[str] | str = ()) -> pandas.DataFrame:
         """Return a table with a row for each run: varied parameters, all measures, `t_last`, `failure`; SI.
@@ -138,18 +139,22 @@ class Study:
         With names of stored series it has a row for each sample instead. Raises UnknownNameError for a series that the
         study did not store.
         """
-        requested = names(series, "series", "a list of names of kept series")
+        requested = check_names(series, "series", "a list of names of kept series")
         for name in requested:
             if name not in self.dataset.data_vars or name in (*self.measures, "t_last", "failure", "t"):
-                kept = tuple(str(one) for one in self.dataset.data_vars if "." in str(one))
-                raise unknown(f"the study kept no series {name!r}", name, kept)
+                kept = tuple(str(variable) for variable in self.dataset.data_vars if "." in str(variable))
+                raise make_unknown_error(f"the study kept no series {name!r}", name, kept)
         times = ["t"] if requested and "t" in self.dataset else []
-        found = self.dataset[[*times, *requested]] if requested else self.dataset[[*self.measures, "t_last", "failure"]]
-        if not found.sizes:
+        variables = (
+            self.dataset[[*times, *requested]] if requested else self.dataset[[*self.measures, "t_last", "failure"]]
+        )
+        if not variables.sizes:
             import pandas
 
-            return pandas.DataFrame({str(name): [one.values.item()] for name, one in found.variables.items()})
-        return found.to_dataframe().reset_index()
+            return pandas.DataFrame(
+                {str(name): [variable.values.item()] for name, variable in variables.variables.items()}
+            )
+        return variables.to_dataframe().reset_index()
 
     @property
     def plot(self) -> StudyPlot:
@@ -168,7 +173,7 @@ class Study:
         """Write the dataset as one NetCDF file to the path `target`, a copy of the study's own file. Raises
         OutputError.
         """
-        with open(self.folder / DATASET, "rb") as source, written(path(target, "path")) as file:
+        with open(self.folder / DATASET, "rb") as source, open_atomic(check_path(target, "path")) as file:
             while data := source.read(_CHUNK):
                 file.write(data)
 
@@ -250,7 +255,7 @@ class StudyOfParts(Study):
 
         Raises OutputError.
         """
-        with written(path(target, "path")) as file:
+        with open_atomic(check_path(target, "path")) as file:
             file.write(bytes(self.tree.to_netcdf(engine="h5netcdf")))
 
     def _make_part_error(self, request: str) -> GudgeonError:

@@ -1,5 +1,5 @@
-"""Own the folder of a study: manifest, finished blocks, a lock for its one writer. A kill at any moment loses one
-block.
+"""Own the folder of a study on disk: manifest, results of finished runs, and a lock that admits one writer. A kill at
+any moment loses one block.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.errors import GudgeonError, InputError, in_a_line, shortened
-from gudgeon.files.writing import PART, read_regular, telling, written
-from gudgeon.language.argument_checks import message
+from gudgeon.errors import GudgeonError, InputError, escape_line_breaks, shorten_path
+from gudgeon.files.writing import PART, convert_os_errors, open_atomic, read_regular
+from gudgeon.language.argument_checks import shorten_value
 from gudgeon.language.names import LABEL
 from gudgeon.studies.ensemble.block import Block
 from gudgeon.studies.ensemble.notes import Note
@@ -44,7 +44,7 @@ class StudyFolder:
         self.held = 0  # bytes of these
 
     @contextmanager
-    def opened(self, restart: bool) -> Iterator[StudyFolder]:
+    def open_locked(self, restart: bool) -> Iterator[StudyFolder]:
         """Create and lock the folder, check that it belongs to the plan, and yield it; the lock is released at the
         end.
 
@@ -54,12 +54,12 @@ class StudyFolder:
         from filelock import FileLock, Timeout
 
         lock = FileLock(self.path / LOCK)
-        with telling(self.path):
+        with convert_os_errors(self.path):
             self.path.mkdir(parents=True, exist_ok=True)
             try:
                 lock.acquire(timeout=0)
             except Timeout:
-                message = f"another process is at work in {shortened(self.path)}"
+                message = f"another process is at work in {shorten_path(self.path)}"
                 raise InputError(message, hint="wait for it, or name another folder") from None
         try:
             self._prepare_contents(restart)
@@ -75,10 +75,10 @@ class StudyFolder:
         InputError for foreign files or another study.
         """
         file_names = sorted(name for name in os.listdir(self.path) if name != LOCK)
-        old_manifest = manifest(self.path)
+        old_manifest = read_manifest(self.path)
         foreign = [name for name in file_names if not (_BLOCK.fullmatch(name) or PART.fullmatch(name))]
         if old_manifest is None and foreign:
-            message = f"{shortened(self.path)} is no folder of a study: it holds {foreign[0]}"
+            message = f"{shorten_path(self.path)} is no folder of a study: it holds {foreign[0]}"
             raise InputError(message, hint="name another folder")
         for name in file_names:
             if PART.fullmatch(name):  # of a process that was killed
@@ -88,44 +88,44 @@ class StudyFolder:
             if old_manifest.get("said") != self.plan.specified:
                 what = "\n  ".join(_describe_differences(old_manifest.get("said"), self.plan.specified))
                 hint = "begin anew with --restart (restart=True), or name another folder"
-                raise InputError(f"{shortened(self.path)} holds another study:\n  {what}", hint=hint)
+                raise InputError(f"{shorten_path(self.path)} holds another study:\n  {what}", hint=hint)
             if old_manifest.get("blocks") == blocks:
                 return
         for name in [name for name in file_names if name in (MANIFEST, DATASET) or _BLOCK.fullmatch(name)]:
-            with telling(self.path / name):
+            with convert_os_errors(self.path / name):
                 (self.path / name).unlink(missing_ok=True)
         text = json.dumps({"said": self.plan.specified, "blocks": blocks, "plan": self.plan.identity}, indent=1)
-        with written(self.path / MANIFEST, sync=True) as file:
+        with open_atomic(self.path / MANIFEST, sync=True) as file:
             file.write(text.encode())
 
-    def has(self, number: int) -> bool:
+    def has_block(self, number: int) -> bool:
         """Return whether a block exists, is undamaged, and belongs to this plan; the block is read for that."""
-        return self.read(number) is not None
+        return self.read_block(number) is not None
 
-    def there(self) -> int:
+    def count_block_files(self) -> int:
         """Return the number of block files without reading them, for messages; 0 if the folder cannot be listed."""
         try:
             return sum(bool(_BLOCK.fullmatch(name)) for name in os.listdir(self.path))
         except OSError:
             return 0
 
-    def write(self, block: Block) -> None:
+    def write_block(self, block: Block) -> None:
         """Write a block as one file, complete on the disk on return. Raises OutputError.
 
         Small blocks also stay in memory, up to RECENT bytes in total.
         """
         data = block_to_bytes(block, self.plan.digest)
-        with written(self._block_path(block.number), sync=True) as file:
+        with open_atomic(self._get_block_path(block.number), sync=True) as file:
             file.write(data)
         if self.held + block.nbytes <= RECENT:
             self.recent[block.number] = block
             self.held += block.nbytes
 
-    def read(self, number: int) -> Block | None:
+    def read_block(self, number: int) -> Block | None:
         """Return a block, from memory or its file; None if it is missing, damaged or of another plan, so that it is
         run again.
         """
-        path = self._block_path(number)
+        path = self._get_block_path(number)
         if number in self.recent and path.exists():
             return self.recent[number]
         with suppress(OSError, ValueError, KeyError, TypeError, RuntimeError):
@@ -133,19 +133,19 @@ class StudyFolder:
                 return block_from_bytes(data, self.plan, number)
         return None
 
-    def _block_path(self, number: int) -> Path:
+    def _get_block_path(self, number: int) -> Path:
         """Return the path of the file of a block: block-000012.nc."""
         return self.path / f"block-{number:06d}.nc"
 
 
-def manifest(folder: Path) -> dict[str, Any] | None:
+def read_manifest(folder: Path) -> dict[str, Any] | None:
     """Return the manifest study.json of a folder; None if it is missing or is not a JSON mapping."""
     try:
         data = read_regular(folder / MANIFEST)
-        found = None if data is None else json.loads(data)
+        manifest = None if data is None else json.loads(data)
     except (OSError, ValueError, RecursionError):
         return None
-    return found if isinstance(found, dict) else None
+    return manifest if isinstance(manifest, dict) else None
 
 
 def open_parts(path: Path, parts: Sequence[str], restart: bool) -> None:
@@ -153,26 +153,26 @@ def open_parts(path: Path, parts: Sequence[str], restart: bool) -> None:
 
     restart: replace a study without parts. Raises InputError for a folder with other contents, OutputError.
     """
-    with telling(path):
+    with convert_os_errors(path):
         path.mkdir(parents=True, exist_ok=True)
         file_names = [name for name in sorted(os.listdir(path)) if not PART.fullmatch(name)]
-    old_manifest = manifest(path)
+    old_manifest = read_manifest(path)
     if file_names and old_manifest is None:
         raise InputError(
-            f"{shortened(path)} is no folder of a study: it holds {file_names[0]}", hint="name another folder"
+            f"{shorten_path(path)} is no folder of a study: it holds {file_names[0]}", hint="name another folder"
         )
     if old_manifest is not None and "parts" not in old_manifest and not restart:
         hint = "begin anew with --restart (restart=True), or name another folder"
-        raise InputError(f"{shortened(path)} holds a study without parts", hint=hint)
-    with written(path / MANIFEST, sync=True) as file:
+        raise InputError(f"{shorten_path(path)} holds a study without parts", hint=hint)
+    with open_atomic(path / MANIFEST, sync=True) as file:
         file.write(json.dumps({"format": FOLDER_FORMAT, "parts": list(parts)}, indent=1).encode())
 
 
-def part_names(manifest_: Mapping[str, Any]) -> list[str]:
+def list_part_names(manifest_: Mapping[str, Any]) -> list[str]:
     """Return the names of the parts in a manifest; invalid names are left out, and without parts the list is empty."""
     names = manifest_.get("parts")
-    known = names if isinstance(names, list) else []
-    return [name for name in known if isinstance(name, str) and re.fullmatch(LABEL, name)]
+    part_names = names if isinstance(names, list) else []
+    return [name for name in part_names if isinstance(name, str) and re.fullmatch(LABEL, name)]
 
 
 def check_dataset(folder: Path, plan: Any) -> None:
@@ -181,10 +181,10 @@ def check_dataset(folder: Path, plan: Any) -> None:
     plan: digest of the plan, as the manifest has it.
     """
     path = folder / DATASET
-    with convert_read_errors(path), h5py_module().File(path, "r") as file:
-        own = file.attrs["plan"] == plan and len(file["failure"].shape) >= 0
-    if not own:
-        raise InputError(f"{shortened(path)} is of another study", hint="remove it: it is written anew")
+    with convert_read_errors(path), import_h5py().File(path, "r") as file:
+        is_complete = file.attrs["plan"] == plan and len(file["failure"].shape) >= 0
+    if not is_complete:
+        raise InputError(f"{shorten_path(path)} is of another study", hint="remove it: it is written anew")
 
 
 @contextmanager
@@ -193,7 +193,7 @@ def convert_read_errors(path: Path) -> Iterator[None]:
     try:
         yield
     except (OSError, KeyError, ValueError, RuntimeError) as error:
-        message = f"{shortened(path)} cannot be read: {in_a_line(str(error))[:200]}"
+        message = f"{shorten_path(path)} cannot be read: {escape_line_breaks(str(error))[:200]}"
         raise InputError(message, hint="remove it: gudgeon study FILE --out FOLDER writes it anew") from error
 
 
@@ -203,7 +203,9 @@ def _describe_differences(old_inputs: Any, new_inputs: Any) -> list[str]:
     lines = []
     for key in dict.fromkeys([*old, *new]):
         if old.get(key) != new.get(key):
-            old_text, new_text = (message(one[key]) if key in one else "not said" for one in (old, new))
+            old_text, new_text = (
+                shorten_value(manifest[key]) if key in manifest else "not said" for manifest in (old, new)
+            )
             lines.append(f"{key.removeprefix('study.')} was {old_text}, is {new_text}")
     rest = [f"and {len(lines) - _MOST_TOLD} more"] if len(lines) > _MOST_TOLD else []
     return lines[:_MOST_TOLD] + rest
@@ -222,7 +224,7 @@ def _iterate_leaves(node: Any, key: str = "") -> Iterator[tuple[str, Any]]:
 
 
 @cache
-def h5py_module() -> Any:
+def import_h5py() -> Any:
     """Return the module h5py, imported once. Raises GudgeonError if h5py, xarray or h5netcdf is not installed."""
     if not all(map(find_spec, ("h5py", "xarray", "h5netcdf"))):
         raise GudgeonError("studies need xarray and h5py: pip install 'gudgeon[xarray]'")
@@ -236,7 +238,7 @@ def block_to_bytes(block: Block, digest: str) -> bytes:
 
     Measures and end times are one array, failures and notes one array of JSON, since each array costs time.
     """
-    h5py, buffer = h5py_module(), io.BytesIO()
+    h5py, buffer = import_h5py(), io.BytesIO()
     with h5py.File(buffer, "w") as file:
         file.attrs["digest"], file.attrs["number"] = digest, block.number
         notes = {kind: (note.runs, note.run, note.text) for kind, note in block.notes.items()}
@@ -254,12 +256,12 @@ def block_from_bytes(data: bytes, plan: Plan, number: int) -> Block | None:
 
     Raises OSError, ValueError, KeyError or TypeError for damaged bytes.
     """
-    h5py = h5py_module()
+    h5py = import_h5py()
     description = plan.blocks[number]
     with h5py.File(io.BytesIO(data), "r") as file:
         if file.attrs["digest"] != plan.digest or file.attrs["number"] != number:
             return None
-        names, keep = [one.name for one in plan.expected.measures], plan.expected.keep
+        names, keep = [measure.name for measure in plan.expected.measures], plan.expected.keep
         t_last, *measures = _read_array(file, "runs", (1 + len(names), description.runs))
         t, series = np.zeros(0), np.zeros((0, description.runs, 0))
         if keep:
@@ -286,7 +288,9 @@ def block_from_bytes(data: bytes, plan: Plan, number: int) -> Block | None:
 
 def _read_array(file: Any, name: str, shape: tuple[int | None, ...]) -> Any:
     """Return an array of an open file as floats. Raises ValueError unless it has this shape; None: any length."""
-    found = np.asarray(file[name], dtype=float)
-    if len(found.shape) != len(shape) or any(n not in (None, own) for n, own in zip(shape, found.shape, strict=True)):
-        raise ValueError(f"{name} has shape {found.shape}")
-    return found
+    array = np.asarray(file[name], dtype=float)
+    if len(array.shape) != len(shape) or any(
+        n not in (None, length) for n, length in zip(shape, array.shape, strict=True)
+    ):
+        raise ValueError(f"{name} has shape {array.shape}")
+    return array

@@ -1,5 +1,4 @@
-"""Estimate the probability that the next run of each scene shows a claim, from all combinations of runs, and its
-verdict.
+"""Estimate the probability that a further run of a scene confirms a published claim, and derive a verdict.
 
 From few runs the probability is known as an interval only. The verdict is "holds" if the whole interval lies at 0.8 or
 above, "fails" if it lies at 1/3 or below, else "undecided". Ensembles of one distribution therefore contradict each
@@ -34,7 +33,7 @@ class Cell:
     index: tuple[int, ...]
 
 
-Look: TypeAlias = Callable[[int, str], Array]  # number of a check's cell, measure -> values of the runs in it
+ReadMeasure: TypeAlias = Callable[[int, str], Array]  # number of a check's cell, measure -> values of the runs in it
 Runs: TypeAlias = Mapping[Cell, Mapping[str, Array]]  # measure -> (n,)
 
 
@@ -44,7 +43,7 @@ class Check:
 
     cells: tuple[Cell, ...]
     measures: tuple[str, ...]
-    shows: Callable[[Look], Array]
+    meets_condition: Callable[[ReadMeasure], Array]
 
 
 @dataclass(frozen=True)
@@ -103,7 +102,9 @@ def _compute_wilson_bound(p: float, n: float, sign: float, tail_probability: flo
     return min(max((middle + sign * half_width) / (1.0 + z * z / n), 0.0), 1.0)
 
 
-def judged(checks: Sequence[Check], runs: Runs, certain: Container[Cell] = (), again: Container[Cell] = ()) -> Judged:
+def judge_claim(
+    checks: Sequence[Check], runs: Runs, certain: Container[Cell] = (), shared: Container[Cell] = ()
+) -> Judged:
     """Return the verdict on a claim: it holds if each of its checks is likely, and fails if one is unlikely.
 
     A probability is that of independent runs, one of each cell, estimated from all combinations of runs: for two cells
@@ -113,22 +114,22 @@ def judged(checks: Sequence[Check], runs: Runs, certain: Container[Cell] = (), a
     """
     complete_runs = _select_complete_runs(checks, runs)
     chance = math.prod(_evaluate_combinations(group, complete_runs)[0] for group in _group_checks(checks))
-    return _combine_estimates([_estimate_check(check, complete_runs, certain, again) for check in checks], chance)
+    return _combine_estimates([_estimate_check(check, complete_runs, certain, shared) for check in checks], chance)
 
 
-def together(verdicts: Sequence[Judged]) -> tuple[Judged, bool]:
+def merge_verdicts(verdicts: Sequence[Judged]) -> tuple[Judged, bool]:
     """Return the common verdict of several ensembles on one claim, and whether no ensemble rules out the verdict of
     another.
 
     Probabilities are means over the ensembles. Their trials add up, except for shared runs. Without agreement the
     verdict is undecided.
     """
-    mean_chance = math.fsum(one.chance for one in verdicts) / len(verdicts)
+    mean_chance = math.fsum(verdict.chance for verdict in verdicts) / len(verdicts)
     common = _combine_estimates(
-        [_average_estimates(estimates) for estimates in zip(*(one.estimates for one in verdicts), strict=True)],
+        [_average_estimates(estimates) for estimates in zip(*(verdict.estimates for verdict in verdicts), strict=True)],
         mean_chance,
     )
-    agreed = not any(one.verdict in other.denied for one in verdicts for other in verdicts)
+    agreed = not any(verdict.verdict in other.denied for verdict in verdicts for other in verdicts)
     return (common if agreed else replace(common, verdict="undecided")), agreed
 
 
@@ -139,13 +140,13 @@ def _average_estimates(estimates: Sequence[Estimate]) -> Estimate:
     do not.
     """
     p, again = (math.fsum(values) / len(estimates) for values in zip(*((x.p, x.again) for x in estimates), strict=True))
-    separate_variances = [1.0 / one.trials - 1.0 / one.again for one in estimates]
+    separate_variances = [1.0 / estimate.trials - 1.0 / estimate.again for estimate in estimates]
     separate_trials = (
         math.inf if min(separate_variances) <= 0.0 else math.fsum(1.0 / rest for rest in separate_variances)
     )
     trials = math.inf if separate_trials == again == math.inf else 1.0 / (1.0 / separate_trials + 1.0 / again)
-    again_runs = min(one.again_runs for one in estimates)
-    return Estimate(p, trials, min(math.fsum(one.runs for one in estimates), again_runs), again, again_runs)
+    again_runs = min(estimate.again_runs for estimate in estimates)
+    return Estimate(p, trials, min(math.fsum(estimate.runs for estimate in estimates), again_runs), again, again_runs)
 
 
 def _combine_estimates(estimates: Sequence[Estimate], chance: float) -> Judged:
@@ -175,14 +176,14 @@ def _select_complete_runs(checks: Sequence[Check], runs: Runs) -> Runs:
     for check in checks:
         for cell in check.cells:
             measures_by_cell.setdefault(cell, {}).update(dict.fromkeys(check.measures))
-    found = {}
+    complete_runs = {}
     for cell, measures in measures_by_cell.items():
-        own = {name: runs[cell][name] for name in measures}
-        is_complete = np.logical_and.reduce([np.isfinite(values) for values in own.values()])
-        found[cell] = {name: values[is_complete] for name, values in own.items()} | {
+        cell_values = {name: runs[cell][name] for name in measures}
+        is_complete = np.logical_and.reduce([np.isfinite(values) for values in cell_values.values()])
+        complete_runs[cell] = {name: values[is_complete] for name, values in cell_values.items()} | {
             PLACES: np.flatnonzero(is_complete)
         }
-    return found
+    return complete_runs
 
 
 def _estimate_check(check: Check, runs: Runs, certain: Container[Cell], shared: Container[Cell]) -> Estimate:
@@ -193,14 +194,14 @@ def _estimate_check(check: Check, runs: Runs, certain: Container[Cell], shared: 
     """
     p, is_met, selected = _evaluate_combinations([check], runs)
     fractions = {
-        cell: _compute_fractions_by_run(own, is_met, runs[cell][PLACES])
-        for cell, own in selected.items()
+        cell: _compute_fractions_by_run(cell_values, is_met, runs[cell][PLACES])
+        for cell, cell_values in selected.items()
         if cell not in certain
     }
     if not fractions or math.isnan(p):
         return Estimate(p, math.inf)
-    max_trials = sum(int(np.isfinite(own).sum()) for own in fractions.values())
-    shared_fractions = [own for cell, own in fractions.items() if cell in shared]
+    max_trials = sum(int(np.isfinite(cell_values).sum()) for cell_values in fractions.values())
+    shared_fractions = [cell_values for cell, cell_values in fractions.items() if cell in shared]
     return Estimate(
         p,
         *_estimate_trials(p, list(fractions.values()), max_trials),
@@ -229,8 +230,8 @@ def _estimate_trials(p: float, fractions: Sequence[Array], max_trials: int) -> t
     """
     if not fractions:
         return math.inf, math.inf
-    counts = [int(np.isfinite(own).sum()) for own in fractions]
-    variance = math.fsum(_compute_mean_covariance(own, own) for own in fractions)
+    counts = [int(np.isfinite(values).sum()) for values in fractions]
+    variance = math.fsum(_compute_mean_covariance(values, values) for values in fractions)
     if variance <= 0.0:
         return min(counts), min(counts)
     variance += max(
@@ -271,7 +272,7 @@ def _evaluate_combinations(checks: Sequence[Check], runs: Runs) -> tuple[float, 
             cell = check.cells[k]
             return runs[cell][name][selected[cell]]
 
-        is_met = is_met & check.shows(look)
+        is_met = is_met & check.meets_condition(look)
     return float(np.mean(is_met)), is_met, selected
 
 

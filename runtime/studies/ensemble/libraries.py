@@ -1,6 +1,4 @@
-"""Own the libraries of a study's scenes: which it needs, compiled by two processes at once, loaded where its blocks
-run.
-"""
+"""Own the compiled libraries of a study's scenes: compiled by two processes, loaded where the runs are computed."""
 
 from __future__ import annotations
 
@@ -16,12 +14,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from gudgeon.errors import GudgeonError, InputError
-from gudgeon.files.reading import MAX_BYTES, read_beside
+from gudgeon.files.reading import MAX_BYTES, read_table_file
 from gudgeon.integrators.threads import available_threads
-from gudgeon.loading.find import find_mechanism, is_known
+from gudgeon.loading.kernel_sources import find_mechanism, is_source_cached
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.ensemble.workers import begin_worker, law_files
+from gudgeon.studies.ensemble.workers import begin_worker, list_law_files
 from gudgeon.waiting.programs import Programs
 
 if TYPE_CHECKING:
@@ -42,7 +40,7 @@ class Structure(NamedTuple):
     overrides: tuple[tuple[str, str], ...]
 
 
-def mechanism_of(study: StudyFile) -> str:
+def find_study_mechanism(study: StudyFile) -> str:
     """Return the mechanism of a study: the name of a shipped one, or the absolute path of a file.
 
     The file must lie in the folder of the study file or below. Raises an InputError at the mechanism's location in the
@@ -56,7 +54,7 @@ def mechanism_of(study: StudyFile) -> str:
             return name
         if not study.file:
             return str(Path(name).absolute())
-        read_beside(study.file, name, MAX_BYTES)
+        read_table_file(study.file, name, MAX_BYTES)
         return str((Path(study.file).parent / name).absolute())
     except InputError as error:
         message = error.message.replace("the table ", "").replace("path to a table", "path to a mechanism")
@@ -64,36 +62,36 @@ def mechanism_of(study: StudyFile) -> str:
         raise type(error)(message, study.mechanism.where, error.hint if not is_file else hint) from None
 
 
-def structures(study: StudyFile) -> Iterator[tuple[Text, dict[str, Text], tuple[tuple[str, str], ...]]]:
+def iterate_structures(study: StudyFile) -> Iterator[tuple[Text, dict[str, Text], tuple[tuple[str, str], ...]]]:
     """Yield every scene with every combination of options: scene, overrides as texts with locations, and as sorted
     pairs.
     """
     choices = [list(choice.options.values()) for choice in study.choices]
     for scene, selected in itertools.product(study.scenes, itertools.product(*choices)):
-        texts = {address: text for own in selected for address, text in own.items()}
+        texts = {address: text for overrides in selected for address, text in overrides.items()}
         yield scene, texts, tuple(sorted((address, str(text)) for address, text in texts.items()))
 
 
-def origins(study: StudyFile) -> list[Text]:
+def list_origins(study: StudyFile) -> list[Text]:
     """Return the scenes whose series measures of a study subtract, without repetitions."""
-    return list(dict.fromkeys(one.origin for one in study.measures if one.origin is not None))
+    return list(dict.fromkeys(measure.origin for measure in study.measures if measure.origin is not None))
 
 
-def structures_of(studies: Iterable[StudyFile]) -> list[Structure]:
+def list_libraries(studies: Iterable[StudyFile]) -> list[Structure]:
     """Return the libraries that `resolve` loads for these studies, in its order, without repetitions.
 
     A study with an unknown mechanism has none; its error is reported when it is resolved.
     """
-    found: dict[Structure, None] = {}
+    libraries: dict[Structure, None] = {}
     for study in studies:
         try:
-            mechanism = mechanism_of(study)
+            mechanism = find_study_mechanism(study)
         except InputError:  # reported when it is resolved
             continue
-        for scene, _, overrides in structures(study):
-            for name in (*origins(study), scene):
-                found[Structure(mechanism, str(name), overrides)] = None
-    return list(found)
+        for scene, _, overrides in iterate_structures(study):
+            for name in (*list_origins(study), scene):
+                libraries[Structure(mechanism, str(name), overrides)] = None
+    return list(libraries)
 
 
 @contextmanager
@@ -104,13 +102,17 @@ def compile_in_second_process(structures: Sequence[Structure]) -> Iterator[None]
     A process that needs a library that the other is compiling waits for it; they share only the cache. With few new
     libraries, one core or no second process, nothing is started. The process is terminated at the end of the context.
     """
-    missing = [one for one in structures if not is_known(one.mechanism, one.scene, dict(one.overrides))]
+    missing = [
+        structure
+        for structure in structures
+        if not is_source_cached(structure.mechanism, structure.scene, dict(structure.overrides))
+    ]
     with Programs() as programs:
         process = None
         if len(missing) >= FEWEST and available_threads() > 1:
-            arguments = json.dumps([law_files(), missing[: -MOST - 1 : -1]])
+            arguments = json.dumps([list_law_files(), missing[: -MOST - 1 : -1]])
             try:
-                process = programs.begin([sys.executable, "-c", COMPILE_CODE, arguments], None, dict(os.environ))
+                process = programs.start([sys.executable, "-c", COMPILE_CODE, arguments], None, dict(os.environ))
             except OSError:
                 process = None
         try:
@@ -143,13 +145,13 @@ def load_library(mechanism: str, scene: str, overrides: tuple[tuple[str, str], .
 
     Raises InputError if the mechanism's file changed since the study began (sha256).
     """
-    found = load(mechanism, scene, overrides=dict(overrides), quick=False)
-    if found.source.whole_sha256 != sha256:
+    simulation = load(mechanism, scene, overrides=dict(overrides), quick=False)
+    if simulation.source.whole_sha256 != sha256:
         message = f"{mechanism} was edited after the study began"
         raise InputError(message, hint="put it back as it was, or begin anew with --restart")
-    return found
+    return simulation
 
 
-def method_in(source: KernelSource, method: str) -> str:
+def choose_method(source: KernelSource, method: str) -> str:
     """Return the method for a scene: "auto" for a kinematically driven one (dof = 0), else the requested one."""
     return method if source.degrees_of_freedom else "auto"

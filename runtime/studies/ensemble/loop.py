@@ -1,4 +1,4 @@
-"""Run all missing blocks of a study, here or by an executor; one writer stores a block at a time."""
+"""Compute all missing runs of a study, in this process or by an executor; one writer stores the results."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from gudgeon.integrators.threads import POLL_INTERVAL_S, available_threads
 from gudgeon.studies.ensemble.block import Block, run_block
 from gudgeon.studies.ensemble.final import write_dataset
 from gudgeon.studies.ensemble.folder import DATASET, StudyFolder, check_dataset
-from gudgeon.studies.ensemble.workers import Processes, is_lost, max_submitted
+from gudgeon.studies.ensemble.workers import Processes, is_lost_worker, max_submitted
 
 if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Progress
@@ -56,7 +56,7 @@ def finish_study(
     """
     plan, n_futile = folder.plan, 0
     while True:
-        missing = [block for block in plan.blocks if not folder.has(block.number)]
+        missing = [block for block in plan.blocks if not folder.has_block(block.number)]
         if not missing and (folder.path / DATASET).exists():
             with suppress(InputError):  # a damaged one is written anew
                 check_dataset(folder.path, plan.identity)
@@ -70,9 +70,9 @@ def finish_study(
             else:
                 _run_by_executor(folder, missing, study_progress, threads, executor)
         except Exception as error:
-            if not is_lost(error):
+            if not is_lost_worker(error):
                 raise
-            n_futile = 0 if any(folder.has(block.number) for block in missing) else n_futile + 1
+            n_futile = 0 if any(folder.has_block(block.number) for block in missing) else n_futile + 1
             if not isinstance(executor, Processes) or n_futile >= FUTILE:
                 raise _make_lost_worker_error(folder, error) from error
             executor.renew()
@@ -103,7 +103,7 @@ def _run_in_threads(
                 raise KeyboardInterrupt
             study_progress.shares[block.number] = fraction * block.runs
 
-        return run_block(folder.plan.job(block, n_threads), report, folder.plan.parts[block.part].simulation)
+        return run_block(folder.plan.make_block_job(block, n_threads), report, folder.plan.parts[block.part].simulation)
 
     with ThreadPoolExecutor(n_blocks, thread_name_prefix="gudgeon") as pool:
         try:
@@ -122,9 +122,9 @@ def _run_by_executor(
     def submit(block: BlockOf) -> Future[Block]:
         """Submit one block to the executor and return its future."""
         try:
-            return executor.submit(run_block, folder.plan.job(block, threads or 1))
+            return executor.submit(run_block, folder.plan.make_block_job(block, threads or 1))
         except RuntimeError as error:  # one that was shut down, or that cannot
-            if is_lost(error):
+            if is_lost_worker(error):
                 raise
             raise GudgeonError(f"the executor takes no work: {error or type(error).__name__}") from error
 
@@ -152,7 +152,7 @@ def _run_blocks(
                 for block in islice(remaining, max(0, max_running() - len(running))):
                     running[submit(block)] = block
             for future, block in sorted(finished, key=lambda one: one[0].cancelled() or one[0].exception() is not None):
-                folder.write(future.result())  # what is good first: the others raise
+                folder.write_block(future.result())  # what is good first: the others raise
                 study_progress.add(block)
             study_progress.report_progress()
             if not running:
@@ -175,6 +175,6 @@ def _cancel_on_exit(running: dict[Future[Block], BlockOf]) -> Iterator[None]:
 
 def _make_lost_worker_error(folder: StudyFolder, error: Exception) -> GudgeonError:
     """Return the error for a worker that ended early; it reports the number of finished blocks, which are kept."""
-    finished = sum(folder.has(block.number) for block in folder.plan.blocks)
+    finished = sum(folder.has_block(block.number) for block in folder.plan.blocks)
     message = f"a worker ended before its runs did ({type(error).__name__}): {finished} of {len(folder.plan.blocks)}"
     return GudgeonError(f"{message} blocks are there\n  the same call goes on from them")

@@ -10,11 +10,11 @@ import numpy as np
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, InputError, UnknownNameError
 from gudgeon.results.batch import Array
-from gudgeon.results.series import catalogue, check_series
-from gudgeon.results.wear import SlidingRequest, arc
+from gudgeon.results.series import check_series, get_catalogue
+from gudgeon.results.wear import SlidingRequest, compute_shortest_arc
 from gudgeon.simulation.examine import has_known_contact_force
-from gudgeon.studies.ensemble.exponents import FOLLOWED, KINDS_TOLD
-from gudgeon.studies.ensemble.numbers import ROUNDING
+from gudgeon.studies.ensemble.exponents import KINDS_TOLD, NEIGHBOUR_STATISTICS
+from gudgeon.studies.ensemble.parameter_values import ROUNDING
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Measure
@@ -46,35 +46,37 @@ UNITS = {
 }
 
 
-def series_of(measures: tuple[Measure, ...], keep: tuple[str, ...], source: KernelSource) -> list[str]:
+def list_sampled_series(measures: tuple[Measure, ...], keep: tuple[str, ...], source: KernelSource) -> list[str]:
     """Return the names of the series of a scene whose samples are needed, for measures and for stored series.
 
     Names that the scene lacks are left out; measures of contacts, events, steps and neighbours need no samples.
     """
-    known = catalogue(source)
-    others = (*OF_JOINTS, *CROSSINGS, *STEPS, *FOLLOWED)
-    expected = [*(str(one.of) for one in measures if one.statistic not in others), *keep]
-    return [name for name in dict.fromkeys(expected) if name in known]
+    catalogue = get_catalogue(source)
+    others = (*OF_JOINTS, *CROSSINGS, *STEPS, *NEIGHBOUR_STATISTICS)
+    expected = [*(str(measure.of) for measure in measures if measure.statistic not in others), *keep]
+    return [name for name in dict.fromkeys(expected) if name in catalogue]
 
 
-def peak_series_of(measures: tuple[Measure, ...], source: KernelSource) -> list[str]:
+def list_peak_series(measures: tuple[Measure, ...], source: KernelSource) -> list[str]:
     """Return the names of the series of a scene whose peaks over all steps are measured.
 
     Names that the scene lacks are left out, and deviations of the scene from itself, which are 0.
     """
-    known = catalogue(source)
-    expected = (str(one.of) for one in measures if one.statistic in STEPS and one.origin != source.scene)
-    return [name for name in dict.fromkeys(expected) if name in known]
+    catalogue = get_catalogue(source)
+    expected = (
+        str(measure.of) for measure in measures if measure.statistic in STEPS and measure.origin != source.scene
+    )
+    return [name for name in dict.fromkeys(expected) if name in catalogue]
 
 
-def sliding_requests_of(measures: tuple[Measure, ...], source: KernelSource) -> tuple[SlidingRequest, ...]:
+def list_sliding_requests(measures: tuple[Measure, ...], source: KernelSource) -> tuple[SlidingRequest, ...]:
     """Return the requests for sliding loads of the joints of a scene whose wear is measured, without repetitions."""
-    own = _list_joints(source, with_wear=True)
-    expected = (str(one.of) for one in measures if one.statistic in WEAR)
-    return tuple(SlidingRequest(name) for name in dict.fromkeys(expected) if name in own)
+    joints = _list_joints(source, with_wear=True)
+    expected = (str(measure.of) for measure in measures if measure.statistic in WEAR)
+    return tuple(SlidingRequest(name) for name in dict.fromkeys(expected) if name in joints)
 
 
-def unit_of(measure: Measure, source: KernelSource) -> str | None:
+def find_measure_unit(measure: Measure, source: KernelSource) -> str | None:
     """Return the SI unit of a measure in a scene; None if the scene lacks its joint, event or series.
 
     Measures of neighbouring trajectories are lacking without degrees of freedom.
@@ -83,23 +85,24 @@ def unit_of(measure: Measure, source: KernelSource) -> str | None:
         return UNITS[measure.statistic] if measure.of in _list_joints(source, measure.statistic in WEAR) else None
     if measure.statistic in CROSSINGS:
         return UNITS[measure.statistic] if measure.of in _list_events(source) else None
-    if measure.statistic in FOLLOWED:
-        return FOLLOWED[measure.statistic] if source.degrees_of_freedom > 0 else None
-    return catalogue(source)[measure.of].unit if measure.of in catalogue(source) else None
+    if measure.statistic in NEIGHBOUR_STATISTICS:
+        return NEIGHBOUR_STATISTICS[measure.statistic] if source.degrees_of_freedom > 0 else None
+    return get_catalogue(source)[measure.of].unit if measure.of in get_catalogue(source) else None
 
 
-def unknown_of(measure: Measure, source: KernelSource) -> InputError:
-    """Return the error for a measure whose joint, event or series no scene has, with the nearest names of this scene.
+def make_unknown_measure_error(measure: Measure, source: KernelSource) -> InputError:
+    """Return the error for a measure whose joint, event or series no scene has, with the nearest names of this
+    scene.
     """
-    from gudgeon.language.names import unknown_name
+    from gudgeon.language.names import make_unknown_name_error
 
     if measure.statistic in OF_JOINTS:
-        return unknown_name(
+        return make_unknown_name_error(
             "joint with play", measure.of, _list_joints(source, measure.statistic in WEAR), measure.of.where
         )
     if measure.statistic in CROSSINGS:
-        return unknown_name("event", measure.of, _list_events(source), measure.of.where)
-    if measure.statistic in FOLLOWED:
+        return make_unknown_name_error("event", measure.of, _list_events(source), measure.of.where)
+    if measure.statistic in NEIGHBOUR_STATISTICS:
         message = f"scene {source.scene} has no degree of freedom: no difference can grow"
         return BadValueError(message, measure.of.where, "expected a scene whose drives do not decide all of the motion")
     try:
@@ -110,14 +113,17 @@ def unknown_of(measure: Measure, source: KernelSource) -> InputError:
 
 
 def check_origin(measures: Iterable[Measure], source: KernelSource) -> None:
-    """Raise UnknownNameError at a measure whose series the scene to subtract lacks; `source` is that scene."""
-    for one in measures:
-        if one.origin == source.scene and one.of not in catalogue(source):
+    """Raise UnknownNameError at the first measure whose series is missing in `source`, the subtracted scene.
+
+    Measures that subtract another scene, or none, are not checked.
+    """
+    for measure in measures:
+        if measure.origin == source.scene and measure.of not in get_catalogue(source):
             try:
-                check_series(source, [str(one.of)])
+                check_series(source, [str(measure.of)])
             except UnknownNameError as error:
                 message = f"scene {source.scene}: {error.message}"
-                raise UnknownNameError(message, one.of.where, error.hint) from None
+                raise UnknownNameError(message, measure.of.where, error.hint) from None
 
 
 def _list_joints(source: KernelSource, with_wear: bool = False) -> list[str]:
@@ -125,7 +131,7 @@ def _list_joints(source: KernelSource, with_wear: bool = False) -> list[str]:
     return [
         joint.name
         for joint in source.clearances
-        if not with_wear or has_known_contact_force(source, joint) and not joint.at_wall
+        if not with_wear or has_known_contact_force(source, joint) and not joint.is_corner
     ]
 
 
@@ -134,7 +140,7 @@ def _list_events(source: KernelSource) -> list[str]:
     return [event.name for event in source.events]
 
 
-def meaning(measure: Measure) -> str:
+def describe_measure(measure: Measure) -> str:
     """Return a description of a measure: "peak of slider.ax in window last"."""
     message = f"{measure.statistic.replace('_', ' ')} of {measure.of}"
     message = f"{message} ({KINDS_TOLD})" if measure.statistic == "motion" else message
@@ -149,7 +155,9 @@ def measure_runs(batch: Batch, measure: Measure, spans: Spans, origins: Origins)
     lacks the measure's object, and for measures of neighbours, which are computed elsewhere.
     """
     source, none = batch.source, np.full(len(batch), np.nan)
-    if unit_of(measure, source) is None or measure.statistic in FOLLOWED:  # which exponents.py has
+    if (
+        find_measure_unit(measure, source) is None or measure.statistic in NEIGHBOUR_STATISTICS
+    ):  # which exponents.py has
         return none
     begin, end = spans.get(measure.window, (None, None))
     begin = np.full(len(batch), -np.inf) if begin is None else begin
@@ -177,8 +185,8 @@ def _read_step_peaks(batch: Batch, measure: Measure) -> Array:
     """
     if measure.origin is not None and measure.origin == batch.source.scene:
         return np.where(np.asarray(batch.samples) > 0, 0.0, np.nan)
-    found = batch.peak(str(measure.of)) if measure.origin is None else batch.peak_error(str(measure.of))
-    return np.asarray(getattr(found, STEPS[measure.statistic]))
+    peaks = batch.peak(str(measure.of)) if measure.origin is None else batch.peak_error(str(measure.of))
+    return np.asarray(getattr(peaks, STEPS[measure.statistic]))
 
 
 def _compute_bearing_wear(batch: Batch, measure: Measure) -> Array:
@@ -187,9 +195,9 @@ def _compute_bearing_wear(batch: Batch, measure: Measure) -> Array:
     NaN for a run without sliding loads of the joint.
     """
     out = np.full(len(batch), np.nan)
-    for i, found in enumerate(batch.rubbed):
-        for rubbed in (one for one in found if one.requested.joint == measure.of):
-            out[i] = arc(rubbed.load[0]) if measure.statistic == "wear_arc" else rubbed.depth(0).max()
+    for i, loads_of_run in enumerate(batch.rubbed):
+        for rubbed in (loads for loads in loads_of_run if loads.requested.joint == measure.of):
+            out[i] = compute_shortest_arc(rubbed.load[0]) if measure.statistic == "wear_arc" else rubbed.depth(0).max()
     return out
 
 
@@ -203,11 +211,13 @@ def _evaluate_contacts(batch: Batch, measure: Measure, begin: Array, end: Array)
     out = _fill_without_occurrence(batch, is_count, begin)
     for i, impacts in ((i, impacts) for i, impacts in enumerate(batch.impacts) if len(impacts)):
         t_on = impacts["t_on"]
-        own = impacts[(impacts["joint"] == joint) & (t_on >= begin[i]) & (t_on <= end[i])]
+        contacts = impacts[(impacts["joint"] == joint) & (t_on >= begin[i]) & (t_on <= end[i])]
         if is_count:
-            out[i] += len(own)
-        elif len(own):
-            out[i] = own["t_on"].min() if measure.statistic == "first_impact" else np.abs(own["deltadot"]).max()
+            out[i] += len(contacts)
+        elif len(contacts):
+            out[i] = (
+                contacts["t_on"].min() if measure.statistic == "first_impact" else np.abs(contacts["deltadot"]).max()
+            )
     return out
 
 
@@ -234,12 +244,12 @@ def _fill_without_occurrence(batch: Batch, is_count: bool, begin: Array) -> Arra
     return np.where(reached_window & is_count, 0.0, np.nan)
 
 
-def sampled_interval(measures: Iterable[Measure], spans: Spans, runs: Array) -> tuple[Array, Array] | None:
+def find_sampled_interval(measures: Iterable[Measure], spans: Spans, runs: Array) -> tuple[Array, Array] | None:
     """Return begin and end (s) of the interval in which samples of these runs are needed, (n,) each.
 
     None if no measure needs samples, or one needs the whole run.
     """
-    windows = {one.window for one in measures if one.statistic in STATISTICS}
+    windows = {measure.window for measure in measures if measure.statistic in STATISTICS}
     if not (windows and all(windows)):
         return None
     ends = [spans[str(window)] for window in windows]
@@ -271,8 +281,8 @@ def _make_extreme_statistic(
     def statistic(t: Array, x: Array, begin: Array, end: Array) -> Array:
         """Return the reduced value of each run, (n,); NaN for a run without samples in its window."""
         inside = _is_in_window(t, x, begin, end)
-        found = reduce(np.where(inside, change(x), outside), axis=1)
-        return np.asarray(np.where(inside.any(axis=1), found, np.nan))
+        values = reduce(np.where(inside, change(x), outside), axis=1)
+        return np.asarray(np.where(inside.any(axis=1), values, np.nan))
 
     return statistic
 

@@ -1,6 +1,4 @@
-"""Own the texts that a study displays: titles of its names, values as the file writes them, paragraphs; stored as
-JSON.
-"""
+"""Own the texts that a study displays: titles of its quantities, values as the file writes them, descriptions."""
 
 from __future__ import annotations
 
@@ -12,12 +10,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from gudgeon.files.writing import read_regular, written
-from gudgeon.language.plot_units import pretty, raised
-from gudgeon.studies.ensemble.numbers import GEOMETRIC
+from gudgeon.files.writing import open_atomic, read_regular
+from gudgeon.language.plot_units import format_superscript, format_unit
+from gudgeon.studies.ensemble.parameter_values import GEOMETRIC
 
 if TYPE_CHECKING:
-    from gudgeon.generator.study.spec import Numbers
+    from gudgeon.generator.study.spec import ParameterValues
     from gudgeon.studies.ensemble.plan import Plans
 
 FILE = "names.json"
@@ -48,20 +46,24 @@ def _match_quantity(text: str) -> re.Match[str] | None:
     return _QUANTITY.fullmatch(_PI.sub(r"\g<1>1*pi", text.strip()))
 
 
-def as_people_write(text: str) -> str:
+def format_typographically(text: str) -> str:
     """Return a number with unit in typographic form: "3*pi rad/s" as "3π rad/s"; "" for any other text."""
-    found = _match_quantity(text)
-    if found is None:
+    match = _match_quantity(text)
+    if match is None:
         return ""
-    number, power, pi, unit = found.groups()
+    number, power, pi, unit = match.groups()
     number = number[:-1] if pi and number in ("1", "-1") and not power else number
     if power:
-        number = f"10{raised(str(int(power)))}" if float(number) == 1.0 else f"{number}·10{raised(str(int(power)))}"
-    shown = pretty(re.sub(r"^u(?=[a-zA-Z])", "µ", unit))
+        number = (
+            f"10{format_superscript(str(int(power)))}"
+            if float(number) == 1.0
+            else f"{number}·10{format_superscript(str(int(power)))}"
+        )
+    shown = format_unit(re.sub(r"^u(?=[a-zA-Z])", "µ", unit))
     return f"{number.replace('-', '−')}{'π' if pi else ''} {shown}"
 
 
-def _format_spaced_values(numbers: Numbers) -> tuple[str, ...]:
+def _format_spaced_values(numbers: ParameterValues) -> tuple[str, ...]:
     """Return the texts of evenly (or geometrically) spaced values between two texts, in their common unit.
 
     The ends stay as written. Empty if the ends are no quantities in the same unit, or for more than MOST_IN_A_ROW
@@ -79,7 +81,7 @@ def _format_spaced_values(numbers: Numbers) -> tuple[str, ...]:
     return str(numbers.texts[0]), *between, str(numbers.texts[1])
 
 
-def names_of(plans: Plans) -> Names:
+def collect_names(plans: Plans) -> Names:
     """Return the titles, value texts and paragraphs that reports of a study file display.
 
     A coordinate has texts only if the file writes all its values as numbers with units.
@@ -89,10 +91,12 @@ def names_of(plans: Plans) -> Names:
         every: dict[str, tuple[str, ...]] = {str(name): (str(text),) for name, text in plan.study.fixed.items()}
         for axis in plan.study.axes:
             every |= {
-                str(name): _format_spaced_values(own) if own.count else tuple(map(str, own.texts))
-                for name, own in axis.columns.items()
+                str(name): _format_spaced_values(texts_of_column)
+                if texts_of_column.count
+                else tuple(map(str, texts_of_column.texts))
+                for name, texts_of_column in axis.columns.items()
             }
-        shown = {name: tuple(map(as_people_write, texts)) for name, texts in every.items()}
+        shown = {name: tuple(map(format_typographically, texts)) for name, texts in every.items()}
         values[part] = {name: texts for name, texts in shown.items() if texts and all(texts)}
     return Names(plans.file.titles, values, plans.file.about)
 
@@ -102,21 +106,21 @@ def write_names(folder: Path, plans: Plans) -> None:
 
     Raises OutputError.
     """
-    with written(folder / FILE) as file:
-        file.write(json.dumps(names_of(plans)._asdict(), indent=1, ensure_ascii=False).encode())
+    with open_atomic(folder / FILE) as file:
+        file.write(json.dumps(collect_names(plans)._asdict(), indent=1, ensure_ascii=False).encode())
 
 
 def read_names(folder: Path) -> Names:
     """Return the titles and value texts of a study's folder; NONE if names.json is missing or damaged."""
     try:
         data = read_regular(folder / FILE)
-        found = {} if data is None else json.loads(data)
-        titles = {str(name): str(title) for name, title in found.get("titles", {}).items()}
+        document = {} if data is None else json.loads(data)
+        titles = {str(name): str(title) for name, title in document.get("titles", {}).items()}
         values = {
-            part: {name: tuple(map(str, texts)) for name, texts in own.items()}
-            for part, own in found.get("values", {}).items()
+            part: {name: tuple(map(str, texts)) for name, texts in texts_of_part.items()}
+            for part, texts_of_part in document.get("values", {}).items()
         }
-        about = tuple(map(str, found.get("about", ())))
+        about = tuple(map(str, document.get("about", ())))
     except (OSError, ValueError, AttributeError, TypeError, RecursionError):
         return NONE
     return Names(titles, values, about)

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from gudgeon.assembly.guess_warnings import LISTED, NOTED, guess_difference_text, no_nearer_text
+from gudgeon.assembly.guess_warnings import LISTED, NOTED, describe_missing_assembly, format_guess_difference
 from gudgeon.model.choices import is_choice_note
 
 if TYPE_CHECKING:
@@ -31,32 +31,33 @@ class Note:
     text: str
 
 
-def kind_of(message: str) -> str:
-    """Return the kind of a message: its first line without numbers, by which equal notes of many runs are recognised.
+def reduce_to_kind(message: str) -> str:
+    """Return the kind of a message: its first line without numbers, by which equal notes of many runs are
+    recognised.
     """
     return _NUMBER.sub("…", _WITH.sub("", message.partition("\n")[0]))[:200]
 
 
-def gathered(texts_by_run: Iterable[tuple[int, Sequence[str]]]) -> dict[str, Note]:
+def group_notes(texts_by_run: Iterable[tuple[int, Sequence[str]]]) -> dict[str, Note]:
     """Return the notes of runs by kind, from pairs (run, texts); each kind with the number of its runs and the first
     one.
 
     Notes on choices are left out, since coordinates show them.
     """
     noted = ((run, text) for run, texts in texts_by_run for text in texts if not is_choice_note(text))
-    return merge_notes({kind_of(text): Note(1, run, text)} for run, text in noted)
+    return merge_notes({reduce_to_kind(text): Note(1, run, text)} for run, text in noted)
 
 
 def merge_notes(note_tables: Iterable[Mapping[str, Note]]) -> dict[str, Note]:
     """Return the notes of several groups of runs as one table by kind; counts add up, and the first run stays the
     example.
     """
-    found: dict[str, Note] = {}
-    for kind, note in (item for one in note_tables for item in one.items()):
-        before = found.get(kind)
+    merged_notes: dict[str, Note] = {}
+    for kind, note in (item for table in note_tables for item in table.items()):
+        before = merged_notes.get(kind)
         first = note if before is None or note.run < before.run else before
-        found[kind] = Note(note.runs + (before.runs if before else 0), first.run, first.text)
-    return found
+        merged_notes[kind] = Note(note.runs + (before.runs if before else 0), first.run, first.text)
+    return merged_notes
 
 
 @contextmanager
@@ -66,13 +67,16 @@ def collect_guess_notes(source: KernelSource, run: int) -> Iterator[dict[str, No
     This replaces a warning for each block. run: number of the first run of the block, which notes give as example.
     """
     noted: list[Mapping[str, float]] = []
-    found: dict[str, Note] = {}
+    notes: dict[str, Note] = {}
     token = NOTED.set(noted)
     try:
-        yield found
+        yield notes
     finally:
         NOTED.reset(token)
     for name in dict.fromkeys(name for off in noted for name in off):
-        by = [off[name] for off in noted if name in off]
-        text = f"{name} begins {guess_difference_text(name, by[0])} from its guess: {no_nearer_text(source)}; {LISTED}"
-        found[kind_of(text)] = Note(len(by), run, text)
+        deviations = [off[name] for off in noted if name in off]
+        text = (
+            f"{name} begins {format_guess_difference(name, deviations[0])} from its guess: "
+            f"{describe_missing_assembly(source)}; {LISTED}"
+        )
+        notes[reduce_to_kind(text)] = Note(len(deviations), run, text)

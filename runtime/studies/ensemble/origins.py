@@ -1,4 +1,4 @@
-"""Compute the series to subtract: those of another scene with the same parameters, at the samples of each run."""
+"""Compute the series to subtract from those of a study's runs: another scene at the same parameters and times."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.assembly.start import assemble
+from gudgeon.assembly.start import assemble_start
 from gudgeon.errors import GudgeonError, InputError
-from gudgeon.integrators.kinematic import along
+from gudgeon.integrators.kinematic import compute_motion_at
 from gudgeon.integrators.threads import available_threads
-from gudgeon.language.tree import from_json, names
-from gudgeon.model.parameter_sets import given_each, prepare_sets
-from gudgeon.results.batch import Array, evaluation_parts_of
-from gudgeon.results.results import bare
-from gudgeon.results.series import catalogue
+from gudgeon.language.tree import from_json, iterate_names
+from gudgeon.model.parameter_sets import prepare_values_of_runs, read_given_parameters_of_runs
+from gudgeon.results.batch import Array, find_evaluation_parts
+from gudgeon.results.results import make_evaluated_samples
+from gudgeon.results.series import get_catalogue
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.ensemble.libraries import load_library, method_in
+from gudgeon.studies.ensemble.libraries import choose_method, load_library
 from gudgeon.studies.ensemble.measures import STEPS
-from gudgeon.studies.ensemble.numbers import key_of
+from gudgeon.studies.ensemble.parameter_values import find_parameter_key
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
@@ -35,18 +35,24 @@ if TYPE_CHECKING:
 KEPT = 1 << 26  # bytes of series in the cache, which next blocks of a process may need
 
 
-def origins_of(measures: Iterable[Measure], scene: str = "") -> tuple[str, ...]:
+def list_subtracted_scenes(measures: Iterable[Measure], scene: str = "") -> tuple[str, ...]:
     """Return the scenes whose series measures subtract, without repetitions and without `scene` itself."""
-    return tuple(dict.fromkeys(str(one.origin) for one in measures if one.origin is not None and one.origin != scene))
+    return tuple(
+        dict.fromkeys(
+            str(measure.origin) for measure in measures if measure.origin is not None and measure.origin != scene
+        )
+    )
 
 
-def origin_over_steps(measures: Sequence[Measure], source: KernelSource) -> str:
+def find_scene_subtracted_over_steps(measures: Sequence[Measure], source: KernelSource) -> str:
     """Return the scene that measures over all steps subtract in scene `source`; "" if there is none."""
-    own = (one for one in measures if one.statistic in STEPS and one.of in catalogue(source))
-    return next(iter(origins_of(own, source.scene)), "")
+    step_measures = (
+        measure for measure in measures if measure.statistic in STEPS and measure.of in get_catalogue(source)
+    )
+    return next(iter(list_subtracted_scenes(step_measures, source.scene)), "")
 
 
-def origin_of(job: Job, scene: str) -> Simulation:
+def load_subtracted_scene(job: Job, scene: str) -> Simulation:
     """Return the loaded library of another scene with the mechanism and overrides of a job."""
     return load_library(job.mechanism, scene, job.overrides, job.sha256)
 
@@ -57,10 +63,14 @@ def is_passive(source: KernelSource) -> Array:
 
     Lengths or masses that depend on them are entries of p themselves.
     """
-    trees = [json.loads(one.tree) for one in source.written] + list(source.outputs.values())
-    read = {f"parameters.{name.path.removeprefix('parameters.')}" for tree in trees for name in names(from_json(tree))}
-    own = [slot.address.startswith("parameters.") and slot.address not in read for slot in source.slots]
-    return np.array(own + [False] * len(source.derived), dtype=bool)
+    trees = [json.loads(expression.tree) for expression in source.written] + list(source.outputs.values())
+    read = {
+        f"parameters.{name.path.removeprefix('parameters.')}"
+        for tree in trees
+        for name in iterate_names(from_json(tree))
+    }
+    is_unread = [slot.address.startswith("parameters.") and slot.address not in read for slot in source.slots]
+    return np.array(is_unread + [False] * len(source.derived), dtype=bool)
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,15 +111,15 @@ class Recent:
             if key in self._held:
                 return
             self._held[key] = series
-            self._bytes += sum(one.nbytes for one in series.values())
+            self._bytes += sum(array.nbytes for array in series.values())
             while self._bytes > KEPT:
-                self._bytes -= sum(one.nbytes for one in self._held.popitem(last=False)[1].values())
+                self._bytes -= sum(array.nbytes for array in self._held.popitem(last=False)[1].values())
 
 
 _recent, _making = Recent(), Lock()
 
 
-def origin_series(
+def compute_subtracted_series(
     job: Job, table: Table, runs: Array, batch: Batch, failures: list[str]
 ) -> dict[str, dict[str, Array]]:
     """Return for each scene to subtract its series at the samples of these runs, (n, N) by name, NaN where missing.
@@ -117,21 +127,23 @@ def origin_series(
     runs: indices of the batch's runs in the job. A run whose parameters the other scene cannot use is entered in
     `failures`.
     """
-    found: dict[str, dict[str, Array]] = {}
-    expected = [one for one in job.expected.measures if one.statistic not in STEPS]
-    for scene in origins_of(expected, batch.source.scene):
-        simulation = origin_of(job, scene)
-        known = catalogue(simulation.source).keys() & catalogue(batch.source).keys()
-        own = dict.fromkeys(str(one.of) for one in expected if one.origin == scene and one.of in known)
-        if own:
-            found[scene] = _find_series_at_samples(job, simulation, table, runs, batch, list(own), failures)
-    return found
+    series_by_scene: dict[str, dict[str, Array]] = {}
+    expected = [measure for measure in job.expected.measures if measure.statistic not in STEPS]
+    for scene in list_subtracted_scenes(expected, batch.source.scene):
+        simulation = load_subtracted_scene(job, scene)
+        common_names = get_catalogue(simulation.source).keys() & get_catalogue(batch.source).keys()
+        names = dict.fromkeys(
+            str(measure.of) for measure in expected if measure.origin == scene and measure.of in common_names
+        )
+        if names:
+            series_by_scene[scene] = _find_series_at_samples(job, simulation, table, runs, batch, list(names), failures)
+    return series_by_scene
 
 
 def _find_series_at_samples(
     job: Job, simulation: Simulation, table: Table, runs: Array, batch: Batch, names: list[str], failures: list[str]
 ) -> dict[str, Array]:
-    """Return the series `names` of another scene at the samples of these runs, (n, N) each, NaN where missing.
+    """Return the series `iterate_names` of another scene at the samples of these runs, (n, N) each, NaN where missing.
 
     Equal runs are computed once, and the most recent series come from a cache. Kinematically driven scenes are
     computed from the motion alone, others are simulated. Failures of runs are entered in `failures`.
@@ -170,13 +182,14 @@ def _find_series_at_samples(
 
 
 def _build_run_keys(simulation: Simulation, table: Table, runs: Array, times: list[Array]) -> RunKeys:
-    """Return the runs of another scene with the parameters of these runs and the sample times `times`, one array each.
+    """Return the runs of another scene with the parameters of these runs and the sample times `times`, one array
+    each.
     """
     source = simulation.source
-    columns = {key: values[runs] for name, values in table.columns.items() if (key := key_of(source, name))}
+    columns = {key: values[runs] for name, values in table.columns.items() if (key := find_parameter_key(source, name))}
     rows = [{name: _to_python_value(values[i]) for name, values in columns.items()} for i in range(len(runs))]
-    given, is_given = given_each(source, rows)
-    p, _, _ = prepare_sets(simulation.compiled, given, is_given, False)
+    given, is_given = read_given_parameters_of_runs(source, rows)
+    p, _, _ = prepare_values_of_runs(simulation.compiled, given, is_given, False)
     step = table.step[runs] if table.step is not None and source.degrees_of_freedom else None
     return RunKeys(columns, p, np.where(is_passive(source), 0.0, p), tuple(times), step)
 
@@ -197,7 +210,7 @@ def _compute_kinematic(
     source, compiled, parts = (
         simulation.source,
         simulation.compiled,
-        evaluation_parts_of(simulation.source, series_names),
+        find_evaluation_parts(simulation.source, series_names),
     )
     if source.degrees_of_freedom or not runs:
         return {}
@@ -206,18 +219,26 @@ def _compute_kinematic(
         """Return the series of run i; None if they cannot be computed from the motion alone or are not finite."""
         t, p = run_keys.t[i], run_keys.whole[i]
         try:
-            start = assemble(compiled, p)
-            q, v = along(compiled, p, t, start.q, start.v)
+            start = assemble_start(compiled, p)
+            q, v = compute_motion_at(compiled, p, t, start.q, start.v)
             none = np.zeros((len(t), 0))
-            run = bare(source, compiled, p, t, q, v, np.full((len(t), 3), np.nan), none, none.astype(np.int8), parts)
-            found = {name: np.array(run[name]) for name in series_names} if np.isfinite(q).all() and t[0] == 0.0 else {}
+            run = make_evaluated_samples(
+                source, compiled, p, t, q, v, np.full((len(t), 3), np.nan), none, none.astype(np.int8), parts
+            )
+            series_by_run = (
+                {name: np.array(run[name]) for name in series_names} if np.isfinite(q).all() and t[0] == 0.0 else {}
+            )
         except GudgeonError:  # a simulation reports the reason
             return None
-        return found if found and all(np.isfinite(values).all() for values in found.values()) else None
+        return (
+            series_by_run
+            if series_by_run and all(np.isfinite(values).all() for values in series_by_run.values())
+            else None
+        )
 
     with ThreadPoolExecutor(job.threads or available_threads(), thread_name_prefix="gudgeon") as pool:
-        found = dict(zip(runs, pool.map(follow, runs), strict=True))
-    return {i: series for i, series in found.items() if series is not None}
+        series_by_run = dict(zip(runs, pool.map(follow, runs), strict=True))
+    return {i: series for i, series in series_by_run.items() if series is not None}
 
 
 def _simulate_runs(
@@ -231,13 +252,13 @@ def _simulate_runs(
         return {}
     source, is_dynamic = simulation.source, bool(simulation.source.degrees_of_freedom)
     t = [run_keys.t[i] for i in runs]
-    has_common_times = all(np.array_equal(one, t[0]) for one in t)
+    has_common_times = all(np.array_equal(times, t[0]) for times in t)
     try:
         batch = simulation.simulate_many(
             {name: [_to_python_value(values[i]) for i in runs] for name, values in run_keys.columns.items()}
             or [{}] * len(runs),
             output=t[0] if has_common_times else t,
-            method=method_in(source, job.expected.method),
+            method=choose_method(source, job.expected.method),
             rtol=job.expected.rtol if is_dynamic else None,
             step=None if run_keys.step is None else run_keys.step[runs],
             threads=job.threads,
@@ -249,7 +270,7 @@ def _simulate_runs(
         if len(runs) == 1:
             return {runs[0]: str(error)}
         each = [_simulate_runs(job, simulation, run_keys, [i], names) for i in runs]
-        return {i: series for own in each for i, series in own.items()}
+        return {i: series for series_by_run in each for i, series in series_by_run.items()}
     if batch.interrupted:
         raise KeyboardInterrupt
     failed = {failure.run: str(failure.error) for failure in batch.failures}

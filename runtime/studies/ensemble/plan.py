@@ -1,6 +1,4 @@
-"""Own the table of a study's runs, which is never written out: dimensions, parts with one structure each, and their
-blocks.
-"""
+"""Own the plan of a study: the table of its runs over the varied parameters, in blocks for single processes."""
 
 from __future__ import annotations
 
@@ -99,17 +97,17 @@ class Plan:
     @property
     def shape(self) -> tuple[int, ...]:
         """Return the lengths of all dimensions, those of structure first."""
-        return tuple(one.length for one in (*self.structure, *self.numbers))
+        return tuple(coordinate.length for coordinate in (*self.structure, *self.numbers))
 
     @property
     def dims(self) -> tuple[str, ...]:
         """Return the names of all dimensions, those of structure first."""
-        return tuple(one.name for one in (*self.structure, *self.numbers))
+        return tuple(coordinate.name for coordinate in (*self.structure, *self.numbers))
 
     @property
     def each(self) -> int:
         """Return the number of runs of each part."""
-        return math.prod(one.length for one in self.numbers)
+        return math.prod(coordinate.length for coordinate in self.numbers)
 
     @property
     def runs(self) -> int:
@@ -132,23 +130,23 @@ class Plan:
         )
         return tuple(BlockOf(number, *range_) for number, range_ in enumerate(ranges))
 
-    def job(self, block: BlockOf, threads: int | None) -> Job:
+    def make_block_job(self, block: BlockOf, threads: int | None) -> Job:
         """Return the job of a block, which contains all that a process needs to run it; `threads` as in `study`."""
         runs = np.arange(block.first, block.first + block.runs)
-        return self.job_of(block.number, block.part, runs, threads, self.each - block.first - block.runs)
+        return self.make_job(block.number, block.part, runs, threads, self.each - block.first - block.runs)
 
-    def job_of(self, number: int, k: int, runs: Array, threads: int | None, later: int = 0) -> Job:
+    def make_job(self, number: int, k: int, runs: Array, threads: int | None, later: int = 0) -> Job:
         """Return the job of any runs of part k with their parameters and deviations.
 
         number: of the block. runs: indices in the part. threads: None for the number of cores. later: number of runs
         of the part in later blocks.
         """
-        part, shape = self.parts[k], tuple(one.length for one in self.numbers)
+        part, shape = self.parts[k], tuple(coordinate.length for coordinate in self.numbers)
         index = np.unravel_index(runs, shape) if shape else ()
         columns: dict[str, Array] = {name: np.array([value] * len(runs)) for name, value in self.fixed.items()}
-        for one, at in zip(self.numbers, index, strict=True):
-            columns |= {name: values[at] for name, values in one.columns.items()}
-        by_name = {one.name: at for one, at in zip(self.numbers, index, strict=True)}
+        for coordinate, indices in zip(self.numbers, index, strict=True):
+            columns |= {name: values[indices] for name, values in coordinate.columns.items()}
+        by_name = {coordinate.name: indices for coordinate, indices in zip(self.numbers, index, strict=True)}
         relative, absolute = self._select_deviations(by_name, len(runs))
         return Job(
             part.mechanism,
@@ -173,9 +171,9 @@ class Plan:
         """
         if self.deviations is None:
             return {}, {}
-        at = index.get("ensemble", np.zeros(n, dtype=int)), index["start"]
+        cell = index.get("ensemble", np.zeros(n, dtype=int)), index["start"]
         several = self.deviations.relative, self.deviations.absolute
-        relative, absolute = ({name: values[at] for name, values in own.items()} for own in several)
+        relative, absolute = ({name: values[cell] for name, values in ensemble.items()} for ensemble in several)
         return relative, absolute
 
     @cached_property
@@ -231,16 +229,16 @@ def check_size(study: StudyFile) -> None:
     numbers = [(axis.length, axis.where) for axis in study.axes]
     numbers += [(study.draw.count, next(iter(study.draw.numbers)).where)] if study.draw else []
     if study.starts:
-        of = next(name for own in study.starts.ensembles.values() for name in own)
-        numbers.append((study.starts.count * len(study.starts.ensembles), of.where))
+        start_name = next(name for ensemble in study.starts.ensembles.values() for name in ensemble)
+        numbers.append((study.starts.count * len(study.starts.ensembles), start_name.where))
     loaded, runs = math.prod(n for n, _ in structures), math.prod(n for n, _ in [*structures, *numbers])
-    for found, most, several, what in (
+    for count, most, several, what in (
         (loaded, MOST_STRUCTURES, structures, "scenes with their choices, a library each"),
         (runs, MOST_RUNS, [*structures, *numbers], "runs"),
     ):
-        if found > most:
+        if count > most:
             where = max(several, key=lambda one: one[0])[1]
-            raise BadValueError(f"the study has {found} {what}", where, f"expected {most:.0e} at most")
+            raise BadValueError(f"the study has {count} {what}", where, f"expected {most:.0e} at most")
 
 
 def _compute_sha256(value: Any) -> str:

@@ -1,6 +1,4 @@
-"""Resolve a study file to a plan: load its mechanism for each structure, and check every name and unit at its
-location.
-"""
+"""Resolve a study file to a plan of runs: load its mechanism in each variant, and check every name and unit."""
 
 from __future__ import annotations
 
@@ -11,34 +9,40 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.integrators import adaptive
-from gudgeon.language.shown import counted
+from gudgeon.language.text_output import format_count
 from gudgeon.language.units import DIMENSIONLESS, TIME
 from gudgeon.results.batch import Array
-from gudgeon.results.series import catalogue, check_series
-from gudgeon.simulation.arguments import method_of
+from gudgeon.results.series import check_series, get_catalogue
+from gudgeon.simulation.arguments import select_method
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.block import Expected, Job, Table, resolve_wear
-from gudgeon.studies.ensemble.exponents import check_followed
-from gudgeon.studies.ensemble.libraries import mechanism_of, method_in, origins, structures
-from gudgeon.studies.ensemble.measures import check_origin, meaning, series_of, unit_of, unknown_of
-from gudgeon.studies.ensemble.numbers import (
+from gudgeon.studies.ensemble.exponents import check_neighbour_measures
+from gudgeon.studies.ensemble.libraries import choose_method, find_study_mechanism, iterate_structures, list_origins
+from gudgeon.studies.ensemble.measures import (
+    check_origin,
+    describe_measure,
+    find_measure_unit,
+    list_sampled_series,
+    make_unknown_measure_error,
+)
+from gudgeon.studies.ensemble.parameter_values import (
     check_constants,
     check_expression,
     check_finite,
-    in_si,
-    known_slot,
-    real_value,
-    slot_of,
-    values,
+    find_parameter,
+    find_parameter_in_scenes,
+    parse_parameter_value,
+    parse_real_value,
+    parse_values,
 )
 from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Dimension, Part, Plan, check_size
 
 if TYPE_CHECKING:
-    from gudgeon.generator.study.spec import Deviation, Draw, Spread, Starts, StudyFile
+    from gudgeon.generator.study.spec import Deviation, Distribution, Draw, Starts, StudyFile
     from gudgeon.generator.yaml import Text
 
 
@@ -49,7 +53,7 @@ RANDOM, LATIN, HALTON = "random", "latin_hypercube", "halton"
 NORMAL, GEOMETRIC = "normal", "geometric"
 
 
-def resolve(study: StudyFile) -> Plan:
+def resolve_study(study: StudyFile) -> Plan:
     """Load every structure of a study file and return its plan, with all names, units and values checked.
 
     Raises an InputError at its location in the file.
@@ -62,9 +66,12 @@ def resolve(study: StudyFile) -> Plan:
     deviations, start_coordinates, start_dimensions = _resolve_starts(study.starts, sources)
     coordinates += parameter_coordinates + start_coordinates
     expected = _resolve_expected(study, parts)
-    fixed = {str(name): in_si(text, known_slot(sources, name)) for name, text in study.fixed.items()}
+    fixed = {
+        str(name): parse_parameter_value(text, find_parameter_in_scenes(sources, name))
+        for name, text in study.fixed.items()
+    }
     coordinates += [
-        Coordinate(name, (), np.array(value), known_slot(sources, name).unit)
+        Coordinate(name, (), np.array(value), find_parameter_in_scenes(sources, name).unit)
         for name, value in zip(study.fixed, fixed.values(), strict=True)
     ]
     plan = Plan(
@@ -89,10 +96,12 @@ def _resolve_structure(study: StudyFile) -> tuple[list[Dimension], list[Coordina
     """
     named = [("scene", [str(name) for name in study.scenes], "scene of the mechanism")] if not study.one_scene else []
     named += [(choice.name, list(choice.options), "choice of structure") for choice in study.choices]
-    found = [Coordinate(name, (name,), np.array(words, object), "", message) for name, words, message in named]
+    coordinates = [Coordinate(name, (name,), np.array(words, object), "", message) for name, words, message in named]
     if study.one_scene:
-        found.append(Coordinate("scene", (), np.array(str(study.scenes[0]), object), "", "scene of the mechanism"))
-    return [Dimension(name, len(words)) for name, words, _ in named], found
+        coordinates.append(
+            Coordinate("scene", (), np.array(str(study.scenes[0]), object), "", "scene of the mechanism")
+        )
+    return [Dimension(name, len(words)) for name, words, _ in named], coordinates
 
 
 def _load_parts(study: StudyFile, structure: Sequence[Dimension]) -> Iterator[Part]:
@@ -100,9 +109,9 @@ def _load_parts(study: StudyFile, structure: Sequence[Dimension]) -> Iterator[Pa
 
     Scenes that measures subtract are loaded and checked, too. Raises an InputError at its location.
     """
-    mechanism = mechanism_of(study)
-    for scene, texts, overrides in structures(study):
-        for origin in origins(study):
+    mechanism = find_study_mechanism(study)
+    for scene, texts, overrides in iterate_structures(study):
+        for origin in list_origins(study):
             check_origin(study.measures, _load_scene(mechanism, origin, texts, overrides).source)
         yield Part(_load_scene(mechanism, scene, texts, overrides), mechanism, overrides)
 
@@ -121,7 +130,7 @@ def _load_scene(
         file = error.where.file if error.where else ""
         address = file.removeprefix("override of ")
         text = override_texts.get(address) or next(
-            (own for name, own in override_texts.items() if repr(name) in error.message), None
+            (override_text for name, override_text in override_texts.items() if repr(name) in error.message), None
         )
         if file and address not in override_texts:  # a mistake of the mechanism's file
             raise
@@ -129,14 +138,15 @@ def _load_scene(
 
 
 def _resolve_parameters(study: StudyFile, sources: Sequence[KernelSource]) -> tuple[list[Dimension], list[Coordinate]]:
-    """Return dimensions and coordinates of the varied parameters: `parameters:`, `zip:` and `draw:` of the study file.
+    """Return dimensions and coordinates of the varied parameters: `parameters:`, `zip:` and `draw:` of the study
+    file.
     """
     dimensions, coordinates = [], []
     for axis in study.axes:
         columns = {}
         for name, numbers in axis.columns.items():
-            slot = known_slot(sources, name)
-            columns[str(name)] = values(numbers, slot, may_repeat=axis.grouped)
+            slot = find_parameter_in_scenes(sources, name)
+            columns[str(name)] = parse_values(numbers, slot, may_repeat=axis.grouped)
             coordinates.append(Coordinate(str(name), (axis.name,), columns[str(name)], slot.unit, slot.address))
         length = len(next(iter(columns.values())))
         if axis.grouped:
@@ -148,7 +158,7 @@ def _resolve_parameters(study: StudyFile, sources: Sequence[KernelSource]) -> tu
         message = f"point of {study.draw.method}, seed {study.draw.seed}"
         coordinates.append(Coordinate("draw", ("draw",), np.arange(study.draw.count), "", message))
         for name in study.draw.numbers:
-            slot = known_slot(sources, name)
+            slot = find_parameter_in_scenes(sources, name)
             coordinates.append(Coordinate(str(name), ("draw",), columns[str(name)], slot.unit, slot.address))
     return dimensions, coordinates
 
@@ -159,10 +169,10 @@ def _draw_values(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
     Raises BadValueError at its location for invalid ends or deviations, and for values that are not finite.
     """
     points = sample_unit_cube(draw.method, draw.count, len(draw.names), draw.seed)
-    found = {}
+    drawn_values = {}
     for name, spread in draw.numbers.items():
-        slot = known_slot(sources, name)
-        first, second = (real_value(text, slot) for text in spread.ends)
+        slot = find_parameter_in_scenes(sources, name)
+        first, second = (parse_real_value(text, slot) for text in spread.ends)
         where = spread.ends[1].where
         if spread.kind == NORMAL and not second > 0.0:
             raise BadValueError(f"a standard deviation of {second:g}", where, "expected a positive one")
@@ -171,9 +181,9 @@ def _draw_values(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
         if spread.kind not in (NORMAL, "uniform") and not first > 0.0:
             raise BadValueError(f"a geometric spread from {first:g}", spread.ends[0].where, "expected positive ends")
         with np.errstate(over="ignore", invalid="ignore"):
-            own = map_to_distribution(spread, first, second, points[:, draw.names.index(name)])
-            found[str(name)] = check_finite(own, spread.ends[1])
-    return found
+            values = map_to_distribution(spread, first, second, points[:, draw.names.index(name)])
+            drawn_values[str(name)] = check_finite(values, spread.ends[1])
+    return drawn_values
 
 
 def _resolve_starts(
@@ -182,7 +192,7 @@ def _resolve_starts(
     """Return deviations, coordinates and dimensions of perturbed starts; None and empty lists without them."""
     if starts is None:
         return None, [], []
-    names = sorted({str(name): name for own in starts.ensembles.values() for name in own}.values())
+    names = sorted({str(name): name for ensemble in starts.ensembles.values() for name in ensemble}.values())
     points, ensembles = draw_deviations(starts, list(map(str, names))), list(starts.ensembles.values())
     ensemble_dimension = ("ensemble",) if starts.named else ()
     deviations_ = Deviations({}, {})
@@ -199,7 +209,7 @@ def _resolve_starts(
         named = np.array(list(starts.ensembles), object)
         coordinates.append(Coordinate("ensemble", ensemble_dimension, named, "", "ensemble of starts"))
     for k, name in enumerate(names):
-        slot = known_slot(sources, name)
+        slot = find_parameter_in_scenes(sources, name)
         for relative, column in ((True, deviations_.relative), (False, deviations_.absolute)):
             sizes = _parse_deviation_sizes(
                 ensembles, name, replace(slot, unit="", dimension=(0, 0, 0)) if relative else slot, relative
@@ -226,7 +236,7 @@ def _resolve_starts(
 
 
 def _parse_deviation_sizes(
-    ensembles: Sequence[Mapping[Text, Deviation]], name: Text, slot: Slot, relative: bool
+    ensembles: Sequence[Mapping[Text, Deviation]], name: Text, slot: RuntimeParameter, relative: bool
 ) -> Array | None:
     """Return the size of the deviation of a parameter in each ensemble (SI), 0 for an ensemble without it.
 
@@ -234,10 +244,10 @@ def _parse_deviation_sizes(
     positive.
     """
     sizes, is_found = np.zeros(len(ensembles)), False
-    for k, own in enumerate(ensembles):
-        if name in own and own[name].relative == relative:
-            text, is_found = own[name].size, True
-            sizes[k] = real_value(text, slot)
+    for k, ensemble in enumerate(ensembles):
+        if name in ensemble and ensemble[name].relative == relative:
+            text, is_found = ensemble[name].size, True
+            sizes[k] = parse_real_value(text, slot)
             if not sizes[k] > 0.0:
                 raise BadValueError(f"a size of {str(text)!r}", text.where, "expected a positive one")
     return sizes if is_found else None
@@ -262,13 +272,15 @@ def _resolve_expected(study: StudyFile, parts: Sequence[Part]) -> Expected:
                 check_expression(source, written, dimension, more)
         _check_method(study, source, rtol)
         if source.degrees_of_freedom > 0:
-            check_followed(study, source)
+            check_neighbour_measures(study, source)
     check_constants(study)
     windows = {
         name: tuple(None if end is None else end.expr for end in (window.begin, window.end))
         for name, window in study.windows.items()
     }
-    t_end, output, step = (None if one is None else one.expr for one in (study.t_end, study.output, study.step))
+    t_end, output, step = (
+        None if quantity is None else quantity.expr for quantity in (study.t_end, study.output, study.step)
+    )
     keep, method = tuple(map(str, study.keep)), str(study.method)
     wear = resolve_wear(study.wear, [part.simulation.source for part in parts]) if study.wear else None
     rounds = study.wear.rounds if study.wear else 0
@@ -280,20 +292,20 @@ def _check_method(study: StudyFile, source: KernelSource, rtol: float | None) ->
 
     Settings of a kinematically driven scene are ignored.
     """
-    method, where = method_in(source, str(study.method)), study.method.where
+    method, where = choose_method(source, str(study.method)), study.method.where
     moves = bool(source.degrees_of_freedom)
     fixed, rtol = moves and study.step is not None, rtol if moves else None
     try:
-        selected = method_of(source, method, fixed)
+        selected = select_method(source, method, fixed)
         where = study.rtol.where if study.rtol is not None else where
-        adaptive.tolerance(rtol, selected, fixed)
+        adaptive.parse_tolerance(rtol, selected, fixed)
     except InputError as error:
         raise type(error)(f"scene {source.scene}: {error.message}", where, error.hint) from None
 
 
 def _parse_tolerance(text: Text) -> float:
     """Return the value of the text of `rtol`. Raises an InputError at the text."""
-    return real_value(text, Slot("rtol", "", 0.0, False, (0, 0, 0)))
+    return parse_real_value(text, RuntimeParameter("rtol", "", 0.0, False, (0, 0, 0)))
 
 
 def _resolve_units(study: StudyFile, sources: Sequence[KernelSource]) -> dict[str, str]:
@@ -301,43 +313,48 @@ def _resolve_units(study: StudyFile, sources: Sequence[KernelSource]) -> dict[st
 
     Raises UnknownNameError at the name for a measure or series that no scene has.
     """
-    found = {}
+    unit_by_name = {}
     for measure in study.measures:
-        units = [unit for source in sources if (unit := unit_of(measure, source)) is not None]
+        units = [unit for source in sources if (unit := find_measure_unit(measure, source)) is not None]
         if not units:
-            raise unknown_of(measure, sources[-1])
-        found[measure.name] = units[0]
+            raise make_unknown_measure_error(measure, sources[-1])
+        unit_by_name[measure.name] = units[0]
     for name in study.keep:
-        known = [catalogue(source)[name].unit for source in sources if name in catalogue(source)]
-        if not known:
+        known_units = [get_catalogue(source)[name].unit for source in sources if name in get_catalogue(source)]
+        if not known_units:
             try:
                 check_series(sources[-1], [str(name)])
             except InputError as error:
                 raise type(error)(error.message, name.where, error.hint) from None
-        found[str(name)] = known[0]
-    return found
+        unit_by_name[str(name)] = known_units[0]
+    return unit_by_name
 
 
 def _find_notes(study: StudyFile, sources: Sequence[KernelSource]) -> Iterator[str]:
     """Yield a sentence for each parameter, measure, series or setting of a study that has no effect in some scenes."""
     names = [*study.fixed, *(name for axis in study.axes for name in axis.columns)]
     names += [*study.draw.numbers] if study.draw else []
-    names += [name for own in study.starts.ensembles.values() for name in own] if study.starts else []
+    names += [name for ensemble in study.starts.ensembles.values() for name in ensemble] if study.starts else []
     for axis in study.left_out:
         for name, numbers in axis.columns.items():
             count = numbers.count or len(numbers.texts)
-            yield f"{name} is set for all runs, over the {counted(count, 'value')} that the file has for it"
+            yield f"{name} is set for all runs, over the {format_count(count, 'value')} that the file has for it"
     by_scene = {source.scene: source for source in sources}
     for name in dict.fromkeys(names):
-        if lacking := [scene for scene, source in by_scene.items() if slot_of(source, str(name)) is None]:
+        if lacking := [scene for scene, source in by_scene.items() if find_parameter(source, str(name)) is None]:
             yield f"{name} is no number of scene {', '.join(lacking)}: there the runs are the same whatever it is"
-    if still := [scene for scene, source in by_scene.items() if method_in(source, str(study.method)) != study.method]:
+    if still := [
+        scene for scene, source in by_scene.items() if choose_method(source, str(study.method)) != study.method
+    ]:
         yield f"scene {', '.join(still)} has no degree of freedom: it follows its drives, whatever method says"
     for measure in study.measures:
-        if lacking := [scene for scene, source in by_scene.items() if unit_of(measure, source) is None]:
-            yield f"{measure.name}, {meaning(measure)}, is NaN in scene {', '.join(lacking)}, which has no such thing"
+        if lacking := [scene for scene, source in by_scene.items() if find_measure_unit(measure, source) is None]:
+            yield (
+                f"{measure.name}, {describe_measure(measure)}, is NaN in scene {', '.join(lacking)}, "
+                "which has no such thing"
+            )
     for name in study.keep:
-        if lacking := [scene for scene, source in by_scene.items() if name not in catalogue(source)]:
+        if lacking := [scene for scene, source in by_scene.items() if name not in get_catalogue(source)]:
             yield f"{name} is NaN in scene {', '.join(lacking)}, which has no such series"
 
 
@@ -348,13 +365,13 @@ def _size_blocks(plan: Plan, k: int) -> Part:
     Both are estimated from at most LOOKED_AT of its runs.
     """
     runs = np.unique(np.linspace(0, plan.each - 1, min(plan.each, LOOKED_AT)).astype(int))
-    job: Job = plan.job_of(0, k, runs, None)
+    job: Job = plan.make_job(0, k, runs, None)
     counts = Table(plan.parts[k].simulation, job).output
     valid_counts = counts[~np.isnan(counts)] + 1.0
     max_samples, mean_samples = (
         (float(valid_counts.max()), float(valid_counts.mean())) if valid_counts.size else (2.0, 2.0)
     )
-    width = 2 + len(series_of(plan.expected.measures, plan.expected.keep, plan.parts[k].simulation.source))
+    width = 2 + len(list_sampled_series(plan.expected.measures, plan.expected.keep, plan.parts[k].simulation.source))
     block = int(max(1, min(BLOCK, BYTES // (8 * width * max(max_samples, 2.0)))))
     return replace(plan.parts[k], block=block, samples=mean_samples, most=max_samples)
 
@@ -376,7 +393,7 @@ def sample_unit_cube(method: str, count: int, n_dimensions: int, seed: int) -> A
     return np.asarray(qmc.Sobol(n_dimensions, seed=seed).random_base2(math.ceil(math.log2(count)))[:count])
 
 
-def map_to_distribution(spread: Spread, mean_or_low: float, deviation_or_high: float, fractions: Array) -> Array:
+def map_to_distribution(spread: Distribution, mean_or_low: float, deviation_or_high: float, fractions: Array) -> Array:
     """Return the values (SI) at fractions (n,) in [0, 1] of a normal, geometric or uniform distribution.
 
     mean_or_low, deviation_or_high: mean and standard deviation of a normal distribution, else the two ends.

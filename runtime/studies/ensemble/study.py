@@ -10,11 +10,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gudgeon.errors import InputError, InputErrors, shortened, together
-from gudgeon.files.reading import MAX_BYTES, read_named
-from gudgeon.language.argument_checks import flag, function, mapping, path, whole
-from gudgeon.loading.shipped import shipped_study
-from gudgeon.studies.ensemble.claimed import write_claims
+from gudgeon.errors import InputError, InputErrors, combine_errors, shorten_path
+from gudgeon.files.reading import MAX_BYTES, read_user_file
+from gudgeon.language.argument_checks import check_callable, check_flag, check_integer, check_mapping, check_path
+from gudgeon.loading.shipped import find_shipped_study
+from gudgeon.studies.ensemble.claim_tables import write_claims
 from gudgeon.studies.ensemble.estimate import check_needs
 from gudgeon.studies.ensemble.finished import Study, StudyOfParts
 from gudgeon.studies.ensemble.folder import (
@@ -22,14 +22,14 @@ from gudgeon.studies.ensemble.folder import (
     MANIFEST,
     StudyFolder,
     check_dataset,
-    h5py_module,
-    manifest,
+    import_h5py,
+    list_part_names,
     open_parts,
-    part_names,
+    read_manifest,
 )
 from gudgeon.studies.ensemble.loop import finish_study
 from gudgeon.studies.ensemble.names import write_names
-from gudgeon.studies.ensemble.workers import executor_of
+from gudgeon.studies.ensemble.workers import to_executor
 
 if TYPE_CHECKING:
     import distributed
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 MOST_THREADS = 4096
 
 
-def plans_of(
+def resolve_plans(
     study: str | os.PathLike[str] | Mapping[str, Any],
     settings: Mapping[str, float | str] | None = None,
     starts: int | None = None,
@@ -56,17 +56,17 @@ def plans_of(
     from gudgeon.generator.study.parts import MAX_COUNT, MAX_SEED
     from gudgeon.generator.study.read import read_studies
 
-    h5py_module()
-    overrides = {name: str(value) for name, value in mapping(settings, "settings").items()}
-    starts = None if starts is None else whole(starts, "starts", 1, MAX_COUNT)
-    seed = None if seed is None else whole(seed, "seed", 0, MAX_SEED)
+    import_h5py()
+    overrides = {name: str(value) for name, value in check_mapping(settings, "settings").items()}
+    starts = None if starts is None else check_integer(starts, "starts", 1, MAX_COUNT)
+    seed = None if seed is None else check_integer(seed, "seed", 0, MAX_SEED)
     if isinstance(study, Mapping):
-        return _resolve_parts(read_studies(study, "", overrides).begun(starts, seed))
-    file = os.fspath(path(study, "study"))
+        return _resolve_parts(read_studies(study, "", overrides).with_starts(starts, seed))
+    file = os.fspath(check_path(study, "study"))
     if not (os.path.splitext(file)[1] or os.path.dirname(file) or os.path.lexists(file)):
-        file = str(shipped_study(file))
-    data = read_named(file, MAX_BYTES, hint="name a YAML file that begins with format: gudgeon-study/1")
-    return _resolve_parts(read_studies(data, file, overrides).begun(starts, seed))
+        file = str(find_shipped_study(file))
+    data = read_user_file(file, MAX_BYTES, hint="name a YAML file that begins with format: gudgeon-study/1")
+    return _resolve_parts(read_studies(data, file, overrides).with_starts(starts, seed))
 
 
 def _resolve_parts(studies: StudySet) -> Plans:
@@ -74,26 +74,26 @@ def _resolve_parts(studies: StudySet) -> Plans:
 
     Raises the errors of all parts together, without repetitions.
     """
-    from gudgeon.studies.ensemble.claims import known_claims
-    from gudgeon.studies.ensemble.libraries import compile_in_second_process, structures_of
+    from gudgeon.studies.ensemble.claims import resolve_claims
+    from gudgeon.studies.ensemble.libraries import compile_in_second_process, list_libraries
     from gudgeon.studies.ensemble.plan import Plans
-    from gudgeon.studies.ensemble.resolve import resolve
+    from gudgeon.studies.ensemble.resolve import resolve_study
 
     plans: dict[str, Plan] = {}
     errors: list[InputError] = []
-    with compile_in_second_process(structures_of(studies.parts.values())):
+    with compile_in_second_process(list_libraries(studies.parts.values())):
         for name, part in studies.parts.items():
             try:
-                plans[name] = resolve(part)
+                plans[name] = resolve_study(part)
             except InputErrors as error:
                 errors += error.errors
             except InputError as error:
                 errors.append(error)
     different = list({str(error): error for error in errors}.values())
     if different:
-        raise together(different)
-    found = Plans(studies, plans)
-    return replace(found, claims=known_claims(found))
+        raise combine_errors(different)
+    resolved_plans = Plans(studies, plans)
+    return replace(resolved_plans, claims=resolve_claims(resolved_plans))
 
 
 def study(
@@ -121,13 +121,13 @@ def study(
     Raises InputError with its location for a mistake in the study or a folder of another study; OutputError for a full
     disk. Ctrl-C is passed on, and finished blocks stay in the folder.
     """
-    threads = None if threads is None else whole(threads, "threads", 1, MOST_THREADS)
-    pool, progress = executor_of(executor), function(progress, "progress")
-    restart, plans = flag(restart, "restart"), plans_of(study, settings, starts, seed)
+    threads = None if threads is None else check_integer(threads, "threads", 1, MOST_THREADS)
+    pool, progress = to_executor(executor), check_callable(progress, "progress")
+    restart, plans = check_flag(restart, "restart"), resolve_plans(study, settings, starts, seed)
     if folder is None:
         kept = tempfile.TemporaryDirectory(prefix="gudgeon-study-")
         return run_plans(plans, Path(kept.name), threads, pool, progress, restart, kept)
-    return run_plans(plans, Path(path(folder, "folder")), threads, pool, progress, restart)
+    return run_plans(plans, Path(check_path(folder, "folder")), threads, pool, progress, restart)
 
 
 def run_plans(
@@ -155,7 +155,7 @@ def run_plans(
             if progress:
                 progress((before + fraction * runs) / plans.runs, f"{name}: {text}" if name else text)
 
-        with StudyFolder(folder / name, plan).opened(restart) as opened:
+        with StudyFolder(folder / name, plan).open_locked(restart) as opened:
             finish_study(opened, threads, executor, report if progress else None)
         done += plan.runs
     study = StudyOfParts(folder, list(plans.each), keeps) if plans.named else Study(folder, keeps)
@@ -170,15 +170,15 @@ def load_study(folder: str | os.PathLike[str]) -> Study:
 
     Raises InputError for a folder without a study, or with an unfinished or damaged one.
     """
-    folder_path = Path(path(folder, "folder"))
-    if (manifest_ := manifest(folder_path)) is None:
-        raise InputError(f"{shortened(folder_path)} is no folder of a study: it has no {MANIFEST}")
-    if parts := part_names(manifest_):
+    folder_path = Path(check_path(folder, "folder"))
+    if (manifest_ := read_manifest(folder_path)) is None:
+        raise InputError(f"{shorten_path(folder_path)} is no folder of a study: it has no {MANIFEST}")
+    if parts := list_part_names(manifest_):
         for name in parts:
             load_study(folder_path / name)
         return StudyOfParts(folder_path, parts)
     if not (folder_path / DATASET).is_file():
-        message = f"the study in {shortened(folder_path)} is not finished"
+        message = f"the study in {shorten_path(folder_path)} is not finished"
         raise InputError(message, hint="gudgeon study FILE --out FOLDER goes on with it")
     check_dataset(folder_path, manifest_.get("plan"))
     return Study(folder_path)

@@ -1,4 +1,4 @@
-"""Own the executors of blocks: local processes, a cluster of dask, any executor of concurrent.futures."""
+"""Own the executors of a study's runs: local processes, a cluster of dask, any executor of concurrent.futures."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from multiprocessing import get_context, parent_process
 from threading import Thread
 from typing import Any
 
-from gudgeon.errors import GudgeonError, InputError, in_a_line
-from gudgeon.language.argument_checks import instance
+from gudgeon.errors import GudgeonError, InputError, escape_line_breaks
+from gudgeon.language.argument_checks import check_instance
 
 AHEAD = 2  # blocks for each worker that wait or run
 UNKNOWN = 4  # assumed workers of an executor whose number is not known
@@ -77,16 +77,16 @@ def _end_with_parent() -> None:
         os._exit(1)
 
 
-def executor_of(executor: Any) -> Executor | None:
+def to_executor(executor: Any) -> Executor | None:
     """Return an executor of concurrent.futures: the argument itself, or that of a dask Client; None for None.
 
     Raises BadValueError for anything else.
     """
     distributed = sys.modules.get("distributed")
     if distributed is not None and isinstance(executor, distributed.Client):
-        found: Executor = executor.get_executor(pure=False)
-        return found
-    return None if executor is None else instance(executor, "executor", Executor)
+        pool_executor: Executor = executor.get_executor(pure=False)
+        return pool_executor
+    return None if executor is None else check_instance(executor, "executor", Executor)
 
 
 def max_submitted(executor: Executor) -> int:
@@ -100,7 +100,7 @@ def max_submitted(executor: Executor) -> int:
     return AHEAD * max(1, UNKNOWN if count is None else count)
 
 
-def is_lost(error: BaseException) -> bool:
+def is_lost_worker(error: BaseException) -> bool:
     """Return whether an error means that a worker process ended before its work did."""
     distributed = sys.modules.get("distributed")
     killed = (distributed.KilledWorker,) if distributed is not None else ()
@@ -108,7 +108,7 @@ def is_lost(error: BaseException) -> bool:
 
 
 @contextmanager
-def workers(count: int | None, cluster: str | None) -> Iterator[Executor | None]:
+def open_workers(count: int | None, cluster: str | None) -> Iterator[Executor | None]:
     """Yield an executor with `count` processes, or of the dask cluster at the address `cluster`; None for neither.
 
     It is shut down at the end of the context. Raises InputError for both or no answer, GudgeonError without dask.
@@ -116,16 +116,16 @@ def workers(count: int | None, cluster: str | None) -> Iterator[Executor | None]
     if count is not None and cluster is not None:
         raise InputError("--workers and --dask: a cluster has its own workers", hint="give one of them")
     if count is not None:
-        with Processes(count, law_files()) as executor:
+        with Processes(count, list_law_files()) as executor:
             yield executor
     elif cluster is not None:
         with _connect_to_cluster(cluster) as client:
-            yield executor_of(client)
+            yield to_executor(client)
     else:
         yield None
 
 
-def law_files() -> tuple[str, ...]:
+def list_law_files() -> tuple[str, ...]:
     """Return the files of the user-defined laws that are registered in this process."""
     module = sys.modules.get("gudgeon.generator.kinds.laws.registered")
     return () if module is None else tuple(origin.file for origin in module.ORIGINS.values() if origin.file)
@@ -148,7 +148,10 @@ def _connect_to_cluster(address: str) -> Iterator[Any]:
             address, timeout=PATIENCE, set_as_default=False
         )  # otherwise other code would use a failed client
     except (OSError, ValueError, TypeError) as error:
-        message = f"--dask: no scheduler answers at {in_a_line(address)[:100]}: {in_a_line(str(error))[:200]}"
+        message = (
+            f"--dask: no scheduler answers at {escape_line_breaks(address)[:100]}: "
+            f"{escape_line_breaks(str(error))[:200]}"
+        )
         raise InputError(message, hint="expected an address as `dask scheduler` prints it, tcp://HOST:8786") from error
     try:
         yield client

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.integrators.peers.driver import NAMES
-from gudgeon.language.shown import path_text, print_json
+from gudgeon.language.text_output import format_path, print_json
 from gudgeon.studies.bench import TRUSTED, Row, SceneBench
 from gudgeon.studies.runs import NAN, Setting
-from gudgeon.studies.show.tables import console, new_table, seconds, share, write_files
+from gudgeon.studies.show.tables import format_fraction, format_seconds, make_console, make_table, write_files
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -23,7 +23,7 @@ GOOD_FORCE = 0.01  # largest error of forces, as a fraction of the peak force, i
 TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # bounds of errors in the second table
 
 
-def show_bench(
+def report_bench(
     source: KernelSource,
     scene_benches: Sequence[SceneBench],
     table: Path,
@@ -36,13 +36,13 @@ def show_bench(
     mark_step (s): step of rk4 that is marked in the figure and described; None for none. An OutputError for a file is
     raised after printing.
     """
-    rows = bench_rows(scene_benches)
+    rows = list_bench_rows(scene_benches)
 
     def draw() -> Figure:
         """Return the figure of the results."""
-        from gudgeon.studies.show.bench_figure import bench_figure
+        from gudgeon.studies.show.bench_figure import draw_bench_figure
 
-        return bench_figure(source.title or source.mechanism, scene_benches, mark_step)
+        return draw_bench_figure(source.title or source.mechanism, scene_benches, mark_step)
 
     written, failed = write_files(table, rows, draw)
     _print_bench(source, scene_benches, written, mark_step, as_json)
@@ -64,14 +64,16 @@ def _print_bench(
                 "scene": scene.scene,
                 "t_end_s": scene.t_end,
                 "interrupted": scene.interrupted,
-                "notes": notes(scene, mark_step),
+                "notes": describe_bench(scene, mark_step),
             }
             for scene in scene_benches
         ]
         files = [str(path) for path in written]
-        print_json({"mechanism": source.mechanism, "scenes": scenes, "rows": bench_rows(scene_benches), "files": files})
+        print_json(
+            {"mechanism": source.mechanism, "scenes": scenes, "rows": list_bench_rows(scene_benches), "files": files}
+        )
         return
-    out = console()
+    out = make_console()
     for scene in scene_benches:
         out.print(_format_title(scene), style="bold")
         if scene.methods == ("kinematic",):
@@ -81,7 +83,7 @@ def _print_bench(
         if checks := [row for row in scene.rows if row.setting.method in NAMES]:
             out.print("  cross-checks: others' methods on the full formulation, driven from Python")
             out.print(_build_rows_table(scene, checks, [name for name in COLUMNS if name != "Jacobians"]))
-        for line in notes(scene, mark_step):
+        for line in describe_bench(scene, mark_step):
             out.print(f"  {line}")
         if scene.references:
             out.print(_build_target_table(scene))
@@ -89,20 +91,24 @@ def _print_bench(
         out.print("one right-hand side", style="bold")
         out.print(_build_rhs_table(scene_benches))
     for path in written:
-        out.print(f"wrote {path_text(path)}")
+        out.print(f"wrote {format_path(path)}")
 
 
 def _format_title(scene: SceneBench) -> str:
     """Return the title of a scene's tables: scene, length of the window, its reason, and completeness after Ctrl-C."""
     part = " (partial: interrupted after {} of {} rows)".format(*scene.done) if scene.interrupted else ""
-    return f"{scene.scene}: the first {seconds(scene.t_end)}" + (f" ({scene.why})" if scene.why else "") + part
+    return f"{scene.scene}: the first {format_seconds(scene.t_end)}" + (f" ({scene.why})" if scene.why else "") + part
 
 
 def _build_kinematic_table(scene: SceneBench) -> Table:
     """Return the table of the kinematic method: samples, times, constraint residual; a failed row has its failure."""
-    table = new_table(("samples", "a simulated s", "a sample", "max |Φ| / size"))
+    table = make_table(("samples", "a simulated s", "a sample", "max |Φ| / size"))
     for row in scene.rows:
-        cells = (seconds(row.seconds), seconds(row.seconds * row.setting.value), _format_error(row.error.motion))
+        cells = (
+            format_seconds(row.seconds),
+            format_seconds(row.seconds * row.setting.value),
+            _format_error(row.error.motion),
+        )
         table.add_row(f"{row.samples:,}", *(cells if not row.failure else (row.failure, "", "")))
     return table
 
@@ -116,24 +122,28 @@ def _build_rows_table(scene: SceneBench, rows: Sequence[Row], columns: Sequence[
     """
     from rich.text import Text
 
-    table = new_table(columns)
+    table = make_table(columns)
     before = ""
     for row in rows:
         method = row.setting.method if row.setting.method != before else ""
         before = row.setting.method
         if row.failure:
-            table.add_row(method, str(row.setting), Text("fails", "red"), Text(f"at {seconds(row.failed_at)}", "red"))
+            table.add_row(
+                method, str(row.setting), Text("fails", "red"), Text(f"at {format_seconds(row.failed_at)}", "red")
+            )
             continue
         errors = (_format_error_cell(scene, m, getattr(row.error, m)) for m in ("motion", "path", "force"))
         jacobians = [f"{row.jacobians:,}" if row.jacobians else "–"] if "Jacobians" in columns else []
-        time = seconds(row.seconds * scene.t_end)
+        time = format_seconds(row.seconds * scene.t_end)
         table.add_row(method, str(row.setting), time, f"{row.right_hand_sides:,}", *jacobians, *errors)
     return table
 
 
 def _format_error_cell(scene: SceneBench, measure: str, error: float) -> str:
     """Return an error with two digits as a cell, in brackets if the references do not resolve it."""
-    return _format_error(error) if math.isnan(error) or scene.resolved(measure, error) else f"({_format_error(error)})"
+    return (
+        _format_error(error) if math.isnan(error) or scene.is_resolved(measure, error) else f"({_format_error(error)})"
+    )
 
 
 def _format_error(value: float) -> str:
@@ -143,14 +153,14 @@ def _format_error(value: float) -> str:
 
 def _build_target_table(scene: SceneBench) -> Table:
     """Return the table of the least run times of the window by which every error is below a bound, by method."""
-    table = new_table(("run time to errors below", *map(_format_error, TARGETS)), left=("run time to errors below",))
+    table = make_table(("run time to errors below", *map(_format_error, TARGETS)), left=("run time to errors below",))
     for method in scene.methods:
-        times = (scene.seconds_to(target, method) * scene.t_end for target in TARGETS)
-        table.add_row(method, *(seconds(x) if x == x else "–" for x in times))
+        times = (scene.find_seconds_to_error(target, method) * scene.t_end for target in TARGETS)
+        table.add_row(method, *(format_seconds(x) if x == x else "–" for x in times))
     return table
 
 
-def notes(scene: SceneBench, mark_step: float | None) -> list[str]:
+def describe_bench(scene: SceneBench, mark_step: float | None) -> list[str]:
     """Return sentences on references, orders of convergence, the largest good step of rk4, `mark_step` and omitted
     rows.
 
@@ -167,17 +177,17 @@ def notes(scene: SceneBench, mark_step: float | None) -> list[str]:
     ]
     if math.isinf(a.motion):
         lines[1] = "one of them fails: nothing confirms the errors"
-    orders = _pair_with_names(*(scene.order(m) for m in ("motion", "path", "force")))
+    orders = _pair_with_names(*(scene.estimate_order(m) for m in ("motion", "path", "force")))
     if text := ", ".join(f"{name} {order:.2f}" for name, order in orders):
         lines.append(f"observed order of rk4: {text}")
     if scene.of("rk4"):
         good = [row for row in scene.of("rk4") if not row.failure and row.error.force < GOOD_FORCE]
         bad = [row.setting.value for row in scene.of("rk4") if row.failure]
         text = str(good[0].setting) if good else "none"
-        line = f"largest step of rk4 with forces within {share(GOOD_FORCE)} of their peak: {text}"
-        lines.append(line + (f"; from {seconds(min(bad))} on the run diverges" if bad else ""))
+        line = f"largest step of rk4 with forces within {format_fraction(GOOD_FORCE)} of their peak: {text}"
+        lines.append(line + (f"; from {format_seconds(min(bad))} on the run diverges" if bad else ""))
     if mark_step is not None:
-        lines.append(f"rk4 at {seconds(mark_step)}: {_describe_step(scene, mark_step)}")
+        lines.append(f"rk4 at {format_seconds(mark_step)}: {_describe_step(scene, mark_step)}")
     return [*lines, *scene.left_out]
 
 
@@ -193,8 +203,8 @@ def _describe_step(scene: SceneBench, step: float) -> str:
     if row is None:
         return "not tested"
     off = (
-        (f"joint forces off by {share(row.error.force)} of their peak", row.error.force),
-        (f"journals' paths by {share(row.error.path)} of c", row.error.path),
+        (f"joint forces off by {format_fraction(row.error.force)} of their peak", row.error.force),
+        (f"journals' paths by {format_fraction(row.error.path)} of c", row.error.path),
     )
     specified = row.failure or ", ".join(text for text, value in off if math.isfinite(value))
     if math.isfinite(scene.contact):
@@ -204,7 +214,7 @@ def _describe_step(scene: SceneBench, step: float) -> str:
 
 def _build_rhs_table(scene_benches: Sequence[SceneBench]) -> Table:
     """Return the table of the times of one right-hand side, a row for each scene and state."""
-    table = new_table(("scene", "state", "time", "operations", "ns an operation"))
+    table = make_table(("scene", "state", "time", "operations", "ns an operation"))
     for scene in scene_benches:
         for rhs in scene.rhs:
             table.add_row(
@@ -217,15 +227,15 @@ def _build_rhs_table(scene_benches: Sequence[SceneBench]) -> Table:
     return table
 
 
-def bench_rows(scene_benches: Sequence[SceneBench]) -> list[dict[str, Any]]:
+def list_bench_rows(scene_benches: Sequence[SceneBench]) -> list[dict[str, Any]]:
     """Return the rows of the CSV file, column name (with SI unit) to value, for all scenes."""
     return [
         {
             "scene": scene.scene,
             "method": row.setting.method,
             "t_end_s": scene.t_end,
-            "step_s": row.setting.value if row.setting.fixed else NAN,
-            "tolerance": NAN if row.setting.fixed else row.setting.value,
+            "step_s": row.setting.value if row.setting.has_fixed_step else NAN,
+            "tolerance": NAN if row.setting.has_fixed_step else row.setting.value,
             "samples": row.samples,
             "seconds": row.seconds * scene.t_end,
             "seconds_per_simulated_second": row.seconds,

@@ -14,11 +14,11 @@ from matplotlib.lines import Line2D
 
 from gudgeon.contract.methods import KINEMATIC, METHODS
 from gudgeon.integrators.peers.driver import NAMES
-from gudgeon.language.shown import figure_title
+from gudgeon.language.text_output import format_figure_title
 from gudgeon.results.figures.plots import COLOURS, IDEAL, STYLE
 from gudgeon.studies.bench import TRUSTED, Row, SceneBench
 from gudgeon.studies.runs import Setting
-from gudgeon.studies.show.tables import seconds, share
+from gudgeon.studies.show.tables import format_fraction, format_seconds
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,7 +29,7 @@ CHECKS = dict(zip(NAMES, ("v", "<", ">", "p", "h", "P", "*"), strict=True))
 GREY, LIGHT = "#666666", {"scipy": "#9a9a9a", "sundials": "#56B4E9"}
 
 
-def bench_figure(title: str, scene_benches: Sequence[SceneBench], mark_step: float | None = None) -> Figure:
+def draw_bench_figure(title: str, scene_benches: Sequence[SceneBench], mark_step: float | None = None) -> Figure:
     """Return the figure of `gudgeon bench`: a row of two axes for each scene, and a common legend.
 
     Scenes without references are left out if another has some. Hollow markers and a shaded band show errors within the
@@ -59,7 +59,7 @@ def bench_figure(title: str, scene_benches: Sequence[SceneBench], mark_step: flo
         doubt = "within the references' own uncertainty"
         handles.append(Line2D([], [], color=GREY, marker="o", mfc="white", ls="", ms=5, label=doubt))
         message = " (partial: interrupted)" if any(scene.interrupted for scene in scene_benches) else ""
-        head = figure_title(f"{title}: run time against error{message}", 110)
+        head = format_figure_title(f"{title}: run time against error{message}", 110)
         picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
         picture.legend(handles=handles, loc="outside lower center", ncols=5, fontsize=8.5)
     return picture
@@ -93,7 +93,7 @@ def _draw_scene(time_axes: Axes, rhs_axes: Axes, scene: SceneBench) -> None:
                 ax.scatter([x_value], [error], s=18 if check else 26, marker=marker, linewidths=1.1, zorder=3, **edge)
     time_axes.set(xscale="log", yscale="log", xlabel="run time of the window [ms]", ylabel="largest error")
     rhs_axes.set(xscale="log", xlabel="right-hand sides" if scene.references else "samples")
-    time_axes.set_title(f"{scene.scene}, the first {seconds(scene.t_end)}", loc="left", fontsize=9.5)
+    time_axes.set_title(f"{scene.scene}, the first {format_seconds(scene.t_end)}", loc="left", fontsize=9.5)
     unresolved_limit = TRUSTED * scene.agreement.largest
     if math.isfinite(unresolved_limit) and unresolved_limit > time_axes.get_ylim()[0]:
         bottom = time_axes.get_ylim()[0]
@@ -106,7 +106,7 @@ def _is_resolved(scene: SceneBench, row: Row) -> bool:
     """Return whether the largest error of a row is resolved by the references; True without references."""
     return (
         any(
-            getattr(row.error, m) == row.error.largest and scene.resolved(m, row.error.largest)
+            getattr(row.error, m) == row.error.largest and scene.is_resolved(m, row.error.largest)
             for m in ("motion", "path", "force")
         )
         or not scene.references
@@ -122,11 +122,11 @@ def _mark_step(time_axes: Axes, rhs_axes: Axes, step: float, scene: SceneBench) 
     if row is None:
         return
     if row.failure or not row.error.largest > 0:
-        text = f"rk4, {seconds(step)}: fails at {seconds(row.failed_at)}"
+        text = f"rk4, {format_seconds(step)}: fails at {format_seconds(row.failed_at)}"
         rhs_axes.set_title(text, loc="right", fontsize=8.5, color=_select_colour("rk4"))
         return
     for ax, x in ((time_axes, row.seconds * scene.t_end * 1e3), (rhs_axes, row.right_hand_sides)):
         ax.plot([x], [row.error.largest], "o", ms=12, mfc="none", mec=IDEAL, mew=1.2, zorder=4)
-    text = f"rk4, {seconds(step)}: forces off by {share(row.error.force)}"
+    text = f"rk4, {format_seconds(step)}: forces off by {format_fraction(row.error.force)}"
     text += f", {scene.contact / step:.1f} steps a contact" if math.isfinite(scene.contact) else ""
     rhs_axes.set_title(text, loc="right", fontsize=8.5, color=_select_colour("rk4"))

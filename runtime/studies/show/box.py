@@ -1,4 +1,4 @@
-"""Print and write the results of `gudgeon map --box`: counts by verdict and reason, the worst points, CSV, a figure."""
+"""Print and write the results of `gudgeon map --box`: numbers of stable and failed runs, the worst points, CSV."""
 
 from __future__ import annotations
 
@@ -10,10 +10,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.language.shown import path_text, print_json
+from gudgeon.language.text_output import format_path, print_json
 from gudgeon.studies.map import VerdictBox
-from gudgeon.studies.show.map import COLOURS, FULL, SIGNS, cell_rows, compared, interruption_text, print_failures
-from gudgeon.studies.show.tables import console, new_table, seconds, share, write_files
+from gudgeon.studies.show.map import (
+    COLOURS,
+    FULL,
+    SIGNS,
+    describe_comparison,
+    describe_interruption,
+    list_cell_rows,
+    print_failures,
+)
+from gudgeon.studies.show.tables import format_fraction, format_seconds, make_console, make_table, write_files
 from gudgeon.studies.verdicts import SEVERITY, Cell, Status
 
 if TYPE_CHECKING:
@@ -24,19 +32,21 @@ WORST = 8  # points that are printed with their command; the others are in the t
 _NUMBER = re.compile(r"(?:[<>] ?)?\d[\d.,]*(?:e[-+]?\d+)?(?: %)?")
 
 
-def show_box(source: KernelSource, file: str, boxes: Sequence[VerdictBox], table: Path, as_json: bool = False) -> None:
+def report_box(
+    source: KernelSource, file: str, boxes: Sequence[VerdictBox], table: Path, as_json: bool = False
+) -> None:
     """Print the verdicts of `gudgeon map --box` (with `as_json` as JSON), and write the table as CSV and the figure
     next to it.
 
     file: mechanism as typed, for the commands that repeat runs. An OutputError for a file is raised after printing.
     """
-    rows = [row for box in boxes for row in cell_rows(box)]
+    rows = [row for box in boxes for row in list_cell_rows(box)]
 
     def draw() -> Figure:
         """Return the figure of the boxes."""
-        from gudgeon.studies.show.box_figure import box_figure
+        from gudgeon.studies.show.box_figure import draw_box_figure
 
-        return box_figure(source.title or source.mechanism, boxes)
+        return draw_box_figure(source.title or source.mechanism, boxes)
 
     written, failed = write_files(table, rows, draw)
     _print_box(source, file, boxes, written, as_json)
@@ -47,10 +57,11 @@ def show_box(source: KernelSource, file: str, boxes: Sequence[VerdictBox], table
 def _print_box(
     source: KernelSource, file: str, boxes: Sequence[VerdictBox], written: Sequence[Path], as_json: bool
 ) -> None:
-    """Print counts, tables of verdicts, the worst points with their commands, and written files; or one JSON document.
+    """Print counts, tables of verdicts, the worst points with their commands, and written files; or one JSON
+    document.
     """
     if as_json:
-        rows = [row for one in boxes for row in cell_rows(one)]
+        rows = [row for one in boxes for row in list_cell_rows(one)]
         print_json(
             {
                 "mechanism": source.mechanism,
@@ -60,29 +71,29 @@ def _print_box(
             }
         )
         return
-    out = console()
+    out = make_console()
     for box in boxes:
         edges = ", ".join(f"{edge.name} {edge.low:.4g} … {edge.high:.4g}" for edge in box.ranges)
-        title = f"{box.scene}, {box.setting.method} at {box.setting}, {seconds(box.t_long)} a point: {edges}"
-        out.print(title + interruption_text(box), style="bold")
+        title = f"{box.scene}, {box.setting.method} at {box.setting}, {format_seconds(box.t_long)} a point: {edges}"
+        out.print(title + describe_interruption(box), style="bold")
         if box.full:
             out.print(f"  {FULL}")
-        out.print(f"  {count(box.cells)}")
-        out.print(f"  {compared(box)}")
+        out.print(f"  {count_verdicts(box.cells)}")
+        out.print(f"  {describe_comparison(box)}")
         out.print(_build_verdict_table(box.cells))
-        if worst := worst_cells(box.cells):
+        if worst := select_worst_cells(box.cells):
             out.print("  the worst points, and what runs them again")
             print_failures(out, file, box, worst)
     for path in written:
-        out.print(f"wrote {path_text(path)}")
+        out.print(f"wrote {format_path(path)}")
 
 
-def count(cells: Sequence[Cell]) -> str:
+def count_verdicts(cells: Sequence[Cell]) -> str:
     """Return the numbers of points by verdict in words: "28 points: 27 stable, 1 outside the model; slowest 0.3 s"."""
     counts = Counter(cell.status for cell in cells)
     message = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
     slowest = max((cell.seconds for cell in cells if math.isfinite(cell.seconds)), default=math.nan)
-    return f"{len(cells)} points: {message}; slowest {seconds(slowest)}"
+    return f"{len(cells)} points: {message}; slowest {format_seconds(slowest)}"
 
 
 def group_cells(cells: Sequence[Cell]) -> list[tuple[Status, str, list[Cell]]]:
@@ -92,25 +103,25 @@ def group_cells(cells: Sequence[Cell]) -> list[tuple[Status, str, list[Cell]]]:
     """
     groups: dict[tuple[Status, str], list[Cell]] = {}
     for cell in cells:
-        groups.setdefault((cell.status, kind(cell.reason)), []).append(cell)
+        groups.setdefault((cell.status, remove_numbers(cell.reason)), []).append(cell)
     sorted_groups = sorted(groups.items(), key=lambda item: (SEVERITY.index(item[0][0]), -len(item[1]), item[0][1]))
     return [(status, reason, cells_of_group) for (status, reason), cells_of_group in sorted_groups]
 
 
-def kind(reason: str) -> str:
+def remove_numbers(reason: str) -> str:
     """Return a reason without the numbers of its run, so that equal reasons of several runs can be grouped."""
     return _NUMBER.sub("…", re.split(r",? at t = |: ", reason)[0]).strip(", ")
 
 
-def worst_cells(cells: Sequence[Cell]) -> list[Cell]:
+def select_worst_cells(cells: Sequence[Cell]) -> list[Cell]:
     """Return at most WORST failed cells, one of each reason before a second of any.
 
     Without failures they are the WORST // 2 cells with the largest errors, largest first.
     """
     if not any(cell.failed for cell in cells):
-        known = [cell for cell in cells if math.isfinite(cell.error.largest)]
-        return sorted(known, key=lambda cell: -cell.error.largest)[: WORST // 2]
-    groups = [own for status, _, own in group_cells([cell for cell in cells if cell.failed])]
+        finite_cells = [cell for cell in cells if math.isfinite(cell.error.largest)]
+        return sorted(finite_cells, key=lambda cell: -cell.error.largest)[: WORST // 2]
+    groups = [failed_cells for status, _, failed_cells in group_cells([cell for cell in cells if cell.failed])]
     rounds = [group[k] for k in range(WORST) for group in groups if k < len(group)]
     return rounds[:WORST]
 
@@ -119,9 +130,9 @@ def _build_verdict_table(cells: Sequence[Cell]) -> Table:
     """Return the table of verdicts and reasons with the number of points and the largest error."""
     from rich.text import Text
 
-    table = new_table(("verdict", "points", "largest error", "reason"), left=("verdict", "reason"))
-    for status, reason, own in group_cells(cells):
-        errors = [cell.error.largest for cell in own if math.isfinite(cell.error.largest)]
+    table = make_table(("verdict", "points", "largest error", "reason"), left=("verdict", "reason"))
+    for status, reason, cells_of_group in group_cells(cells):
+        errors = [cell.error.largest for cell in cells_of_group if math.isfinite(cell.error.largest)]
         sign = Text(f"{SIGNS[status]} {status.value}", COLOURS[status])
-        table.add_row(sign, str(len(own)), share(max(errors, default=math.nan)), reason)
+        table.add_row(sign, str(len(cells_of_group)), format_fraction(max(errors, default=math.nan)), reason)
     return table

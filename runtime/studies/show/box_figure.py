@@ -1,4 +1,4 @@
-"""Draw the figure of `gudgeon map --box`: the verdicts over the box."""
+"""Draw the figure of `gudgeon map --box`: which points in the box of parameters are stable."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from gudgeon.language.plot_units import label, pretty, quantity
-from gudgeon.language.shown import figure_title
+from gudgeon.language.plot_units import format_label, format_quantity, format_unit
+from gudgeon.language.text_output import format_figure_title
 from gudgeon.model.compiled import Array
 from gudgeon.results.figures.plots import IDEAL, STYLE
 from gudgeon.studies.box import Range
 from gudgeon.studies.map import VerdictBox
-from gudgeon.studies.show.box import count
-from gudgeon.studies.show.tables import seconds
+from gudgeon.studies.show.box import count_verdicts
+from gudgeon.studies.show.tables import format_seconds
 from gudgeon.studies.verdicts import SEVERITY, Status
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ LOOK = {
 }
 
 
-def box_figure(title: str, boxes: Sequence[VerdictBox]) -> Figure:
+def draw_box_figure(title: str, boxes: Sequence[VerdictBox]) -> Figure:
     """Return the figure of `gudgeon map --box` with a row for each box.
 
     The left axes show verdicts over the two most decisive ranges, the right ones (for more than two ranges) lines
@@ -52,7 +52,7 @@ def box_figure(title: str, boxes: Sequence[VerdictBox]) -> Figure:
         handles = [Line2D([], [], color=LOOK[s][0], marker=LOOK[s][1], ls="", ms=6, label=s.value) for s in used]
         handles.append(Line2D([], [], color="white", mec=IDEAL, marker="o", ls="", ms=7, label="a corner of the box"))
         message = " (partial: interrupted)" if any(box.interrupted for box in boxes) else ""
-        head = figure_title(f"{title}: where does it fail?{message}", 125 if wide else 75)
+        head = format_figure_title(f"{title}: where does it fail?{message}", 125 if wide else 75)
         picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
         picture.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=9)
     return picture
@@ -72,13 +72,13 @@ def rank_ranges(box: VerdictBox) -> list[int]:
     worth = np.array(verdicts if len(set(np.array(verdicts)[judged])) > 1 else errors, dtype=np.float64)
     is_used = judged & np.isfinite(worth)
     scores = [
-        _abs_correlation(np.log([point[range_.name] for point in box.points])[is_used], worth[is_used])
+        _compute_abs_correlation(np.log([point[range_.name] for point in box.points])[is_used], worth[is_used])
         for range_ in box.ranges
     ]
     return sorted(range(len(box.ranges)), key=lambda k: -scores[k])
 
 
-def _abs_correlation(x: Array, y: Array) -> float:
+def _compute_abs_correlation(x: Array, y: Array) -> float:
     """Return the magnitude of the correlation of two arrays; 0 for fewer than two points, or if one of them is
     constant.
     """
@@ -125,8 +125,8 @@ def _draw_scatter(ax: Axes, box: VerdictBox) -> None:
         ylabel=_format_range_label(up) if up else "largest error",
     )
     ax.set_title(
-        f"{box.scene}, {box.setting.method} at {box.setting}, {seconds(box.t_long)} a point\n"
-        f"{count(box.cells).partition(';')[0]}",
+        f"{box.scene}, {box.setting.method} at {box.setting}, {format_seconds(box.t_long)} a point\n"
+        f"{count_verdicts(box.cells).partition(';')[0]}",
         loc="left",
     )
     if len(box.ranges) > 2:
@@ -161,11 +161,13 @@ def _draw_parallel_axes(ax: Axes, box: VerdictBox) -> None:
             zorder=2 + z / 1e4,
         )
     ax.set(xlim=(-0.3, len(box.ranges) - 0.7), ylim=(-0.04, 1.04), yticks=[])
-    names = [f"{quantity(range_.low, range_.unit, 3)}\n{_format_range_label(range_)}" for range_ in box.ranges]
+    names = [f"{format_quantity(range_.low, range_.unit, 3)}\n{_format_range_label(range_)}" for range_ in box.ranges]
     ax.set_xticks(range(len(names)), names)
     for k, range_ in enumerate(box.ranges):
         ax.axvline(k, color="#888888", lw=0.8, zorder=1)
-        ax.annotate(quantity(range_.high, range_.unit, 3), (k, 1.05), ha="center", fontsize=8, annotation_clip=False)
+        ax.annotate(
+            format_quantity(range_.high, range_.unit, 3), (k, 1.05), ha="center", fontsize=8, annotation_clip=False
+        )
     ax.set_title("a line a point, across all ranges\n", loc="left")
     ax.grid(False)
     ax.spines[:].set_visible(False)
@@ -173,4 +175,4 @@ def _draw_parallel_axes(ax: Axes, box: VerdictBox) -> None:
 
 def _format_range_label(range_: Range) -> str:
     """Return the last two parts of a range's address, with its unit, as a label of an axis."""
-    return label(".".join(range_.name.split(".")[-2:]), pretty(range_.unit))
+    return format_label(".".join(range_.name.split(".")[-2:]), format_unit(range_.unit))

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.errors import GudgeonError
-from gudgeon.language.plot_units import drawn
-from gudgeon.results.reports.html_page import Section, lines, table
-from gudgeon.studies.show.pictures import Draw, Pictures, gallery
+from gudgeon.language.plot_units import choose_plot_unit
+from gudgeon.results.reports.html_page import Section, build_paragraphs, build_table
+from gudgeon.studies.show.pictures import Draw, Pictures, format_gallery
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -28,26 +28,26 @@ NOTE = "note"
 NUMBERS, TRENDS, ALONE = "Published numbers", "Published trends", "Ours alone"  # headings of claims without one
 
 
-def claims_sections(study: Study, parts: Mapping[str, StudyData], pictures: Pictures) -> list[Section]:
+def build_claims_sections(study: Study, parts: Mapping[str, StudyData], pictures: Pictures) -> list[Section]:
     """Return the sections of a page on the claims of a study: published numbers with figures, trends, headings of the
     file.
 
     parts: data of the study's parts. pictures: receives the figures. Empty for a study without claims.
     """
     try:
-        found = study.claims
+        claims = study.claims
     except GudgeonError:  # its file makes no claims
         return []
     names_of = _ClaimNames(parts)
-    numbers, trends = (list(_group_by_claim(table.to_dict("records"))) for table in (found.numbers, found.trends))
-    source = lines([found.source] * bool(found.source), "g-quiet")
+    numbers, trends = (list(_group_by_claim(table.to_dict("records"))) for table in (claims.numbers, claims.trends))
+    source = build_paragraphs([claims.source] * bool(claims.source), "g-quiet")
     number_headings = [_choose_heading(rows[0], NUMBERS if _is_published(rows[0]) else ALONE) for rows in numbers]
     trend_headings = [_choose_heading(rows[0], TRENDS) for rows in trends]
     sections = []
     for k, heading in enumerate(_order_headings(number_headings + trend_headings)):
         number_rows = [rows for rows, name in zip(numbers, number_headings, strict=True) if name == heading]
         published = [rows for rows in number_rows if _is_published(rows[0])]
-        figures_html = gallery(_iterate_claim_figures(published, names_of), f"claims{k or ''}", pictures)
+        figures_html = format_gallery(_iterate_claim_figures(published, names_of), f"claims{k or ''}", pictures)
         unpublished_html = _format_unpublished_table(
             [rows for rows in number_rows if not _is_published(rows[0])], names_of
         )
@@ -81,8 +81,8 @@ def _order_headings(headings: list[str]) -> list[str]:
     """Return the headings without repetitions: published numbers, trends, those of the file in order, unpublished
     numbers.
     """
-    own = [name for name in dict.fromkeys(headings) if name not in (NUMBERS, TRENDS, ALONE)]
-    return [name for name in (NUMBERS, TRENDS, *own, ALONE) if name in headings]
+    other_headings = [name for name in dict.fromkeys(headings) if name not in (NUMBERS, TRENDS, ALONE)]
+    return [name for name in (NUMBERS, TRENDS, *other_headings, ALONE) if name in headings]
 
 
 class _ClaimNames:
@@ -91,25 +91,27 @@ class _ClaimNames:
     def __init__(self, parts: Mapping[str, StudyData]) -> None:
         """Store the data of the parts, by name; titles are those of the first part."""
         self.parts = parts
-        self.shown = next(iter(parts.values())).shown
+        self.shown = next(iter(parts.values())).title_of
 
-    def at(self, row: Row) -> str:
+    def describe_cell(self, row: Row) -> str:
         """Return the coordinates of a number's cell in words: "c = 0.3 mm"; the stored text in folders of earlier
         versions.
         """
         if "place" not in row:  # a folder that an earlier version judged
             return str(row["at"])
-        return self.parts[str(row["part"])].where(json.loads(str(row["place"])))
+        return self.parts[str(row["part"])].describe_cell(json.loads(str(row["place"])))
 
-    def scene(self, row: Row) -> str:
+    def find_scene_title(self, row: Row) -> str:
         """Return the title of the scene of a number's part if it has only one, else ""."""
-        found = self.parts[str(row["part"])].dataset.coords.get("scene") if str(row["part"]) in self.parts else None
-        return self.shown(found.item()) if found is not None and not found.ndim else ""
+        scene_coordinate = (
+            self.parts[str(row["part"])].dataset.coords.get("scene") if str(row["part"]) in self.parts else None
+        )
+        return self.shown(scene_coordinate.item()) if scene_coordinate is not None and not scene_coordinate.ndim else ""
 
-    def what(self, row: Row) -> str:
+    def describe_number(self, row: Row) -> str:
         """Return a description of a number: the text of the claim, or measure, part and coordinates."""
         part = [self.shown(row["part"])] * bool(row["part"])
-        return str(row["says"]) or ", ".join(filter(None, (self.shown(row["measure"]), *part, self.at(row))))
+        return str(row["says"]) or ", ".join(filter(None, (self.shown(row["measure"]), *part, self.describe_cell(row))))
 
 
 def _group_by_claim(rows: Iterable[Row]) -> Iterator[list[Row]]:
@@ -139,7 +141,7 @@ def _format_number_table(claims: list[list[Row]], names_of: _ClaimNames) -> str:
         _format_number_cells(rows, names, names_of, *_choose_unit(_select_same_measure(claims, rows)))
         for rows in claims
     )
-    return _format_table_without_empty(head, every) + lines(footnote * bool(claims), "g-quiet")
+    return _format_table_without_empty(head, every) + build_paragraphs(footnote * bool(claims), "g-quiet")
 
 
 def _select_same_measure(claims: list[list[Row]], claim_rows: list[Row]) -> list[list[Row]]:
@@ -149,7 +151,7 @@ def _select_same_measure(claims: list[list[Row]], claim_rows: list[Row]) -> list
 
 def _choose_unit(claims: list[list[Row]]) -> tuple[float, str]:
     """Return factor and text of the unit that suits the largest value of these claims."""
-    return drawn(max(map(_find_largest_magnitude, claims)), str(claims[0][0]["unit"]))
+    return choose_plot_unit(max(map(_find_largest_magnitude, claims)), str(claims[0][0]["unit"]))
 
 
 def _format_number_cells(
@@ -171,7 +173,7 @@ def _format_number_cells(
     return [
         str(first["claim"]),
         str(first["figure"]),
-        names_of.what(first),
+        names_of.describe_number(first),
         printed,
         *cells,
         deviation_text,
@@ -191,15 +193,18 @@ def _format_unpublished_table(claims: list[list[Row]], names_of: _ClaimNames) ->
         first = rows[0]
         factor, unit = units[str(first["measure"])]
         deviation = "" if _is_missing(first["deviation"]) else f", {first['deviation']:+.1f} %".replace("-", "−")
-        what = str(first["says"]) or names_of.at(first), names_of.shown(first["part"])
-        own = cells_by_key.setdefault(what, {})
-        own[str(first["measure"])] = _format_median_cell(first, factor, unit) + deviation
-        own[NOTE] = "; ".join(filter(None, (own.get(NOTE), str(first.get("note") or ""))))
+        what = str(first["says"]) or names_of.describe_cell(first), names_of.shown(first["part"])
+        cells_by_name = cells_by_key.setdefault(what, {})
+        cells_by_name[str(first["measure"])] = _format_median_cell(first, factor, unit) + deviation
+        cells_by_name[NOTE] = "; ".join(filter(None, (cells_by_name.get(NOTE), str(first.get("note") or ""))))
     footnote = ["median (quartiles), and how far it is off from the row that it stands beside"]
-    cells = ([*what, *(own.get(name, "") for name in (*measures, NOTE))] for what, own in cells_by_key.items())
-    return _format_table_without_empty(["what", "part", *map(names_of.shown, measures), NOTE], cells) + lines(
-        footnote * bool(claims), "g-quiet"
+    cells = (
+        [*what, *(cells_by_name.get(name, "") for name in (*measures, NOTE))]
+        for what, cells_by_name in cells_by_key.items()
     )
+    return _format_table_without_empty(
+        ["what", "part", *map(names_of.shown, measures), NOTE], cells
+    ) + build_paragraphs(footnote * bool(claims), "g-quiet")
 
 
 def _format_median_cell(row: Row | None, factor: float, unit: str) -> str:
@@ -224,7 +229,7 @@ def _format_table_without_empty(head: list[str], rows: Iterable[list[str]]) -> s
     """Return an HTML table without the columns that have a head but no text in any row."""
     every = list(rows)
     kept = [k for k, name in enumerate(head) if not name or any(row[k] for row in every)]
-    return table([head[k] for k in kept], ([row[k] for k in kept] for row in every), True)
+    return build_table([head[k] for k in kept], ([row[k] for k in kept] for row in every), True)
 
 
 def _format_trend_table(claims: list[list[Row]], names_of: _ClaimNames) -> str:
@@ -235,9 +240,9 @@ def _format_trend_table(claims: list[list[Row]], names_of: _ClaimNames) -> str:
         " it is known (5 % beyond each end), ensemble by ensemble; holds: all of the interval of all runs lies at"
         " 0.8 or above, fails: at 1/3 or below, undecided: neither"
     ]
-    return _format_table_without_empty(head, (_format_trend_cells(rows, names_of) for rows in claims)) + lines(
-        footnote * bool(claims), "g-quiet"
-    )
+    return _format_table_without_empty(
+        head, (_format_trend_cells(rows, names_of) for rows in claims)
+    ) + build_paragraphs(footnote * bool(claims), "g-quiet")
 
 
 def _format_trend_cells(rows: list[Row], names_of: _ClaimNames) -> list[str]:
@@ -283,9 +288,9 @@ def _iterate_claim_figures(claims: list[list[Row]], names_of: _ClaimNames) -> It
     for rows in claims:
         if rows[0]["figure"]:
             groups.setdefault((str(rows[0]["figure"]), str(rows[0]["measure"])), []).append(rows)
-    for (figure, measure), own in groups.items():
-        printed = "ours alone" if all(_is_missing(rows[0]["printed"]) for rows in own) else "printed and ours"
-        yield f"{figure}: {names_of.shown(measure)}, {printed}", partial(_draw_claims, own, names_of)
+    for (figure, measure), claim_rows in groups.items():
+        printed = "ours alone" if all(_is_missing(rows[0]["printed"]) for rows in claim_rows) else "printed and ours"
+        yield f"{figure}: {names_of.shown(measure)}, {printed}", partial(_draw_claims, claim_rows, names_of)
 
 
 def _draw_claims(claims: list[list[Row]], names_of: _ClaimNames) -> Axes:
@@ -297,13 +302,13 @@ def _draw_claims(claims: list[list[Row]], names_of: _ClaimNames) -> Axes:
     import matplotlib
 
     from gudgeon.results.figures.plots import COLOURS, STYLE
-    from gudgeon.results.figures.run_plots import new_axes
+    from gudgeon.results.figures.run_plots import create_axes
 
     factor, unit = _choose_unit(claims)
     measure = names_of.shown(claims[0][0]["measure"])
     names = _list_ensembles(claims) or [""]
     with matplotlib.rc_context(STYLE):
-        ax = new_axes(5.6, 3.2)
+        ax = create_axes(5.6, 3.2)
         for j, name in enumerate([*names, *[""] * (names != [""])]):  # and what is in no ensemble
             rows_of_ensemble = [
                 (k, row)
@@ -355,9 +360,13 @@ def _format_tick_label(row: Row, names_of: _ClaimNames, with_scene: bool) -> str
     """Return the label of a claim at the axis, on several lines: name, with `with_scene` the scene, and short
     coordinates.
     """
-    at = names_of.at(row).split(", ")
-    coordinates = at if max(map(len, at)) <= SHORT and len(at) <= MOST_LINES else []
-    return "\n".join(filter(None, (str(row["claim"]), names_of.scene(row) if with_scene else "", *coordinates)))
+    coordinate_texts = names_of.describe_cell(row).split(", ")
+    coordinates = (
+        coordinate_texts if max(map(len, coordinate_texts)) <= SHORT and len(coordinate_texts) <= MOST_LINES else []
+    )
+    return "\n".join(
+        filter(None, (str(row["claim"]), names_of.find_scene_title(row) if with_scene else "", *coordinates))
+    )
 
 
 def _find_largest_magnitude(rows: list[Row]) -> float:

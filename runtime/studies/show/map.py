@@ -10,12 +10,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.language.plot_units import quantity
-from gudgeon.language.shown import path_text, print_json
+from gudgeon.language.plot_units import format_quantity
+from gudgeon.language.text_output import format_path, print_json
 from gudgeon.studies.axes import Axis
 from gudgeon.studies.map import VerdictBox, VerdictMap
 from gudgeon.studies.runs import Setting
-from gudgeon.studies.show.tables import clearance, console, new_table, seconds, share, write_files
+from gudgeon.studies.show.tables import (
+    format_clearance,
+    format_fraction,
+    format_seconds,
+    make_console,
+    make_table,
+    write_files,
+)
 from gudgeon.studies.verdicts import Cell, Status
 
 if TYPE_CHECKING:
@@ -50,7 +57,7 @@ LABELS = {
 }
 
 
-def show_map(
+def report_map(
     source: KernelSource,
     file: str,
     maps: Sequence[VerdictMap],
@@ -63,13 +70,13 @@ def show_map(
     file: mechanism as typed, for the commands that repeat runs. mark_step (s): step that is marked, or None. An
     OutputError for a file is raised after printing.
     """
-    rows = [row for scene in maps for row in cell_rows(scene)]
+    rows = [row for scene in maps for row in list_cell_rows(scene)]
 
     def draw() -> Figure:
         """Return the figure of the maps."""
-        from gudgeon.studies.show.map_figure import map_figure
+        from gudgeon.studies.show.map_figure import draw_map_figure
 
-        return map_figure(source.title or source.mechanism, maps, mark_step)
+        return draw_map_figure(source.title or source.mechanism, maps, mark_step)
 
     written, failed = write_files(table, rows, draw)
     _print_maps(source, file, maps, written, mark_step, as_json)
@@ -89,7 +96,7 @@ def _print_maps(
     document.
     """
     if as_json:
-        rows = [row for one in maps for row in cell_rows(one)]
+        rows = [row for verdict_map in maps for row in list_cell_rows(verdict_map)]
         print_json(
             {
                 "mechanism": source.mechanism,
@@ -99,10 +106,13 @@ def _print_maps(
             }
         )
         return
-    out = console()
+    out = make_console()
     for scene in maps:
-        title = f"{scene.scene}, {scene.setting.method}: sane over {seconds(scene.t_long)}, {compared(scene)}"
-        out.print(title + interruption_text(scene), style="bold")
+        title = (
+            f"{scene.scene}, {scene.setting.method}: sane over {format_seconds(scene.t_long)}, "
+            f"{describe_comparison(scene)}"
+        )
+        out.print(title + describe_interruption(scene), style="bold")
         if scene.full:
             out.print(f"  {FULL}")
         if scene.columns.ratios:
@@ -113,38 +123,40 @@ def _print_maps(
         elif failures := [cell for cell in scene.cells if cell.failed]:
             out.print("  what failed, and what runs it again")
             print_failures(out, file, scene, failures)
-    out.print(legend(maps))
+    out.print(make_legend(maps))
     for line in explain_labels(maps).splitlines():
         out.print(f"  {line}")
-    for line in verdict(maps, mark_step):
+    for line in describe_marked_step(maps, mark_step):
         out.print(line)
     for path in written:
-        out.print(f"wrote {path_text(path)}")
+        out.print(f"wrote {format_path(path)}")
 
 
 def _build_map_table(scene: VerdictMap) -> Table:
     """Return the table of a map; each cell has the sign of its verdict and its label."""
     from rich.text import Text
 
-    heads = [value(scene.columns, x) for x in scene.columns.values]
-    table = new_table([scene.rows.name, *heads])
+    heads = [format_axis_value(scene.columns, x) for x in scene.columns.values]
+    table = make_table([scene.rows.name, *heads])
     for row in scene.rows.values:
         cells = (scene.cell(row, x) for x in scene.columns.values)
         marked = (Text(f"{SIGNS[cell.status]} {cell.label}", COLOURS[cell.status]) for cell in cells)
-        table.add_row(value(scene.rows, row), *marked)
+        table.add_row(format_axis_value(scene.rows, row), *marked)
     return table
 
 
 def _build_boundary_table(scene: VerdictMap) -> Table:
     """Return the table of the largest stable step for each column, with the fault of the next longer step."""
     name = scene.columns.name
-    table = new_table((name, "largest stable step", "the next one"), left=("the next one",))
+    table = make_table((name, "largest stable step", "the next one"), left=("the next one",))
     for x in scene.columns.values:
-        largest = scene.largest_stable(x)
+        largest = scene.find_largest_stable_row(x)
         next_step = next((step for step in scene.rows.values if not step <= largest), None)
         cell = scene.cell(next_step, x) if next_step is not None else None
         after = f"{cell.setting}, {cell.status.value}: {cell.reason}" if cell else "the grid ends"
-        table.add_row(value(scene.columns, x), seconds(largest) if largest == largest else "none", after)
+        table.add_row(
+            format_axis_value(scene.columns, x), format_seconds(largest) if largest == largest else "none", after
+        )
     return table
 
 
@@ -153,20 +165,20 @@ def print_failures(out: Console, file: str, verdicts: VerdictMap | VerdictBox, c
 
     file: mechanism as typed. A cell without a reason is shown with its largest error.
     """
-    laws = files_of_laws()
+    laws = list_law_files()
     for cell in cells:
-        specified = cell.reason or f"largest error {share(cell.error.largest)}"
+        specified = cell.reason or f"largest error {format_fraction(cell.error.largest)}"
         out.print(f"  {SIGNS[cell.status]} {specified}", markup=False, emoji=False)
-        again = command(file, verdicts.scene, cell, verdicts.t_long, verdicts.full, laws)
+        again = format_run_command(file, verdicts.scene, cell, verdicts.t_long, verdicts.full, laws)
         out.print(f"    {again}", markup=False, emoji=False, soft_wrap=True)
 
 
-def interruption_text(verdicts: VerdictMap | VerdictBox) -> str:
+def describe_interruption(verdicts: VerdictMap | VerdictBox) -> str:
     """Return the part of a title that says how many runs were finished before Ctrl-C; "" if it was not interrupted."""
     return " (partial: interrupted after {} of {} runs)".format(*verdicts.done) if verdicts.interrupted else ""
 
 
-def legend(verdicts: Sequence[VerdictMap | VerdictBox]) -> Text:
+def make_legend(verdicts: Sequence[VerdictMap | VerdictBox]) -> Text:
     """Return the signs and names of all verdicts in colour; "not judged" only after Ctrl-C."""
     from rich.text import Text
 
@@ -174,14 +186,21 @@ def legend(verdicts: Sequence[VerdictMap | VerdictBox]) -> Text:
     return Text("   ").join(Text(f"{SIGNS[status]} {status.value}", COLOURS[status]) for status in shown)
 
 
-def command(file: str, scene: str, cell: Cell, t_end: float, full: bool = False, laws: Sequence[str] = ()) -> str:
+def format_run_command(
+    file: str, scene: str, cell: Cell, t_end: float, full: bool = False, laws: Sequence[str] = ()
+) -> str:
     """Return the shell command that repeats the run of a cell: `gudgeon run` with scene, setting, parameters and end
     time.
 
     file: mechanism as typed. full: in the full formulation. laws: files of user-defined laws.
     """
     words = ["gudgeon", "run", f"./{file}" if file.startswith("-") else file, "--scene", scene]
-    words += ["--method", cell.setting.method, "--step" if cell.setting.fixed else "--rtol", repr(cell.setting.value)]
+    words += [
+        "--method",
+        cell.setting.method,
+        "--step" if cell.setting.has_fixed_step else "--rtol",
+        repr(cell.setting.value),
+    ]
     words += ["--formulation", "full"] if full else []
     for name, message in cell.parameters.items():
         words += ["--set", f"{name}={message}"]
@@ -190,7 +209,7 @@ def command(file: str, scene: str, cell: Cell, t_end: float, full: bool = False,
     return shlex.join([*words, "--t-end", repr(t_end)])
 
 
-def files_of_laws() -> list[str]:
+def list_law_files() -> list[str]:
     """Return the files of the registered user-defined laws, as they were typed; laws registered otherwise are left
     out.
     """
@@ -199,7 +218,7 @@ def files_of_laws() -> list[str]:
     return [origin.typed for origin in ORIGINS.values() if origin.typed]
 
 
-def verdict(maps: Sequence[VerdictMap], mark_step: float | None) -> list[str]:
+def describe_marked_step(maps: Sequence[VerdictMap], mark_step: float | None) -> list[str]:
     """Return a line for each map over steps on the marked step: counts of its verdicts, and the step that suits all
     columns.
 
@@ -213,15 +232,15 @@ def verdict(maps: Sequence[VerdictMap], mark_step: float | None) -> list[str]:
         cells = [scene.cell(step, x) for x in scene.columns.values]
         counts = Counter(cell.status for cell in cells)
         message = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
-        best = [x for x in map(scene.largest_stable, scene.columns.values) if x == x]
-        shortest = seconds(min(best)) if len(best) == len(cells) else "below the grid"
+        best = [x for x in map(scene.find_largest_stable_row, scene.columns.values) if x == x]
+        shortest = format_seconds(min(best)) if len(best) == len(cells) else "below the grid"
         lines.append(
-            f"step {seconds(step)}, {scene.scene}: of {len(cells)} columns {message}; a step for all: {shortest}"
+            f"step {format_seconds(step)}, {scene.scene}: of {len(cells)} columns {message}; a step for all: {shortest}"
         )
     return lines
 
 
-def cell_rows(verdicts: VerdictMap | VerdictBox) -> list[dict[str, Any]]:
+def list_cell_rows(verdicts: VerdictMap | VerdictBox) -> list[dict[str, Any]]:
     """Return the rows of the CSV and JSON files: for each cell its setting, parameters, verdict, errors and times
     (SI).
     """
@@ -245,17 +264,17 @@ def cell_rows(verdicts: VerdictMap | VerdictBox) -> list[dict[str, Any]]:
     ]
 
 
-def value(axis: Axis, x: float) -> str:
+def format_axis_value(axis: Axis, x: float) -> str:
     """Return a value of an axis as text: the word of a choice, a clearance in mm, a tolerance, or a quantity with its
     unit.
     """
     if axis.words:
         return axis.words[int(x)]
     if axis.name == "clearance":
-        return clearance(x)
+        return format_clearance(x)
     if axis.name == "rtol":
         return str(Setting("auto", x))
-    return seconds(x) if axis.unit == "s" else quantity(x, PASCAL.get(axis.unit, axis.unit), 3)
+    return format_seconds(x) if axis.unit == "s" else format_quantity(x, PASCAL.get(axis.unit, axis.unit), 3)
 
 
 def explain_labels(maps: Sequence[VerdictMap]) -> str:
@@ -266,13 +285,13 @@ def explain_labels(maps: Sequence[VerdictMap]) -> str:
     return "\n".join(" · ".join(parts[k : k + 2]) for k in range(0, len(parts), 2))
 
 
-def compared(verdicts: VerdictMap | VerdictBox) -> str:
+def describe_comparison(verdicts: VerdictMap | VerdictBox) -> str:
     """Return a text: over which time errors were computed, and against which finer setting.
 
     With dry contacts runs are comparable over the first few contacts only.
     """
-    finer = "a 10× shorter step" if verdicts.setting.fixed else "a 100× tighter tolerance"
+    finer = "a 10× shorter step" if verdicts.setting.has_fixed_step else "a 100× tighter tolerance"
     ends = [cell.compared for cell in verdicts.cells if cell.compared == cell.compared]
-    shortest, longest = (seconds(end) for end in (min(ends, default=0.0), max(ends, default=0.0)))
+    shortest, longest = (format_seconds(end) for end in (min(ends, default=0.0), max(ends, default=0.0)))
     over = shortest if shortest == longest else f"{shortest} … {longest}"
     return f"errors over the first {over}, against {finer}" if ends else f"nothing to compare with {finer}"

@@ -1,4 +1,4 @@
-"""Draw the figure of `gudgeon map`: a map of verdicts."""
+"""Draw the figure of `gudgeon map`: which runs are stable over two varied quantities."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ import matplotlib
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
-from gudgeon.language.shown import figure_title
+from gudgeon.language.text_output import format_figure_title
 from gudgeon.results.figures.plots import IDEAL, STYLE
 from gudgeon.studies.map import VerdictMap
-from gudgeon.studies.show.map import compared, explain_labels, value
-from gudgeon.studies.show.tables import seconds
+from gudgeon.studies.show.map import describe_comparison, explain_labels, format_axis_value
+from gudgeon.studies.show.tables import format_seconds
 from gudgeon.studies.verdicts import Cell, Status
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ FILL = {
 NAMES = {"step": "step", "rtol": "tolerance", "clearance": "radial clearance"}
 
 
-def map_figure(title: str, maps: Sequence[VerdictMap], mark_step: float | None = None) -> Figure:
+def draw_map_figure(title: str, maps: Sequence[VerdictMap], mark_step: float | None = None) -> Figure:
     """Return the figure with a panel for each scene; each cell has the colour of its verdict and its label.
 
     mark_step (s): step whose row gets a frame, or None.
@@ -47,12 +47,14 @@ def map_figure(title: str, maps: Sequence[VerdictMap], mark_step: float | None =
         used = {cell.status for scene in maps for cell in scene.cells}
         handles: list[Any] = [Patch(facecolor=FILL[s], label=s.value) for s in Status if s in used]
         if mark_step is not None and any(_is_marked(scene, y, mark_step) for scene in maps for y in scene.rows.values):
-            handles.append(Patch(facecolor="none", edgecolor=IDEAL, lw=1.6, label=f"step {seconds(mark_step)}"))
+            handles.append(Patch(facecolor="none", edgecolor=IDEAL, lw=1.6, label=f"step {format_seconds(mark_step)}"))
         question = "which step will do?" if maps[0].rows.name == "step" else "where does it fail?"
         part = " (partial: interrupted)" if any(scene.interrupted for scene in maps) else ""
-        head = figure_title(f"{title}: {question}{part}", int(10 * width))
+        head = format_figure_title(f"{title}: {question}{part}", int(10 * width))
         picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
-        over = (f"{scene.scene}: sane over {seconds(scene.t_long)}, {compared(scene)}" for scene in maps)
+        over = (
+            f"{scene.scene}: sane over {format_seconds(scene.t_long)}, {describe_comparison(scene)}" for scene in maps
+        )
         message = "\n".join([explain_labels(maps), *over])
         picture.legend(
             handles=handles, loc="outside lower center", ncols=5, fontsize=9, title=message, title_fontsize=8
@@ -70,8 +72,8 @@ def _draw_map(ax: Axes, scene: VerdictMap, mark_step: float | None) -> None:
             ax.add_patch(Rectangle((-0.5, i - 0.5), len(columns), 1, fill=False, ec=IDEAL, lw=1.8, zorder=4))
     limits = {"xlim": (-0.5, len(columns) - 0.5), "ylim": (-0.5, len(rows) - 0.5)}
     ax.set(**limits, title=f"{scene.scene}, {scene.setting.method}")
-    ax.set_yticks(range(len(rows)), [value(scene.rows, y) for y in rows])
-    ax.set_xticks(range(len(columns)), [value(scene.columns, x) for x in columns])
+    ax.set_yticks(range(len(rows)), [format_axis_value(scene.rows, y) for y in rows])
+    ax.set_xticks(range(len(columns)), [format_axis_value(scene.columns, x) for x in columns])
     ax.set_xlabel(NAMES.get(scene.columns.name, scene.columns.name) if scene.columns.ratios else "no play")
     ax.grid(False)
     ax.tick_params(length=0)

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from gudgeon.errors import GudgeonError
 from gudgeon.integrators.threads import available_threads
-from gudgeon.results.reports.html_page import lines, text
+from gudgeon.results.reports.html_page import build_paragraphs, escape_line
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
@@ -39,20 +39,20 @@ class Pictures:
         """Create an empty list of figures."""
         self.expected: list[tuple[str, Callable[[], Axes]]] = []
 
-    def place(self, name: str, draw: Callable[[], Axes]) -> str:
+    def add_placeholder(self, name: str, draw: Callable[[], Axes]) -> str:
         """Register a figure and return its placeholder, an HTML comment; `draw` is called later. `name` must be
         unique.
         """
         self.expected.append((name, draw))
         return f"<!--picture {len(self.expected) - 1}-->"
 
-    def filled(self, page: str) -> str:
+    def insert_figures(self, page: str) -> str:
         """Draw all registered figures and return the page with their SVG in place of the placeholders."""
         drawn = _draw_in_processes(self.expected)
         return _PLACE.sub(lambda place: drawn[int(place[1])], page)
 
 
-def gallery(figures: Iterable[Draw], kind: str, pictures: Pictures) -> str:
+def format_gallery(figures: Iterable[Draw], kind: str, pictures: Pictures) -> str:
     """Return an HTML grid of figures with captions; of more than MOST_FIGURES only the first ones and a line on the
     others.
 
@@ -63,9 +63,9 @@ def gallery(figures: Iterable[Draw], kind: str, pictures: Pictures) -> str:
         if k >= MOST_FIGURES:
             omitted += 1
             continue
-        placeholder = pictures.place(f"{kind}-{k}", draw)
-        parts.append(f"<figure>{placeholder}<figcaption>{text(caption)}</figcaption></figure>")
-    more = lines([f"{omitted} more figures: study.plot draws them"] * bool(omitted), "g-quiet")
+        placeholder = pictures.add_placeholder(f"{kind}-{k}", draw)
+        parts.append(f"<figure>{placeholder}<figcaption>{escape_line(caption)}</figcaption></figure>")
+    more = build_paragraphs([f"{omitted} more figures: study.plot draws them"] * bool(omitted), "g-quiet")
     return f"<div class='g-figures'>{''.join(parts)}</div>{more}" if parts else ""
 
 
@@ -79,9 +79,9 @@ def _draw_in_processes(figures: list[tuple[str, Callable[[], Any]]]) -> list[str
     others = [_DrawingProcess(figures[k::count]) for k in range(1, count)]
     drawn = [""] * len(figures)
     try:
-        drawn[::count] = [_draw_figure(*one) for one in figures[::count]]
+        drawn[::count] = [_draw_figure(*arguments) for arguments in figures[::count]]
         for k, other in enumerate(others, 1):
-            drawn[k::count] = other.drawn()
+            drawn[k::count] = other.receive_figures()
     finally:
         for other in others:
             other.process.kill()
@@ -102,35 +102,36 @@ class _DrawingProcess:
             self.process.start()
         begin.close()
 
-    def drawn(self) -> list[str]:
+    def receive_figures(self) -> list[str]:
         """Wait for the process and return its figures as SVG; if the process died, draw them here."""
         try:
-            found: list[str] = self.end.recv()
+            figures: list[str] = self.end.recv()
         except (EOFError, OSError):
-            return [_draw_figure(*one) for one in self.expected]
-        return found
+            return [_draw_figure(*arguments) for arguments in self.expected]
+        return figures
 
 
 def _draw_all(end: Connection, figures: list[tuple[str, Callable[[], Any]]]) -> None:
     """Draw figures in the child process and send their SVG as one list; after an error nothing is sent."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the calling process's own
     with suppress(Exception):  # errors are reported when the figure is drawn again
-        end.send([_draw_figure(*one) for one in figures])
+        end.send([_draw_figure(*arguments) for arguments in figures])
 
 
 def _draw_figure(name: str, draw: Callable[[], Axes]) -> str:
     """Return a figure as SVG, or an HTML line with the reason if it cannot be drawn."""
-    from gudgeon.results.figures.run_plots import figures_for_page
+    from gudgeon.results.figures.run_plots import suppress_figure_display
 
     try:
-        with figures_for_page():
-            return _to_svg(draw(), name)
+        with suppress_figure_display():
+            return _convert_to_svg(draw(), name)
     except (GudgeonError, ValueError, ArithmeticError) as error:
-        return lines([f"not drawn: {error}"], "g-quiet")
+        return build_paragraphs([f"not drawn: {error}"], "g-quiet")
 
 
-def _to_svg(ax: Axes, name: str) -> str:
-    """Return the SVG element of the figure of an axes, with text as text, identifiers prefixed by `name`, and no date.
+def _convert_to_svg(ax: Axes, name: str) -> str:
+    """Return the SVG element of the figure of an axes, with text as text, identifiers prefixed by `name`, and no
+    date.
     """
     import matplotlib
     from matplotlib.backends.backend_svg import FigureCanvasSVG
@@ -141,8 +142,8 @@ def _to_svg(ax: Axes, name: str) -> str:
         canvas = FigureCanvasSVG(figure)
         _compute_layout(figure)
         canvas.print_svg(target, metadata={"Date": None, "Creator": None})
-    found = _AROUND.sub("", target.getvalue().decode())
-    return _IDS.sub(lambda own: f"{own[1]}{name}-", found)
+    svg = _AROUND.sub("", target.getvalue().decode())
+    return _IDS.sub(lambda own: f"{own[1]}{name}-", svg)
 
 
 def _compute_layout(figure: Figure) -> None:

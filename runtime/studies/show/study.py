@@ -9,28 +9,28 @@ from typing import Any
 
 import numpy as np
 
-from gudgeon.files.free_space import size_text
-from gudgeon.language.shown import counted, path_text, print_json, visible
-from gudgeon.studies.ensemble.claimed import FILE, claims_json
+from gudgeon.files.free_space import format_size
+from gudgeon.language.text_output import escape_invisible, format_count, format_path, print_json
+from gudgeon.studies.ensemble.claim_tables import FILE, read_claims_json
 from gudgeon.studies.ensemble.estimate import Estimate
 from gudgeon.studies.ensemble.finished import Study
 from gudgeon.studies.ensemble.folder import DATASET
 from gudgeon.studies.ensemble.plan import Plan, Plans
 from gudgeon.studies.show.study_data import StudyData
-from gudgeon.studies.show.tables import console, new_table, seconds
+from gudgeon.studies.show.tables import format_seconds, make_console, make_table
 
 MOST_KINDS = 8
 MOST_TRENDS = 16  # trends that are printed one by one
 QUANTILES = {"min": 0.0, "median": 0.5, "max": 1.0}
 
 
-def runs_text(plan: Plan, runs: int) -> str:
+def describe_runs(plan: Plan, runs: int) -> str:
     """Return a number of runs and the dimensions of the plan: "10 runs (scene 2 × c 5)"; without dimensions "1 run"."""
     shape = " × ".join(f"{name} {length}" for name, length in zip(plan.dims, plan.shape, strict=True))
-    return counted(runs, "run") + f" ({visible(shape)})" * bool(shape)
+    return format_count(runs, "run") + f" ({escape_invisible(shape)})" * bool(shape)
 
 
-def show_estimates(plans: Plans, estimates: Mapping[str, Estimate], json: bool) -> None:
+def report_estimates(plans: Plans, estimates: Mapping[str, Estimate], json: bool) -> None:
     """Print for each part the number of runs, disk space and time that trial runs predict, or one JSON document.
 
     estimates: by the name of the part, "" for a file without parts.
@@ -41,11 +41,17 @@ def show_estimates(plans: Plans, estimates: Mapping[str, Estimate], json: bool) 
         return
     for name, plan in plans.each.items():
         if name:
-            print(f"part {visible(name)}:")
+            print(f"part {escape_invisible(name)}:")
         _print_estimate(plan, estimates[name])
     if plans.named:
-        size, spent = sum(one.bytes for one in estimates.values()), sum(one.seconds for one in estimates.values())
-        print(f"all parts: {counted(plans.runs, 'run')}, about {size_text(size)} on disk, {_format_duration(spent)}")
+        size, spent = (
+            sum(estimate.bytes for estimate in estimates.values()),
+            sum(estimate.seconds for estimate in estimates.values()),
+        )
+        print(
+            f"all parts: {format_count(plans.runs, 'run')}, about {format_size(size)} on disk, "
+            f"{_format_duration(spent)}"
+        )
 
 
 def _estimate_to_json(plan: Plan, estimate: Estimate) -> dict[str, Any]:
@@ -64,33 +70,33 @@ def _estimate_to_json(plan: Plan, estimate: Estimate) -> dict[str, Any]:
 
 def _print_estimate(plan: Plan, estimate: Estimate) -> None:
     """Print runs, disk space, time, failed trial runs and notes of one part."""
-    print(f"{runs_text(plan, estimate.runs)} in {counted(estimate.blocks, 'block')}")
-    trial = counted(estimate.tried, "run")
-    print(f"about {size_text(estimate.bytes)} on disk, {_format_duration(estimate.seconds)} by {trial} on trial")
+    print(f"{describe_runs(plan, estimate.runs)} in {format_count(estimate.blocks, 'block')}")
+    trial = format_count(estimate.tried, "run")
+    print(f"about {format_size(estimate.bytes)} on disk, {_format_duration(estimate.seconds)} by {trial} on trial")
     if estimate.failed:
-        print(f"{estimate.failed} of {trial} on trial failed: {visible(estimate.reasons[0])}")
+        print(f"{estimate.failed} of {trial} on trial failed: {escape_invisible(estimate.reasons[0])}")
     for note in plan.notes:
-        print(f"note: {visible(note)}")
+        print(f"note: {escape_invisible(note)}")
 
 
-def show_studies(plans: Plans, study: Study, json: bool) -> None:
+def report_studies(plans: Plans, study: Study, json: bool) -> None:
     """Print the measures, failures and notes of all parts of a finished study, and its claims; or one JSON document."""
     parts = study.parts or {"": study}
     if json:
-        each = {name: _study_to_json(plan, parts[name]) for name, plan in plans.each.items()}
+        each = {name: _convert_study_to_json(plan, parts[name]) for name, plan in plans.each.items()}
         whole = {"folder": str(study.folder), "runs": study.runs, "failed": study.failed, "parts": each}
-        claims = claims_json(study.folder)
+        claims = read_claims_json(study.folder)
         print_json((whole if plans.named else each[""]) | ({} if claims is None else {"claims": claims}))
         return
     for name, plan in plans.each.items():
         if name:
-            print(f"part {visible(name)}:")
+            print(f"part {escape_invisible(name)}:")
         _print_study(plan, parts[name])
-    if claims_json(study.folder) is not None:
+    if read_claims_json(study.folder) is not None:
         _print_claims(study)
 
 
-def _study_to_json(plan: Plan, study: Study) -> dict[str, Any]:
+def _convert_study_to_json(plan: Plan, study: Study) -> dict[str, Any]:
     """Return folder, runs, failures, measures and notes of one part as JSON data."""
     measures = {name: {"unit": unit, **row} for name, unit, row in _compute_spreads(plan, study)}
     return {
@@ -108,22 +114,25 @@ def _study_to_json(plan: Plan, study: Study) -> dict[str, Any]:
 def _print_study(plan: Plan, study: Study) -> None:
     """Print number of runs, a table of measures, the most frequent failures, notes and the file of one part."""
     spread = {name: (unit, row) for name, unit, row in _compute_spreads(plan, study)}
-    print(runs_text(plan, study.runs))
+    print(describe_runs(plan, study.runs))
     if spread:
-        table = new_table(["measure", *QUANTILES, "unit", "NaN"], ["measure", "unit"])
+        table = make_table(["measure", *QUANTILES, "unit", "NaN"], ["measure", "unit"])
         for name, (unit, row) in spread.items():
             numbers = (f"{row[key]:.6g}" if np.isfinite(row[key]) else "–" for key in QUANTILES)
-            table.add_row(visible(name), *numbers, unit, str(row["nan"]))
-        console().print(table)
+            table.add_row(escape_invisible(name), *numbers, unit, str(row["nan"]))
+        make_console().print(table)
     if study.failed:
-        print(f"{study.failed} of {counted(study.runs, 'run')} failed:")
+        print(f"{study.failed} of {format_count(study.runs, 'run')} failed:")
         for kind, count, message in itertools.islice(StudyData(study).failures(), MOST_KINDS):
-            print(f"  {count} × {visible(kind)}" + f"\n    the first: {visible(message)}" * bool(message))
+            print(
+                f"  {count} × {escape_invisible(kind)}"
+                + f"\n    the first: {escape_invisible(message)}" * bool(message)
+            )
         if (more := len(study.failures) - MOST_KINDS) > 0:
             print(f"  and {more} other reasons")
     for note in study.notes:
-        print(f"note: {visible(note)}")
-    print(f"wrote {path_text(Path(study.folder) / DATASET)}")
+        print(f"note: {escape_invisible(note)}")
+    print(f"wrote {format_path(Path(study.folder) / DATASET)}")
 
 
 def _print_claims(study: Study) -> None:
@@ -134,23 +143,28 @@ def _print_claims(study: Study) -> None:
     trends = claims.trends
     if len(trends):
         message = {
-            name: own["verdict"].iloc[0] if own["agreed"].all() else "not the same in all ensembles"
-            for name, own in trends.groupby("claim", sort=False)
+            name: claim_rows["verdict"].iloc[0] if claim_rows["agreed"].all() else "not the same in all ensembles"
+            for name, claim_rows in trends.groupby("claim", sort=False)
         }
         if len(message) <= MOST_TRENDS:
             says = trends.drop_duplicates("claim").set_index("claim")["says"]
-            print("\n".join(f"{name} {verdict}: {visible(str(says[name]))}" for name, verdict in message.items()))
-    print("\n".join(map(visible, claims.totals())))
-    print(f"wrote {path_text(Path(study.folder) / FILE)}")
+            print(
+                "\n".join(f"{name} {verdict}: {escape_invisible(str(says[name]))}" for name, verdict in message.items())
+            )
+    print("\n".join(map(escape_invisible, claims.totals())))
+    print(f"wrote {format_path(Path(study.folder) / FILE)}")
 
 
 def _compute_spreads(plan: Plan, study: Study) -> Iterator[tuple[str, str, dict[str, Any]]]:
     """Yield name, unit, and minimum, median, maximum and number of NaN of each measure over all runs."""
-    for name in (one.name for one in plan.expected.measures):
+    for name in (measure.name for measure in plan.expected.measures):
         values = study.dataset[name].values
-        own = values[np.isfinite(values)]
-        row = {key: float(np.quantile(own, q)) if own.size else float("nan") for key, q in QUANTILES.items()}
-        yield name, plan.units[name], row | {"nan": int(values.size - own.size)}
+        finite_values = values[np.isfinite(values)]
+        row = {
+            key: float(np.quantile(finite_values, q)) if finite_values.size else float("nan")
+            for key, q in QUANTILES.items()
+        }
+        yield name, plan.units[name], row | {"nan": int(values.size - finite_values.size)}
 
 
 def _format_duration(value: float) -> str:
@@ -158,4 +172,4 @@ def _format_duration(value: float) -> str:
     for factor, unit in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
         if value >= 2 * factor:
             return f"{value / factor:.3g} {unit}"
-    return seconds(value)
+    return format_seconds(value)

@@ -1,6 +1,4 @@
-"""Provide the data of a study's dataset for figures and pages: runs by coordinates, axes with units, sections of
-series.
-"""
+"""Select results of a study for figures and pages by parameter values, with units and Poincaré section points."""
 
 from __future__ import annotations
 
@@ -12,11 +10,11 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
-from gudgeon.language.argument_checks import flag, mapping, message, number_of, text
-from gudgeon.language.names import unknown
-from gudgeon.language.plot_units import drawn, label, pretty, scale
-from gudgeon.language.shown import one_line
-from gudgeon.studies.show.study_signals import alike, crossings
+from gudgeon.language.argument_checks import check_flag, check_mapping, check_number, check_text, shorten_value
+from gudgeon.language.names import make_unknown_error
+from gudgeon.language.plot_units import choose_plot_unit, choose_prefix, format_label, format_unit
+from gudgeon.language.text_output import format_one_line
+from gudgeon.studies.show.study_signals import find_section_crossings, have_equal_times
 
 if TYPE_CHECKING:
     from gudgeon.studies.ensemble.finished import Study
@@ -39,17 +37,17 @@ class StudyData:
         values = self.names.values
         self.texts = values.get(study.folder.name if "" not in values else "", {})  # numbers as the file has them
 
-    def shown(self, name: Any) -> str:
+    def title_of(self, name: Any) -> str:
         """Return the title of a name that the file defines, else the name itself, on one line."""
-        return one_line(self.names.titles.get(str(name), str(name)))
+        return format_one_line(self.names.titles.get(str(name), str(name)))
 
     @property
-    def kept(self) -> tuple[str, ...]:
+    def stored_series(self) -> tuple[str, ...]:
         """Return the names of the stored series."""
         return tuple(
             str(name)
-            for name, one in self.dataset.data_vars.items()
-            if one.dims and one.dims[-1] in SAMPLES and name != OWN_TIMES
+            for name, variable in self.dataset.data_vars.items()
+            if variable.dims and variable.dims[-1] in SAMPLES and name != OWN_TIMES
         )
 
     def unit(self, name: str) -> str:
@@ -58,11 +56,11 @@ class StudyData:
 
     def measure(self, name: str, at: Coords | None = None) -> Any:
         """Return a measure as a DataArray, restricted to the runs at the coordinates `at`. Raises UnknownNameError."""
-        if text(name, "a measure", "the name of a measure") not in self.study.measures:
-            raise unknown(f"the study has no measure {name!r}", name, self.study.measures)
+        if check_text(name, "a measure", "the name of a measure") not in self.study.measures:
+            raise make_unknown_error(f"the study has no measure {name!r}", name, self.study.measures)
         return self._select(self.dataset[name], at)
 
-    def claimed(
+    def find_claimed_numbers(
         self, name: str, over: str, by: str | None, at: Coords | None, axis: str
     ) -> list[tuple[float, float, int]]:
         """Return the printed numbers of a measure that a figure shows: position on the axis, value (SI), index of the
@@ -79,19 +77,21 @@ class StudyData:
         if "place" not in numbers:  # nothing, or a folder that an earlier version judged
             return []
         claims_of_measure = numbers[(numbers["measure"] == name) & numbers["printed"].notna()].drop_duplicates("claim")
-        found, selected, positions = self.dataset[name], dict[str, int](), self.axis(axis)[0]
+        variable, selected, positions = self.dataset[name], dict[str, int](), self.axis(axis)[0]
         for key, value in (at or {}).items():
-            dimension = self.dimension(found, key)
-            selected[dimension] = self.nearest(key, value)
+            dimension = self.dimension(variable, key)
+            selected[dimension] = self.find_nearest_index(key, value)
         each = [
-            (json.loads(place), float(value))
-            for place, value in zip(claims_of_measure["place"], claims_of_measure["printed"], strict=True)
+            (json.loads(coordinates), float(value))
+            for coordinates, value in zip(claims_of_measure["place"], claims_of_measure["printed"], strict=True)
         ]
-        pooled = {one for one, n in found.sizes.items() if n > 1 and one not in (over, by, *selected)}
+        pooled = {dim for dim, n in variable.sizes.items() if n > 1 and dim not in (over, by, *selected)}
         return [
-            (float(positions[place[over]]), value, -1 if by is None else place.get(by, -1))
-            for place, value in each
-            if over in place and not pooled & {*place} and all(place.get(one, k) == k for one, k in selected.items())
+            (float(positions[coordinates[over]]), value, -1 if by is None else coordinates.get(by, -1))
+            for coordinates, value in each
+            if over in coordinates
+            and not pooled & {*coordinates}
+            and all(coordinates.get(dim, k) == k for dim, k in selected.items())
         ]
 
     def series(self, name: str, at: Coords | None = None) -> tuple[Any, Any]:
@@ -100,23 +100,23 @@ class StudyData:
 
         Raises UnknownNameError.
         """
-        if text(name, "a series", "the name of a kept series") not in self.kept:
-            raise unknown(f"the study kept no series {name!r}", name, self.kept)
-        found = self._select(self.dataset[name], at)
+        if check_text(name, "a series", "the name of a kept series") not in self.stored_series:
+            raise make_unknown_error(f"the study kept no series {name!r}", name, self.stored_series)
+        values = self._select(self.dataset[name], at)
         if OWN_TIMES not in self.dataset:
-            return self.dataset["time"].values, found
+            return self.dataset["time"].values, values
         t = self._select(self.dataset[OWN_TIMES], at).values
         rows = t.reshape(-1, t.shape[-1])
         rows = rows[np.isfinite(rows[:, 0])]
-        if len(rows) and alike(rows):
-            return rows[0], found
-        return t, found
+        if len(rows) and have_equal_times(rows):
+            return rows[0], values
+        return t, values
 
     def _select(self, variable: Any, at: Coords | None) -> Any:
         """Return a variable restricted to the runs at the coordinates `at`, the nearest value for a number."""
-        for name, value in mapping(at, "at", "expected {coordinate: value}").items():
+        for name, value in check_mapping(at, "at", "expected {coordinate: value}").items():
             dimension = self.dimension(variable, name)
-            variable = variable.isel({dimension: self.nearest(name, value)})
+            variable = variable.isel({dimension: self.find_nearest_index(name, value)})
         return variable
 
     def dimension(self, variable: Any, name: str) -> str:
@@ -124,17 +124,17 @@ class StudyData:
 
         Raises BadValueError for a coordinate that does not vary there, UnknownNameError for an unknown one.
         """
-        known = [str(one) for one in variable.dims if one not in SAMPLES]
-        if text(name, "a dimension") in known:
+        known_dims = [str(dim) for dim in variable.dims if dim not in SAMPLES]
+        if check_text(name, "a dimension") in known_dims:
             return name
         if name in self.dataset.dims or name in self.dataset.coords:
-            over = [str(one) for one in self.dataset[name].dims if one in known]
+            over = [str(dim) for dim in self.dataset[name].dims if dim in known_dims]
             if len(over) == 1:  # a number of a zip or a draw
                 return over[0]
             raise BadValueError(f"{name} does not vary over the runs that are shown")
-        raise _make_dimension_error(name, known)
+        raise _make_dimension_error(name, known_dims)
 
-    def nearest(self, name: str, value: Any) -> int:
+    def find_nearest_index(self, name: str, value: Any) -> int:
         """Return the index of a value of a coordinate: of the equal text, else UnknownNameError; or of the nearest
         number.
         """
@@ -142,24 +142,24 @@ class StudyData:
         if values.dtype.kind in "OU":
             words = [str(one) for one in values]
             if not isinstance(value, str) or value not in words:
-                raise unknown(f"{name} has no {message(value)}", str(value), tuple(words))
+                raise make_unknown_error(f"{name} has no {shorten_value(value)}", str(value), tuple(words))
             return words.index(value)
-        return int(np.abs(values - number_of(value, name)).argmin())
+        return int(np.abs(values - check_number(value, name)).argmin())
 
-    def first(self, variable: Any) -> str:
+    def choose_axis_dimension(self, variable: Any) -> str:
         """Return the default dimension for the axis of a measure: the first with numbers, else one with texts.
 
         Starts and draws have no order, so they are used only if there is no other dimension. Raises BadValueError for
         a single run.
         """
-        dims = [str(one) for one in variable.dims]
-        numbers = [one for one in dims if one not in MANY and self._is_number(one)]
+        dims = [str(dim) for dim in variable.dims]
+        numbers = [dim for dim in dims if dim not in MANY and self._is_number(dim)]
         if not dims:
             raise BadValueError("the study has one run here: there is nothing to draw it over")
-        words = [one for one in dims if one not in MANY]
-        return next(iter(numbers), next((one for one in words if one != "scene"), next(iter(words), dims[0])))
+        words = [dim for dim in dims if dim not in MANY]
+        return next(iter(numbers), next((dim for dim in words if dim != "scene"), next(iter(words), dims[0])))
 
-    def is_course(self, name: str) -> bool:
+    def is_ordered_number(self, name: str) -> bool:
         """Return whether a coordinate is an ordered number, so that a line may connect its values."""
         return self._is_number(name) and name not in MANY and not self._is_zip(name)
 
@@ -171,14 +171,14 @@ class StudyData:
         """Return whether the values of a dimension are numbers, not texts."""
         return self.dataset[dimension].values.dtype.kind in "fiu"
 
-    def lines(self, variable: Any, over: str) -> str | None:
+    def choose_line_dimension(self, variable: Any, over: str) -> str | None:
         """Return the default dimension whose values are separate lines of a figure over `over`: scenes, else the first
         with texts.
 
         None if there is neither.
         """
-        dims = [str(one) for one in variable.dims if one != over]
-        words = [one for one in dims if not self._is_number(one)]
+        dims = [str(dim) for dim in variable.dims if dim != over]
+        words = [dim for dim in dims if not self._is_number(dim)]
         return "scene" if "scene" in dims else next(iter(words), None)
 
     def split(self, variable: Any, by: str | None) -> list[tuple[str, Any]]:
@@ -192,7 +192,7 @@ class StudyData:
         """Return the values of a variable as an array (runs, …), with the dimensions `last_dimensions` last and all
         others joined.
         """
-        others = [one for one in variable.dims if one not in last_dimensions]
+        others = [dim for dim in variable.dims if dim not in last_dimensions]
         values = variable.transpose(*others, *last_dimensions).values
         return values.reshape(-1, *values.shape[len(others) :])
 
@@ -204,10 +204,14 @@ class StudyData:
         """
         values = self.dataset[name].values
         if values.dtype.kind in "OU":
-            return np.arange(len(values)), self.shown(name), [self.shown(one) for one in values]
-        factor, shown = drawn(float(np.abs(values).max(initial=0.0)), self.unit(name))
-        ticks = list(self.written(name)) if len(values) <= MOST_TICKS else []
-        return values * factor, label(self.shown(name), "" if ticks else shown), ticks or self._describe_zip(name)
+            return np.arange(len(values)), self.title_of(name), [self.title_of(value) for value in values]
+        factor, shown = choose_plot_unit(float(np.abs(values).max(initial=0.0)), self.unit(name))
+        ticks = list(self.written_values(name)) if len(values) <= MOST_TICKS else []
+        return (
+            values * factor,
+            format_label(self.title_of(name), "" if ticks else shown),
+            ticks or self._describe_zip(name),
+        )
 
     def place(self, name: str, value: Any) -> float:
         """Return the position of a value on the axis of a coordinate, as `axis` has them. Raises UnknownNameError for
@@ -215,8 +219,8 @@ class StudyData:
         """
         values = self.dataset[name].values
         if values.dtype.kind in "OU":
-            return float(self.nearest(name, value))
-        return number_of(value, name) * drawn(float(np.abs(values).max(initial=0.0)), self.unit(name))[0]
+            return float(self.find_nearest_index(name, value))
+        return check_number(value, name) * choose_plot_unit(float(np.abs(values).max(initial=0.0)), self.unit(name))[0]
 
     def labels(self, variable: Any, dimension: str, named: bool = False) -> tuple[list[str], str]:
         """Return a text for each value of a dimension, and the label of the dimension.
@@ -226,27 +230,30 @@ class StudyData:
         """
         values = self.dataset[dimension].values
         if values.dtype.kind in "OU":
-            return [self.shown(one) for one in values], self.shown(dimension)
+            return [self.title_of(text) for text in values], self.title_of(dimension)
         if (words := self._describe_zip(dimension)) is not None:
-            return words, self.shown(dimension)
-        if written := self.written(dimension):
-            return [f"{self.shown(dimension)} = {one}" if named else one for one in written], self.shown(dimension)
-        factor, unit = scale(float(np.abs(values).max(initial=0.0)), self.unit(dimension))
+            return words, self.title_of(dimension)
+        if written := self.written_values(dimension):
+            return [f"{self.title_of(dimension)} = {text}" if named else text for text in written], self.title_of(
+                dimension
+            )
+        factor, unit = choose_prefix(float(np.abs(values).max(initial=0.0)), self.unit(dimension))
         words = [f"{float(value) * factor:.4g}" for value in values]
         if named:
-            words = [f"{self.shown(dimension)} = {word} {unit}".strip() for word in words]
-        return words, label(self.shown(dimension), unit)
+            words = [f"{self.title_of(dimension)} = {word} {unit}".strip() for word in words]
+        return words, format_label(self.title_of(dimension), unit)
 
-    def written(self, name: str) -> tuple[str, ...]:
-        """Return the values of a coordinate as the file writes them, with units; empty if the file does not list them.
+    def written_values(self, name: str) -> tuple[str, ...]:
+        """Return the values of a coordinate as the file writes them, with units; empty if the file does not list
+        them.
         """
-        own = self.texts.get(name, ())
-        return own if len(own) == np.size(self.dataset[name].values) else ()
+        texts = self.texts.get(name, ())
+        return texts if len(texts) == np.size(self.dataset[name].values) else ()
 
     def at(self, name: str, value: Any) -> str:
         """Return a selected coordinate in words: "scene = without oil", or the nearest number: "c = 0.3 mm"."""
-        word = self.labels(None, name, named=True)[0][self.nearest(name, value)]
-        return word if word.startswith(f"{self.shown(name)} = ") else f"{self.shown(name)} = {word}"
+        word = self.labels(None, name, named=True)[0][self.find_nearest_index(name, value)]
+        return word if word.startswith(f"{self.title_of(name)} = ") else f"{self.title_of(name)} = {word}"
 
     def _describe_zip(self, dimension: str) -> list[str] | None:
         """Return for each index of a zip its parameters in words, or those that differ from most other indices.
@@ -256,22 +263,24 @@ class StudyData:
         if not self._is_zip(dimension):
             return None
         columns: dict[tuple[str, ...], str] = {}
-        for name, one in self.dataset.coords.items():
-            if one.dims == (dimension,) and name != dimension and len(set(one.values.tolist())) > 1:
-                columns.setdefault(tuple(self.written(str(name)) or map(self.shown, one.values)), self.shown(name))
+        for name, coordinate in self.dataset.coords.items():
+            if coordinate.dims == (dimension,) and name != dimension and len(set(coordinate.values.tolist())) > 1:
+                columns.setdefault(
+                    tuple(self.written_values(str(name)) or map(self.title_of, coordinate.values)), self.title_of(name)
+                )
         whole = [", ".join(row) for row in zip(*columns, strict=True)]
         for words, most in (
             (whole, MOST_LETTERS if len(columns) < MANY_COLUMNS else 0),
-            (changes(columns), MOST_SAID),
+            (describe_changes(columns), MOST_SAID),
         ):
             if words and max(map(len, words)) <= most and len(set(words)) == len(words):
                 return words
         return None
 
-    def where(self, indices: Mapping[str, int]) -> str:
+    def describe_cell(self, indices: Mapping[str, int]) -> str:
         """Return a cell in words from its indices by dimension: "c = 0.3 mm, ω = 2π rad/s"."""
-        own = ((name, k, self.labels(None, name, named=True)[0]) for name, k in indices.items())
-        return ", ".join(words[k] for _, k, words in own)
+        labelled_indices = ((name, k, self.labels(None, name, named=True)[0]) for name, k in indices.items())
+        return ", ".join(words[k] for _, k, words in labelled_indices)
 
     def failures(self) -> Iterator[tuple[str, int, str]]:
         """Yield each kind of failure, its number of runs, and a text with coordinates and message of the first of
@@ -281,19 +290,19 @@ class StudyData:
         """
         if not (kinds := self.study.failures):
             return
-        found, first = self.dataset["failure"], self.study.first_failures
-        words = {str(one): self.labels(None, str(one), named=True)[0] for one in found.dims}
+        failure_array, first = self.dataset["failure"], self.study.first_failures
+        words = {str(dim): self.labels(None, str(dim), named=True)[0] for dim in failure_array.dims}
         for kind, count in kinds.items():
             if (run := first.get(kind)) is None:  # a folder of an earlier version
                 yield kind, count, ""
                 continue
-            place = dict(zip(words, np.unravel_index(run, found.shape), strict=True)) if words else {}
-            own = ((name, words[name][k]) for name, k in place.items())
-            at = ", ".join(word if " = " in word else f"{self.shown(name)} {word}" for name, word in own)
-            message = str(found.isel(place).values).partition("\n")[0]
-            yield kind, count, f"{at}: {message}" if at else message
+            coordinates = dict(zip(words, np.unravel_index(run, failure_array.shape), strict=True)) if words else {}
+            labels = ((name, words[name][k]) for name, k in coordinates.items())
+            location = ", ".join(word if " = " in word else f"{self.title_of(name)} {word}" for name, word in labels)
+            message = str(failure_array.isel(coordinates).values).partition("\n")[0]
+            yield kind, count, f"{location}: {message}" if location else message
 
-    def sections(
+    def find_section_values(
         self, section: str, names: list[str], level: float, falling: bool, after: float, at: Coords | None
     ) -> list[tuple[tuple[int, ...], list[Any]]]:
         """Return for each selected run its index and the values of the series `names` where the series `section`
@@ -303,30 +312,39 @@ class StudyData:
         """
         t, section_series = self.series(section, at)
         others = [self.series(name, at)[1].values for name in names]
-        level, after, falling = number_of(level, "level"), number_of(after, "after"), flag(falling, "falling")
-        times, found = np.broadcast_to(t, section_series.shape), []
+        level, after, falling = (
+            check_number(level, "level"),
+            check_number(after, "after"),
+            check_flag(falling, "falling"),
+        )
+        times, sections = np.broadcast_to(t, section_series.shape), []
         for where in np.ndindex(section_series.shape[:-1]):
-            own = [series[where] for series in others]
-            found.append((where, crossings(times[where], section_series.values[where], own, level, falling, after)))
-        return found
+            values = [series[where] for series in others]
+            sections.append(
+                (
+                    where,
+                    find_section_crossings(times[where], section_series.values[where], values, level, falling, after),
+                )
+            )
+        return sections
 
-    def spreads(self, name: str) -> Iterator[tuple[dict[str, str], Any]]:
+    def iterate_spreads(self, name: str) -> Iterator[tuple[dict[str, str], Any]]:
         """Yield for each combination of coordinates their texts, and the values of a measure over starts and draws
         there.
         """
-        found = self.dataset[name]
-        dims = [str(one) for one in found.dims if one not in MANY]
-        words = {one: self.labels(found, one)[0] for one in dims}
-        values = found.transpose(*dims, *(one for one in found.dims if one in MANY)).values
+        variable = self.dataset[name]
+        dims = [str(dim) for dim in variable.dims if dim not in MANY]
+        words = {dim: self.labels(variable, dim)[0] for dim in dims}
+        values = variable.transpose(*dims, *(dim for dim in variable.dims if dim in MANY)).values
         for where in np.ndindex(values.shape[: len(dims)]):
-            yield {one: words[one][k] for one, k in zip(dims, where, strict=True)}, np.ravel(values[where])
+            yield {dim: words[dim][k] for dim, k in zip(dims, where, strict=True)}, np.ravel(values[where])
 
     def shown_unit(self, name: str) -> str:
         """Return the unit of a variable in typographic form, such as "m/s²"."""
-        return pretty(self.unit(name))
+        return format_unit(self.unit(name))
 
 
-def changes(columns: Mapping[tuple[str, ...], str]) -> list[str]:
+def describe_changes(columns: Mapping[tuple[str, ...], str]) -> list[str]:
     """Return for each index of a zip the parameters that differ from the most frequent value, as a text; or
     "unchanged".
 
@@ -346,4 +364,4 @@ def changes(columns: Mapping[tuple[str, ...], str]) -> list[str]:
 
 def _make_dimension_error(name: str, known_names: list[str]) -> UnknownNameError:
     """Return the error for an unknown dimension, with the nearest known name."""
-    return unknown(f"the runs that are shown have no dimension {name!r}", name, tuple(known_names))
+    return make_unknown_error(f"the runs that are shown have no dimension {name!r}", name, tuple(known_names))

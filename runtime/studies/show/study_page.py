@@ -1,4 +1,4 @@
-"""Build the HTML page of a study: variations, failures, every measure by its coordinates, and figures."""
+"""Build the HTML page of a study: varied parameters, failed runs, tables of each measure, and figures."""
 
 from __future__ import annotations
 
@@ -10,11 +10,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.errors import GudgeonError
-from gudgeon.language.plot_units import drawn, label
-from gudgeon.language.shown import counted
-from gudgeon.results.reports.html_page import Section, article, lines, page, table, text
-from gudgeon.studies.show.claims import claims_sections
-from gudgeon.studies.show.pictures import Draw, Pictures, gallery
+from gudgeon.language.plot_units import choose_plot_unit, format_label
+from gudgeon.language.text_output import format_count
+from gudgeon.results.reports.html_page import (
+    Section,
+    build_article,
+    build_page,
+    build_paragraphs,
+    build_table,
+    escape_line,
+)
+from gudgeon.studies.show.claims import build_claims_sections
+from gudgeon.studies.show.pictures import Draw, Pictures, format_gallery
 from gudgeon.studies.show.study_data import MANY, StudyData
 
 if TYPE_CHECKING:
@@ -36,34 +43,36 @@ class StudyReport:
         first = next(iter(parts.values()))
         every = list(_iterate_sections(self.study, parts, pictures))
         chapters = _list_chapters(every, parts) if len(parts) > 1 else ()
-        return pictures.filled(page(first.title, _describe_study(parts), every, chapters))
+        return pictures.insert_figures(build_page(first.title, _describe_study(parts), every, chapters))
 
     def _repr_html_(self) -> str:
         """Return the report as an HTML fragment for a notebook, which calls this method."""
         parts, pictures = _load_parts(self.study), Pictures()
-        title = f"<h1>{text(next(iter(parts.values())).title)}</h1>"
-        return pictures.filled(article(_iterate_sections(self.study, parts, pictures), title))
+        title = f"<h1>{escape_line(next(iter(parts.values())).title)}</h1>"
+        return pictures.insert_figures(build_article(_iterate_sections(self.study, parts, pictures), title))
 
 
 def _load_parts(study: Study) -> dict[str, StudyData]:
     """Return the data of each part by its name; the whole study under "" if it has no parts."""
-    return {name: StudyData(own) for name, own in (getattr(study, "parts", None) or {"": study}).items()}
+    return {name: StudyData(part) for name, part in (getattr(study, "parts", None) or {"": study}).items()}
 
 
 def _iterate_sections(study: Study, parts: dict[str, StudyData], pictures: Pictures) -> Iterator[Section]:
     """Yield heading and HTML of all sections: the summary, the claims, then those of each part."""
-    yield "In short", lines([*next(iter(parts.values())).names.about, *_read_claim_totals(study)])
-    yield from claims_sections(study, parts, pictures)
+    yield "In short", build_paragraphs([*next(iter(parts.values())).names.about, *_read_claim_totals(study)])
+    yield from build_claims_sections(study, parts, pictures)
     for name, data in parts.items():
-        before = f"{data.shown(name)}: " if name else ""
+        before = f"{data.title_of(name)}: " if name else ""
         if name:
-            yield _format_part_heading(data, name), lines([_describe_counts(data)])
-        yield from ((before + heading, inside) for heading, inside in sections(data, pictures, name or "study"))
+            yield _format_part_heading(data, name), build_paragraphs([_describe_counts(data)])
+        yield from (
+            (before + heading, inside) for heading, inside in iterate_part_sections(data, pictures, name or "study")
+        )
 
 
 def _format_part_heading(data: StudyData, name: str) -> str:
     """Return the heading of a part with its title."""
-    return f"Part {data.shown(name)}"
+    return f"Part {data.title_of(name)}"
 
 
 def _list_chapters(every: list[Section], parts: dict[str, StudyData]) -> list[str]:
@@ -73,7 +82,8 @@ def _list_chapters(every: list[Section], parts: dict[str, StudyData]) -> list[st
 
 
 def _read_claim_totals(study: Study) -> list[str]:
-    """Return lines with the numbers of trends by verdict and the deviation from printed numbers; empty without claims.
+    """Return lines with the numbers of trends by verdict and the deviation from printed numbers; empty without
+    claims.
     """
     try:
         return study.claims.totals()
@@ -81,32 +91,32 @@ def _read_claim_totals(study: Study) -> list[str]:
         return []
 
 
-def sections(data: StudyData, pictures: Pictures, name: str = "study") -> Iterator[Section]:
+def iterate_part_sections(data: StudyData, pictures: Pictures, name: str = "study") -> Iterator[Section]:
     """Yield heading and HTML of each section of a part: variations, failures, notes, measures, figures of measures and
     series.
 
     name: prefix of the figures' names. Without matplotlib the figures are replaced by a line on how to install it.
     """
     study = data.study
-    yield "What varied", table(("", "over", "values", "unit", ""), _iterate_coordinate_rows(data), True)
+    yield "What varied", build_table(("", "over", "values", "unit", ""), _iterate_coordinate_rows(data), True)
     failed = ((str(count), kind, message) for kind, count, message in data.failures())
-    yield "Failed runs", table(("runs", "failed of", "the first of them"), failed, True)
-    yield "Notes", lines(study.notes)
+    yield "Failed runs", build_table(("runs", "failed of", "the first of them"), failed, True)
+    yield "Notes", build_paragraphs(study.notes)
     yield "Measures", _format_measure_table(data)
     try:
         import gudgeon.studies.show.study_plots  # noqa: F401 (without matplotlib it says what to install)
     except GudgeonError as error:
-        yield "Figures", lines([str(error)])
+        yield "Figures", build_paragraphs([str(error)])
         return
-    yield "Figures", gallery(_iterate_measure_figures(data), f"{name}-measure", pictures)
-    yield "Series", gallery(_iterate_series_figures(data), f"{name}-series", pictures)
+    yield "Figures", format_gallery(_iterate_measure_figures(data), f"{name}-measure", pictures)
+    yield "Series", format_gallery(_iterate_series_figures(data), f"{name}-series", pictures)
 
 
 def _describe_study(parts: dict[str, StudyData]) -> str:
     """Return runs, failures, mechanism and versions of a study in one line."""
     attributes = next(iter(parts.values())).dataset.attrs
     runs, failed = (sum(getattr(data.study, name) for data in parts.values()) for name in ("runs", "failed"))
-    total_counts = f"{counted(runs, 'run')} in {len(parts)} parts, {failed or 'none'} failed"
+    total_counts = f"{format_count(runs, 'run')} in {len(parts)} parts, {failed or 'none'} failed"
     counts = total_counts if len(parts) > 1 else _describe_counts(next(iter(parts.values())))
     versions = f"gudgeon {attributes['gudgeon']} · file {str(attributes['sha256'])[:12]}"
     return f"{counts} · mechanism {attributes['mechanism']} · {versions}"
@@ -115,9 +125,9 @@ def _describe_study(parts: dict[str, StudyData]) -> str:
 def _describe_counts(data: StudyData) -> str:
     """Return runs, dimensions and failures of a part in one line."""
     study = data.study
-    sizes = " × ".join(f"{data.shown(name)} {size}" for name, size in data.dataset["t_last"].sizes.items())
+    sizes = " × ".join(f"{data.title_of(name)} {size}" for name, size in data.dataset["t_last"].sizes.items())
     failed = f", {study.failed} failed" if study.failed else ", none failed"
-    return f"{counted(study.runs, 'run')}{f' ({sizes})' if sizes else ''}{failed}"
+    return f"{format_count(study.runs, 'run')}{f' ({sizes})' if sizes else ''}{failed}"
 
 
 def _iterate_coordinate_rows(data: StudyData) -> Iterator[tuple[str, ...]]:
@@ -125,24 +135,24 @@ def _iterate_coordinate_rows(data: StudyData) -> Iterator[tuple[str, ...]]:
 
     More than SHOWN_VALUES numbers are shown by the smallest and the largest.
     """
-    for name, one in data.dataset.coords.items():
+    for name, coordinate in data.dataset.coords.items():
         if name in ("time", "sample"):
             continue
-        over = ", ".join(map(data.shown, one.dims)) if one.dims != (name,) else ""
-        unit, message = str(one.attrs.get("units", "")), str(one.attrs.get("long_name", ""))
-        values = np.ravel(one.values)
+        over = ", ".join(map(data.title_of, coordinate.dims)) if coordinate.dims != (name,) else ""
+        unit, message = str(coordinate.attrs.get("units", "")), str(coordinate.attrs.get("long_name", ""))
+        values = np.ravel(coordinate.values)
         if values.dtype.kind in "OU":
-            yield data.shown(name), over, _list_values([data.shown(value) for value in values]), "", message
+            yield data.title_of(name), over, _list_values([data.title_of(value) for value in values]), "", message
             continue
-        if written := data.written(str(name)):
-            yield data.shown(name), over, _list_values(list(written)), "", message
+        if written := data.written_values(str(name)):
+            yield data.title_of(name), over, _list_values(list(written)), "", message
             continue
-        factor, unit_text = drawn(float(np.abs(values).max(initial=0.0)), unit)
+        factor, unit_text = choose_plot_unit(float(np.abs(values).max(initial=0.0)), unit)
         is_short = len(values) <= SHOWN_VALUES and not (values.dtype.kind == "i" and len(values) > 2)
         shown_values = values if is_short or not values.size else np.array([values.min(), values.max()])
         words = [f"{float(value) * factor + 0.0:.6g}" for value in shown_values]
         listed = ", ".join(words) if is_short else f"{' … '.join(words)}, {len(values)} of them"
-        yield data.shown(name), over, listed, unit_text, message
+        yield data.title_of(name), over, listed, unit_text, message
 
 
 def _list_values(words: list[str]) -> str:
@@ -162,24 +172,26 @@ def _format_measure_table(data: StudyData) -> str:
     dims, units, has_spread = [], [], False
     for name in names:
         shape = data.dataset[name]
-        dims = [str(one) for one in shape.dims if one not in MANY]
-        has_spread = any(one in MANY for one in shape.dims)
-        factor, unit = drawn(float(np.nanmax(np.abs(np.nan_to_num(shape.values)), initial=0.0)), data.unit(name))
+        dims = [str(dim) for dim in shape.dims if dim not in MANY]
+        has_spread = any(dim in MANY for dim in shape.dims)
+        factor, unit = choose_plot_unit(
+            float(np.nanmax(np.abs(np.nan_to_num(shape.values)), initial=0.0)), data.unit(name)
+        )
         units.append(unit)
-        for at, values in data.spreads(name):
-            key = tuple(at.values())
+        for coordinates, values in data.iterate_spreads(name):
+            key = tuple(coordinates.values())
             if key not in rows and len(rows) >= MOST_ROWS:
                 omitted += name == names[0]
                 continue
             rows.setdefault(key, []).append(_format_spread(values * factor, has_spread))
-    head = [data.labels(data.dataset[names[0]], one)[1] for one in dims]
-    head += [label(data.shown(name), unit) for name, unit in zip(names, units, strict=True)]
-    over = [data.shown(one) for one in data.dataset[names[0]].dims if one in MANY]
+    head = [data.labels(data.dataset[names[0]], dim)[1] for dim in dims]
+    head += [format_label(data.title_of(name), unit) for name, unit in zip(names, units, strict=True)]
+    over = [data.title_of(dim) for dim in data.dataset[names[0]].dims if dim in MANY]
     message = [
         f"median (quartiles) over {', '.join(over)}; n: the number of these runs, where some have none"
     ] * has_spread
     message += [f"{omitted} more rows are in the dataset"] * bool(omitted)
-    return table(head, ([*key, *cells] for key, cells in rows.items())) + lines(message, "g-quiet")
+    return build_table(head, ([*key, *cells] for key, cells in rows.items())) + build_paragraphs(message, "g-quiet")
 
 
 def _format_spread(values: Any, has_spread: bool) -> str:
@@ -206,26 +218,29 @@ def _iterate_measure_figures(data: StudyData) -> Iterator[Draw]:
 
     plot = StudyPlot(data.study)
     for name in data.study.measures:
-        found = data.dataset[name]
-        if not found.dims or not np.isfinite(found.values).any():
+        variable = data.dataset[name]
+        if not variable.dims or not np.isfinite(variable.values).any():
             continue
-        yield f"{data.shown(name)}: {_describe_pooled_runs(data, found)}", partial(plot.measure, name, published=True)
-        varied = [str(one) for one in found.dims if one != "scene" and one not in MANY]
+        yield (
+            f"{data.title_of(name)}: {_describe_pooled_runs(data, variable)}",
+            partial(plot.measure, name, published=True),
+        )
+        varied = [str(dim) for dim in variable.dims if dim != "scene" and dim not in MANY]
         if len(varied) < 2:
             continue
-        for scene in [str(one) for one in data.dataset["scene"].values] if "scene" in found.dims else [""]:
-            at = {"scene": scene} if scene else {}
-            if not np.nan_to_num(data.measure(name, at).values).any():  # nothing, or what is 0 everywhere
+        for scene in [str(dim) for dim in data.dataset["scene"].values] if "scene" in variable.dims else [""]:
+            coordinates = {"scene": scene} if scene else {}
+            if not np.nan_to_num(data.measure(name, coordinates).values).any():  # nothing, or what is 0 everywhere
                 continue
-            message = ", ".join(filter(None, (f"{data.shown(name)}: median", data.shown(scene))))
-            yield message, partial(plot.heat_map, name, *varied[:2], at=at)
+            message = ", ".join(filter(None, (f"{data.title_of(name)}: median", data.title_of(scene))))
+            yield message, partial(plot.heat_map, name, *varied[:2], at=coordinates)
 
 
 def _describe_pooled_runs(data: StudyData, measure: Any) -> str:
     """Return in words over which dimensions the statistics of a measure's figure are computed."""
-    over = data.first(measure)
-    others = [str(one) for one in measure.dims if one not in (over, data.lines(measure, over))]
-    return f"median, quartiles and extremes over {', '.join(map(data.shown, others))}" if others else "of each run"
+    over = data.choose_axis_dimension(measure)
+    others = [str(dim) for dim in measure.dims if dim not in (over, data.choose_line_dimension(measure, over))]
+    return f"median, quartiles and extremes over {', '.join(map(data.title_of, others))}" if others else "of each run"
 
 
 def _iterate_series_figures(data: StudyData) -> Iterator[Draw]:
@@ -236,15 +251,18 @@ def _iterate_series_figures(data: StudyData) -> Iterator[Draw]:
     from gudgeon.studies.show.study_plots import StudyPlot
 
     plot = StudyPlot(data.study)
-    for name in data.kept:
-        found = data.dataset[name]
-        if found.size > MOST_NUMBERS or found.shape[-1] > MOST_SAMPLES or not found.size:
+    for name in data.stored_series:
+        variable = data.dataset[name]
+        if variable.size > MOST_NUMBERS or variable.shape[-1] > MOST_SAMPLES or not variable.size:
             continue
         t, _ = data.series(name)
-        runs = found.size // found.shape[-1]
-        by = "scene" if "scene" in found.dims else None
+        runs = variable.size // variable.shape[-1]
+        line_dimension = "scene" if "scene" in variable.dims else None
         over_fractions = t.ndim > 1
         if over_fractions and not (np.nan_to_num(t) > 0.0).any():  # no run began
             continue
-        message = f"{data.shown(name)}: median, quartiles and extremes of {counted(runs, 'run')}"
-        yield message + ", over shares" * over_fractions, partial(plot.bands, name, by, share=over_fractions)
+        message = f"{data.title_of(name)}: median, quartiles and extremes of {format_count(runs, 'run')}"
+        yield (
+            message + ", over shares" * over_fractions,
+            partial(plot.bands, name, line_dimension, share=over_fractions),
+        )

@@ -1,5 +1,4 @@
-"""Own the figures of a study, `study.plot`: bands of an ensemble, curves over a parameter, sections, maps over two
-parameters.
+"""Draw the figures of a study, `study.plot`: bands of an ensemble, curves, maps, Poincaré sections.
 
 Each method draws one Axes, new or given, of the runs that `at` selects: {"scene": "dry", "c": 3e-4}, the nearest value
 for a number. Statistics leave out NaN of failed runs. On axes of texts the figures show medians with quartiles and
@@ -15,13 +14,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.errors import BadValueError
-from gudgeon.language.argument_checks import flag, number_of, positive, refuse
-from gudgeon.language.plot_units import drawn, label
-from gudgeon.language.shown import figure_title, one_line
-from gudgeon.results.figures.plots import COLOURS, IDEAL, STYLE, TITLE, cycle, peak_of
-from gudgeon.results.figures.run_plots import check_axes, new_axes
+from gudgeon.language.argument_checks import check_flag, check_number, check_positive, raise_bad_value
+from gudgeon.language.plot_units import choose_plot_unit, format_label
+from gudgeon.language.text_output import format_figure_title, format_one_line
+from gudgeon.results.figures.plots import COLOURS, IDEAL, STYLE, TITLE, choose_colours, find_largest_magnitude
+from gudgeon.results.figures.run_plots import check_axes, create_axes
 from gudgeon.studies.show.study_data import Coords, StudyData
-from gudgeon.studies.show.study_signals import low_pass_runs, over_shares, spectra
+from gudgeon.studies.show.study_signals import compute_spectra, filter_low_pass, resample_over_fractions
 
 import matplotlib  # isort: skip  (labels.py says where it is missing)
 
@@ -61,32 +60,32 @@ class StudyPlot:
         bars. published: marks of published values, {coordinate: value, SI}; True: the numbers that the study's file
         claims of these runs, in the lines' colours, except those about a part of the runs of a median.
         """
-        found = self.data.measure(name, at)
-        axis = self.data.first(found) if over is None else over
-        over = self.data.dimension(found, axis)
-        by = self.data.lines(found, over) if by is None else self.data.dimension(found, by)
+        values = self.data.measure(name, at)
+        axis = self.data.choose_axis_dimension(values) if over is None else over
+        over = self.data.dimension(values, axis)
+        by = self.data.choose_line_dimension(values, over) if by is None else self.data.dimension(values, by)
         if by == over:
             raise BadValueError(f"over and by are both {by}", hint="a line for each value of another dimension")
         if isinstance(published, bool):
-            claimed = self.data.claimed(name, over, by, at, axis) if published else []
+            claimed = self.data.find_claimed_numbers(name, over, by, at, axis) if published else []
         else:
-            stars = {key: number_of(value, "published") for key, value in _to_dict(published).items()}
+            stars = {key: check_number(value, "published") for key, value in _convert_to_dict(published).items()}
             claimed = [(self.data.place(axis, key), value, -1) for key, value in stars.items()]
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(5.6, 3.6) if ax is None else check_axes(ax)
+            ax = create_axes(5.6, 3.6) if ax is None else check_axes(ax)
             x, x_label, ticks = self.data.axis(axis)
-            most = [peak_of(found.values), *(abs(value) for _, value, _ in claimed)]
-            factor, unit = drawn(max(most), found.attrs.get("units", ""))
-            parts, course = self.data.split(found, by), self.data.is_course(axis)
-            for k, ((message, own), colour) in enumerate(zip(parts, cycle(len(parts)), strict=True)):
-                five = quantiles(self.data.rows(own, over)) * factor
+            most = [find_largest_magnitude(values.values), *(abs(value) for _, value, _ in claimed)]
+            factor, unit = choose_plot_unit(max(most), values.attrs.get("units", ""))
+            parts, course = self.data.split(values, by), self.data.is_ordered_number(axis)
+            for k, ((message, part_values), colour) in enumerate(zip(parts, choose_colours(len(parts)), strict=True)):
+                five = compute_quantiles(self.data.rows(part_values, over)) * factor
                 if course:
                     draw_band(ax, x, five, colour, message)
                 else:
                     ax.set_xlim(x.min() - 0.5, x.max() + 0.5)
                     draw_bars(ax, x + BESIDE * (k - 0.5 * (len(parts) - 1)) / len(parts), five, colour, message)
-            draw_published(ax, claimed, factor, cycle(len(parts)))
-            ax.set(xlabel=x_label, ylabel=label(self.data.shown(name), unit))
+            draw_published(ax, claimed, factor, choose_colours(len(parts)))
+            ax.set(xlabel=x_label, ylabel=format_label(self.data.title_of(name), unit))
             set_ticks(ax, x, ticks)
             self._finish(ax, at, len(parts) > 1 or bool(claimed))
         return ax
@@ -105,21 +104,32 @@ class StudyPlot:
         share: over fractions of each run's duration, 0 to 1, at the samples of the longest run; other runs are
         interpolated linearly. Raises BadValueError for runs with different times without share.
         """
-        t, found = self.data.series(series, at)
-        if flag(share, "share"):
-            if (shares := over_shares(t, found)) is None:
+        t, values = self.data.series(series, at)
+        if check_flag(share, "share"):
+            if (shares := resample_over_fractions(t, values)) is None:
                 raise BadValueError(f"{series}: no run has a length of which there are shares")
-            t, found = shares
+            t, values = shares
         if t.ndim > 1:
             message = f"{series}: the runs have samples at different times, of which there are no bands"
             raise BadValueError(message, hint="pick runs with the same times (at=…), share=True, or draw an overlay")
-        by = self.data.dimension(found, by) if by is not None else None
+        by = self.data.dimension(values, by) if by is not None else None
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(8.0, 3.6) if ax is None else check_axes(ax)
-            factor, unit = drawn(peak_of(found.values), found.attrs.get("units", ""))
-            for (message, own), colour in zip(parts := self.data.split(found, by), cycle(len(parts)), strict=True):
-                draw_band(ax, t, quantiles(self.data.rows(own, found.dims[-1])) * factor, colour, message, 0.0)
-            ax.set(xlabel="share of the run" if share else "t [s]", ylabel=label(self.data.shown(series), unit))
+            ax = create_axes(8.0, 3.6) if ax is None else check_axes(ax)
+            factor, unit = choose_plot_unit(find_largest_magnitude(values.values), values.attrs.get("units", ""))
+            for (message, part_values), colour in zip(
+                parts := self.data.split(values, by), choose_colours(len(parts)), strict=True
+            ):
+                draw_band(
+                    ax,
+                    t,
+                    compute_quantiles(self.data.rows(part_values, values.dims[-1])) * factor,
+                    colour,
+                    message,
+                    0.0,
+                )
+            ax.set(
+                xlabel="share of the run" if share else "t [s]", ylabel=format_label(self.data.title_of(series), unit)
+            )
             self._finish(ax, at, len(parts) > 1)
         return ax
 
@@ -127,8 +137,8 @@ class StudyPlot:
         """Plot a stored series over time with a curve for every run, in the colour of its value of `by`, and return
         the axes.
         """
-        t, found = self.data.series(series, at)
-        return self._plot_curves([(t, found)], "t [s]", series, by, at, ax)
+        t, values = self.data.series(series, at)
+        return self._plot_curves([(t, values)], "t [s]", series, by, at, ax)
 
     def spectrum(
         self,
@@ -144,16 +154,18 @@ class StudyPlot:
         Median, quartiles and extremes over its runs. Raises BadValueError for uneven samples, or for runs of one value
         with different times.
         """
-        t, found = self.data.series(series, at)
-        by = self.data.dimension(found, by) if by is not None else None
-        own = spectra(t, found, by, series, window)
+        t, values = self.data.series(series, at)
+        by = self.data.dimension(values, by) if by is not None else None
+        spectra = compute_spectra(t, values, by, series, window)
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(8.0, 3.6) if ax is None else check_axes(ax)
-            factor, unit = drawn(max(peak_of(rows) for _, rows in own), found.attrs.get("units", ""))
-            message = [word for word, _ in self.data.split(found, by)]
-            for word, (f, rows), colour in zip(message, own, cycle(len(message)), strict=True):
-                draw_band(ax, f, quantiles(rows) * factor, colour, word, 0.0)
-            ax.set(xlabel="f [Hz]", ylabel=label(self.data.shown(series), unit))
+            ax = create_axes(8.0, 3.6) if ax is None else check_axes(ax)
+            factor, unit = choose_plot_unit(
+                max(find_largest_magnitude(rows) for _, rows in spectra), values.attrs.get("units", "")
+            )
+            message = [word for word, _ in self.data.split(values, by)]
+            for word, (f, rows), colour in zip(message, spectra, choose_colours(len(message)), strict=True):
+                draw_band(ax, f, compute_quantiles(rows) * factor, colour, word, 0.0)
+            ax.set(xlabel="f [Hz]", ylabel=format_label(self.data.title_of(series), unit))
             self._finish(ax, at, len(message) > 1)
         return ax
 
@@ -173,19 +185,19 @@ class StudyPlot:
         There is a curve for every run, in the colour of its value of `by`; `order`, `causal`: as in
         `run.plot.low_pass`.
         """
-        t, found = self.data.series(series, at)
-        cutoff = positive(cutoff, "cutoff")
-        left = low_pass_runs(t, found, cutoff, order, flag(causal, "causal"))
+        t, values = self.data.series(series, at)
+        cutoff = check_positive(cutoff, "cutoff")
+        left = filter_low_pass(t, values, cutoff, order, check_flag(causal, "causal"))
         ax = self._plot_curves([(t, left)], "t [s]", series, by, at, ax)
         message = f"low-pass {cutoff:g} Hz, Butterworth of order {order}, {'causal' if causal else 'zero phase'}"
-        ax.set_title(figure_title(f"{ax.get_title()}: {message}", TITLE))
+        ax.set_title(format_figure_title(f"{ax.get_title()}: {message}", TITLE))
         return ax
 
     def phase(self, x: str, y: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
         """Plot one stored series over another with a curve for every run, in the colour of its value of `by`."""
         (_, xs), (_, ys) = self.data.series(x, at), self.data.series(y, at)
-        factor, unit = drawn(peak_of(xs.values), xs.attrs.get("units", ""))
-        return self._plot_curves([(xs.values * factor, ys)], label(self.data.shown(x), unit), y, by, at, ax)
+        factor, unit = choose_plot_unit(find_largest_magnitude(xs.values), xs.attrs.get("units", ""))
+        return self._plot_curves([(xs.values * factor, ys)], format_label(self.data.title_of(x), unit), y, by, at, ax)
 
     def _plot_curves(
         self,
@@ -201,20 +213,20 @@ class StudyPlot:
         pairs: one pair of x values, (N,) or (…, N), and the series over them. name: of the series. ax: None for new
         axes.
         """
-        ((x, found),) = pairs
-        by = self.data.dimension(found, by) if by is not None else None
+        ((x, values),) = pairs
+        by = self.data.dimension(values, by) if by is not None else None
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(8.0, 3.6) if ax is None else check_axes(ax)
-            factor, unit = drawn(peak_of(found.values), found.attrs.get("units", ""))
-            x = np.broadcast_to(x, found.shape)
-            parts = self.data.split(found, by)
-            for k, ((message, own), colour) in enumerate(zip(parts, cycle(len(parts)), strict=True)):
-                own_x = x if by is None else np.take(x, k, axis=found.dims.index(by))
-                rows = zip(own_x.reshape(-1, x.shape[-1]), own.values.reshape(-1, x.shape[-1]), strict=True)
-                called = legend_label(own.values, message)
+            ax = create_axes(8.0, 3.6) if ax is None else check_axes(ax)
+            factor, unit = choose_plot_unit(find_largest_magnitude(values.values), values.attrs.get("units", ""))
+            x = np.broadcast_to(x, values.shape)
+            parts = self.data.split(values, by)
+            for k, ((message, part_values), colour) in enumerate(zip(parts, choose_colours(len(parts)), strict=True)):
+                own_x = x if by is None else np.take(x, k, axis=values.dims.index(by))
+                rows = zip(own_x.reshape(-1, x.shape[-1]), part_values.values.reshape(-1, x.shape[-1]), strict=True)
+                called = select_legend_label(part_values.values, message)
                 for j, (xs, ys) in enumerate(rows):
                     ax.plot(xs, ys * factor, color=colour, lw=0.8, alpha=0.8, label=called if j == 0 else None)
-            ax.set(xlabel=x_label, ylabel=label(self.data.shown(name), unit))
+            ax.set(xlabel=x_label, ylabel=format_label(self.data.title_of(name), unit))
             self._finish(ax, at, len(parts) > 1)
         return ax
 
@@ -235,15 +247,20 @@ class StudyPlot:
 
         Between samples all series are monotone cubics (PCHIP); `run.plot.section` has the located states of an event.
         """
-        own = self.data.sections(section, [x, y], level, falling, after, at)
-        xs, ys = (np.concatenate([pair[k] for _, pair in own]) if own else np.zeros(0) for k in range(2))
+        section_values = self.data.find_section_values(section, [x, y], level, falling, after, at)
+        xs, ys = (
+            np.concatenate([pair[k] for _, pair in section_values]) if section_values else np.zeros(0) for k in range(2)
+        )
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(5.2, 4.4) if ax is None else check_axes(ax)
+            ax = create_axes(5.2, 4.4) if ax is None else check_axes(ax)
             (of_x, x_unit), (of_y, y_unit) = (
-                drawn(peak_of(values), self.data.unit(name)) for name, values in ((x, xs), (y, ys))
+                choose_plot_unit(find_largest_magnitude(values), self.data.unit(name))
+                for name, values in ((x, xs), (y, ys))
             )
             ax.plot(xs * of_x, ys * of_y, ".", color=COLOURS[1], ms=3.0)
-            ax.set(xlabel=label(self.data.shown(x), x_unit), ylabel=label(self.data.shown(y), y_unit))
+            ax.set(
+                xlabel=format_label(self.data.title_of(x), x_unit), ylabel=format_label(self.data.title_of(y), y_unit)
+            )
             self._finish(ax, at, False)
         return ax
 
@@ -261,38 +278,40 @@ class StudyPlot:
     ) -> Axes:
         """Plot the values of a stored series in a section (see `section`) as dots over a parameter."""
         _, found = self.data.series(series, at)
-        place = found.dims.index(self.data.dimension(found, over))
+        dim_index = found.dims.index(self.data.dimension(found, over))
         x, x_label, ticks = self.data.axis(over)
-        own = self.data.sections(section, [series], level, falling, after, at)
-        xs = np.concatenate([np.full(len(values), x[where[place]]) for where, (values,) in own] or [np.zeros(0)])
-        ys = np.concatenate([values for _, (values,) in own] or [np.zeros(0)])
+        section_values = self.data.find_section_values(section, [series], level, falling, after, at)
+        xs = np.concatenate(
+            [np.full(len(values), x[where[dim_index]]) for where, (values,) in section_values] or [np.zeros(0)]
+        )
+        ys = np.concatenate([values for _, (values,) in section_values] or [np.zeros(0)])
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(6.4, 4.0) if ax is None else check_axes(ax)
-            factor, unit = drawn(peak_of(ys), self.data.unit(series))
+            ax = create_axes(6.4, 4.0) if ax is None else check_axes(ax)
+            factor, unit = choose_plot_unit(find_largest_magnitude(ys), self.data.unit(series))
             ax.plot(xs, ys * factor, ".", color=COLOURS[1], ms=2.0)
-            ax.set(xlabel=x_label, ylabel=label(self.data.shown(series), unit))
+            ax.set(xlabel=x_label, ylabel=format_label(self.data.title_of(series), unit))
             set_ticks(ax, x, ticks)
             self._finish(ax, at, False)
         return ax
 
     def heat_map(self, name: str, x: str, y: str, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
         """Plot the median of a measure over two dimensions as a map; a cell without a number stays empty."""
-        found = self.data.measure(name, at)
-        x, y = self.data.dimension(found, x), self.data.dimension(found, y)
+        values = self.data.measure(name, at)
+        x, y = self.data.dimension(values, x), self.data.dimension(values, y)
         if x == y:
             raise BadValueError(f"heat_map: {x} is both x and y")
-        middle = quantiles(self.data.rows(found, y, x), (0.5,))[0]
+        middle = compute_quantiles(self.data.rows(values, y, x), (0.5,))[0]
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(5.8, 4.2) if ax is None else check_axes(ax)
-            factor, unit = drawn(peak_of(middle), found.attrs.get("units", ""))
+            ax = create_axes(5.8, 4.2) if ax is None else check_axes(ax)
+            factor, unit = choose_plot_unit(find_largest_magnitude(middle), values.attrs.get("units", ""))
             image = ax.imshow(middle * factor, origin="lower", aspect="auto", cmap="viridis")
-            (words, x_label), (others, y_label) = (self.data.labels(found, name_of) for name_of in (x, y))
-            below, beside = thin_out(len(words), COLUMNS), thin_out(len(others), ROWS)
+            (words, x_label), (others, y_label) = (self.data.labels(values, name_of) for name_of in (x, y))
+            below, beside = select_tick_indices(len(words), COLUMNS), select_tick_indices(len(others), ROWS)
             set_ticks(ax, below, [words[k] for k in below])
-            ax.set_yticks(beside, [figure_title(others[k], LINE) for k in beside])
+            ax.set_yticks(beside, [format_figure_title(others[k], LINE) for k in beside])
             ax.set(xlabel=x_label, ylabel=y_label)
             ax.grid(False)
-            ax.figure.colorbar(image, ax=ax, label=label(self.data.shown(name), unit))
+            ax.figure.colorbar(image, ax=ax, label=format_label(self.data.title_of(name), unit))
             if middle.size <= SMALL:
                 write_numbers(ax, middle * factor, image)
             self._finish(ax, at, False)
@@ -301,21 +320,22 @@ class StudyPlot:
     def _finish(self, ax: Axes, at: Coords | None, legend: bool) -> None:
         """Set the title with the selected coordinates and, if `legend` is True and a curve has a label, the legend."""
         picked = ", ".join(self.data.at(name, value) for name, value in (at or {}).items())
-        ax.set_title(figure_title(": ".join(filter(None, (one_line(self.data.title), picked))), TITLE))
+        ax.set_title(format_figure_title(": ".join(filter(None, (format_one_line(self.data.title), picked))), TITLE))
         if legend and ax.get_legend_handles_labels()[0]:
             ax.legend(fontsize=8)
 
 
-def _to_dict(published: Any) -> dict[Any, Any]:
-    """Return published values, {coordinate: value}, as a dict; empty for None. Raises BadValueError for anything else.
+def _convert_to_dict(published: Any) -> dict[Any, Any]:
+    """Return published values, {coordinate: value}, as a dict; empty for None. Raises BadValueError for anything
+    else.
     """
     try:
         return dict(published or {})
     except (TypeError, ValueError):
-        refuse("published", published, "{coordinate: number}, or True")
+        raise_bad_value("published", published, "{coordinate: number}, or True")
 
 
-def quantiles(rows: ArrayLike, fractions: tuple[float, ...] = QUARTILES) -> Any:
+def compute_quantiles(rows: ArrayLike, fractions: tuple[float, ...] = QUARTILES) -> Any:
     """Return quantiles (len(fractions), …) over the first axis of `rows`, without values that are not finite.
 
     fractions: 0 for the minimum to 1 for the maximum. NaN where no value is finite.
@@ -336,7 +356,13 @@ def draw_band(ax: Axes, x: Any, five: Any, colour: str, text: str, size: float =
         ax.fill_between(x[order], low[order], high[order], color=colour, alpha=0.12, lw=0)
         ax.fill_between(x[order], q1[order], q3[order], color=colour, alpha=0.28, lw=0)
     ax.plot(
-        x[order], middle[order], "-o" if size else "-", ms=size, color=colour, lw=1.1, label=legend_label(middle, text)
+        x[order],
+        middle[order],
+        "-o" if size else "-",
+        ms=size,
+        color=colour,
+        lw=1.1,
+        label=select_legend_label(middle, text),
     )
 
 
@@ -348,15 +374,15 @@ def draw_bars(ax: Axes, x: Any, five: Any, colour: str, text: str) -> None:
     low, q1, middle, q3, high = five
     ax.vlines(x, low, high, color=colour, alpha=0.35, lw=1.2)
     ax.vlines(x, q1, q3, color=colour, alpha=0.6, lw=3.5)
-    ax.plot(x, middle, "o", ms=5.0, color=colour, label=legend_label(middle, text))
+    ax.plot(x, middle, "o", ms=5.0, color=colour, label=select_legend_label(middle, text))
 
 
-def legend_label(values: Any, text: str) -> str | None:
+def select_legend_label(values: Any, text: str) -> str | None:
     """Return the label of a curve for the legend; None if none of its values is finite."""
     return text if np.isfinite(values).any() else None
 
 
-def thin_out(n: int, max_count: int) -> range:
+def select_tick_indices(n: int, max_count: int) -> range:
     """Return evenly spaced indices of n, at most `max_count`, for labels at an axis."""
     return range(0, n, -(-n // max_count))
 
@@ -365,7 +391,7 @@ def set_ticks(ax: Axes, x: Any, ticks: list[str] | None) -> None:
     """Set texts at the x axis, wrapped, and slanted if they would not fit; None changes nothing."""
     if ticks is None:
         return
-    lines = [figure_title(word, LINE) for word in ticks]
+    lines = [format_figure_title(word, LINE) for word in ticks]
     ax.set_xticks(x, lines)
     if sum(max(map(len, word.split("\n")), default=0) + 2 for word in lines) > AXIS:
         ax.tick_params(axis="x", rotation=30.0, labelsize=7)
@@ -379,10 +405,10 @@ def draw_published(ax: Axes, published: list[tuple[float, float, int]], factor: 
     published: position on the axis, value (SI), and index of the line, −1 for none. factor: from SI to the unit of the
     axis.
     """
-    for k, (place, value, line) in enumerate(published):
-        own = IDEAL if line < 0 else colours[line]
+    for k, (coordinate, value, line) in enumerate(published):
+        colour = IDEAL if line < 0 else colours[line]
         message = "published" if k == 0 else None
-        ax.plot([place], [value * factor], "*", color=own, mec=IDEAL, mew=0.6, ms=9, label=message)
+        ax.plot([coordinate], [value * factor], "*", color=colour, mec=IDEAL, mew=0.6, ms=9, label=message)
 
 
 def write_numbers(ax: Axes, values: Any, image: Any) -> None:

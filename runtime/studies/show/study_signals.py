@@ -1,4 +1,4 @@
-"""Process the stored series of a study run by run: resampling over fractions of the run, spectra, low-passes, sections.
+"""Process time series of a study's runs: resampling, spectra, low-pass filters, points on a Poincaré section.
 
 Failed runs have no series.
 """
@@ -10,21 +10,21 @@ from typing import Any
 import numpy as np
 
 from gudgeon.errors import BadValueError
-from gudgeon.language.shown import one_line
-from gudgeon.results.series import low_pass, spectrum
+from gudgeon.language.text_output import format_one_line
+from gudgeon.results.series import compute_spectrum, low_pass
 
 NEAR = 0.01  # of the time between two samples: so far apart, samples are of the same time
 SAME = 1e-9  # tolerance of fractions of a run that count as equal
 
 
-def alike(rows: Any) -> bool:
+def have_equal_times(rows: Any) -> bool:
     """Return whether all rows of times (runs, N) are equal to the first within NEAR of its shortest interval."""
     first = rows[0]
     step = np.nanmin(np.diff(first)) if np.isfinite(first).sum() > 1 else 0.0
     return bool(np.isclose(rows, first, rtol=1e-12, atol=NEAR * abs(float(step)), equal_nan=True).all())
 
 
-def over_shares(t: Any, series: Any) -> tuple[Any, Any] | None:
+def resample_over_fractions(t: Any, series: Any) -> tuple[Any, Any] | None:
     """Return fractions of the run's duration (M,), those of the longest run, and the series of all runs there (…, M).
 
     t: sample times. series: a DataArray. A run with other samples is interpolated linearly; it is NaN beyond its
@@ -54,10 +54,10 @@ def _scale_times(t: Any) -> Any:
     return (t - t[0]) / (t[-1] - t[0]) if len(t) > 1 and t[-1] > t[0] else np.zeros(0)
 
 
-def spectra(t: Any, series: Any, by: str | None, name: str, window: str) -> list[tuple[Any, Any]]:
+def compute_spectra(t: Any, series: Any, by: str | None, name: str, window: str) -> list[tuple[Any, Any]]:
     """Return frequencies (M,) in Hz and amplitudes (runs, M) for each value of the dimension `by`, or for all runs.
 
-    name: of the series, for messages. window: as in `spectrum`. Raises BadValueError if runs of one value have
+    name: of the series, for messages. window: as in `compute_spectrum`. Raises BadValueError if runs of one value have
     different sample times.
     """
     times = np.broadcast_to(t, series.shape)
@@ -65,7 +65,7 @@ def spectra(t: Any, series: Any, by: str | None, name: str, window: str) -> list
     if by is not None:
         k = series.dims.index(by)
         values = [(np.take(times, i, axis=k), np.take(series.values, i, axis=k)) for i in range(series.shape[k])]
-    return [_compute_spectrum_of_runs(*own, name, window) for own in values]
+    return [_compute_spectrum_of_runs(*signals, name, window) for signals in values]
 
 
 def _compute_spectrum_of_runs(times: Any, values: Any, name: str, window: str) -> tuple[Any, Any]:
@@ -80,14 +80,16 @@ def _compute_spectrum_of_runs(times: Any, values: Any, name: str, window: str) -
     if not rows:
         return np.zeros(1), np.full((1, 1), np.nan)
     first = rows[0][0]
-    if any(len(t) != len(first) for t, _ in rows) or not alike(np.array([t for t, _ in rows])):
-        message = f"{one_line(name)}: the runs have samples at different times, of which there is no common spectrum"
+    if any(len(t) != len(first) for t, _ in rows) or not have_equal_times(np.array([t for t, _ in rows])):
+        message = (
+            f"{format_one_line(name)}: the runs have samples at different times, of which there is no common spectrum"
+        )
         raise BadValueError(message, hint="pick runs with the same times (at=…), or name by= what their times follow")
-    each = [spectrum(first, x, window) for _, x in rows]
+    each = [compute_spectrum(first, x, window) for _, x in rows]
     return each[0][0], np.array([amplitudes for _, amplitudes in each])
 
 
-def low_pass_runs(t: Any, series: Any, cutoff: float, order: int, causal: bool) -> Any:
+def filter_low_pass(t: Any, series: Any, cutoff: float, order: int, causal: bool) -> Any:
     """Return the series after a Butterworth low-pass of each run; NaN where it has no finite samples.
 
     cutoff: Hz. causal: False filters forwards and backwards, without a phase shift.
@@ -104,10 +106,12 @@ def low_pass_runs(t: Any, series: Any, cutoff: float, order: int, causal: bool) 
 
 def _iterate_runs(*arrays: Any) -> Any:
     """Return an iterator over the runs, with the row (N,) of each array."""
-    return zip(*(one.reshape(-1, one.shape[-1]) for one in arrays), strict=True)
+    return zip(*(array.reshape(-1, array.shape[-1]) for array in arrays), strict=True)
 
 
-def crossings(t: Any, section_values: Any, others: list[Any], level: float, falling: bool, after: float) -> list[Any]:
+def find_section_crossings(
+    t: Any, section_values: Any, others: list[Any], level: float, falling: bool, after: float
+) -> list[Any]:
     """Return the values of other series, (k,) each, where one rises (or falls) through a level after a time.
 
     t, section_values and others: (N,) samples of one run. Between samples all series are monotone cubics (PCHIP).
@@ -131,5 +135,5 @@ def crossings(t: Any, section_values: Any, others: list[Any], level: float, fall
 
 def _find_root_between(roots: Any, begin: float, end: float) -> float:
     """Return the first of the sorted roots in [begin, end], or `end` if rounding lost it."""
-    own = roots[(roots >= begin) & (roots <= end)]
-    return float(own[0]) if len(own) else float(end)
+    inner_roots = roots[(roots >= begin) & (roots <= end)]
+    return float(inner_roots[0]) if len(inner_roots) else float(end)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from gudgeon.errors import OutputError
 from gudgeon.files.writing import write_text
-from gudgeon.language.shown import in_spreadsheet
+from gudgeon.language.text_output import escape_for_spreadsheet
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -23,14 +23,14 @@ if TYPE_CHECKING:
 WIDTH = 100  # of everything that is printed
 
 
-def console() -> Console:
+def make_console() -> Console:
     """Return a rich console without colours for files: as wide as the terminal, or 100 columns for a file."""
-    from gudgeon.language.shown import plain_console
+    from gudgeon.language.text_output import make_plain_console
 
-    return plain_console(None if sys.stdout.isatty() else WIDTH)
+    return make_plain_console(None if sys.stdout.isatty() else WIDTH)
 
 
-def new_table(columns: Iterable[str], left: Iterable[str] = ()) -> Table:
+def make_table(columns: Iterable[str], left: Iterable[str] = ()) -> Table:
     """Return an empty rich table with these column heads; columns are right-aligned, those in `left` left-aligned and
     wrapped.
     """
@@ -44,13 +44,16 @@ def new_table(columns: Iterable[str], left: Iterable[str] = ()) -> Table:
 
 
 def write_csv(path: Path, rows: Sequence[dict[str, Any]]) -> None:
-    """Write rows as CSV, with floats of six digits and texts that a spreadsheet does not evaluate. Raises OutputError.
+    """Write rows as CSV, with floats of six digits and texts that a spreadsheet does not evaluate. Raises
+    OutputError.
     """
     text = io.StringIO()
     writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
     writer.writeheader()
     for row in rows:
-        writer.writerow({key: f"{x:.6g}" if isinstance(x, float) else in_spreadsheet(x) for key, x in row.items()})
+        writer.writerow(
+            {key: f"{x:.6g}" if isinstance(x, float) else escape_for_spreadsheet(x) for key, x in row.items()}
+        )
     write_text(path, text.getvalue())
 
 
@@ -82,7 +85,7 @@ def write_files(
     return written, failed
 
 
-def share(value: float) -> str:
+def format_fraction(value: float) -> str:
     """Return a fraction as text: "12 %", "0.30 %", "4e-7"; "–" for NaN."""
     if math.isnan(value):
         return "–"
@@ -91,12 +94,12 @@ def share(value: float) -> str:
     return f"{value:.0e}".replace("e-0", "e-").replace("e+0", "e").replace("e+", "e")
 
 
-def rough_share(value: float) -> str:
+def format_rough_fraction(value: float) -> str:
     """Return a fraction as text for a cell of a map, with small values as "< 0.01 %"."""
-    return "< 0.01 %" if value < 1e-4 else share(value)
+    return "< 0.01 %" if value < 1e-4 else format_fraction(value)
 
 
-def seconds(value: float) -> str:
+def format_seconds(value: float) -> str:
     """Return a time (s) with three digits and a suitable unit from ns to s; "–" for NaN or infinity."""
     for factor, unit in ((1e9, "ns"), (1e6, "µs"), (1e3, "ms"), (1.0, "s")):
         if abs(value) * factor < 999.5:
@@ -104,6 +107,6 @@ def seconds(value: float) -> str:
     return f"{value:.3g} s" if math.isfinite(value) else "–"
 
 
-def clearance(value: float) -> str:
+def format_clearance(value: float) -> str:
     """Return a radial clearance (m) as text in mm, as in drawings; "no play" for NaN."""
     return "no play" if math.isnan(value) else f"{value * 1e3:.3g} mm"

@@ -26,7 +26,7 @@ int main(void)
 
     set_method_choice(&run, explicit, stiff);
     CHECK(steps_to_change(below, 1000) == 0);
-    CHECK(steps_to_change(beyond, 1000) == MAX_AGAINST);
+    CHECK(steps_to_change(beyond, 1000) == MAX_CONTRARY_STEPS);
     CHECK(run.choice.method == METHODS[stiff]);
 
     /* a step of the other kind in between begins the count anew */
@@ -36,20 +36,20 @@ int main(void)
 
     /* a return that did not last makes the next one twice as hard, up to a limit */
     for (int patience = 2 * PATIENCE; patience <= MAX_PATIENCE; patience *= 2) {
-        CHECK(steps_to_change(beyond, 1000) == MAX_AGAINST);
+        CHECK(steps_to_change(beyond, 1000) == MAX_CONTRARY_STEPS);
         CHECK(steps_to_change(below, 2 * MAX_PATIENCE) == patience);
     }
-    CHECK(steps_to_change(beyond, 1000) == MAX_AGAINST);
+    CHECK(steps_to_change(beyond, 1000) == MAX_CONTRARY_STEPS);
     CHECK(steps_to_change(below, 2 * MAX_PATIENCE) == MAX_PATIENCE);
 
     /* one that lasted makes it as easy as the first */
     CHECK(steps_to_change(below, LASTING_STEPS) == 0);
-    CHECK(steps_to_change(beyond, 1000) == MAX_AGAINST);
+    CHECK(steps_to_change(beyond, 1000) == MAX_CONTRARY_STEPS);
     CHECK(steps_to_change(below, 1000) == PATIENCE);
 
     /* explicit steps that are too short beside the stiff ones from before lead back as well */
     run.control.h_stiff = 1.0;
     run.control.h = 0.5 * STIFF_LENGTH_RATIO;
-    CHECK(steps_to_change(below, 1000) == COMPARE_FROM + 1 + MAX_AGAINST);
+    CHECK(steps_to_change(below, 1000) == COMPARE_FROM + 1 + MAX_CONTRARY_STEPS);
     return failures;
 }

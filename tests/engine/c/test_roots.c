@@ -18,7 +18,7 @@ static double event_on_cosine(double t, double h, double offset)
     run.discrete.branch[0] = 1.0;
     Step *step = &run.step;
     step->method = run.choice.method;
-    CHECK(!evaluate_rhs(&run, t, run.y, &p, run.dy, &run.rhs));
+    CHECK(!evaluate_run_rhs(&run, t, run.y, &p, run.dy, &run.rhs));
     run.discrete.contact[0].closed = run.rhs.clearance[0].delta > 0.0;
     CHECK(!dop853_try_step(&run, h, &p, step) && step->error <= 1.0);
     const double fraction = find_first_event(&run, step, &p, &event);

@@ -14,18 +14,20 @@ from numpy.typing import NDArray
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import SolverError
-from gudgeon.integrators.kinematic import along
+from gudgeon.integrators.kinematic import compute_motion_at
 from gudgeon.integrators.steps import Steps
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
-from gudgeon.model.evaluation import PARTS, around
-from gudgeon.results.batch import depends_on_works, evaluation_parts_of
+from gudgeon.model.evaluation import PARTS, find_rounding_distance
+from gudgeon.results.batch import depends_on_works, find_evaluation_parts
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.results import Result
-from gudgeon.results.series import catalogue
+from gudgeon.results.series import get_catalogue
 
 NODES = 0.5 * (leggauss(6)[0] + 1.0)  # fractions of an interval between two states at which powers are evaluated
-INSIDE = 0.381966  # fraction of an interval: no multiple of it is near the period of a force that a step could hide
+INNER_FRACTION = (
+    0.381966  # fraction of an interval: no multiple of it is near the period of a force that a step could hide
+)
 MAX_CACHED = 256  # largest number of evaluated places that are cached for the next series
 MAX_SPEED_ERROR = (
     1e-7  # of the speed: in shorter intervals, differences of positions are too rounded to check the speed
@@ -54,7 +56,7 @@ UNKNOWN_DIAGNOSTICS = Diagnostics(
 )
 
 
-class Path:
+class RunInterpolant:
     """Hold the current block of a run's states, and evaluate series at and between them.
 
     Two states of the previous block precede it. `names`: the only series that will be evaluated; None: any. `numbers`:
@@ -66,15 +68,15 @@ class Path:
     ) -> None:
         self.compiled, self.source = compiled, compiled.source
         self.p, self.given, self.is_given = numbers  # as in a Result
-        self.catalogue = catalogue(self.source)
+        self.catalogue = get_catalogue(self.source)
         requested = self.catalogue.keys() if names is None else [name for name in names if name in self.catalogue]
-        self.parts = PARTS if names is None else evaluation_parts_of(self.source, requested) | {"a"}
+        self.parts = PARTS if names is None else find_evaluation_parts(self.source, requested) | {"a"}
         self.needs_works = any(depends_on_works(self.source, name) for name in requested)
-        self.exact = self.source.methods == (KINEMATIC,)
-        self.films = any(joint.film for joint in self.source.clearances)
+        self.is_kinematic = self.source.methods == (KINEMATIC,)
+        self.has_films = any(joint.film for joint in self.source.clearances)
         self.has_elastic_contact = any(joint.joint not in self.source.rigid for joint in self.source.clearances)
         self.first: Steps | None = None  # first state of the run: energies count from it
-        self.lost = 0  # number of states without accelerations
+        self.n_without_accelerations = 0  # number of states without accelerations
         self.cached: dict[tuple[int, int, float, float], tuple[Result, Array]] = {}  # cached evaluations between states
         # k, polynomial of the rates between states k and k + 1, and its integral
         self.rates_cache: tuple[int, Any] = (-1, None)
@@ -82,28 +84,28 @@ class Path:
         self.inside_cache: Result | None = None  # run evaluated at INSIDE of every interval
         self.steps: Steps
         self.run: Result
-        self.inner: NDArray[np.bool_]  # (K − 1,) whether k and k + 1 are the ends of a part of a step
+        self.is_within_step: NDArray[np.bool_]  # (K − 1,) whether k and k + 1 are the ends of a part of a step
 
-    def take(self, steps: Steps) -> None:
+    def load_states(self, steps: Steps) -> None:
         """Replace the block by the next states of the run, and evaluate the equations at them.
 
         The last two states of the old block stay in front. Cached evaluations are dropped. States without accelerations
         are counted in `lost`.
         """
         self.first = steps[:1] if self.first is None else self.first
-        self.steps = self.steps[-2:].then(steps) if hasattr(self, "steps") else steps
+        self.steps = self.steps[-2:].concatenate(steps) if hasattr(self, "steps") else steps
         self.run, good = self._build_result(self.steps)
         self.rates_cache, self.works_cache, self.cached, self.inside_cache = (-1, None), (-1, None), {}, None
-        self.lost += int((~good[len(good) - len(steps) :]).sum())
-        self.inner = ~self.steps.jumped[1:] & (
-            np.diff(self.steps.t) > (0.0 if self.exact else _compute_shortest_interval(self.steps))
+        self.n_without_accelerations += int((~good[len(good) - len(steps) :]).sum())
+        self.is_within_step = ~self.steps.is_after_jump[1:] & (
+            np.diff(self.steps.t) > (0.0 if self.is_kinematic else _compute_shortest_interval(self.steps))
         )
 
-    def values(self, name: str) -> Array:
+    def evaluate_at_states(self, name: str) -> Array:
         """Return a series at the states of the block, (K,); NaN where the equations cannot be solved."""
         return self.run[name][1:]
 
-    def between(self, k: int, t: Array, name: str) -> Array:
+    def evaluate_between(self, k: int, t: Array, name: str) -> Array:
         """Return a series at times t (T,) between states k and k + 1; NaN where the interpolation is too inaccurate.
 
         The evaluated states are cached for the next series, KEPT of them at most.
@@ -120,14 +122,14 @@ class Path:
         result, errors = self.cached[key]
         return np.where(errors <= MAX_ACCELERATION_ERROR, result[name][1:], np.nan)
 
-    def inside(self, name: str) -> Array:
+    def evaluate_inside(self, name: str) -> Array:
         """Return a series at the fraction INSIDE of each interval between successive states, (K − 1,).
 
         The value is NaN across jumps and where it is unknown. The motion there is Hermite's polynomial of order 5
         through positions, velocities and accelerations. Its evaluation is cached for the block.
         """
         if self.inside_cache is None:
-            x, a, s = self.steps, self.run.a[1:], INSIDE
+            x, a, s = self.steps, self.run.a[1:], INNER_FRACTION
             h, q = np.diff(x.t)[:, None], np.diff(x.q, axis=0)
             r0, r1, c0, c1 = h * x.v[:-1], h * x.v[1:], h**2 * a[:-1], h**2 * a[1:]
             with np.errstate(invalid="ignore", divide="ignore"):
@@ -137,10 +139,10 @@ class Path:
                 fifth = 6.0 * remainders[0] - 3.0 * remainders[1] + 0.5 * remainders[2]
                 q_inside = x.q[:-1] + s * (r0 + s * (0.5 * c0 + s * (third + s * (fourth + s * fifth))))
                 v_inside = (r0 + s * (c0 + s * (3.0 * third + s * (4.0 * fourth + s * 5.0 * fifth)))) / h
-            q_inside[~self.inner] = v_inside[~self.inner] = np.nan
+            q_inside[~self.is_within_step] = v_inside[~self.is_within_step] = np.nan
             t, works = x.t[:-1] + s * h[:, 0], np.full((len(h), N_WORK), np.nan)
             self.inside_cache = self._build_result(
-                Steps(t, q_inside, v_inside, works, x.memory[:-1], x.state[:-1], x.jumped[:-1])
+                Steps(t, q_inside, v_inside, works, x.memory[:-1], x.state[:-1], x.is_after_jump[:-1])
             )[0]
         return self.inside_cache[name][1:]
 
@@ -166,7 +168,7 @@ class Path:
         state.
         """
         assert self.first is not None
-        x = self.first.then(steps)
+        x = self.first.concatenate(steps)
         evaluation, good = self._evaluate_states(x)
         run = Result(
             compiled=self.compiled,
@@ -196,20 +198,20 @@ class Path:
         """
         good = np.asarray(np.isfinite(x.q).all(axis=1) & np.isfinite(x.v).all(axis=1))
         t = x.t
-        if self.compiled.beyond and not self.exact:  # step ends have the rates before a jump
-            since = t - np.maximum.accumulate(np.where(x.jumped, t, -np.inf))
-            t = np.where(since > 4.0 * around(t), t - 2.0 * around(t), t)
+        if self.compiled.has_mod_in_drives and not self.is_kinematic:  # step ends have the rates before a jump
+            since = t - np.maximum.accumulate(np.where(x.is_after_jump, t, -np.inf))
+            t = np.where(since > 4.0 * find_rounding_distance(t), t - 2.0 * find_rounding_distance(t), t)
         while True:
             try:
                 states = (t, x.q, x.v, x.memory) if good.all() else (t[good], x.q[good], x.v[good], x.memory[good])
                 evaluation = self.compiled.evaluate(*states, self.p, parts=self.parts)
                 break
             except SolverError as error:
-                remaining = good & (np.abs(t - error.time) > 4.0 * around(t))
+                remaining = good & (np.abs(t - error.time) > 4.0 * find_rounding_distance(t))
                 good = remaining if (remaining != good).any() else np.zeros_like(good)
         if good.all():
             return evaluation, good
-        columns = {name: np.full((len(x), *known.shape[1:]), np.nan) for name, known in vars(evaluation).items()}
+        columns = {name: np.full((len(x), *array.shape[1:]), np.nan) for name, array in vars(evaluation).items()}
         for name in self.parts:
             columns[name][good] = getattr(evaluation, name)
         return Evaluation(**columns), good
@@ -235,8 +237,8 @@ class Path:
         They follow from the interpolating polynomials, or from the drives where the scene has no degrees of freedom.
         """
         x = self.steps
-        if self.exact:
-            q, v = along(self.compiled, self.p, np.concatenate([x.t[k : k + 1], t]), x.q[k], x.v[k])
+        if self.is_kinematic:
+            q, v = compute_motion_at(self.compiled, self.p, np.concatenate([x.t[k : k + 1], t]), x.q[k], x.v[k])
             return q[1:], v[1:]
         mid, half, rates, integral = self._interpolate_rates(k)
         places = (np.concatenate([x.t[k : k + 2], t]) - mid) / half
@@ -252,7 +254,7 @@ class Path:
         a force they do not. The result of the last k is cached.
         """
         if self.rates_cache[0] != k:
-            h, max_count = np.diff(self.steps.t), 2 if self.films else 1  # neighbours on each side
+            h, max_count = np.diff(self.steps.t), 2 if self.has_films else 1  # neighbours on each side
             before, after = (self._count_neighbours(h, k, direction, max_count) for direction in (-1, 1))
             ranges = {(k - i, k + 2 + j) for i in range(before, -1, -1) for j in range(after, -1, -1)}
             fit = min((self._fit_rates(slice(*rows)) for rows in sorted(ranges)), key=lambda one: one[0])
@@ -270,7 +272,7 @@ class Path:
         a = self.run.a[1:]
         for count in range(max_count):
             j = k + direction * (count + 1)
-            if not (0 <= j < len(h) and self.inner[j] and 0.125 < h[j] / h[k] < 8.0):
+            if not (0 <= j < len(h) and self.is_within_step[j] and 0.125 < h[j] / h[k] < 8.0):
                 return count
             if not np.isfinite(a[j if direction < 0 else j + 1]).all():
                 return count
@@ -283,11 +285,11 @@ class Path:
         films, accelerations are not used: they amplify the errors of velocities.
         """
         x, a = self.steps, self.run.a[1:]
-        t, n = x.t[rows], len(x.t[rows]) * (1 if self.films else 2)
+        t, n = x.t[rows], len(x.t[rows]) * (1 if self.has_films else 2)
         mid, half = float(0.5 * (t[0] + t[-1])), float(0.5 * (t[-1] - t[0]))
         s = (t - mid) / half
         matrix, values = legvander(s, n - 1), x.v[rows]
-        if not self.films:
+        if not self.has_films:
             matrix = np.concatenate([matrix, legval(s, _differentiate_legendre(n)).T])
             values = np.concatenate([values, half * a[rows]])
         coefficients = np.linalg.solve(matrix, values)

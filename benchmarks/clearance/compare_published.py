@@ -1,6 +1,6 @@
-"""Compare the data here with the equations of codes that only draw their results.
+"""Compare results of gudgeon with the equations of published programs that draw results but print no numbers.
 
-    python -m benchmarks.clearance.beside [NAME …]
+    python -m benchmarks.clearance.compare_published [NAME …]
 
 The output has a line for each number in README.md: what is compared, the number there, the number now. The equations
 are in drawn.py. A run takes a minute or two; the exit code is 1 if a number differs.

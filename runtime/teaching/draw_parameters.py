@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
-from gudgeon.language.quantities import number_of_text
+from gudgeon.language.quantities import parse_quantity
 from gudgeon.model.compiled import Array
-from gudgeon.model.default_step import scene_end
-from gudgeon.model.parameters import prepare, spaced
+from gudgeon.model.default_step import evaluate_scene_end
+from gudgeon.model.parameters import insert_space_before_unit, prepare_values
 
 if TYPE_CHECKING:
-    from gudgeon.contract.kernel_source import KernelSource, Slot
+    from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
     from gudgeon.results.results import Result
     from gudgeon.simulation.simulation import Simulation
 
@@ -29,10 +29,10 @@ NOISE = 1e-9  # values below this fraction of the largest of their kind are roun
 
 
 @dataclass(frozen=True)
-class Drawn:
+class ExerciseData:
     """Hold a scene with changed parameter values at the time t (s), with the data that an exercise sheet prints."""
 
-    numbers: dict[str, str]  # those that differ from the file's, by address, with their units
+    parameters: dict[str, str]  # those that differ from the file's, by address, with their units
     t: float
     q: Array
     v: Array
@@ -40,7 +40,7 @@ class Drawn:
     run: Result  # it ends at t, with every digit
     units: Array  # (2n,) value of the last printed digit of q and v
 
-    def uncertainty(self, function: Callable[[Array, Array], Array]) -> Array:
+    def estimate_uncertainty(self, function: Callable[[Array, Array], Array]) -> Array:
         """Return how much function(q, v) may change by the rounding of the printed data, half a unit of each last
         digit.
 
@@ -55,9 +55,9 @@ class Drawn:
         return total
 
 
-def draw_numbers(
+def draw_parameters(
     simulation: Simulation, seed: int, at: str | None, units: Mapping[str, tuple[str, float]] | None = None
-) -> Drawn:
+) -> ExerciseData:
     """Draw parameter values from a seed with which the scene assembles and moves, and return them with their run.
 
     The file's own values are used if no others work. units: unit of the file and its value in SI by address ("rpm",
@@ -65,17 +65,21 @@ def draw_numbers(
     ends the motion. Raises BadValueError for `at`, AssemblyError or SolverError if the file's own values fail.
     """
     rng = np.random.default_rng(seed)
-    moment = None if at is None else number_of_text(spaced(at), "--at", (0, 0, 1))
+    moment = None if at is None else parse_quantity(insert_space_before_unit(at), "--at", (0, 0, 1))
     if moment is not None and not 0.0 <= moment < np.inf:
         raise BadValueError(f"--at is {moment:g} s: the motion starts at 0 s", hint="take a time of the motion")
     failure: Exception | None = None
-    for numbers, share in _yield_attempts(simulation.source, rng, units or {}):
+    for numbers, time_fraction in _yield_attempts(simulation.source, rng, units or {}):
         try:
-            p = prepare(simulation.compiled, numbers)[0]
-            t = moment if moment is not None else float(f"{share * scene_end(simulation.source, p):.2g}")
+            p = prepare_values(simulation.compiled, numbers)[0]
+            t = (
+                moment
+                if moment is not None
+                else float(f"{time_fraction * evaluate_scene_end(simulation.source, p):.2g}")
+            )
             run = _run_until(simulation, numbers, t)
             if run.t[-1] < t:
-                t = _find_time_before_event(run, moment, share)
+                t = _find_time_before_event(run, moment, time_fraction)
                 run = _run_until(simulation, numbers, t)
             return _round_data(numbers, t, p, run)
         except (AssemblyError, SolverError, BadValueError) as error:
@@ -99,9 +103,9 @@ def _yield_attempts(
     for spread in SPREADS:
         some = rng.permutation(len(candidates))[:MAX_CHANGED]
         factors = 1.0 + spread * rng.uniform(-1.0, 1.0, len(some))
-        share = float(rng.uniform(0.15, 0.85))
+        time_fraction = float(rng.uniform(0.15, 0.85))
         changed = [(candidates[k], x) for k, x in zip(some, factors, strict=True)]
-        yield {slot.address: new for slot, x in changed if (new := _change_value(slot, x, units))}, share
+        yield {slot.address: new for slot, x in changed if (new := _change_value(slot, x, units))}, time_fraction
     yield {}, float(rng.uniform(0.15, 0.85))
     yield {}, 0.05
 
@@ -118,14 +122,14 @@ def _is_measure(address: str) -> bool:
     return False
 
 
-def _change_value(slot: Slot, factor: float, units: Mapping[str, tuple[str, float]]) -> str:
+def _change_value(slot: RuntimeParameter, factor: float, units: Mapping[str, tuple[str, float]]) -> str:
     """Return the default value times a factor as text, with two digits and its unit; "" if it equals the file's value.
 
     units: unit and its value in SI by address; others have the unit of the slot.
     """
-    unit, one = units.get(slot.address, (slot.unit, 1.0))
-    new = float(f"{slot.default * factor / one:.2g}")
-    return "" if math.isclose(new * one, slot.default, rel_tol=1e-12) else f"{new:g} {unit}".rstrip()
+    unit, unit_size = units.get(slot.address, (slot.unit, 1.0))
+    new = float(f"{slot.default * factor / unit_size:.2g}")
+    return "" if math.isclose(new * unit_size, slot.default, rel_tol=1e-12) else f"{new:g} {unit}".rstrip()
 
 
 def _run_until(simulation: Simulation, numbers: dict[str, str], t: float) -> Result:
@@ -141,19 +145,19 @@ def _run_until(simulation: Simulation, numbers: dict[str, str], t: float) -> Res
     return run
 
 
-def _find_time_before_event(run: Result, moment: float | None, share: float) -> float:
-    """Return a time (s) before the event that ended the run, at the fraction `share` of its duration.
+def _find_time_before_event(run: Result, moment: float | None, fraction: float) -> float:
+    """Return a time (s) before the event that ended the run, at the given `fraction` of its duration.
 
     Raises BadValueError if the user gave the time (`moment`), which is after the event.
     """
     end, last = float(run.t[-1]), run.source.events[run.events["event"][-1]]
     if moment is None:
-        return float(f"{share * end:.2g}")
+        return float(f"{fraction * end:.2g}")
     message = f"--at is {moment:g} s: event {last.name} (action: stop) ends the motion at {end:.6g} s"
-    raise BadValueError(message, hint=f"take a time before that, such as {share * end:.2g} s")
+    raise BadValueError(message, hint=f"take a time before that, such as {fraction * end:.2g} s")
 
 
-def _round_data(numbers: dict[str, str], t: float, p: Array, run: Result) -> Drawn:
+def _round_data(numbers: dict[str, str], t: float, p: Array, run: Result) -> ExerciseData:
     """Round positions and velocities at the end of a run to the digits that a sheet prints, and return its data.
 
     Velocities of rounding size become 0. Raises SolverError if the state is not finite.
@@ -171,4 +175,4 @@ def _round_data(numbers: dict[str, str], t: float, p: Array, run: Result) -> Dra
         alike = v[2::3] if k % 3 == 2 else np.delete(v, np.s_[2::3])
         v[k] = 0.0 if abs(v[k]) <= NOISE * np.abs(alike).max() else float(f"{v[k]:.{DIGITS}g}")
         units[1, k] = 10.0 ** (math.floor(math.log10(abs(v[k]))) + 1 - DIGITS) if v[k] else 0.0
-    return Drawn(numbers, t, q, v, p, run, units.ravel())
+    return ExerciseData(numbers, t, q, v, p, run, units.ravel())

@@ -10,32 +10,32 @@ from typing import Any
 
 import numpy as np
 
-from gudgeon.assembly.journals import eccentricity
-from gudgeon.assembly.linkage import mechanism_size
-from gudgeon.assembly.rank import contradiction, dependent_rows
+from gudgeon.assembly.journals import find_eccentricity
+from gudgeon.assembly.linkage import compute_mechanism_size
+from gudgeon.assembly.rank import find_contradiction, find_dependent_equations
 from gudgeon.contract.boundary import AT_REST, MODE_HELD, PEAK_F, PEAK_e_max, PEAK_t
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import ADAPTIVE, EXPLICIT
 from gudgeon.errors import SolverError
-from gudgeon.integrators.adaptive import stiff_method
-from gudgeon.integrators.failure import audit_failure, notes_of
-from gudgeon.integrators.times import last_step
+from gudgeon.integrators.adaptive import select_stiff_method
+from gudgeon.integrators.failure import build_audit_error, build_audit_notes
+from gudgeon.integrators.times import compute_last_step
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import corner_gap, widest
+from gudgeon.model.contours import compute_corner_gap, compute_max_clearance
 from gudgeon.model.evaluation import Evaluation
-from gudgeon.model.left_limit import evaluation_times
-from gudgeon.model.seams import curve_seam_notes
-from gudgeon.model.written import unbounded_drive, with_notes_on_undefined
+from gudgeon.model.left_limit import find_evaluation_times
+from gudgeon.model.seams import iterate_seam_notes
+from gudgeon.model.written import add_notes_on_undefined, find_unbounded_drive
 from gudgeon.results.diagnostics import Diagnostics, Peak, provenance_of
-from gudgeon.results.peaks import find_zeno_points, first_contact_force
+from gudgeon.results.peaks import find_first_contact_force, find_zeno_points
 from gudgeon.results.results import Result
-from gudgeon.results.samples import without_start
-from gudgeon.results.series import without_masses
-from gudgeon.simulation.audit import audit_samples, failed
-from gudgeon.waiting.asking import EVERY
-from gudgeon.waiting.ctrl_c import CtrlC
+from gudgeon.results.samples import split_off_start
+from gudgeon.results.series import explain_missing_masses
+from gudgeon.simulation.audit import audit_samples, has_failed_finding
+from gudgeon.waiting.cancellation import EVERY
+from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 INTERRUPTED_NOTE = "interrupted: samples after the last one, and what is computed from all of them, are missing"
 COARSE = 1e-4  # of the energy throughput: a larger residual of rk4 is reported
@@ -59,11 +59,11 @@ def _build_diagnostics(problem: Problem, trajectory: Trajectory, balance: tuple[
     residual, throughput = balance
     duration, step, last = float(problem.t[-1] - problem.t[0]), problem.step, math.nan
     if math.isfinite(step) and duration > 0.0:
-        last = last_step(duration, step)
+        last = compute_last_step(duration, step)
         step = max(last, min(step, duration))
     simulated = float(x.t[-1] - x.t[0]) if len(x.t) else 0.0
     if method == ADAPTIVE:
-        methods = EXPLICIT, stiff_method(compiled.source, problem.rtol)
+        methods = EXPLICIT, select_stiff_method(compiled.source, problem.rtol)
         method = "+".join(methods) if 0 < counts.stiff_steps < counts.steps else methods[counts.stiff_steps > 0]
     return Diagnostics(
         method=method,
@@ -134,8 +134,8 @@ def _build_unbalanced_note(t: Array, energy: Array, work: Array, residual: float
     if math.isfinite(residual) or not len(t):
         return ()
     with np.errstate(invalid="ignore"):
-        known = np.isfinite(energy.sum(axis=1) + work.sum(axis=1))
-    k = int(known.argmin()) if not known.all() else 0
+        is_finite = np.isfinite(energy.sum(axis=1) + work.sum(axis=1))
+    k = int(is_finite.argmin()) if not is_finite.all() else 0
     what = "the energy" if not np.isfinite(energy[k]).all() else "the work"
     return (f"energy is not balanced: {what} is no finite number at t = {t[k]:.9g} s: the residual says nothing",)
 
@@ -143,12 +143,12 @@ def _build_unbalanced_note(t: Array, energy: Array, work: Array, residual: float
 def _build_notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> tuple[str, ...]:
     """Return the notes of a run: warnings that a reader should know before trusting it."""
     p, notes, counts = problem.p, list(problem.remarks), trajectory.counts
-    if problem.state is None and (dependent := dependent_rows(compiled, p, float(problem.t[0]), problem.q)):
+    if problem.state is None and (dependent := find_dependent_equations(compiled, p, float(problem.t[0]), problem.q)):
         notes.append(
             f"the start is a dead centre: rows {', '.join(dependent)} tie each other there; velocities that drives and"
             " start.rates leave open were taken least: give a rate of each body that may move"
         )
-    if why := without_masses(compiled.source):
+    if why := explain_missing_masses(compiled.source):
         notes.append(f"{why}: reactions, torques, energies and works are not known")
     if problem.stop and len(trajectory.events):
         last = compiled.source.events[trajectory.events["event"][-1]]
@@ -156,29 +156,29 @@ def _build_notes(compiled: CompiledModel, problem: Problem, trajectory: Trajecto
             notes.append(f"event {last.name} ended the run at t = {trajectory.events['t'][-1]:.9g} s")
     if trajectory.interrupted:
         notes.append(INTERRUPTED_NOTE)
-    for event, t in trajectory.no_number:
+    for event, t in trajectory.undefined_events:
         name = compiled.source.events[event].name
         notes.append(f"event {name} is no number (NaN) at t = {t:.9g} s: where it is none it has no zeros")
     if compiled.source.events and ":" in problem.method:
         notes.append(f"events are not watched by method {problem.method}")
     n_passed, first = trajectory.change_points
-    if n_passed and not without_masses(compiled.source):
+    if n_passed and not explain_missing_masses(compiled.source):
         notes.append(
             f"{n_passed} samples lie at or near a change point (the first at t = {first:.9g} s): positions and rates"
             " pass on the smooth branch; forces and torques there are not determined by the rows"
         )
     notes += _yield_unbounded_sample_note(compiled, problem, trajectory)
-    notes += curve_seam_notes(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
-    notes += range_notes(compiled, p, float(problem.t[0]), problem.q, counts, trajectory.peaks)
+    notes += iterate_seam_notes(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
+    notes += yield_range_notes(compiled, p, float(problem.t[0]), problem.q, counts, trajectory.peaks)
     if compiled.source.rigid:
         notes += find_zeno_points([joint.name for joint in compiled.source.clearances], trajectory.impacts)
         notes += _yield_stiff_film_note(compiled.source, problem, counts)
-    notes += notes_of(trajectory.audit)
-    notes += indeterminate(compiled.source)
+    notes += build_audit_notes(trajectory.audit)
+    notes += yield_redundancy_note(compiled.source)
     return tuple(notes)
 
 
-def indeterminate(source: KernelSource) -> Iterator[str]:
+def yield_redundancy_note(source: KernelSource) -> Iterator[str]:
     """Yield a note that names the joints with undetermined reactions, if the scene has redundant constraints."""
     if source.indeterminate:
         owners = ", ".join(source.indeterminate)
@@ -208,7 +208,7 @@ def _yield_unbounded_sample_note(compiled: CompiledModel, problem: Problem, traj
         return
     largest = np.abs(np.nan_to_num(trajectory.a, nan=math.inf)).max(axis=1)
     t = float(trajectory.t[largest.argmax()])
-    if largest.max() > 100.0 * np.median(largest) and (drive := unbounded_drive(compiled, problem.p, t)):
+    if largest.max() > 100.0 * np.median(largest) and (drive := find_unbounded_drive(compiled, problem.p, t)):
         yield (
             f"the second rate of drive {drive} is unbounded at t = {t:.9g} s: accelerations, forces and torques of that"
             " sample mean nothing: write the drive with powers of 2 and more, or take samples at other times"
@@ -216,7 +216,8 @@ def _yield_unbounded_sample_note(compiled: CompiledModel, problem: Problem, traj
 
 
 def may_leave_range(source: KernelSource, p: Array, size: Array, phi_max: Array, peaks: Array) -> Any:
-    """Return a mask (n_runs,) of the runs of a batch for which `range_notes` may yield a note; it avoids the full test.
+    """Return a mask (n_runs,) of the runs of a batch for which `yield_range_notes` may yield a note; it avoids the
+    full test.
 
     Shapes: parameter values p (n_runs, …), mechanism sizes and `phi_max` (n_runs,), peaks (n_runs, n_clearances, 3).
     """
@@ -225,12 +226,14 @@ def may_leave_range(source: KernelSource, p: Array, size: Array, phi_max: Array,
     return (phi_max > APART * size) | (e_max > least * c).any(axis=1)
 
 
-def range_notes(compiled: CompiledModel, p: Array, t0: float, q0: Array, counts: Counts, peaks: Array) -> Iterator[str]:
+def yield_range_notes(
+    compiled: CompiledModel, p: Array, t0: float, q0: Array, counts: Counts, peaks: Array
+) -> Iterator[str]:
     """Yield notes on a run that left its model: a linkage that came apart, or joints outside their contact laws.
 
     `t0`, `q0`: time (s) and coordinates of the start. `peaks` (n_clearances, 3).
     """
-    if counts.phi_max > APART * mechanism_size(compiled, p):
+    if counts.phi_max > APART * compute_mechanism_size(compiled, p):
         yield (
             f"the linkage came apart: constraints are violated by up to {counts.phi_max:.3g}: nothing after that means"
             " anything; a step too long does this, or a drive that pushes the links through a dead centre"
@@ -246,7 +249,7 @@ def _yield_law_range_notes(compiled: CompiledModel, p: Array, t0: float, q0: Arr
     """
     for k, (joint, e_max) in enumerate(zip(compiled.source.clearances, peaks[:, PEAK_e_max], strict=True)):
         c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
-        penetration = float(e_max) - widest(compiled.source, p, joint)
+        penetration = float(e_max) - compute_max_clearance(compiled.source, p, joint)
         ratio = float(e_max) / float(p[joint.film_clearance])
         if joint.film and not joint.dry and ratio > THIN:
             yield (
@@ -262,23 +265,25 @@ def _yield_law_range_notes(compiled: CompiledModel, p: Array, t0: float, q0: Arr
         if penetration > (limit := min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius)):
             begins_deep = _compute_penetration(compiled, p, t0, q0, k, joint) > limit
             location = (
-                "corner goes {} mm into its wall (gap" if joint.at_wall else "journal goes {} mm into its bearing (c"
+                "corner goes {} mm into its wall (gap" if joint.is_corner else "journal goes {} mm into its bearing (c"
             )
             yield (
                 f"{joint.name}: the {location.format(f'{1e3 * penetration:.3g}')} {1e3 * c:.3g} mm,"
-                f" {'half the width' if joint.at_wall else 'radius'} {1e3 * radius:.3g} mm): outside what contact laws"
+                f" {'half the width' if joint.is_corner else 'radius'} {1e3 * radius:.3g} mm): outside "
+                "what contact laws"
                 " hold for; "
                 + ("it lies so deep from the start on" if begins_deep else "a step too long does this too")
             )
 
 
 def _compute_penetration(compiled: CompiledModel, p: Array, t: float, q: Array, k: int, joint: ClearanceInfo) -> float:
-    """Return the penetration (m) of joint k at time t and coordinates q: of journal in bearing, or of corner in
-    wall.
+    """Return the penetration (m) of joint k at time t and coordinates q (n,); it is negative without contact.
+
+    For a journal in its bearing it is e − c, without the depth of a measured contour; for a slider's corner it is δ.
     """
-    if joint.at_wall:
-        return corner_gap(compiled, p, t, q, np.zeros_like(q), k)[0]
-    return float(np.hypot(*eccentricity(compiled, p, t, q, joint)[1])) - float(p[joint.clearance])
+    if joint.is_corner:
+        return compute_corner_gap(compiled, p, t, q, np.zeros_like(q), k)[0]
+    return float(np.hypot(*find_eccentricity(compiled, p, t, q, joint)[1])) - float(p[joint.clearance])
 
 
 def _build_peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak, ...]:
@@ -288,7 +293,9 @@ def _build_peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak,
     peaks = []
     for i, joint in enumerate(compiled.source.clearances):
         contacts = trajectory.impacts[trajectory.impacts["joint"] == i]
-        first = (float(contacts["t_on"][0]), first_contact_force(contacts)) if len(contacts) else (math.nan, math.nan)
+        first = (
+            (float(contacts["t_on"][0]), find_first_contact_force(contacts)) if len(contacts) else (math.nan, math.nan)
+        )
         F, t, e_max = (float(trajectory.peaks[i, k]) for k in (PEAK_F, PEAK_t, PEAK_e_max))
         peaks.append(Peak(joint.name, F, t, e_max, *first))
     return tuple(peaks)
@@ -298,11 +305,14 @@ class _TimeLimitReached(Exception):
     """Signal that the rest of an interrupted evaluation is left for later."""
 
 
-def build_result(problem: Problem, trajectory: Trajectory, given: Array, is_given: Array, soon: bool = True) -> Result:
+def build_result(
+    problem: Problem, trajectory: Trajectory, given: Array, is_given: Array, is_time_limited: bool = True
+) -> Result:
     """Return the Result of a run with its diagnostics, after evaluating all samples for energy balance, audit and
     notes.
 
-    The evaluation is left out if Ctrl-C or a lack of memory ends it. If Ctrl-C ended the run and `soon`, it is left out
+    The evaluation is left out if Ctrl-C or a lack of memory ends it. If Ctrl-C ended the run and `is_time_limited`,
+    it is left out
     after AFTER_CTRL_C seconds. It is stored with the Result of a short run. A start that is no requested sample is
     removed from the samples.
     """
@@ -313,9 +323,9 @@ def build_result(problem: Problem, trajectory: Trajectory, given: Array, is_give
         False,
         (math.nan, math.nan),
     )
-    poll = _make_poll(problem, x.interrupted, soon)
+    poll = _make_poll(problem, x.interrupted, is_time_limited)
     try:
-        times = evaluation_times(compiled, x.t, x.q, x.v, problem.p)
+        times = find_evaluation_times(compiled, x.t, x.q, x.v, problem.p)
         evaluation = compiled.evaluate(times, x.q, x.v, x.memory, problem.p, poll)
         balance = _compute_energy_balance(evaluation.energy, x.work, poll)
     except SolverError:
@@ -351,7 +361,7 @@ def build_result(problem: Problem, trajectory: Trajectory, given: Array, is_give
         event_states=x.event_states,
         trace=x.trace,
         provenance=provenance_of(compiled),
-        begun=problem.begun,
+        begun=problem.resumed_state,
     )
     if evaluation is not None:
         notes = _build_unbalanced_note(x.t, evaluation.energy, x.work, balance[0]) + _build_coarse_step_note(
@@ -359,10 +369,10 @@ def build_result(problem: Problem, trajectory: Trajectory, given: Array, is_give
         )
         result = result if compiled.source.massless else _add_notes(result, notes)
         result.__dict__["evaluation"] = evaluation  # a cached property: not computed again
-    result = result if problem.start_is_sample else without_start(result)
+    result = result if problem.start_is_sample else split_off_start(result)
     if evaluation is not None:
         evaluation = result.evaluation
-        result = _add_undetermined_friction_notes(with_notes_on_undefined(result, evaluation), evaluation)
+        result = _add_undetermined_friction_notes(add_notes_on_undefined(result, evaluation), evaluation)
         result.__dict__.pop("evaluation", None)
         if len(x.t) <= KEPT:
             result.__dict__["evaluation"] = evaluation
@@ -379,7 +389,9 @@ def _add_undetermined_friction_notes(run: Result, evaluation: Evaluation) -> Res
         mode, slip = run.memory[:, first + k], evaluation.friction[:, k, 1]
         rests = (mode != 0.0) & ((mode == MODE_HELD) | (np.abs(slip) <= AT_REST))
         rests_successively = rests[1:] & rests[:-1]
-        static = run.source.place.get(f"forces.{name}.static")  # None: the file has 0 N, which no parameter changes
+        static = run.source.slot_index.get(
+            f"forces.{name}.static"
+        )  # None: the file has 0 N, which no parameter changes
         if rests_successively.any() and static is not None and run.p[static] > 0.0:
             t, count = float(run.t[rests_successively.argmax()]), f"{int(rests.sum())} of {len(rests)} samples"
             notes.append(
@@ -424,7 +436,7 @@ def _make_poll(problem: Problem, interrupted: bool, soon: bool) -> Callable[[], 
     def poll() -> None:
         """Poll for Ctrl-C and report progress. Raise _TimeLimitReached if an interrupted run takes too long."""
         nonlocal last_report
-        problem.take()
+        problem.poll_cancellation()
         now = monotonic()
         if problem.progress and not interrupted and now - last_report > EVERY:
             last_report = now
@@ -443,16 +455,18 @@ def check_result(problem: Problem, trajectory: Trajectory, result: Result) -> tu
     """
     findings = result.diagnostics.audit
     try:
-        failure = contradiction(problem, trajectory) or (audit_failure(findings) if failed(findings) else None)
+        failure = find_contradiction(problem, trajectory) or (
+            build_audit_error(findings) if has_failed_finding(findings) else None
+        )
     except KeyboardInterrupt:
-        result, failure = _mark_interrupted(result), contradiction(problem, replace(trajectory, interrupted=True))
+        result, failure = _mark_interrupted(result), find_contradiction(problem, replace(trajectory, interrupted=True))
     return result, trajectory.stopped or failure
 
 
-def late(ctrl_c: CtrlC, result: Result) -> Result:
+def mark_if_interrupted(ctrl_c: DelayedCtrlC, result: Result) -> Result:
     """Poll for Ctrl-C; return the result, marked as interrupted if Ctrl-C came while it was being built."""
     try:
-        ctrl_c.take()
+        ctrl_c.raise_delayed()
     except KeyboardInterrupt:
         return _mark_interrupted(result)
     return result

@@ -1,4 +1,4 @@
-"""Find parts of expressions, as they are written, that are not finite numbers; simplified formulas may lack them.
+"""Find parts of a file's expressions that are undefined at given values, such as 0/0, before simplification.
 
 Examples: `cos(acos(d))` simplifies to d, and `d/d` to 1. As written, they are undefined at d = 2 and at d = 0.
 """
@@ -11,11 +11,11 @@ from collections.abc import Container, Iterator, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.language.functions import names_where
-from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, evaluate, functions, names
+from gudgeon.language.functions import select_function_names
+from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, evaluate, iterate_names, list_functions
 
-DEFINED = names_where(lambda f: f.is_total)  # functions that are finite for all numbers
-DIVIDING = names_where(lambda f: f.divides)  # functions that divide by their last argument
+DEFINED = select_function_names(lambda f: f.is_total)  # functions that are finite for all numbers
+DIVIDING = select_function_names(lambda f: f.divides)  # functions that divide by their last argument
 
 
 def is_total_expression(expr: Expr) -> bool:
@@ -26,7 +26,7 @@ def is_total_expression(expr: Expr) -> bool:
         case Binary(operator=operator, left=left, right=right):
             return operator in ("+", "-", "*") and is_total_expression(left) and is_total_expression(right)
         case Call(arguments=arguments):
-            return functions(expr) <= DEFINED and all(map(is_total_expression, arguments))
+            return list_functions(expr) <= DEFINED and all(map(is_total_expression, arguments))
     return True
 
 
@@ -73,7 +73,7 @@ def _iterate_absorbed_parts(expr: Expr, known_values: Mapping[str, float]) -> It
 
 def _iterate_constant_parts(expr: Expr, known_names: Container[str]) -> Iterator[Expr]:
     """Yield the largest parts of an expression that depend on `known_names` names alone; a divisor as 1 over it."""
-    if all(name.path in known_names for name in names(expr)):
+    if all(name.path in known_names for name in iterate_names(expr)):
         yield expr
         return
     match expr:

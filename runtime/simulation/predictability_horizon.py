@@ -23,10 +23,10 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from gudgeon.assembly.linkage import mechanism_size, project
+from gudgeon.assembly.linkage import compute_mechanism_size, project_state
 from gudgeon.errors import BadValueError, SolverError
-from gudgeon.integrators.adaptive import SMALLEST, lengths
-from gudgeon.language.argument_checks import instance
+from gudgeon.integrators.adaptive import SMALLEST, compute_error_lengths
+from gudgeon.language.argument_checks import check_instance
 from gudgeon.model.compiled import Array
 
 if TYPE_CHECKING:
@@ -45,44 +45,46 @@ TIMES = 4000  # compared times between 4^k s and 4^(k + 1) s: the horizon's reso
 MIN_INTERVAL = 1.0 / 256.0  # of the run's length, about: the end of the first compared interval
 
 
-def with_horizon(simulation: Simulation, run: Result, progress: Progress | None = None) -> Result:
+def add_horizon(simulation: Simulation, run: Result, progress: Progress | None = None) -> Result:
     """Return the run with diagnostics.horizon; after Ctrl-C, with a horizon of NaN, a note, and marked as
     interrupted.
     """
     try:
-        found, interrupted = horizon(simulation, run, progress), False
+        horizon, interrupted = compute_horizon(simulation, run, progress), False
     except KeyboardInterrupt:
-        found, interrupted = math.nan, True
-    diagnostics = replace(run.diagnostics, horizon=found)
+        horizon, interrupted = math.nan, True
+    diagnostics = replace(run.diagnostics, horizon=horizon)
     if interrupted:
         diagnostics = replace(diagnostics, interrupted=True, notes=(*diagnostics.notes, UNFINISHED))
     return replace(run, diagnostics=diagnostics)
 
 
-def horizon(simulation: Simulation, run: Result, progress: Progress | None = None, apart: float = APART) -> float:
+def compute_horizon(
+    simulation: Simulation, run: Result, progress: Progress | None = None, max_difference: float = APART
+) -> float:
     """Return the time (s) up to which a run agrees with its perturbed repetitions; infinity if it does so to its end.
 
     The repetitions use `run.diagnostics.method`, from the run's start to its last sample. A repetition that an error
-    ends is compared as far as it came. Kinematic scenes have infinity. `apart`: largest difference, as in the head of
-    this file. Ctrl-C is passed on.
+    ends is compared as far as it came. Kinematic scenes have infinity. `max_difference`: largest difference, as in
+    the head of this file. Ctrl-C is passed on.
     """
-    begin, t1 = start_of_run(run), float(run.t[-1])
+    begin, t1 = build_start_state(run), float(run.t[-1])
     t0 = begin.t
     if simulation.source.degrees_of_freedom == 0 or not t1 > t0:
         return math.inf
-    settings, tighter = repeat_settings(run)
+    settings, tighter = build_repeat_settings(run)
     variants = ((begin, settings), (begin, tighter), (_perturb_start(simulation, run, begin), settings))
-    known = t0
+    agreed_until = t0
     for times in _yield_intervals(t0, t1):
         is_cut = times[-1] > t1
         compared_times = np.append(times[times < t1], t1) if is_cut else times
-        found = _find_last_agreement(simulation, compared_times, variants, progress, apart)
-        if is_cut and found is not None:
-            longer = _find_last_agreement(simulation, times, variants, progress, apart)
-            found = longer if longer is not None and known < longer <= t1 else found
-        if found is not None:
-            return max(known, found)
-        known = float(times[-1])
+        agreement = _find_last_agreement(simulation, compared_times, variants, progress, max_difference)
+        if is_cut and agreement is not None:
+            longer = _find_last_agreement(simulation, times, variants, progress, max_difference)
+            agreement = longer if longer is not None and agreed_until < longer <= t1 else agreement
+        if agreement is not None:
+            return max(agreed_until, agreement)
+        agreed_until = float(times[-1])
     return math.inf
 
 
@@ -113,7 +115,7 @@ def _find_last_agreement(
     """
     runs = []
     for start, settings in variants:
-        run = repeated(simulation, times, start, settings, progress)
+        run = repeat_run(simulation, times, start, settings, progress)
         if run is None:
             return -math.inf
         if run.diagnostics.interrupted:
@@ -123,7 +125,7 @@ def _find_last_agreement(
     return agreed if is_different else None
 
 
-def repeated(
+def repeat_run(
     simulation: Simulation,
     times: Array,
     start: State | None,
@@ -153,7 +155,7 @@ def _compare_runs(simulation: Simulation, runs: list[Result], max_difference: fl
     gaps = [np.abs(path - paths[0]).max(axis=1) for path in paths[1:]]
     different = np.flatnonzero(~(np.maximum(*gaps) <= max_difference))
     last = int(different[0]) - 1 if len(different) else count - 1
-    agreed = float(runs[0].t[last]) if last >= 0 else start_of_run(runs[0]).t
+    agreed = float(runs[0].t[last]) if last >= 0 else build_start_state(runs[0]).t
     return agreed, bool(len(different)) or any(len(run.t) > count for run in runs)
 
 
@@ -169,7 +171,7 @@ def _compute_compared_coordinates(simulation: Simulation, run: Result) -> Array:
             for axis in ("ex", "ey")
         ]
         return np.stack(scaled, axis=1)
-    return np.asarray(run.q / np.where(_find_angles(run), 1.0, mechanism_size(simulation.compiled, run.p)))
+    return np.asarray(run.q / np.where(_find_angles(run), 1.0, compute_mechanism_size(simulation.compiled, run.p)))
 
 
 def _find_angles(run: Result) -> Any:
@@ -185,13 +187,13 @@ def check_simulation_of_run(simulation: Simulation, run: Result, function_name: 
     from gudgeon.results.results import Result
     from gudgeon.simulation.simulation import Simulation
 
-    instance(simulation, "simulation", Simulation)
-    instance(run, "run", Result)
+    check_instance(simulation, "simulation", Simulation)
+    check_instance(run, "run", Result)
     if run.source.whole_sha256 != simulation.source.whole_sha256 or run.source.scene != simulation.source.scene:
         raise BadValueError(f"{function_name}: expected the simulation whose run it is")
 
 
-def repeat_settings(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:
+def build_repeat_settings(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:
     """Return two sets of arguments of simulate: one that repeats a run, and one of a more accurate run.
 
     The second has a shorter step or a tighter tolerance. At the tightest tolerance that is allowed, it is looser
@@ -213,12 +215,12 @@ def _compute_tolerances(simulation: Simulation, run: Result) -> Array:
     """Return the error tolerance (2n,) of each coordinate and, per unit of speed, velocity at the relative tolerance
     MOVED.
     """
-    length, size = lengths(simulation.compiled, run.p)
+    length, size = compute_error_lengths(simulation.compiled, run.p)
     of_q = PERTURBATION * np.where(_find_angles(run), length / size, length)
     return np.concatenate([of_q, np.full(len(of_q), PERTURBATION)])
 
 
-def start_of_run(run: Result) -> State:
+def build_start_state(run: Result) -> State:
     """Return the start of a run as a state to resume from: the state that it resumed, else its first sample."""
     if run.begun is not None:
         return replace(run.begun, parameters=run.final.parameters)
@@ -235,5 +237,5 @@ def _perturb_start(simulation: Simulation, run: Result, start: State) -> State:
     speed = [np.abs(start.v[angle == kind]).max(initial=0.0) for kind in (False, True)]
     displacement = random * _compute_tolerances(simulation, run)
     q, v = start.q + displacement[:n], start.v + displacement[n:] * np.where(angle, speed[1], speed[0])
-    q, v = project(simulation.compiled, start.t, q, v, run.p)
+    q, v = project_state(simulation.compiled, start.t, q, v, run.p)
     return replace(start, q=q, v=v)

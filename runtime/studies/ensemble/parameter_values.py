@@ -8,60 +8,69 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
 from gudgeon.errors import BadValueError, ExpressionError, InputError, Location
-from gudgeon.language.dimension_check import names_over_units
-from gudgeon.language.names import unknown_name
-from gudgeon.language.parser import at, check_dimension, parse
-from gudgeon.language.tree import Expr, evaluate, names
-from gudgeon.language.units import Dimension, dimension
-from gudgeon.model.choices import index_of_word
-from gudgeon.model.parameters import TOGETHER, addresses, given_slots, spaced
+from gudgeon.language.dimension_check import find_names_over_units
+from gudgeon.language.names import make_unknown_name_error
+from gudgeon.language.parser import check_dimension, offset_location, parse
+from gudgeon.language.tree import Expr, evaluate, iterate_names
+from gudgeon.language.units import Dimension, make_dimension
+from gudgeon.model.choices import find_word_index
+from gudgeon.model.parameters import PARAMETER_GROUPS, insert_space_before_unit, list_addresses, read_given_parameters
 from gudgeon.results.batch import Array
-from gudgeon.simulation.arguments import MOST_OUTPUT
+from gudgeon.simulation.arguments import MAX_OUTPUT
 
 if TYPE_CHECKING:
-    from gudgeon.generator.study.spec import Numbers, StudyFile, Written
+    from gudgeon.generator.study.spec import ParameterValues, ParsedExpression, StudyFile
     from gudgeon.generator.yaml import Text
 
 GEOMETRIC = "geometric"
 ROUNDING = 1e-12  # relative tolerance of times at the ends of a window
 
 
-def slot_of(source: KernelSource, name: str) -> Slot | None:
+def find_parameter(source: KernelSource, name: str) -> RuntimeParameter | None:
     """Return the parameter of a scene with this address, short name or group name; None if the scene lacks it.
 
     Of a group it is the first member.
     """
     by_address = {slot.address: slot for slot in source.slots}
-    called = (name, f"parameters.{name}", *TOGETHER.get(name, ()))
-    return next((by_address[one] for one in called if one in by_address), None)
+    called = (name, f"parameters.{name}", *PARAMETER_GROUPS.get(name, ()))
+    return next((by_address[address] for address in called if address in by_address), None)
 
 
-def key_of(source: KernelSource, name: str) -> str:
+def find_parameter_key(source: KernelSource, name: str) -> str:
     """Return the name by which runs of a scene are given a parameter: a group name or an address; "" if the scene
     lacks it.
     """
-    slot = slot_of(source, name)
-    return "" if slot is None else name if name in TOGETHER and slot.address in TOGETHER[name] else slot.address
+    slot = find_parameter(source, name)
+    return (
+        ""
+        if slot is None
+        else name
+        if name in PARAMETER_GROUPS and slot.address in PARAMETER_GROUPS[name]
+        else slot.address
+    )
 
 
-def known_slot(sources: Sequence[KernelSource], name: Text) -> Slot:
-    """Return the parameter of a name in the first of several scenes that has it. Raises UnknownNameError at the name.
+def find_parameter_in_scenes(sources: Sequence[KernelSource], name: Text) -> RuntimeParameter:
+    """Return the parameter of a name in the first of several scenes that has it. Raises UnknownNameError at the
+    name.
     """
     for source in sources:
-        if (found := slot_of(source, name)) is not None:
-            return found
-    every = tuple(dict.fromkeys(address for source in sources for address in addresses(source)))
+        if (parameter := find_parameter(source, name)) is not None:
+            return parameter
+    every = tuple(dict.fromkeys(address for source in sources for address in list_addresses(source)))
     try:
-        given_slots(sources[0], {str(name): 0.0})  # its message is more specific, for example for an expression of t
+        read_given_parameters(
+            sources[0], {str(name): 0.0}
+        )  # its message is more specific, for example for an expression of t
     except InputError as error:
         if "has the address" not in error.message:
             raise type(error)(error.message, name.where, error.hint) from None
-    raise unknown_name("number", name, every, name.where)
+    raise make_unknown_name_error("number", name, every, name.where)
 
 
-def in_si(text: Text, slot: Slot) -> float | str:
+def parse_parameter_value(text: Text, slot: RuntimeParameter) -> float | str:
     """Return the value of a text for a parameter in SI, or the stripped text for a choice.
 
     Raises an InputError at the text for an unknown word, a wrong dimension, a name in the expression, or a value that
@@ -69,31 +78,33 @@ def in_si(text: Text, slot: Slot) -> float | str:
     """
     if slot.words:
         try:
-            index_of_word(str(text), slot)
+            find_word_index(str(text), slot)
         except InputError as error:
             raise type(error)(error.message, text.where, error.hint) from None
         return text.strip()
-    expr = parse(spaced(text), text.where)
-    if (name := next(names(expr), None)) is not None:
+    expr = parse(insert_space_before_unit(text), text.where)
+    if (name := next(iterate_names(expr), None)) is not None:
         hint = "expected a number with its unit; what follows other numbers is written in the mechanism's file"
-        raise BadValueError(f"{name.path!r} stands in a number of a study", at(text.where, name.offset), hint)
-    check_dimension(expr, dimension(*slot.dimension), lambda path: None, text.where)
+        raise BadValueError(
+            f"{name.path!r} stands in a number of a study", offset_location(text.where, name.offset), hint
+        )
+    check_dimension(expr, make_dimension(*slot.dimension), lambda path: None, text.where)
     value = float(evaluate(expr, lambda path: None))
     if not math.isfinite(value):
         raise BadValueError(f"{str(text)[:60]!r} is {value}", text.where, "expected a finite number")
     return value
 
 
-def real_value(text: Text, slot: Slot) -> float:
+def parse_real_value(text: Text, slot: RuntimeParameter) -> float:
     """Return the value in SI of a text for a parameter. Raises BadValueError at the text if it is a choice."""
-    value = in_si(text, slot)
+    value = parse_parameter_value(text, slot)
     if isinstance(value, str):
         hint = "list the names that it takes, under parameters:"
         raise BadValueError(f"{slot.address} is a choice by name, there is nothing between", text.where, hint)
     return value
 
 
-def values(numbers: Numbers, slot: Slot, may_repeat: bool) -> Array:
+def parse_values(numbers: ParameterValues, slot: RuntimeParameter, may_repeat: bool) -> Array:
     """Return all values of a dimension, (n,), in SI or as words: a list of texts, or a count of spaced values between
     two.
 
@@ -101,14 +112,14 @@ def values(numbers: Numbers, slot: Slot, may_repeat: bool) -> Array:
     or ends of different sign with geometric spacing.
     """
     if not numbers.count:
-        found = [in_si(text, slot) for text in numbers.texts]
-        first_of = {value: k for k, value in reversed(list(enumerate(found)))}
-        repeated = next((k for k, value in enumerate(found) if first_of[value] < k and not may_repeat), None)
+        values = [parse_parameter_value(text, slot) for text in numbers.texts]
+        first_of = {value: k for k, value in reversed(list(enumerate(values)))}
+        repeated = next((k for k, value in enumerate(values) if first_of[value] < k and not may_repeat), None)
         if repeated is not None:
             text = numbers.texts[repeated]
             raise BadValueError(f"{str(text)[:60]!r} stands there twice", text.where, "expected each value once")
-        return np.array(found, dtype=object if slot.words else float)
-    first, last = (real_value(text, slot) for text in numbers.texts)
+        return np.array(values, dtype=object if slot.words else float)
+    first, last = (parse_real_value(text, slot) for text in numbers.texts)
     if numbers.spacing == GEOMETRIC and not first * last > 0.0:
         message = f"a geometric row from {first:g} to {last:g}"
         raise BadValueError(message, numbers.texts[0].where, "expected both ends positive, or both negative")
@@ -120,14 +131,16 @@ def values(numbers: Numbers, slot: Slot, may_repeat: bool) -> Array:
 
 
 def check_finite(values: Array, text: Text) -> Array:
-    """Return the array `values` unchanged. Raises BadValueError at `text`, the second end, unless all are finite."""
+    """Return the array `parse_values` unchanged. Raises BadValueError at `text`, the second end, unless all are
+    finite.
+    """
     if not np.isfinite(values).all():
         raise BadValueError("the values between are beyond the largest double", text.where, "expected ends closer by")
     return values
 
 
 def check_expression(
-    source: KernelSource, written: Written, expected: Dimension, extra_dimensions: Mapping[str, Dimension]
+    source: KernelSource, written: ParsedExpression, expected: Dimension, extra_dimensions: Mapping[str, Dimension]
 ) -> None:
     """Raise an InputError at its location for an expression of a study with another dimension than expected.
 
@@ -139,37 +152,37 @@ def check_expression(
         """Return the dimension of a name in the expression; None for an unknown name."""
         if path in extra_dimensions:
             return extra_dimensions[path]
-        slot = slot_of(source, path)
-        return None if slot is None else dimension(*slot.dimension)
+        slot = find_parameter(source, path)
+        return None if slot is None else make_dimension(*slot.dimension)
 
-    for name in names(written.expr):
-        slot = slot_of(source, name.path)
+    for name in iterate_names(written.expr):
+        slot = find_parameter(source, name.path)
         if name.path not in extra_dimensions and (slot is None or slot.words):
-            known = [*extra_dimensions, *addresses(source)]
-            place: Location = at(written.text.where, name.offset)
-            raise unknown_name(f"name (in scene {source.scene})", name.path, known, place)
+            known_names = [*extra_dimensions, *list_addresses(source)]
+            location: Location = offset_location(written.text.where, name.offset)
+            raise make_unknown_name_error(f"name (in scene {source.scene})", name.path, known_names, location)
     _check_ambiguous_units(
-        written, [*extra_dimensions, *(one.removeprefix("parameters.") for one in addresses(source))]
+        written, [*extra_dimensions, *(address.removeprefix("parameters.") for address in list_addresses(source))]
     )
     check_dimension(written.expr, expected, dimension_of, written.text.where)
 
 
-def _check_ambiguous_units(written: Written, known_names: Sequence[str]) -> None:
+def _check_ambiguous_units(written: ParsedExpression, known_names: Sequence[str]) -> None:
     """Raise ExpressionError for a unit in a product that is also the name of a parameter: `2 rad/s` with a parameter
     s.
     """
     text, by_name = written.text, parse(written.text, written.text.where, known_names)
-    for name in names_over_units(by_name) if by_name != written.expr else ():
+    for name in find_names_over_units(by_name) if by_name != written.expr else ():
         message = f"{str(text)!r} can mean two things: {name} is a unit, and a number of the scene"
         raise ExpressionError(message, text.where, f"write {name}^1 for the unit, ({name}) for the number")
 
 
-def constant_value(written: Written | None, known_values: Mapping[str, float]) -> float | None:
+def evaluate_constant(written: ParsedExpression | None, known_values: Mapping[str, float]) -> float | None:
     """Return the value of an expression that is the same in all runs; None for None or an unknown name in it.
 
     known_values: values of names, such as t_end.
     """
-    if written is None or any(name.path not in known_values for name in names(written.expr)):
+    if written is None or any(name.path not in known_values for name in iterate_names(written.expr)):
         return None
     return float(evaluate(written.expr, known_values.get))
 
@@ -179,8 +192,8 @@ def find_impossible(name: str, values: Array) -> tuple[Array, str]:
     expected.
     """
     if name == "output":
-        expected = f"a number of intervals from 1 to {MOST_OUTPUT:.0e}"
-        return ~((values >= 1.0) & (values <= MOST_OUTPUT)), expected
+        expected = f"a number of intervals from 1 to {MAX_OUTPUT:.0e}"
+        return ~((values >= 1.0) & (values <= MAX_OUTPUT)), expected
     return ~((values > 0.0) & np.isfinite(values)), "a positive time (s)"
 
 
@@ -189,22 +202,24 @@ def check_constants(study: StudyFile) -> None:
 
     Only expressions that are the same in all runs are checked here.
     """
-    known: dict[str, float] = {}
+    constants: dict[str, float] = {}
     for name, written in (("t_end", study.t_end), ("output", study.output), ("step", study.step)):
-        if written is None or (value := constant_value(written, known)) is None:
+        if written is None or (value := evaluate_constant(written, constants)) is None:
             continue
         wrong, expected = find_impossible(name, np.rint([value]) if name == "output" else np.array([value]))
         if wrong.any():
             raise BadValueError(f"{name} is {value:g}", written.text.where, f"expected {expected}")
-        known |= {name: value} if name == "t_end" else {}
-    last = known.get("t_end", np.inf)
+        constants |= {name: value} if name == "t_end" else {}
+    last = constants.get("t_end", np.inf)
     for name, window in study.windows.items():
-        begin, end = (constant_value(one, known) for one in (window.begin, window.end))
+        begin, end = (evaluate_constant(bound, constants) for bound in (window.begin, window.end))
         begin, end = 0.0 if window.begin is None else begin, last if window.end is None else end
         if begin is not None and end is not None and not (begin <= end and begin <= last * (1 + ROUNDING) and end >= 0):
-            of = window.begin or window.end
+            limit = window.begin or window.end
             message = f"window {name} goes from {begin:g} s to {end:g} s"
-            raise BadValueError(message, of.text.where if of else None, f"expected a part of the run, to {last:g} s")
+            raise BadValueError(
+                message, limit.text.where if limit else None, f"expected a part of the run, to {last:g} s"
+            )
 
 
 def evaluate_for_runs(source: KernelSource, expr: Expr, p: Array, extra_values: Mapping[str, Any]) -> Array:
@@ -219,7 +234,7 @@ def evaluate_for_runs(source: KernelSource, expr: Expr, p: Array, extra_values: 
         """Return the value or values of a name in the expression."""
         if path in extra_values:
             return extra_values[path]
-        slot = slot_of(source, path)
+        slot = find_parameter(source, path)
         assert slot is not None, path
         return p[:, index_of_address[slot.address]]
 

@@ -1,4 +1,4 @@
-"""Define the style of a page: page.css, and colours of drawings on light and dark backgrounds."""
+"""Define the style of a simulator page: page.css, and colours of drawings on light and dark backgrounds."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 
 from gudgeon.drawing.page import PIXELS
-from gudgeon.drawing.roles import DRIVEN, EDGES, GREY, INK, LOADED, NAMES, ROLES, TINTS, WOUND, WRONG, colour_of
+from gudgeon.drawing.roles import DRIVEN, EDGES, GREY, INK, LOADED, NAMES, ROLES, TINTS, WOUND, WRONG, resolve_colour
 
 # colours of paper and ink, which depend on the colour scheme
 FRAME = {INK: "var(--ink)", GREY: "var(--quiet)", "white": "var(--paper)", "#ffffff": "var(--paper)"}
@@ -29,36 +29,36 @@ DARK = {
 DARK_TINTS = ("#1d3a4d", "#4a3510", "#153f32", "#45263a", "#4d2a14", "#234152", "#3a3a3e", "#403d12")
 
 
-def style(shape_styles: Iterable[tuple[str, int]], name_styles: Iterable[tuple[str, int]]) -> str:
+def build_style_sheet(shape_styles: Iterable[tuple[str, int]], name_styles: Iterable[tuple[str, int]]) -> str:
     """Return the CSS of a page: page.css, then rules for shapes and names by role and tint, light and dark.
 
-    `shape_styles` and `name_styles` are pairs (role, tint). Classes are those of `look`, for names with the suffix
-    "-name".
+    `shape_styles` and `name_styles` are pairs (role, tint). Classes are those of `make_css_class`, for names with the
+    suffix "-name".
     """
     light_rules, dark_rules = list[str](), list[str]()
     for role, tint in shape_styles:
-        selector = f".{look(role, tint)}"
+        selector = f".{make_css_class(role, tint)}"
         role_style = ROLES[role]
         dashes = f"stroke-dasharray:{' '.join(f'{x:g}' for x in role_style.dashes)};" if role_style.dashes else ""
+        light_edge, light_face = (_format_light_colour(name, tint) for name in (role_style.edge, role_style.face))
+        dark_edge, dark_face = (_format_dark_colour(name, tint) for name in (role_style.edge, role_style.face))
         light_rules.append(
-            f"{selector}{{stroke:{_light_colour(role_style.edge, tint)};fill:{_light_colour(role_style.face, tint)};"
+            f"{selector}{{stroke:{light_edge};fill:{light_face};"
             f"stroke-width:{role_style.width * PIXELS / 72.0:.2f};{dashes}}}"
         )
-        dark_rules.append(
-            f"{selector}{{stroke:{_dark_colour(role_style.edge, tint)};fill:{_dark_colour(role_style.face, tint)}}}"
-        )
+        dark_rules.append(f"{selector}{{stroke:{dark_edge};fill:{dark_face}}}")
     for role, tint in name_styles:
-        selector = f".{look(role, tint)}-name"
+        selector = f".{make_css_class(role, tint)}-name"
         colour_name, weight = NAMES[role]
         slant = "font-style:italic;" if role == "joint" else ""
-        light_rules.append(f"{selector}{{fill:{_light_colour(colour_name, tint)};font-weight:{weight};{slant}}}")
-        dark_rules.append(f"{selector}{{fill:{_dark_colour(colour_name, tint)}}}")
+        light_rules.append(f"{selector}{{fill:{_format_light_colour(colour_name, tint)};font-weight:{weight};{slant}}}")
+        dark_rules.append(f"{selector}{{fill:{_format_dark_colour(colour_name, tint)}}}")
     dark_text = "\n".join(dark_rules)
     light_text = f"{_read_style_sheet()}\n{chr(10).join(light_rules)}"
     return f"{light_text}\n@media screen and (prefers-color-scheme: dark) {{\n{dark_text}\n}}\n"
 
 
-def look(role: str, tint: int) -> str:
+def make_css_class(role: str, tint: int) -> str:
     """Return the CSS class of a role, such as "d-pin"; roles with the colours of a body include the tint."""
     class_name = role.replace(" ", "-")
     has_body_colour = role in ROLES and {"tint", "edge"} & {ROLES[role].edge, ROLES[role].face}
@@ -71,13 +71,13 @@ def _read_style_sheet() -> str:
     return re.sub(r"(?m)^ +", "", Path(__file__).with_name("page.css").read_text(encoding="utf-8"))
 
 
-def _light_colour(colour_name: str, tint: int) -> str:
+def _format_light_colour(colour_name: str, tint: int) -> str:
     """Return the CSS colour of a role's colour on a light background."""
-    colour = colour_of(colour_name, tint)
+    colour = resolve_colour(colour_name, tint)
     return FRAME.get(colour, colour)
 
 
-def _dark_colour(colour_name: str, tint: int) -> str:
+def _format_dark_colour(colour_name: str, tint: int) -> str:
     """Return the CSS colour of a role's colour on a dark background."""
-    colour = colour_of(colour_name, tint)
+    colour = resolve_colour(colour_name, tint)
     return DARK_TINTS[TINTS.index(colour)] if colour_name == "tint" else FRAME.get(colour) or DARK.get(colour, colour)

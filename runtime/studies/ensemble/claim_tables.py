@@ -1,4 +1,4 @@
-"""Judge the claims of a study file by its runs: two tables, in the study's folder as JSON and CSV."""
+"""Compare the claims of a study file, published numbers and trends, with its runs; write two tables."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from gudgeon.errors import GudgeonError
-from gudgeon.files.writing import read_regular, written
-from gudgeon.language.plot_units import quantity
-from gudgeon.language.shown import counted, in_spreadsheet
+from gudgeon.files.writing import open_atomic, read_regular
+from gudgeon.language.plot_units import format_quantity
+from gudgeon.language.text_output import escape_for_spreadsheet, format_count
 from gudgeon.results.batch import Array
-from gudgeon.studies.ensemble.judge import Cell, judged, together
-from gudgeon.studies.ensemble.names import as_people_write, names_of
+from gudgeon.studies.ensemble.judge import Cell, judge_claim, merge_verdicts
+from gudgeon.studies.ensemble.names import collect_names, format_typographically
 
 if TYPE_CHECKING:
     import pandas
@@ -60,11 +60,11 @@ class Claimed(NamedTuple):
             list(trends_by_claim["heading"]) if "heading" in trends_by_claim else [UNNAMED] * len(trends_by_claim)
         )
         for heading in dict.fromkeys(headings):
-            counts = Counter(trends_by_claim["verdict"][[one == heading for one in headings]])
-            found = ((counts[one], one, many) for one, many in VERDICTS.items() if counts[one])
-            words = (f"{count} {many if count > 1 else one}" for count, one, many in found)
-            of = f" of “{heading}”" if heading else ""
-            text_lines.append(f"{counted(counts.total(), 'trend')}{of}: {', '.join(words)}")
+            counts = Counter(trends_by_claim["verdict"][[verdict == heading for verdict in headings]])
+            nonzero_counts = ((counts[verdict], verdict, many) for verdict, many in VERDICTS.items() if counts[verdict])
+            words = (f"{count} {many if count > 1 else verdict}" for count, verdict, many in nonzero_counts)
+            heading_text = f" of “{heading}”" if heading else ""
+            text_lines.append(f"{format_count(counts.total(), 'trend')}{heading_text}: {', '.join(words)}")
         printed = self.numbers[self.numbers["printed"].notna()] if len(self.numbers) else self.numbers
         if len(printed):
             text_lines.append(_describe_deviations(printed))
@@ -80,15 +80,17 @@ def _describe_deviations(printed: pandas.DataFrame) -> str:
     each = printed.groupby("claim")
     off = printed["deviation"].abs().groupby(printed["claim"]).median().dropna()
     computed = int(each["median"].count().gt(0).sum())
-    numbers = counted(each.ngroups, "printed number")
+    numbers = format_count(each.ngroups, "printed number")
     if not computed:
         return f"{numbers}: none could be computed"
-    of = numbers if computed == each.ngroups else f"{numbers}, {computed} of them computed"
+    count_text = numbers if computed == each.ngroups else f"{numbers}, {computed} of them computed"
     if not len(off):
-        return f"{of}: of a printed 0 ours is off by no share"
-    share = f"{off.median():.0f} %" if off.median() >= 100.0 else f"{off.median():.3g} %"
-    sentence = f"ours are off by {share} or less for half of them" if len(off) > 1 else f"ours is off by {share}"
-    return f"{of}: {sentence}"
+        return f"{count_text}: of a printed 0 ours is off by no share"
+    median_text = f"{off.median():.0f} %" if off.median() >= 100.0 else f"{off.median():.3g} %"
+    sentence = (
+        f"ours are off by {median_text} or less for half of them" if len(off) > 1 else f"ours is off by {median_text}"
+    )
+    return f"{count_text}: {sentence}"
 
 
 def write_claims(folder: Path, plans: Plans, claims: Known, study: Study) -> None:
@@ -101,36 +103,40 @@ def write_claims(folder: Path, plans: Plans, claims: Known, study: Study) -> Non
         for name in (FILE, *(f"claims_{table}.csv" for table in TABLES)):
             (folder / name).unlink(missing_ok=True)
         return
-    runs = _FinishedRuns(plans, study, names_of(plans).values)
-    cells = {str(one.claim.name): one.cell for one in claims.numbers}
+    runs = _FinishedRuns(plans, study, collect_names(plans).values)
+    cells = {str(judged.claim.name): judged.cell for judged in claims.numbers}
     rows = {
-        "numbers": [row for one in claims.numbers for row in _judge_number(one, runs, cells)],
-        "trends": [row for one in claims.trends for row in _judge_trend(one, runs)],
+        "numbers": [row for judged in claims.numbers for row in _judge_number(judged, runs, cells)],
+        "trends": [row for judged in claims.trends for row in _judge_trend(judged, runs)],
     }
-    with written(folder / FILE) as file:
+    with open_atomic(folder / FILE) as file:
         file.write(json.dumps({"source": plans.file.claims.source} | rows, indent=1).encode())
     for name, table in zip(TABLES, _build_tables(rows), strict=True):
-        with written(folder / f"claims_{name}.csv") as file:
-            file.write(table.map(in_spreadsheet).to_csv(index=False).encode())
+        with open_atomic(folder / f"claims_{name}.csv") as file:
+            file.write(table.map(escape_for_spreadsheet).to_csv(index=False).encode())
 
 
-def read_claims_of(folder: Path) -> Claimed:
+def read_claims(folder: Path) -> Claimed:
     """Return the judged claims from the folder of a study. Raises GudgeonError if the study makes no claims."""
-    document = claims_json(folder)
+    document = read_claims_json(folder)
     if document is None:
         raise GudgeonError("the file of this study makes no claims")
     numbers, trends = _build_tables(document)
     return Claimed(numbers, trends, str(document.get("source", "")))
 
 
-def claims_json(folder: Path) -> dict[str, Any] | None:
+def read_claims_json(folder: Path) -> dict[str, Any] | None:
     """Return the contents of claims.json in a folder; None if the file is missing, damaged, or without both tables."""
     try:
         data = read_regular(folder / FILE)
-        found = None if data is None else json.loads(data)
+        document = None if data is None else json.loads(data)
     except (OSError, ValueError, RecursionError):
         return None
-    return found if isinstance(found, dict) and all(isinstance(found.get(name), list) for name in TABLES) else None
+    return (
+        document
+        if isinstance(document, dict) and all(isinstance(document.get(name), list) for name in TABLES)
+        else None
+    )
 
 
 def _build_tables(rows: Mapping[str, Any]) -> list[pandas.DataFrame]:
@@ -140,14 +146,14 @@ def _build_tables(rows: Mapping[str, Any]) -> list[pandas.DataFrame]:
     """
     import pandas
 
-    found = [pandas.DataFrame(rows[name]) for name in TABLES]
+    tables = [pandas.DataFrame(rows[name]) for name in TABLES]
     for name in ("printed", "q25", "median", "q75", "deviation"):
-        if name in found[0]:
-            found[0][name] = found[0][name].astype(float)  # null is NaN
+        if name in tables[0]:
+            tables[0][name] = tables[0][name].astype(float)  # null is NaN
     for name in ODDS:
-        if name in found[1]:
-            found[1][name] = found[1][name].astype(float)
-    return found
+        if name in tables[1]:
+            tables[1][name] = tables[1][name].astype(float)
+    return tables
 
 
 class _FinishedRuns:
@@ -164,17 +170,21 @@ class _FinishedRuns:
         """Return the names of the ensembles of the parts of these cells, without repetitions; [UNNAMED] if there are
         none.
         """
-        names = [name for part in dict.fromkeys(cell.part for cell in cells) for name in self._ensemble_names(part)]
+        names = [
+            name for part in dict.fromkeys(cell.part for cell in cells) for name in self._list_ensemble_names(part)
+        ]
         return list(dict.fromkeys(names)) or [UNNAMED]
 
     def has_separate_runs(self, cell: Cell, ensembles: list[str]) -> bool:
         """Return whether a cell has runs of its own in each of these ensembles, or there is only one ensemble."""
-        return len(ensembles) < 2 or set(ensembles) <= set(self._ensemble_names(cell.part))
+        return len(ensembles) < 2 or set(ensembles) <= set(self._list_ensemble_names(cell.part))
 
-    def _ensemble_names(self, part: str) -> list[str]:
+    def _list_ensemble_names(self, part: str) -> list[str]:
         """Return the names of the ensembles along the dimension `ensemble` of a part; empty if it has none."""
         plan = self.plans.each[part]
-        return [str(name) for one in plan.coordinates if one.name == "ensemble" for name in one.values]
+        return [
+            str(name) for coordinate in plan.coordinates if coordinate.name == "ensemble" for name in coordinate.values
+        ]
 
     def values(self, cell: Cell, measure: str, ensemble: str) -> Array:
         """Return a measure of the runs of a cell in an ensemble, (n,).
@@ -184,13 +194,13 @@ class _FinishedRuns:
         """
         plan, key = self.plans.each[cell.part], (cell.part, measure)
         if key not in self.cached_values:
-            own = self.study.parts[cell.part] if self.plans.named else self.study
-            self.cached_values[key] = np.asarray(own.dataset[measure].transpose(*plan.dims).values, dtype=float)
-        found = self.cached_values[key][cell.index]
-        named = self._ensemble_names(cell.part)
+            part_study = self.study.parts[cell.part] if self.plans.named else self.study
+            self.cached_values[key] = np.asarray(part_study.dataset[measure].transpose(*plan.dims).values, dtype=float)
+        cell_values = self.cached_values[key][cell.index]
+        named = self._list_ensemble_names(cell.part)
         if named and ensemble in named:
-            return np.asarray(found[named.index(ensemble)])
-        return np.asarray(found).ravel()
+            return np.asarray(cell_values[named.index(ensemble)])
+        return np.asarray(cell_values).ravel()
 
 
 def _judge_number(number: KnownNumber, runs: _FinishedRuns, cells: Mapping[str, Cell]) -> Iterator[dict[str, Any]]:
@@ -202,8 +212,8 @@ def _judge_number(number: KnownNumber, runs: _FinishedRuns, cells: Mapping[str, 
     claim = number.claim
     for ensemble in runs.ensembles([number.cell]):
         values = runs.values(number.cell, str(claim.measure), ensemble)
-        own = values[np.isfinite(values)]
-        quartiles = np.quantile(own, [0.25, 0.5, 0.75]) if len(own) else np.full(3, np.nan)
+        finite_values = values[np.isfinite(values)]
+        quartiles = np.quantile(finite_values, [0.25, 0.5, 0.75]) if len(finite_values) else np.full(3, np.nan)
         base = number.printed
         if claim.beside is not None:
             others = runs.values(cells[claim.beside], str(claim.measure), ensemble)
@@ -219,13 +229,13 @@ def _judge_number(number: KnownNumber, runs: _FinishedRuns, cells: Mapping[str, 
             "place": json.dumps(dict(zip(_list_cell_dimensions(plan), number.cell.index, strict=True))),
             "measure": str(claim.measure),
             "unit": number.unit,
-            "printed": _finite_or_none(number.printed),
+            "printed": _replace_nonfinite(number.printed),
             "ensemble": ensemble,
-            "n": len(own),
-            "q25": _finite_or_none(quartiles[0]),
-            "median": _finite_or_none(quartiles[1]),
-            "q75": _finite_or_none(quartiles[2]),
-            "deviation": _finite_or_none(deviation),
+            "n": len(finite_values),
+            "q25": _replace_nonfinite(quartiles[0]),
+            "median": _replace_nonfinite(quartiles[1]),
+            "q75": _replace_nonfinite(quartiles[2]),
+            "deviation": _replace_nonfinite(deviation),
             "beside": str(claim.beside or ""),
             "note": claim.note,
             "heading": claim.heading,
@@ -237,15 +247,17 @@ def _describe_cell(plan: Plan, number: KnownNumber, value_texts: Mapping[str, tu
 
     Texts of the claim take precedence over those of the file (`value_texts`), and these over formatted values.
     """
-    texts, own = (
+    texts, words = (
         [],
-        {str(name): as_people_write(str(text)) for name, text in number.claim.selection.at.items()},
+        {str(name): format_typographically(str(text)) for name, text in number.claim.selection.at.items()},
     )
     for name, k in zip(_list_cell_dimensions(plan), number.cell.index, strict=True):
-        for one in (one for one in plan.coordinates if one.over == (name,)):
-            value = one.values[k]
-            specified = value if isinstance(value, str) else quantity(float(value), one.unit, 6)
-            texts.append(f"{one.name} {own.get(one.name) or value_texts.get(one.name, {k: specified})[k]}")
+        for coordinate in (coordinate for coordinate in plan.coordinates if coordinate.over == (name,)):
+            value = coordinate.values[k]
+            specified = value if isinstance(value, str) else format_quantity(float(value), coordinate.unit, 6)
+            texts.append(
+                f"{coordinate.name} {words.get(coordinate.name) or value_texts.get(coordinate.name, {k: specified})[k]}"
+            )
     return ", ".join(texts)
 
 
@@ -278,18 +290,18 @@ def _judge_trend(trend: KnownTrend, runs: _FinishedRuns) -> Iterator[dict[str, A
     judged_by_ensemble, ensembles = {}, runs.ensembles(cells)
     shared_cells = [cell for cell in cells if not runs.has_separate_runs(cell, ensembles)]
     for ensemble in ensembles:
-        own = {
+        verdicts = {
             cell: {name: runs.values(cell, name, ensemble) for name in measures if _has_measure(runs, cell, name)}
             for cell in cells
         }
-        judged_by_ensemble[ensemble] = judged(trend.checks, own, certain_cells, shared_cells)
-    overall, agreed = together(list(judged_by_ensemble.values()))
-    for ensemble, one in judged_by_ensemble.items():
-        probabilities = {name: _finite_or_none(getattr(one, name)) for name in ODDS}
+        judged_by_ensemble[ensemble] = judge_claim(trend.checks, verdicts, certain_cells, shared_cells)
+    overall, agreed = merge_verdicts(list(judged_by_ensemble.values()))
+    for ensemble, judged in judged_by_ensemble.items():
+        probabilities = {name: _replace_nonfinite(getattr(judged, name)) for name in ODDS}
         yield common | {
             "ensemble": ensemble,
             "verdict": overall.verdict,
-            "alone": one.verdict,
+            "alone": judged.verdict,
             **probabilities,
             "agreed": agreed,
             "note": claim.note,
@@ -298,9 +310,9 @@ def _judge_trend(trend: KnownTrend, runs: _FinishedRuns) -> Iterator[dict[str, A
 
 def _has_measure(runs: _FinishedRuns, cell: Cell, measure: str) -> bool:
     """Return whether the part that a cell belongs to has a measure of this name."""
-    return any(one.name == measure for one in runs.plans.each[cell.part].expected.measures)
+    return any(expected.name == measure for expected in runs.plans.each[cell.part].expected.measures)
 
 
-def _finite_or_none(value: float | None) -> float | None:
+def _replace_nonfinite(value: float | None) -> float | None:
     """Return a finite number as a float; None for None, NaN and infinity, which JSON lacks."""
     return None if value is None or not math.isfinite(value) else float(value)

@@ -11,12 +11,12 @@ import numpy as np
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.files.free_space import check_memory
 from gudgeon.integrators.times import Times
-from gudgeon.language.quantities import holds_names
+from gudgeon.language.quantities import has_names
 from gudgeon.model.arrays import as_c_array
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.parameter_sets import column
-from gudgeon.model.parameters import spaced
-from gudgeon.simulation.arguments import MAX_STEPS, MOST_OUTPUT, end_of, output_times, step_of
+from gudgeon.model.parameter_sets import read_column
+from gudgeon.model.parameters import insert_space_before_unit
+from gudgeon.simulation.arguments import MAX_OUTPUT, MAX_STEPS, compute_output_times, evaluate_end_time, evaluate_step
 
 Errors = dict[int, BadValueError]
 
@@ -27,7 +27,7 @@ def _split_times_by_run(output: Any) -> list[Any] | None:
     Rows come from an array (n, N), or from a list, tuple or object array that contains sequences. Rows are not checked.
     """
     if getattr(output, "ndim", None) == 2:
-        return list(as_c_array(output, "output", (None, None), most=MOST_OUTPUT))
+        return list(as_c_array(output, "output", (None, None), max_entries=MAX_OUTPUT))
     is_object_array = getattr(output, "ndim", None) == 1 and getattr(output, "dtype", None) == np.dtype(object)
     if not (isinstance(output, (list, tuple)) or is_object_array):
         return None
@@ -36,7 +36,7 @@ def _split_times_by_run(output: Any) -> list[Any] | None:
 
 
 @dataclass
-class EachRun:
+class BatchArguments:
     """Hold `t_end`, `output` and `step` of a batch. A value that is not a number fails its own run only."""
 
     compiled: CompiledModel
@@ -47,10 +47,10 @@ class EachRun:
 
     def __post_init__(self) -> None:
         """Split the arguments into columns with one value per run."""
-        self.ends, self.steps = column("t_end", self.t_end), column("step", self.step)
+        self.ends, self.steps = read_column("t_end", self.t_end), read_column("step", self.step)
         self.rows = _split_times_by_run(self.output)
 
-    def length(self, n_sets: int) -> int:
+    def count_runs(self, n_sets: int) -> int:
         """Return the number of runs of the batch, given the number of parameter sets `n_sets`.
 
         Raises BadValueError if t_end, output or step have another number of values; one set combines with any number.
@@ -63,16 +63,20 @@ class EachRun:
             n_sets = n_sets if values is None else len(values)
         return n_sets
 
-    def times(self, p: Array, t0: float, excluded: dict[int, Any]) -> Times:
+    def compute_times(self, p: Array, t0: float, excluded: dict[int, Any]) -> Times:
         """Return the sample times of all runs from t0 (s), with parameter values p (n_runs, …).
 
         Runs in `excluded` get none. Errors of single runs are recorded in `failures`; if every run has one, the first
         is raised. Runs with equal times share one array. Raises MemoryError before arrays that do not fit.
         """
         source = self.compiled.source
-        has_own_times = isinstance(self.t_end, str) and holds_names(spaced(self.t_end)) or bool(source.simulate_written)
+        has_own_times = (
+            isinstance(self.t_end, str)
+            and has_names(insert_space_before_unit(self.t_end))
+            or bool(source.simulate_written)
+        )
         if self.ends is None and self.rows is None and not has_own_times:
-            t, requested = output_times(source, p[0], t0, self.t_end, self.output)
+            t, requested = compute_output_times(source, p[0], t0, self.t_end, self.output)
             return Times(t, np.full(len(p), len(t)), np.full(len(p), int(not requested)))
         times_of_runs: dict[int, tuple[Array, bool]] = {}
         known_times: dict[Any, tuple[Array, bool]] = {}
@@ -87,7 +91,7 @@ class EachRun:
             times_of_runs[i] = times
         if self.failures and not times_of_runs:
             raise next(iter(self.failures.values()))
-        return Times.of_runs(times_of_runs or {0: (np.array([t0]), True)}, len(p))
+        return Times.from_runs(times_of_runs or {0: (np.array([t0]), True)}, len(p))
 
     def _compute_times_of_run(
         self, i: int, p: Array, t0: float, known_times: dict[Any, tuple[Array, bool]]
@@ -100,7 +104,9 @@ class EachRun:
         source = self.compiled.source
         row = self.output if self.rows is None else self.rows[i]
         try:
-            end = end_of(source, self.t_end if self.ends is None else _require_time(self.ends[i], "t_end"), p)
+            end = evaluate_end_time(
+                source, self.t_end if self.ends is None else _require_time(self.ends[i], "t_end"), p
+            )
         except InputError as error:
             raise BadValueError(f"run {i}: {error}") from None
         if message := _explain_if_not_finite(end, "t_end") or (
@@ -113,7 +119,7 @@ class EachRun:
         if key in known_times:
             return known_times[key]
         try:
-            t = output_times(source, p, t0, end, row)
+            t = compute_output_times(source, p, t0, end, row)
         except InputError as error:
             if end is None and self.rows is None:  # what the file says of its runs, with these numbers
                 self.failures[i] = BadValueError(str(error))
@@ -121,7 +127,7 @@ class EachRun:
             raise BadValueError(f"run {i}: {error}") from None
         return known_times.setdefault(key, t) if key else t
 
-    def lengths_of_steps(self, method: str, p: Array, times: Times, excluded: dict[int, Any]) -> Array:
+    def compute_steps(self, method: str, p: Array, times: Times, excluded: dict[int, Any]) -> Array:
         """Return the fixed step (s) of each run, (n_runs,); infinity where the method controls its step.
 
         Runs in `excluded` or `failures` get 1.0, which has no meaning. A step that is not finite is recorded in
@@ -137,7 +143,7 @@ class EachRun:
             )
             return steps
         for i in indices:
-            step, t = self.step if self.steps is None else self.steps[i], times.of(i)
+            step, t = self.step if self.steps is None else self.steps[i], times.get_times(i)
             if message := "" if self.steps is None else _explain_if_not_finite(step, "step"):
                 self.failures[i] = BadValueError(message)
                 continue
@@ -153,7 +159,9 @@ class EachRun:
         BadValueError, with the index of the run if runs have their own values.
         """
         try:
-            h = step_of(self.compiled, step if self.steps is None else _require_time(step, "step"), method, p, duration)
+            h = evaluate_step(
+                self.compiled, step if self.steps is None else _require_time(step, "step"), method, p, duration
+            )
             if duration / h > MAX_STEPS:
                 raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
         except InputError as error:
@@ -185,7 +193,7 @@ def _explain_if_times_not_finite(times: Any) -> str:
     Rows that are no one-dimensional list of numbers, or too long, are left to the reader of times, which refuses them.
     """
     try:
-        t = np.asarray(times if np.size(times) <= MOST_OUTPUT else (), dtype=float)
+        t = np.asarray(times if np.size(times) <= MAX_OUTPUT else (), dtype=float)
     except (TypeError, ValueError):
         return ""
     not_finite = np.flatnonzero(~np.isfinite(t)).tolist() if t.ndim == 1 else []

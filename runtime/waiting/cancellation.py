@@ -2,8 +2,8 @@
 threads.
 
 C calls Python every EVERY seconds, and stops its work if requested.
-- `Asker`: the callback of C.
-- `apart` runs one long call of C in another thread, so that Ctrl-C need not wait for its end.
+- `CancellationPoll`: the callback of C.
+- `run_interruptible` runs one long call of C in another thread, so that Ctrl-C need not wait for its end.
 - `report_work` reports that deriving or compiling is under way.
 """
 
@@ -29,32 +29,32 @@ Teller = Callable[[str], AbstractContextManager[None]]  # what is done → conte
 _teller: ContextVar[Teller | None] = ContextVar("teller", default=None)
 
 
-class Asker:
-    """Poll for cancellation while C runs: C calls `look`, whose exception is stored until `check` raises it in
+class CancellationPoll:
+    """Poll for cancellation while C runs: C calls `poll`, whose exception is stored until `check` raises it in
     Python.
     """
 
     def __init__(self, compiled: CompiledModel, look: Callable[[], object]) -> None:
-        self.look = look
+        self.poll = look
         self.raised: BaseException | None = None
         self.function = _get_callback(compiled)
         self.handle = compiled.ffi.new_handle(self)
 
     @property
-    def arguments(self) -> tuple[Any, Any, float]:
+    def c_arguments(self) -> tuple[Any, Any, float]:
         """Return the arguments for C: callback function, handle of this object, seconds between polls."""
         return self.function, self.handle, EVERY
 
-    def answer(self) -> int:
-        """Call `look`; return 0, or 1 if it raised an exception, which is stored and makes C stop. C calls this."""
+    def poll_from_c(self) -> int:
+        """Call `poll`; return 0, or 1 if it raised an exception, which is stored and makes C stop. C calls this."""
         try:
-            self.look()
+            self.poll()
         except BaseException as error:  # nothing may pass through C
             self.raised = error
             return 1
         return 0
 
-    def check(self, stopped: bool) -> None:
+    def raise_stored(self, stopped: bool) -> None:
         """Raise the exception that a poll stored, else KeyboardInterrupt if C has `stopped`; called after C returns."""
         raised, self.raised = self.raised, None
         if raised is not None:
@@ -64,27 +64,27 @@ class Asker:
 
 
 def _get_callback(compiled: CompiledModel) -> Any:
-    """Return the callback from C to `Asker.answer`, created once per cffi interface and cached.
+    """Return the callback from C to `Asker.poll_from_c`, created once per cffi interface and cached.
 
-    An exception of a signal handler outside `answer` is stored in the Asker, and stops the run too.
+    An exception of a signal handler outside `poll_from_c` is stored in the Asker, and stops the run too.
     """
     ffi = compiled.ffi
     if id(ffi) not in _functions:
 
         def store_error(kind: object, error: BaseException | None, trace: TracebackType | None) -> None:
-            """Store an exception that a signal handler raised just before or after `answer` in its Asker."""
+            """Store an exception that a signal handler raised just before or after `poll_from_c` in its Asker."""
             whom = trace.tb_frame.f_locals.get("whom") if trace else None
             if whom is not None and error is not None:
                 ffi.from_handle(whom).raised = error
 
         requested = ffi.callback(
-            "int(void *)", lambda whom: ffi.from_handle(whom).answer(), error=1, onerror=store_error
+            "int(void *)", lambda whom: ffi.from_handle(whom).poll_from_c(), error=1, onerror=store_error
         )
         _functions[id(ffi)] = ffi, requested
     return _functions[id(ffi)][1]
 
 
-def apart(work: Callable[[], Result]) -> Result:
+def run_interruptible(work: Callable[[], Result]) -> Result:
     """Call `work` in another thread, and return its result or raise its exception, so that Ctrl-C is raised at once.
 
     After Ctrl-C the thread ends on its own; a process that ends meanwhile waits for it. Thread.join is not used: if a
@@ -118,7 +118,7 @@ def report_work(text: str) -> AbstractContextManager[None]:
 
 
 @contextmanager
-def report_through(teller: Teller) -> Iterator[None]:
+def set_reporter(teller: Teller) -> Iterator[None]:
     """Set the reporter of this thread, which `report_work` calls with a text, within the with block."""
     token = _teller.set(teller)
     try:

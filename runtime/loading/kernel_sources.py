@@ -1,4 +1,4 @@
-"""Find a mechanism by name or file, and return its kernel source from the cache, or derive it."""
+"""Find a mechanism by name or file, and return the C of a scene from the cache, or generate it."""
 
 from __future__ import annotations
 
@@ -15,16 +15,22 @@ from typing import TYPE_CHECKING
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import SMOOTH, STAGES
 from gudgeon.errors import BadValueError, InputError, LimitError
-from gudgeon.files.reading import MAX_BYTES, MAX_TABLE_BYTES, read_beside, read_named
-from gudgeon.language.argument_checks import mapping, number_of, path, text
-from gudgeon.loading.cache import Cache, default_cache, digest
-from gudgeon.loading.engine import contents
-from gudgeon.loading.shipped import PACKAGE, committed, committed_header, shipped, shipped_file
-from gudgeon.waiting.asking import report_work
-from gudgeon.waiting.imports import GENERATOR, READER, pause_garbage_collector, whole
+from gudgeon.files.reading import MAX_BYTES, MAX_TABLE_BYTES, read_table_file, read_user_file
+from gudgeon.language.argument_checks import check_mapping, check_number, check_path, check_text
+from gudgeon.loading.cache import Cache, compute_digest, get_default_cache
+from gudgeon.loading.engine import read_files
+from gudgeon.loading.shipped import (
+    PACKAGE,
+    find_shipped_file,
+    list_shipped,
+    read_committed_header,
+    read_committed_source,
+)
+from gudgeon.waiting.cancellation import report_work
+from gudgeon.waiting.imports import GENERATOR, READER, import_completely, pause_garbage_collector
 
 if TYPE_CHECKING:
-    from gudgeon.loading.ahead import BackgroundCompilation
+    from gudgeon.loading.background_compilation import BackgroundCompilation
 
 Overrides = Mapping[str, str | float | bool]
 DEFAULT_SCENE = "ideal"  # exists in every file
@@ -43,20 +49,23 @@ class Loading:
     total: float
 
 
-def override_values(overrides: Overrides | None) -> dict[str, str | float | bool]:
+def check_overrides(overrides: Overrides | None) -> dict[str, str | float | bool]:
     """Check the argument `overrides` and return it as a dictionary by address; None gives {}.
 
     Values are texts, numbers and flags. Raises BadValueError for other types.
     """
-    found = mapping(overrides, "overrides", "{address: a value as the file would have it}")
-    return {text(name, "an address of overrides"): _check_override(name, value) for name, value in found.items()}
+    values_by_address = check_mapping(overrides, "overrides", "{address: a value as the file would have it}")
+    return {
+        check_text(name, "an address of overrides"): _check_override(name, value)
+        for name, value in values_by_address.items()
+    }
 
 
 def _check_override(name: str, value: object) -> str | float | bool:
     """Return one checked override."""
     if isinstance(value, (str, bool)):
-        return text(value, f"overrides: {name}") if isinstance(value, str) else value
-    number = number_of(value, f"overrides: {name}")
+        return check_text(value, f"overrides: {name}") if isinstance(value, str) else value
+    number = check_number(value, f"overrides: {name}")
     return int(value) if isinstance(value, Integral) else number
 
 
@@ -66,10 +75,10 @@ def find_mechanism(mechanism: str | os.PathLike[str]) -> Path:
     A text with "/" or ending in .yaml or .yml is a path, which need not exist. Raises UnknownNameError for an unknown
     name.
     """
-    mechanism = path(mechanism, "mechanism")
+    mechanism = check_path(mechanism, "mechanism")
     if isinstance(mechanism, os.PathLike) or "/" in mechanism or mechanism.endswith((".yaml", ".yml")):
         return Path(mechanism)
-    return shipped_file(mechanism)
+    return find_shipped_file(mechanism)
 
 
 def read_bytes(file: Path) -> bytes:
@@ -78,17 +87,17 @@ def read_bytes(file: Path) -> bytes:
     If a shipped mechanism has the file's name, the message says so.
     """
     try:
-        return read_named(file, MAX_BYTES, hint="name a YAML file")
+        return read_user_file(file, MAX_BYTES, hint="name a YAML file")
     except LimitError:
         raise
     except InputError as error:
-        if file.stem not in shipped():
+        if file.stem not in list_shipped():
             raise
         hint = f"the mechanism that comes with gudgeon is called {file.stem}"
         raise InputError(error.message, hint=hint) from error
 
 
-def kernel_source(
+def find_kernel_source(
     data: bytes,
     file: Path,
     scene: str | None = None,
@@ -97,7 +106,7 @@ def kernel_source(
     formulation: str = "reduced",
     regenerate: bool = False,
     cache: Cache | None = None,
-    ahead: BackgroundCompilation | None = None,
+    background: BackgroundCompilation | None = None,
 ) -> tuple[KernelSource, str]:
     """Return the kernel source of a scene, and its origin: the cache, the committed files, or a new derivation.
 
@@ -106,8 +115,8 @@ def kernel_source(
     """
     if formulation not in (*FORMULATIONS, *SMOOTH, STAGES):
         raise BadValueError(f"unknown formulation {formulation!r}", hint=f"there are: {', '.join(FORMULATIONS)}")
-    scene, overrides, cache = scene or DEFAULT_SCENE, overrides or {}, cache or default_cache()
-    key = model_key(data, scene, overrides, formulation)
+    scene, overrides, cache = scene or DEFAULT_SCENE, overrides or {}, cache or get_default_cache()
+    key = compute_model_key(data, scene, overrides, formulation)
     origin = "cache"
 
     def make(folder: Path) -> None:  # what tables and laws the file has is found out here
@@ -115,14 +124,14 @@ def kernel_source(
         nonlocal origin
         source = None
         if not (overrides or regenerate or formulation != FORMULATIONS[0]):
-            source = committed(file.stem, scene, sha256(data).hexdigest())
+            source = read_committed_source(file.stem, scene, sha256(data).hexdigest())
         origin = "generated" if source else "derived"
-        if source is None and overrides and not _changes_scene(data, file, scene, overrides):
-            source, origin = kernel_source(
-                data, file, scene, formulation=formulation, regenerate=regenerate, cache=cache, ahead=ahead
+        if source is None and overrides and not _has_structural_overrides(data, file, scene, overrides):
+            source, origin = find_kernel_source(
+                data, file, scene, formulation=formulation, regenerate=regenerate, cache=cache, background=background
             )
         if source is None:
-            source = derived(data, file, scene, overrides, formulation, ahead=ahead)
+            source = derive_kernel_source(data, file, scene, overrides, formulation, background=background)
         source = replace(source, overrides=tuple(sorted(overrides.items())))
         (folder / SOURCE).write_bytes(source.to_json().encode())
 
@@ -132,92 +141,99 @@ def kernel_source(
         return KernelSource.from_json((entry / SOURCE).read_bytes().decode())
 
     source = fetch(key, regenerate)
-    now = tables_now(source, file), laws_now(source)
+    now = hash_present_tables(source, file), find_present_laws(source)
     if now != (source.tables, source.laws):  # of other bytes: an entry of its own
-        key = digest([key, json.dumps(now)])
+        key = compute_digest([key, json.dumps(now)])
         source = fetch(key, False)
-        if (tables_now(source, file), laws_now(source)) != (source.tables, source.laws):  # edited meanwhile
+        if (hash_present_tables(source, file), find_present_laws(source)) != (
+            source.tables,
+            source.laws,
+        ):  # edited meanwhile
             source = fetch(key, True)
     return source, origin
 
 
-def is_known(mechanism: str, scene: str, overrides: Overrides) -> bool:
+def is_source_cached(mechanism: str, scene: str, overrides: Overrides) -> bool:
     """Return whether the cache has a scene's kernel source, or the file cannot be read; tables are not checked."""
     try:
         data = read_bytes(find_mechanism(mechanism))
     except InputError:
         return True
-    return default_cache().has("models", model_key(data, scene, overrides, FORMULATIONS[0]))
+    return get_default_cache().has("models", compute_model_key(data, scene, overrides, FORMULATIONS[0]))
 
 
-def _changes_scene(data: bytes, file: Path, scene: str, overrides: Overrides) -> bool:
+def _has_structural_overrides(data: bytes, file: Path, scene: str, overrides: Overrides) -> bool:
     """Return whether overrides change what the scene is derived from."""
-    whole(*READER)
+    import_completely(*READER)
     from gudgeon.generator.reader.read import overrides_change_scene
 
     return overrides_change_scene(data, str(file), scene, overrides)
 
 
-def tables_now(source: KernelSource, file: Path) -> tuple[tuple[str, str], ...]:
+def hash_present_tables(source: KernelSource, file: Path) -> tuple[tuple[str, str], ...]:
     """Return the names of the tables of a kernel source, each with the SHA-256 of its present file next to `file`.
 
     Raises InputError if one is missing.
     """
-    return tuple((name, sha256(read_beside(file, name, MAX_TABLE_BYTES)).hexdigest()) for name, _ in source.tables)
+    return tuple((name, sha256(read_table_file(file, name, MAX_TABLE_BYTES)).hexdigest()) for name, _ in source.tables)
 
 
-def laws_now(source: KernelSource) -> tuple[tuple[str, str], ...]:
+def find_present_laws(source: KernelSource) -> tuple[tuple[str, str], ...]:
     """Return the names of the user-defined laws of a kernel source, each with its present key; "" if not registered."""
     if not source.laws:
         return ()
-    from gudgeon.generator.kinds.laws.registered import key_of
+    from gudgeon.generator.kinds.laws.registered import find_law_key
 
-    return tuple((name, key_of(name)) for name, _ in source.laws)
+    return tuple((name, find_law_key(name)) for name, _ in source.laws)
 
 
-def derived(
+def derive_kernel_source(
     data: bytes,
     file: Path,
     scene: str,
     overrides: Overrides | None = None,
     formulation: str = "reduced",
     seconds: dict[str, float] | None = None,
-    ahead: BackgroundCompilation | None = None,
+    background: BackgroundCompilation | None = None,
 ) -> KernelSource:
     """Derive the kernel source of a scene from the bytes of its file; each stage adds its time (s) to `seconds`.
 
-    `ahead` compiles finished parts in the background meanwhile. Errors in the file are reported before SymPy is
+    `background` compiles finished parts in the background meanwhile. Errors in the file are reported before SymPy is
     imported.
     """
     with (
         report_work(f"deriving {file.stem}, scene {scene}"),
         pause_garbage_collector(),
     ):  # nearly all that SymPy makes stays in its caches
-        whole(*READER)
+        import_completely(*READER)
         from gudgeon.generator.reader.read import read_scene
 
         read = read_scene(data, str(file), scene, overrides, seconds)
-        if ahead and formulation == FORMULATIONS[0]:  # a copy of a shipped file mostly has its numbers alone changed
-            ahead.foresee(committed_header(read.mechanism.name, scene))
+        if (
+            background and formulation == FORMULATIONS[0]
+        ):  # a copy of a shipped file mostly has its numbers alone changed
+            background.prefetch_engine(read_committed_header(read.mechanism.name, scene))
         start = perf_counter()
-        whole(*GENERATOR)
-        from gudgeon.generator.pipeline import equations, in_c
+        import_completely(*GENERATOR)
+        from gudgeon.generator.pipeline import derive_equations, generate_c
 
         if seconds is not None and (took := perf_counter() - start) > 0.01:
             seconds["loading SymPy"] = took
-        return in_c(equations(read, seconds), formulation, seconds, ahead.begin if ahead else None)
+        return generate_c(
+            derive_equations(read, seconds), formulation, seconds, background.start_part if background else None
+        )
 
 
-def model_key(data: bytes, scene: str, overrides: Overrides, formulation: str) -> str:
+def compute_model_key(data: bytes, scene: str, overrides: Overrides, formulation: str) -> str:
     """Return the cache key of a kernel source: a digest of the file's bytes, the request and the generator."""
     requested = json.dumps([scene, sorted(overrides.items()), formulation])
-    return digest(["model/1", data, requested, generator_hash()])
+    return compute_digest(["model/1", data, requested, compute_generator_hash()])
 
 
-def generator_hash(package: Path = PACKAGE) -> str:
+def compute_generator_hash(package: Path = PACKAGE) -> str:
     """Return the hash of the files that decide the emitted C: contract, generator, language, templates."""
     parts: list[str | bytes] = []
     for folder in ("contract", "generator", "language", "templates"):
-        for name, data in contents(package / folder, ".py", ".jinja"):
+        for name, data in read_files(package / folder, ".py", ".jinja"):
             parts += [f"{folder}/{name}", data]
-    return digest(parts)
+    return compute_digest(parts)

@@ -1,4 +1,4 @@
-"""Assemble the running part of a page in three strings: style, visible frame, scripts."""
+"""Build the simulator of a scene's HTML page: style sheet, HTML elements and scripts, as strings."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from html import escape
 from typing import Any
 from warnings import warn
 
-from gudgeon.assembly.guess_warnings import outside
+from gudgeon.assembly.guess_warnings import find_user_stack_level
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.drawing.page import PIXELS
-from gudgeon.drawing.picture import size_of
+from gudgeon.drawing.picture import compute_figure_size
 from gudgeon.drawing.rig import Rig
 from gudgeon.errors import BuildError, SolverError
-from gudgeon.language.shown import one_line
+from gudgeon.language.text_output import format_one_line
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web import drift
-from gudgeon.web.description import description
-from gudgeon.web.look import look, style
-from gudgeon.web.page import DESCRIPTION, Parts, code, file_text, packed_element, packed_module, script
-from gudgeon.web.panel import NARROW, WIDE, looks_of, panel, recorded, rig_of
+from gudgeon.web.description import build_description
+from gudgeon.web.page import DESCRIPTION, Parts, build_script, pack_element, pack_module, read_file, read_script
+from gudgeon.web.panel import NARROW, WIDE, build_panel, build_rig, list_styles, pack_run
+from gudgeon.web.style_sheet import build_style_sheet, make_css_class
 
 APP = ("names.js", "drawing.js", "chart.js", "controls.js", "app.js")
 PANEL = "gudgeon-panel"
@@ -35,33 +35,35 @@ NO_SIMULATOR = (
 )
 
 
-def running_parts(simulation: Simulation, scenes: Mapping[str, str]) -> Parts:
+def build_running_parts(simulation: Simulation, scenes: Mapping[str, str]) -> Parts:
     """Return the HTML parts of a scene's interactive page: style, visible frame, scripts; see `page.parts`.
 
     `scenes` are pages of other scenes by name. Without the compiler the page has one recorded run, and a warning is
     issued.
     """
     run = _run_scene(simulation)
-    rig = rig_of(run)
-    contents, note = panel(simulation, run, rig) | _drawing_scales(rig) | {"scenes": dict(scenes)}, ""
-    elements = packed_element(DESCRIPTION, description(simulation.compiled, drift.seen_step(run)).encode())
+    rig = build_rig(run)
+    contents, note = build_panel(simulation, run, rig) | _compute_drawing_scales(rig) | {"scenes": dict(scenes)}, ""
+    elements = pack_element(DESCRIPTION, build_description(simulation.compiled, drift.compute_drift_step(run)).encode())
     try:
-        module = packed_module(simulation.compiled)
+        module = pack_module(simulation.compiled)
         elements += _pack_modules(simulation, module)
-        contents["drift"] = drift.message(simulation, run, len(module), MAX_MODULE_BYTES)
-        contents |= {"drifts": drift.drifts(simulation), "loaded": drift.loaded(simulation)}
+        contents["drift"] = drift.explain_missing_drift(simulation, run, len(module), MAX_MODULE_BYTES)
+        contents |= {"drifts": drift.has_drift(simulation), "loaded": drift.format_load_arguments(simulation)}
     except BuildError as error:
         if error.__cause__ is None or not isinstance(error.__cause__, ImportError):
             raise
-        contents["recorded"], note = recorded(run, [*contents["traces"], *contents["values"]]), NO_SIMULATOR
-        warn(f"{note[0].lower()}{note[1:]}", stacklevel=outside())
+        contents["recorded"], note = pack_run(run, [*contents["traces"], *contents["values"]]), NO_SIMULATOR
+        warn(f"{note[0].lower()}{note[1:]}", stacklevel=find_user_stack_level())
     text = json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-    elements += packed_element(PANEL, text.encode())
-    title = one_line(simulation.source.title or simulation.source.mechanism)
-    frame = file_text("app.html").replace("@NOTE@", escape(note)).replace("@TITLE@", escape(title))
-    elements += packed_element(PROGRAM, app().encode())
-    scripts = f"{elements}<script>\n{script(simulation.source)}</script>\n<script>\n{code('begin.js')}</script>"
-    return Parts(f"<style>\n{style(*looks_of(rig))}</style>", frame, scripts)
+    elements += pack_element(PANEL, text.encode())
+    title = format_one_line(simulation.source.title or simulation.source.mechanism)
+    frame = read_file("app.html").replace("@NOTE@", escape(note)).replace("@TITLE@", escape(title))
+    elements += pack_element(PROGRAM, build_app_script().encode())
+    scripts = (
+        f"{elements}<script>\n{build_script(simulation.source)}</script>\n<script>\n{read_script('begin.js')}</script>"
+    )
+    return Parts(f"<style>\n{build_style_sheet(*list_styles(rig))}</style>", frame, scripts)
 
 
 def _pack_modules(simulation: Simulation, module: str) -> str:
@@ -72,8 +74,8 @@ def _pack_modules(simulation: Simulation, module: str) -> str:
     full_model = simulation.full.compiled
     return (
         module
-        + packed_element(f"{DESCRIPTION}-full", description(full_model).encode())
-        + packed_module(full_model, "-full")
+        + pack_element(f"{DESCRIPTION}-full", build_description(full_model).encode())
+        + pack_module(full_model, "-full")
     )
 
 
@@ -88,15 +90,15 @@ def _run_scene(simulation: Simulation) -> Result:
     except SolverError as error:
         if error.partial is None or len(error.partial.t) < 2:
             raise
-        warn(f"the page shows a run up to where it fails: {error}", stacklevel=outside())
+        warn(f"the page shows a run up to where it fails: {error}", stacklevel=find_user_stack_level())
         return error.partial
 
 
-def _drawing_scales(rig: Rig) -> dict[str, Any]:
+def _compute_drawing_scales(rig: Rig) -> dict[str, Any]:
     """Return {looks: CSS classes of the shapes, pixels: pixels per metre on a wide and on a narrow screen}."""
     pixels_per_metre = []
     for inches in (WIDE, NARROW):
-        figure_size, sketch = size_of(rig.sketch, inches), replace(rig.sketch, labels=())
+        figure_size, sketch = compute_figure_size(rig.sketch, inches), replace(rig.sketch, labels=())
         pixels_per_metre.append(
             PIXELS
             * min(
@@ -105,12 +107,12 @@ def _drawing_scales(rig: Rig) -> dict[str, Any]:
             )
         )
     return {
-        "looks": [look(carried.shape.role, carried.shape.tint) for carried in rig.shapes],
+        "looks": [make_css_class(carried.shape.role, carried.shape.tint) for carried in rig.shapes],
         "pixels": pixels_per_metre,
     }
 
 
 @cache
-def app() -> str:
-    """Return the JavaScript of the visible part, which follows `script` of page.py."""
-    return "\n".join(("(() => {", '"use strict";', *(code(name) for name in APP), "})();", ""))
+def build_app_script() -> str:
+    """Return the JavaScript of the visible part, which follows `build_script` of page.py."""
+    return "\n".join(("(() => {", '"use strict";', *(read_script(name) for name in APP), "})();", ""))

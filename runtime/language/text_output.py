@@ -18,7 +18,7 @@ FORMULAS = ("=", "+", "-", "@")  # first characters for which a spreadsheet comp
 JOINERS = "\u200c\u200d"  # joiners within letters and emoji: text, though invisible
 
 
-def visible(text: object) -> str:
+def escape_invisible(text: object) -> str:
     """Return text in which control characters and writing directions are escaped as in Python; line breaks are kept."""
     return "\n".join(map(_escape_line, str(text).split("\n")))
 
@@ -35,32 +35,32 @@ def _is_shown(character: str) -> bool:
     return character.isprintable() or character in JOINERS or unicodedata.category(character) == "Zs"
 
 
-def path_text(path: object) -> str:
+def format_path(path: object) -> str:
     """Return a path as visible text on one line."""
     return _escape_line(str(path))
 
 
-def one_line(text: str) -> str:
+def format_one_line(text: str) -> str:
     """Return a title as visible text on one line, shortened to LONGEST characters with "…"."""
     text = _escape_line(text)
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
 
 
-def figure_title(text: str, width: int = LONGEST) -> str:
+def format_figure_title(text: str, width: int = LONGEST) -> str:
     """Return a title for matplotlib, wrapped to lines of `width` characters; $ is escaped, so that it begins no
     formula.
     """
-    return "\n".join(textwrap.wrap(one_line(text), width)).replace("$", r"\$")
+    return "\n".join(textwrap.wrap(format_one_line(text), width)).replace("$", r"\$")
 
 
-def in_spreadsheet(value: Any) -> Any:
+def escape_for_spreadsheet(value: Any) -> Any:
     """Return a value for a cell of a CSV file: a text that a spreadsheet would compute gets an apostrophe.
 
     Control characters of texts are escaped. Numbers, and texts that are numbers, stay as they are.
     """
     if not isinstance(value, str):
         return value
-    text = visible(value)
+    text = escape_invisible(value)
     if not text.startswith(FORMULAS):
         return text
     try:
@@ -70,7 +70,7 @@ def in_spreadsheet(value: Any) -> Any:
     return text
 
 
-def plain_console(width: int | None = None, **options: Any) -> Console:
+def make_plain_console(width: int | None = None, **options: Any) -> Console:
     """Return a rich console that prints texts as they are, without markup, emoji and highlighting.
 
     width: columns, None for that of the terminal. options: further arguments of rich's Console.
@@ -96,7 +96,8 @@ def _replace_nan(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def counted(count: int, noun: str, plural: str = "") -> str:
-    """Return a count with its noun: "1 run", "2 runs", "2 bodies"; `plural` is needed if it is not the noun with an s.
+def format_count(count: int, noun: str, plural: str = "") -> str:
+    """Return a count with its noun: "1 run", "2 runs", "2 bodies"; `plural` is needed if it is not the noun with an
+    s.
     """
     return f"{count} {noun if count == 1 else plural or f'{noun}s'}"

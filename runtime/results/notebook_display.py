@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.errors import GudgeonError
-from gudgeon.language.shown import one_line
+from gudgeon.language.text_output import format_one_line
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
@@ -21,7 +21,7 @@ Rows = list[tuple[str, ...]]
 _MARKS = re.compile(r"([\\{}$&#%_^~])")
 
 
-class Shown:
+class NotebookDisplay:
     """Base class of a scene, which has a `start`, and of a run, which has series, for display in notebooks."""
 
     source: KernelSource
@@ -31,29 +31,31 @@ class Shown:
 
         The drawing is left out if the mechanism cannot be drawn.
         """
-        title = one_line(self.source.title or self.source.mechanism)
-        cells = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in rows_of(self))
+        title = format_one_line(self.source.title or self.source.mechanism)
+        cells = "".join(
+            f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in build_table_rows(self)
+        )
         return f"<p>{escape(title)}, scene {escape(self.source.scene)}</p>{_draw_start(self)}<table>{cells}</table>"
 
     def _repr_latex_(self) -> str:
-        """Return the table of `rows_of` as a LaTeX array."""
-        lines = r" \\ ".join(" & ".join(_as_latex_text(cell) for cell in row) for row in rows_of(self))
-        return rf"$\displaystyle\begin{{array}}{{{'l' * len(rows_of(self)[0])}}} {lines} \end{{array}}$"
+        """Return the table of `build_table_rows` as a LaTeX array."""
+        lines = r" \\ ".join(" & ".join(_format_latex_text(cell) for cell in row) for row in build_table_rows(self))
+        return rf"$\displaystyle\begin{{array}}{{{'l' * len(build_table_rows(self)[0])}}} {lines} \end{{array}}$"
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         """Return text, HTML and LaTeX by MIME type; a notebook calls this method first."""
         return {"text/plain": repr(self), "text/html": self._repr_html_(), "text/latex": self._repr_latex_()}
 
 
-def rows_of(scene_or_run: Any) -> Rows:
+def build_table_rows(scene_or_run: Any) -> Rows:
     """Return the rows of the table that a notebook shows, each a tuple of cells.
 
     They are ranges of the main series for a run, and the components for a scene.
     """
-    return [*_run_rows(scene_or_run)] if hasattr(scene_or_run, "names") else [*_scene_rows(scene_or_run.source)]
+    return [*_run_rows(scene_or_run)] if hasattr(scene_or_run, "names") else [*_iterate_scene_rows(scene_or_run.source)]
 
 
-def _scene_rows(source: KernelSource) -> Iterator[tuple[str, ...]]:
+def _iterate_scene_rows(source: KernelSource) -> Iterator[tuple[str, ...]]:
     """Yield a row for each kind of component of a scene: the kind, and its number with the first names."""
     yield "bodies", _list_names([body.name for body in source.bodies])
     yield "joints", _list_names([joint.name for joint in source.joints])
@@ -75,11 +77,11 @@ def _run_rows(run: Any) -> Iterator[tuple[str, ...]]:
     At most MOST series are shown; series without a finite sample are left out. The last row is the number of impacts,
     if there are any.
     """
-    from gudgeon.results.series import default_watch, drive_series
+    from gudgeon.results.series import choose_watched_series, list_drive_series
 
     source = run.source
     joints = [f"{joint.name}.F" for joint in source.clearances or source.joints]
-    names = dict.fromkeys([*default_watch(run), *source.outputs, *drive_series(source), *joints])
+    names = dict.fromkeys([*choose_watched_series(run), *source.outputs, *list_drive_series(source), *joints])
     yield f"of {len(run.t)} samples", "least", "largest", "unit"
     for name in list(names)[:MOST]:
         if name in run.names and np.isfinite(run[name]).any():
@@ -91,16 +93,16 @@ def _run_rows(run: Any) -> Iterator[tuple[str, ...]]:
 def _draw_start(scene_or_run: Any) -> str:
     """Return an HTML image element with the mechanism at its start; "" if it cannot be drawn."""
     try:
-        from gudgeon.results.figures.mechanism_plots import start_picture
+        from gudgeon.results.figures.mechanism_plots import draw_start_picture
 
-        picture = start_picture(scene_or_run)
+        picture = draw_start_picture(scene_or_run)
     except (GudgeonError, ValueError, ArithmeticError):
         return ""
     data = base64.b64encode(picture).decode("ascii")
     return f'<img alt="the mechanism at its start" src="data:image/png;base64,{data}"/>'
 
 
-def _as_latex_text(text: str) -> str:
+def _format_latex_text(text: str) -> str:
     """Return a text as an upright word of a LaTeX formula, with blanks kept and special characters escaped."""
     marked = _MARKS.sub(lambda found: r"\backslash " if found[1] == "\\" else f"\\{found[1]}", text)
     return rf"\mathrm{{{marked}}}".replace(" ", r"\ ").replace("Φ", r"\Phi{}")

@@ -1,8 +1,8 @@
-"""Compile the optimized library of a new scene in another process, while a quickly compiled one serves.
+"""Compile the optimized library of a new scene in another process, while runs use an unoptimized one.
 
 The quick library has the same texts, without optimization. It takes a third of the compiler's time, gives the same
-bits, and runs up to three times as long. A separate process (`make`), which may outlive this one, compiles the
-optimized library into the cache. Runs that are under way continue with it as soon as it exists.
+bits, and runs up to three times as long. A separate process (`make_optimized_library`), which may outlive this one,
+compiles the optimized library into the cache. Runs that are under way continue with it as soon as it exists.
 
 The optimized library is awaited if that process cannot be started or has failed before, if the cache is not kept, or
 with GUDGEON_QUICK=0.
@@ -22,9 +22,9 @@ from typing import TYPE_CHECKING
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
 from gudgeon.files.trust import Untrusted
-from gudgeon.loading.cache import LOCK_SECONDS, Cache, is_whole
+from gudgeon.loading.cache import LOCK_SECONDS, Cache, is_complete
 from gudgeon.loading.library import Functions, Library
-from gudgeon.waiting.ctrl_c import CtrlC
+from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 if TYPE_CHECKING:
     import subprocess
@@ -32,13 +32,16 @@ if TYPE_CHECKING:
 KIND = "quick"  # of entries of the cache: the quick library, and the source that the other process compiles
 SOURCE = "source.json"
 # program of the other process
-OTHER = "import sys; sys.path[:] = sys.argv[2:]; from gudgeon.loading.behind import make; make(sys.argv[1])"
+OTHER = (
+    "import sys; sys.path[:] = sys.argv[2:]; from gudgeon.loading.optimized_library import "
+    "make_optimized_library; make_optimized_library(sys.argv[1])"
+)
 NICE = 5  # lower priority of the other process, since the run is more urgent
 MOST = 4  # largest number of such processes at once
 _begun: list[subprocess.Popen[bytes]] = []  # processes started by this process
 
 
-def is_allowed(cache: Cache) -> bool:
+def may_compile_in_background(cache: Cache) -> bool:
     """Return whether a background process may be started to make an optimized library, and the cache would keep it.
 
     It may not with GUDGEON_QUICK=0, with a private or read-only cache, in programs that embed Python, or if MOST are
@@ -62,22 +65,22 @@ class OptimizedLibrary:
         self._process: subprocess.Popen[bytes] | None = None
         self._owner, self._lock = os.getpid(), Lock()
 
-    def begin(self, quick: Path, portable: bool) -> bool:
+    def start(self, quick: Path, portable: bool) -> bool:
         """Start the other process, which reads the cache entry `quick`; return False if it cannot be started."""
         import subprocess
 
         message = json.dumps([str(self._cache.root), str(quick), portable])
         line = [sys.executable, "-c", OTHER, message, *sys.path]
         nothing = subprocess.DEVNULL
-        with CtrlC() as ctrl_c, suppress(OSError):
+        with DelayedCtrlC() as ctrl_c, suppress(OSError):
             self._process = subprocess.Popen(
                 line, stdin=nothing, stdout=nothing, stderr=nothing, start_new_session=True
             )
             _begun.append(self._process)
-        ctrl_c.take()
+        ctrl_c.raise_delayed()
         return self._process is not None
 
-    def look(self, functions: Functions) -> bool:
+    def switch_if_ready(self, functions: Functions) -> bool:
         """Switch `functions` to the optimized library if the cache has it; return whether it is still to come.
 
         False also means that the process failed. Another thread that is checking makes this one return True.
@@ -87,17 +90,17 @@ class OptimizedLibrary:
             return True  # another thread is checking
         try:
             over = self._process is not None and self._process.poll() is not None
-            if not self._cache.holds("libraries", self._key):
+            if not self._cache.has_folder("libraries", self._key):
                 return not over
             entry = self._cache.root / "libraries" / self._key
             with suppress(GudgeonError, OSError, Untrusted):  # the next start makes it anew, and tells
-                if is_whole(entry):
+                if is_complete(entry):
                     self._switch_to(functions, entry)
             return False
         finally:
             lock.release()
 
-    def wait(self, functions: Functions) -> None:
+    def wait_and_switch(self, functions: Functions) -> None:
         """Wait for the optimized library and switch `functions` to it; make it here if the other process did not.
 
         Raises BuildError.
@@ -114,10 +117,10 @@ class OptimizedLibrary:
     def _switch_to(self, functions: Functions, entry: Path) -> None:
         """Let `functions` call the library of a cache entry; keep the present one if it cannot be opened."""
         with suppress(ImportError):  # the next start tells
-            functions.become(self._open(entry).lib)
+            functions.switch_to(self._open(entry).lib)
 
 
-def make(message: str) -> None:
+def make_optimized_library(message: str) -> None:
     """Compile the optimized library into the cache, with low priority; called in the other process.
 
     `message`: JSON of cache folder, quick entry and `portable`. One such process compiles at a time. Errors are
@@ -129,7 +132,7 @@ def make(message: str) -> None:
 
     root, quick, portable = json.loads(message)
     os.nice(NICE)
-    if is_whole(Path(quick)):
+    if is_complete(Path(quick)):
         source = KernelSource.from_json(Path(quick, SOURCE).read_bytes().decode())
         with FileLock(Path(root, "locks", "behind.lock"), timeout=LOCK_SECONDS):  # one after the other
             compile_kernels(source, portable=portable, cache=Cache(root))

@@ -1,4 +1,4 @@
-"""Compile the parts of a library in the background, each as soon as the texts that it reads exist.
+"""Compile the parts of a library in the background, each as soon as its source files exist.
 
 Scenes with equal sizes and tables share the object file of the engine (`SharedObject`).
 """
@@ -17,31 +17,31 @@ from gudgeon.contract.kernel_source import ENGINE_ENDS, ENGINE_PART, HEADER, MAI
 from gudgeon.errors import GudgeonError
 from gudgeon.files.temporary import TemporaryFolder
 from gudgeon.loading import compiler
-from gudgeon.loading.cache import Cache, default_cache, digest
-from gudgeon.loading.compiler import begin, finish, unit_line
-from gudgeon.loading.engine import UNIT, engine_digest
-from gudgeon.waiting.ctrl_c import CtrlC
+from gudgeon.loading.cache import Cache, compute_digest, get_default_cache
+from gudgeon.loading.compiler import build_unit_command, finish_compiler, start_compiler
+from gudgeon.loading.engine import UNIT, compute_engine_digest
+from gudgeon.waiting.ctrl_c import DelayedCtrlC
 from gudgeon.waiting.programs import Programs
 
 if TYPE_CHECKING:
     import subprocess
 
 
-def own_command_lines(source: KernelSource, portable: bool, quick: bool = False) -> dict[str, tuple[str, ...]]:
+def build_command_lines(source: KernelSource, portable: bool, quick: bool = False) -> dict[str, tuple[str, ...]]:
     """Return the compiler's command line for each object file of a scene's own code, by file name.
 
     A scene is compiled in one part, or in the parts of `source.units`. `quick`: without optimization.
     """
     if source.cdef or not source.units:
         unit = "lanes" if source.cdef else ""
-        return {"scene.o": unit_line(portable, [source.main], "scene.o", quick, unit)}
+        return {"scene.o": build_unit_command(portable, [source.main], "scene.o", quick, unit)}
     return dict(_build_part_command(part, portable, quick) for part in source.units)
 
 
 def _build_part_command(part: int, portable: bool, quick: bool) -> tuple[str, tuple[str, ...]]:
     """Return the name of the object file of a part of a scene, and the compiler's command line for it."""
     name = f"scene_{part}.o"
-    return name, unit_line(portable, [f"-DPART={part}", MAIN], name, quick)
+    return name, build_unit_command(portable, [f"-DPART={part}", MAIN], name, quick)
 
 
 class BackgroundCompilation:
@@ -60,52 +60,52 @@ class BackgroundCompilation:
         """Return the context."""
         return self
 
-    def begin(self, part: int, texts: Mapping[str, str]) -> None:
+    def start_part(self, part: int, texts: Mapping[str, str]) -> None:
         """Start to compile a part of the scene, or the engine, in the background from the texts written so far.
 
         Errors are ignored: the part is then compiled when it is needed.
         """
         try:
             if part == ENGINE_PART:
-                self.begin_shared(self._engine(texts[HEADER], self._quick))
+                self.start_shared(self._find_engine_object(texts[HEADER], self._quick))
             else:
                 self._begin(*_build_part_command(part, self._portable, self._quick), texts)
         except (GudgeonError, OSError):
             return
 
-    def foresee(self, header: str) -> None:
+    def prefetch_engine(self, header: str) -> None:
         """Start to compile the engine for a scene that probably has this model.h, if there is a second core.
 
         An empty header starts nothing.
         """
         if header and (os.cpu_count() or 1) > 1:
-            self.begin(ENGINE_PART, {HEADER: header})
+            self.start_part(ENGINE_PART, {HEADER: header})
 
-    def shared_objects(self, source: KernelSource, quick: bool = False) -> list[SharedObject]:
+    def list_shared_objects(self, source: KernelSource, quick: bool = False) -> list[SharedObject]:
         """Return the object files that a scene shares with others: that of the engine; [] for a library without it
         (lanes).
         """
-        return [] if source.cdef else [self._engine(source.files[HEADER], quick)]
+        return [] if source.cdef else [self._find_engine_object(source.files[HEADER], quick)]
 
-    def _engine(self, header: str, quick: bool) -> SharedObject:
+    def _find_engine_object(self, header: str, quick: bool) -> SharedObject:
         """Return the engine's object file; a quick library uses the optimized one if the cache has it."""
-        engine = engine_object(header, self._portable)
-        if not quick or engine.is_there(self._portable, self._cache or default_cache()):
+        engine = describe_engine_object(header, self._portable)
+        if not quick or engine.is_cached(self._portable, self._cache or get_default_cache()):
             return engine
-        return engine_object(header, self._portable, quick=True)
+        return describe_engine_object(header, self._portable, quick=True)
 
-    def begin_shared(self, shared: SharedObject) -> None:
+    def start_shared(self, shared: SharedObject) -> None:
         """Start to compile a shared object file unless it is being compiled or the cache has it.
 
         A compilation of the same file from other texts is stopped. Raises GudgeonError or OSError if it cannot be
         started.
         """
-        if self.is_under_way(shared.name, shared.line, shared.texts):
+        if self.is_compiling(shared.name, shared.line, shared.texts):
             return
         if shared.name in self._begun:  # it was foreseen wrongly
             self._programs.stop(self._begun.pop(shared.name)[2])
             shutil.rmtree(self._get_folder(shared.name))
-        if not shared.is_there(self._portable, self._cache or default_cache()):
+        if not shared.is_cached(self._portable, self._cache or get_default_cache()):
             self._begin(shared.name, shared.line, shared.texts)
 
     def _begin(self, name: str, line: tuple[str, ...], texts: Mapping[str, str]) -> None:
@@ -115,8 +115,8 @@ class BackgroundCompilation:
         for file, text in texts.items():
             if not (folder / file).exists():
                 (folder / file).write_text(text, encoding="utf-8")
-        environment = {**compiler.plain(), "TMPDIR": str(folder)}
-        self._begun[name] = line, dict(texts), self._programs.begin([*line], folder, environment)
+        environment = {**compiler.build_environment(), "TMPDIR": str(folder)}
+        self._begun[name] = line, dict(texts), self._programs.start([*line], folder, environment)
 
     def _get_folder(self, name: str) -> Path:
         """Return the temporary folder of an object file: the parts of a scene share one, the engine has its own.
@@ -124,26 +124,26 @@ class BackgroundCompilation:
         The parent folder is created at the first call, and removed at the latest with this object.
         """
         if self._folder is None:
-            with CtrlC() as ctrl_c:  # so that every folder made is known
+            with DelayedCtrlC() as ctrl_c:  # so that every folder made is known
                 temporary = TemporaryFolder()
                 self._folder = temporary.path
                 self._clear = finalize(self, temporary.remove)  # at the latest
-            ctrl_c.take()
+            ctrl_c.raise_delayed()
         return self._folder / name.partition("_")[0]
 
-    def take(self, made: Path, line: tuple[str, ...], texts: Mapping[str, str]) -> bool:
+    def fetch_object(self, made: Path, line: tuple[str, ...], texts: Mapping[str, str]) -> bool:
         """Wait for an object file compiled with this command line and texts, and move it to the path `made`.
 
         Return False if it was not being compiled or its compilation failed.
         """
-        if self._folder is None or not self.is_under_way(made.name, line, texts):
+        if self._folder is None or not self.is_compiling(made.name, line, texts):
             return False
         _, _, process = self._begun.pop(made.name)
         self._programs.wait(process)
-        found = self._get_folder(made.name) / made.name
-        if process.returncode or not found.exists():
+        object_path = self._get_folder(made.name) / made.name
+        if process.returncode or not object_path.exists():
             return False
-        shutil.move(found, made)
+        shutil.move(object_path, made)
         return True
 
     @property
@@ -151,20 +151,20 @@ class BackgroundCompilation:
         """Return whether a compiler is running, or an object file has not been fetched yet."""
         return bool(self._begun)
 
-    def is_under_way(self, name: str, line: tuple[str, ...], texts: Mapping[str, str]) -> bool:
+    def is_compiling(self, name: str, line: tuple[str, ...], texts: Mapping[str, str]) -> bool:
         """Return whether the object file `name` is being compiled with this command line from these texts."""
         if name not in self._begun:
             return False
-        known, read, _ = self._begun[name]
-        return known == line and all(texts.get(file) == text for file, text in read.items())
+        process, read, _ = self._begun[name]
+        return process == line and all(texts.get(file) == text for file, text in read.items())
 
     def __exit__(self, *wrong: object) -> None:
         """Stop all compilers and remove the temporary folder, also if Ctrl-C comes."""
-        with CtrlC() as ctrl_c:  # a second one leaves nothing either
+        with DelayedCtrlC() as ctrl_c:  # a second one leaves nothing either
             self._programs.__exit__(*wrong)
             if self._folder is not None:
                 self._clear()
-        ctrl_c.take()
+        ctrl_c.raise_delayed()
 
 
 @dataclass(frozen=True)
@@ -179,14 +179,14 @@ class SharedObject:
     decided_by: tuple[str, ...]
     texts: Mapping[str, str]
 
-    def key(self, portable: bool, cache: Cache) -> str:
+    def compute_key(self, portable: bool, cache: Cache) -> str:
         """Return the cache key: a digest of texts, command line, compiler and, unless `portable`, processor."""
-        identity = compiler.identity(compiler.find_compiler(), cache)
-        return digest([*self.decided_by, *self.line, identity, "" if portable else compiler.cpu()])
+        identity = compiler.describe_compiler(compiler.find_compiler(), cache)
+        return compute_digest([*self.decided_by, *self.line, identity, "" if portable else compiler.describe_cpu()])
 
-    def is_there(self, portable: bool, cache: Cache) -> bool:
+    def is_cached(self, portable: bool, cache: Cache) -> bool:
         """Return whether the cache has the object file."""
-        return cache.has(self.kind, self.key(portable, cache))
+        return cache.has(self.kind, self.compute_key(portable, cache))
 
     def fetch(self, portable: bool, cache: Cache, ahead: BackgroundCompilation, renew: bool = False) -> Path:
         """Return the path of the object file, compiled first if the cache lacks it or `renew` is set. Raise BuildError.
@@ -196,25 +196,25 @@ class SharedObject:
 
         def make(folder: Path) -> None:
             """Compile the object file in a folder, or take it from the background compilation."""
-            if ahead.take(folder / self.name, self.line, self.texts):
+            if ahead.fetch_object(folder / self.name, self.line, self.texts):
                 return
             for name, text in self.texts.items():
                 (folder / name).write_text(text, encoding="utf-8")
             with Programs() as programs:
-                if failed := finish(programs, begin(programs, self.line, folder), folder / self.name):
+                if failed := finish_compiler(programs, start_compiler(programs, self.line, folder), folder / self.name):
                     raise failed
             for name in self.texts:
                 (folder / name).unlink()
 
-        return cache.fetch(self.kind, self.key(portable, cache), make, renew=renew) / self.name
+        return cache.fetch(self.kind, self.compute_key(portable, cache), make, renew=renew) / self.name
 
 
-def engine_object(header: str, portable: bool, quick: bool = False) -> SharedObject:
+def describe_engine_object(header: str, portable: bool, quick: bool = False) -> SharedObject:
     """Return the description of the time loops' object file for a scene with this model.h.
 
     The engine reads only the part of the header before its values, so that scenes of equal sizes share the file.
     """
     _, _, text = header.partition("#define GUDGEON_MODEL_H\n")
     read = text.partition(ENGINE_ENDS)[0]
-    line = unit_line(portable, [str(UNIT)], "engine.o", quick, "loops")
-    return SharedObject("engines", "engine.o", line, (read, engine_digest()), {HEADER: read})
+    line = build_unit_command(portable, [str(UNIT)], "engine.o", quick, "loops")
+    return SharedObject("engines", "engine.o", line, (read, compute_engine_digest()), {HEADER: read})

@@ -1,4 +1,4 @@
-"""Arrange the parameters of a file for the panel of a page: sections, units of the file, ranges of sliders."""
+"""Arrange the parameters of a file as input fields of a simulator page: groups, units, ranges of sliders."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from collections import Counter
 from collections.abc import Mapping
 from typing import Any
 
-from gudgeon.assembly.linkage import mechanism_size
-from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.assembly.linkage import compute_mechanism_size
+from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
 from gudgeon.errors import GudgeonError, Location
-from gudgeon.language.output_units import angle_power
+from gudgeon.language.output_units import find_angle_power
 from gudgeon.language.parser import parse
-from gudgeon.language.plot_units import drawn, pretty
-from gudgeon.language.quantities import number_of_text
-from gudgeon.language.units import TIME, UNITS, dimension
+from gudgeon.language.plot_units import choose_plot_unit, format_unit
+from gudgeon.language.quantities import parse_quantity
+from gudgeon.language.units import TIME, UNITS, make_dimension
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import contour_parameters
-from gudgeon.model.parameters import prepare
+from gudgeon.model.contours import find_contour_parameters
+from gudgeon.model.parameters import prepare_values
 from gudgeon.simulation.simulation import Simulation
 
 SECTIONS = {
@@ -44,24 +44,27 @@ WRITTEN = re.compile(r".*?(?:[\d.)]|\bpi)\s+([A-Za-zµΩ°%][\w*/^.()µ°-]*)$")
 ANGLES = ("deg", "rad", "°")
 
 
-def groups(simulation: Simulation, p: Array) -> list[dict[str, Any]]:
+def build_parameter_sections(simulation: Simulation, p: Array) -> list[dict[str, Any]]:
     """Return the sections of parameters for the panel, `parameters` first: [{title, numbers: [{k, name, unit, factor,
     low, high}]}].
 
     Choices have k and name only; points of contours are left out. `p` are the file's values.
     """
     source, units = simulation.source, _Units(simulation)
-    mechanism_length, entries_by_section = mechanism_size(simulation.compiled, p), dict[str, list[dict[str, Any]]]()
-    contour_indices = contour_parameters(source)
+    mechanism_length, entries_by_section = (
+        compute_mechanism_size(simulation.compiled, p),
+        dict[str, list[dict[str, Any]]](),
+    )
+    contour_indices = find_contour_parameters(source)
     for k, parameter in ((k, parameter) for k, parameter in enumerate(source.slots) if k not in contour_indices):
         section, _, name = parameter.address.partition(".")
         entry: dict[str, Any] = {"k": k, "name": name or section}
         if not parameter.words:
             unit, factor = units.of(parameter)
             is_angle = unit in ANGLES or parameter.address.endswith((".theta", ".angle"))
-            low, high = _slider_range(source, parameter, p, mechanism_length, is_angle)
+            low, high = _compute_slider_range(source, parameter, p, mechanism_length, is_angle)
             low, high = (_limit_range(simulation.compiled, parameter, float(p[k]), end) for end in (low, high))
-            entry |= {"unit": pretty(unit), "factor": factor, "low": low, "high": high}
+            entry |= {"unit": format_unit(unit), "factor": factor, "low": low, "high": high}
         entries_by_section.setdefault(section, []).append(entry)
     sections = [
         *(name for name in SECTIONS if name in entries_by_section),
@@ -79,10 +82,10 @@ def _sort_by_owner(entries: list[dict[str, Any]]) -> list[dict[str, Any]]:
     return sorted(entries, key=lambda entry: owners.index(entry["name"].partition(".")[0]))
 
 
-def units(source: KernelSource) -> dict[str, dict[str, float]]:
+def list_units(source: KernelSource) -> dict[str, dict[str, float]]:
     """Return the units that may be typed after a number, by SI unit: {name: value in SI}."""
     dimensions = {"s": TIME} | {
-        parameter.unit: dimension(*parameter.dimension) for parameter in source.slots if not parameter.words
+        parameter.unit: make_dimension(*parameter.dimension) for parameter in source.slots if not parameter.words
     }
     return {
         si: {
@@ -94,7 +97,7 @@ def units(source: KernelSource) -> dict[str, dict[str, float]]:
     }
 
 
-def _limit_range(compiled: CompiledModel, parameter: Slot, value: float, end: float) -> float:
+def _limit_range(compiled: CompiledModel, parameter: RuntimeParameter, value: float, end: float) -> float:
     """Return the end of a slider's range, or if a condition refuses `end`, the accepted value nearest to it.
 
     The value is found by bisection from the current `value`. `end` is returned too if the current value is refused.
@@ -103,7 +106,7 @@ def _limit_range(compiled: CompiledModel, parameter: Slot, value: float, end: fl
     def is_step_refused(number: float) -> bool:
         """Return whether a value of the parameter breaks a condition."""
         try:
-            prepare(compiled, {parameter.address: number})
+            prepare_values(compiled, {parameter.address: number})
         except GudgeonError:
             return True
         return False
@@ -139,7 +142,7 @@ class _Units:
             si: counter.most_common(1)[0][0] for si, counter in unit_counts.items()
         }
 
-    def of(self, parameter: Slot) -> tuple[str, float]:
+    def of(self, parameter: RuntimeParameter) -> tuple[str, float]:
         """Return the unit of a parameter and its value in SI.
 
         It is the unit in the file, else the most frequent one of similar parameters, else degrees or a unit of suitable
@@ -150,12 +153,12 @@ class _Units:
         if parameter.unit in self.usual and (parameter.unit == "m" or parameter.follows):  # 1/s may be a rate or a gain
             return self.usual[parameter.unit]
         if parameter.address.endswith((".theta", ".angle")):
-            return "deg", number_of_text("1 deg", parameter.address, (0, 0, 0))
-        factor, unit = drawn(parameter.default, parameter.unit) if parameter.unit != "1/s" else (1.0, "1/s")
+            return "deg", parse_quantity("1 deg", parameter.address, (0, 0, 0))
+        factor, unit = choose_plot_unit(parameter.default, parameter.unit) if parameter.unit != "1/s" else (1.0, "1/s")
         return unit, 1.0 / factor
 
 
-def _read_unit(document: Any, parameter: Slot) -> tuple[str, float] | None:
+def _read_unit(document: Any, parameter: RuntimeParameter) -> tuple[str, float] | None:
     """Return the unit written at a parameter's address in the file, and its value in SI; None if there is none.
 
     An expression of π counts as radians that are shown in degrees.
@@ -172,14 +175,14 @@ def _read_unit(document: Any, parameter: Slot) -> tuple[str, float] | None:
             expression = (
                 parse(node, Location(parameter.address, 1, 1)) if isinstance(node, str) and not parameter.unit else None
             )
-            return ("deg", UNITS["deg"][0]) if expression is not None and angle_power(expression) == 1 else None
-        return match[1], number_of_text(f"1 {match[1]}", parameter.address, parameter.dimension)
+            return ("deg", UNITS["deg"][0]) if expression is not None and find_angle_power(expression) == 1 else None
+        return match[1], parse_quantity(f"1 {match[1]}", parameter.address, parameter.dimension)
     except GudgeonError:
         return None
 
 
-def _slider_range(
-    source: KernelSource, parameter: Slot, p: Array, mechanism_length: float, is_angle: bool
+def _compute_slider_range(
+    source: KernelSource, parameter: RuntimeParameter, p: Array, mechanism_length: float, is_angle: bool
 ) -> tuple[float, float]:
     """Return the range (low, high) of a parameter's slider in SI, within the constant conditions.
 

@@ -1,4 +1,4 @@
-"""benchmarks/clearance/beside.py: codes that print no numbers, their equations beside the data."""
+"""Test benchmarks/clearance/compare_published.py: the equations of published programs that print no numbers."""
 
 from __future__ import annotations
 
@@ -8,11 +8,20 @@ import numpy as np
 import pytest
 
 import tests.benches  # noqa: F401
-from benchmarks.clearance import beside, drawn
-from benchmarks.clearance.beside import COMPARED, Figure, carried, far, film_difference, found, kept, whirling
+from benchmarks.clearance import compare_published, drawn
+from benchmarks.clearance.compare_published import (
+    COMPARED,
+    Figure,
+    carried,
+    far,
+    film_difference,
+    found,
+    kept,
+    whirling,
+)
 from tests.programs import needs_compiler
 
-PAGE = (Path(beside.__file__).parent / "README.md").read_text(encoding="utf-8")
+PAGE = (Path(compare_published.__file__).parent / "README.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("eps", [0.01, 0.3, 0.95])
@@ -61,5 +70,7 @@ def test_figures_are_told_with_their_own_digits() -> None:
 def test_the_page_tells_what_is_found(name: str) -> None:
     figures = list(COMPARED[name]())
     assert [(one.what, one.now_printed) for one in figures if not one.holds] == []
-    bullets = PAGE[PAGE.index("- **Nowald's rotors.**") : PAGE.index("`python -m benchmarks.clearance.beside`")]
+    bullets = PAGE[
+        PAGE.index("- **Nowald's rotors.**") : PAGE.index("`python -m benchmarks.clearance.compare_published`")
+    ]
     assert [one.printed for one in figures if one.printed not in bullets] == []

@@ -1,0 +1,116 @@
+"""Store requested series of a batch instead of its states, as runs finish (`keep` of `simulate_many`)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gudgeon.errors import SolverError
+from gudgeon.integrators.times import Times
+from gudgeon.model.evaluation import evaluate_runs
+from gudgeon.model.left_limit import find_evaluation_times
+from gudgeon.results.batch import STATES, check_series_names, find_evaluation_parts
+from gudgeon.results.results import EvaluatedSamples, Result, make_evaluated_samples
+from gudgeon.results.series import get_catalogue
+
+if TYPE_CHECKING:
+    from gudgeon.contract.kernel_source import KernelSource
+    from gudgeon.integrators.batch import Runs
+
+
+def select_stored_series(source: KernelSource, keep: str | Iterable[str]) -> tuple[str, ...] | None:
+    """Return the checked names of the series to store, without "t"; None if the states are stored (`keep` is "states").
+
+    Raises UnknownNameError or BadValueError for names that the scene does not have.
+    """
+    if isinstance(keep, str) and keep == STATES:
+        return None
+    return tuple(name for name in check_series_names(source, keep, "keep") if name != "t")
+
+
+class StoredSeries:
+    """Store requested series as arrays (n, N) by name, and "t"; NaN where a run has no sample."""
+
+    def __init__(self, source: KernelSource, names: tuple[str, ...], n: int, times: Times) -> None:
+        self.names, self.parts = ("t", *names), find_evaluation_parts(source, names)
+        self.arrays = {name: np.full((n, times.max_count), np.nan) for name in self.names}
+        known = [get_catalogue(source)[name] for name in names if name != "t"]
+        self.columns = all(one.stored or one.evaluated for one in known)  # none of them reads a run's own numbers
+
+    def take(self, runs: Runs, finished: Sequence[int]) -> None:
+        """Store the series of the finished runs with indices `finished`, all at once where their equations allow it.
+
+        Runs without samples are skipped. A run whose series cannot be computed is recorded as failed.
+        """
+        with_samples = [i for i in finished if runs.arrays["done"][i]]
+        if len(with_samples) > 1 and self.columns:
+            try:
+                self._take(with_samples, *_concatenate_samples(runs, with_samples, self.parts))
+                return
+            except SolverError:  # of one of them: alone it says which
+                pass
+        for i in with_samples:
+            if run := build_samples(runs, i, self.parts):
+                self.store_run(runs, i, run)
+
+    def store_run(self, runs: Runs, i: int, run: Result) -> None:
+        """Store the series of run i from its Result. An error of their evaluation is recorded as the run's failure."""
+        try:
+            self._take([i], [len(run.t)], run, int(run.start_row is not None))
+        except SolverError as error:
+            runs.failures.setdefault(i, error)
+
+    def _take(self, indices: Sequence[int], counts: Sequence[int], result: Result, first_column: int = 0) -> None:
+        """Copy samples of several runs, concatenated in the result `result`, into the rows of the stored arrays.
+
+        counts[k] samples belong to run begun[k]. `first_column`: first column that is filled.
+        """
+        columns, first = [(self.arrays[name], result[name]) for name in self.names], 0
+        for i, count in zip(indices, counts, strict=True):
+            for kept, column in columns:
+                kept[i, first_column : first_column + count] = column[first : first + count]
+            first += count
+
+
+def build_samples(runs: Runs, i: int, parts: frozenset[str]) -> EvaluatedSamples | None:
+    """Return the stored samples of run i as a result without diagnostics; None if it has no samples.
+
+    `parts`: names of the evaluated quantities that its series need. Accelerations are those of the method, if stored.
+    """
+    if not runs.arrays["done"][i]:
+        return None
+    n, source, p = runs.compiled.n, runs.compiled.source, runs.arrays["p"][i]
+    t, y, memory, state = runs.get_samples(i)
+    result = make_evaluated_samples(
+        source, runs.compiled, p, t, y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], memory, state, parts
+    )
+    result.accelerations = runs.get_accelerations(i)
+    return result
+
+
+def _concatenate_samples(
+    runs: Runs, indices: Sequence[int], parts: frozenset[str]
+) -> tuple[list[int], EvaluatedSamples]:
+    """Return the sample counts of the runs `indices`, and all their samples concatenated in one result.
+
+    If `parts` is not empty, these quantities are evaluated with each run's parameter values.
+    """
+    compiled, n, samples_of_runs = runs.compiled, runs.compiled.n, [runs.get_samples(i) for i in indices]
+    counts = [len(samples[0]) for samples in samples_of_runs]
+    t, y, memory, state = (np.concatenate(arrays) for arrays in zip(*samples_of_runs, strict=True))
+    q, v = y[:, :n], y[:, n : 2 * n]
+    no_parameters = np.full(compiled.n_p, np.nan)
+    result = make_evaluated_samples(
+        compiled.source, compiled, no_parameters, t, q, v, y[:, 2 * n :], memory, state, parts
+    )
+    if parts:
+        numbers = runs.arrays["p"][indices]
+        if compiled.may_switch:
+            last = zip(samples_of_runs, numbers, strict=True)
+            t = np.concatenate(
+                [find_evaluation_times(compiled, t, y[:, :n], y[:, n : 2 * n], p) for (t, y, *_), p in last]
+            )
+        result.evaluation = evaluate_runs(compiled, counts, t, q, v, memory, numbers, parts)
+    return counts, result
