@@ -39,7 +39,7 @@ def compile_kernels(
 ) -> Library:
     """Return the library of a kernel source, compiled if the cache lacks it; without a compiler, the wheel's.
 
-    portable: use no instructions that only this CPU has. rebuild: compile even if the cache has it. ahead: parts that
+    portable: use no instructions that only this CPU has. rebuild: compile even if the cache has it. background: parts that
     may be under way already. quick: if the cache has none, a quickly compiled library may serve while the optimized one
     is made (behind.py). Raises BuildError if there is no compiler, or if the C does not compile or load.
     """
@@ -104,7 +104,7 @@ def _compile_quickly(
     if not entry.is_relative_to(cache.root):
         return None
     behind = OptimizedLibrary(
-        cache, key, lambda folder: build(folder, ahead=None), lambda entry: _open_entry(entry, source.cdef)
+        cache, key, lambda folder: build(folder, background=None), lambda entry: _open_entry(entry, source.cdef)
     )
     try:
         library = _open_entry(entry, source.cdef)
