@@ -39,9 +39,9 @@ def compile_kernels(
 ) -> Library:
     """Return the library of a kernel source, compiled if the cache lacks it; without a compiler, the wheel's.
 
-    portable: use no instructions that only this CPU has. rebuild: compile even if the cache has it. background: parts that
-    may be under way already. quick: if the cache has none, a quickly compiled library may serve while the optimized one
-    is made (behind.py). Raises BuildError if there is no compiler, or if the C does not compile or load.
+    portable: use no instructions that only this CPU has. rebuild: compile even if the cache has it. background: parts
+    that may be under way already. quick: if the cache has none, a quickly compiled library may serve while the
+    optimized one is made (behind.py). Raises BuildError if there is no compiler, or if the C does not compile or load.
     """
     cache = cache or get_default_cache()
     try:
