@@ -53,7 +53,7 @@ def test_there_are_as_many_trees_as_there_should_be() -> None:
 
 
 def read(file: str) -> str:
-    return (ENGINE / "both" / file).read_text(encoding="utf-8")
+    return (ENGINE / "scalar_simd" / file).read_text(encoding="utf-8")
 
 
 def row(text: str, stages: int) -> np.ndarray:
