@@ -90,7 +90,7 @@ class Body:
 class Joint:
     """Represent a joint between a point of the first and a point of the second body; `ground` may be either.
 
-    `kind` is a file in generator/kinds/joints, which defines the meaning of `iterate_quantities`, `vectors` and
+    `kind` is a file in generator/kinds/joints, which defines the meaning of `quantities`, `vectors` and
     `options`.
     """
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from numbers import Integral
 from typing import Any
 
 from gudgeon.errors import BadValueError, InputError, Location
@@ -61,8 +60,8 @@ def _format_as_file_text(value: object, address: str) -> str:
     if isinstance(value, str):
         return value
     try:
-        if isinstance(value, Integral) and abs(float(value)) < WHOLE:
-            return str(int(value))
+        if isinstance(value, int) and abs(float(value)) < WHOLE:
+            return str(value)
         return repr(float(value))  # type: ignore[arg-type]
     except (TypeError, ValueError):
         message = f"the override of {address} is of type {type(value).__name__}"

@@ -103,7 +103,7 @@ def _may_overflow(part: sp.Basic, symbol: sp.Symbol) -> bool:
 
 
 def make_finite_slope(term: sp.Expr, symbol: sp.Symbol, derivative: sp.Expr) -> Slope:
-    """Return ∂term/∂symbol as a `Slope`: `differentiate` where that is finite, else a difference quotient of the term.
+    """Return ∂term/∂symbol as a `Slope`: `derivative` where that is finite, else a difference quotient of the term.
 
     The quotient is replaced by 0 for terms with switching points and for derivatives of a `Slope` with a quotient.
     """

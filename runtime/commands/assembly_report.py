@@ -67,7 +67,7 @@ class Findings:
 
 
 def assemble_scenes(mechanism: Mechanism, branches: bool, given: Mapping[str, float | str] | None = None) -> Findings:
-    """Assemble every scene of a mechanism, and find its other assemblies if `yield_assembly_lines` is set or the
+    """Assemble every scene of a mechanism, and find its other assemblies if `branches` is set or the
     linkage is small.
 
     given: values in place of the file's, by address. An address of one scene holds for that scene. An error of a scene

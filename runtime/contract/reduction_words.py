@@ -75,23 +75,30 @@ def _describe_redundant(step: Step) -> str:
     return f"{format_names(step.rows_gone)} say{_get_verb_ending(step.rows_gone)} nothing new: left out"
 
 
+def _describe_gone(step: Step, coordinate: str) -> str:
+    """Return a phrase for the coordinates that a step removes; `coordinate` is their kind, "angle" or "slide"."""
+    return f"the {coordinate}{_get_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
+
+
+def _describe_dependence(step: Step, coordinate: str) -> str:
+    """Describe a step in which coordinates of one kind, "angle" or "slide", follow from those of its owners."""
+    return f"{_describe_gone(step, coordinate)} follow{_get_verb_ending(step.gone)} {format_names(step.owners)}"
+
+
 def _describe_prescribed(step: Step) -> str:
     """Describe the step in which drives prescribe angles."""
-    angles = f"the angle{_get_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
     subject = f"{format_names(step.owners)} prescribe{_get_verb_ending(step.owners)}"
-    return f"{subject} {angles}: known at any time, not integrated"
+    return f"{subject} {_describe_gone(step, 'angle')}: known at any time, not integrated"
 
 
 def _describe_constant(step: Step) -> str:
     """Describe the step in which joints keep angles constant."""
-    angles = f"the angle{_get_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
-    return f"{format_names(step.owners)} keep{_get_verb_ending(step.owners)} {angles} as it is"
+    return f"{format_names(step.owners)} keep{_get_verb_ending(step.owners)} {_describe_gone(step, 'angle')} as it is"
 
 
 def _describe_following(step: Step) -> str:
     """Describe the step in which angles follow other angles."""
-    angles = f"the angle{_get_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
-    return f"{angles} follow{_get_verb_ending(step.gone)} {format_names(step.owners)}"
+    return _describe_dependence(step, "angle")
 
 
 def _describe_hub(step: Step) -> str:
@@ -113,8 +120,7 @@ def _describe_slides(step: Step) -> str:
 
 def _describe_known_slides(step: Step) -> str:
     """Describe the step in which slides become known."""
-    slides = f"the slide{_get_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
-    return f"{slides} follow{_get_verb_ending(step.gone)} {format_names(step.owners)}"
+    return _describe_dependence(step, "slide")
 
 
 def _describe_driven_loops(step: Step) -> str:

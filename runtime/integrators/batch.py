@@ -50,7 +50,7 @@ if TYPE_CHECKING:
     from gudgeon.results.results import State
 
 PythonLoop: TypeAlias = Callable[[Problem], Trajectory]  # a method without a loop over runs in C
-CHUNK = 4_000  # steps of one call of C, which polls Python for cancellation meanwhile (asking.py)
+CHUNK = 4_000  # steps of one call of C, which polls Python for cancellation meanwhile (cancellation.py)
 TOGETHER = 4096  # largest number of samples of finished runs that wait to be stored together
 
 

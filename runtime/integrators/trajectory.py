@@ -96,7 +96,7 @@ class Problem:
     audit: int = 1  # level of the audit (contract/audit.py)
     resumed_state: State | None = None  # state that the run resumes from
     observer: Look | None = None  # observer of all steps
-    poll_cancellation: Callable[[], object] = lambda: None  # raises KeyboardInterrupt after Ctrl-C (asking.py)
+    poll_cancellation: Callable[[], object] = lambda: None  # raises KeyboardInterrupt after Ctrl-C (cancellation.py)
 
 
 @dataclass(frozen=True)

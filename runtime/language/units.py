@@ -123,7 +123,7 @@ def describe_dimension(dimension_: Dimension) -> str:
 
 @dataclass(frozen=True)
 class Unit:
-    """Hold a unit in SI: `factor` · π^`pi_power` of the SI unit of `make_dimension`."""
+    """Hold a unit in SI: `factor` · π^`pi_power` of the SI unit of `dimension`."""
 
     factor: Fraction
     pi_power: int

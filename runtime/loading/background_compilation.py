@@ -48,7 +48,7 @@ class BackgroundCompilation:
     """Compile parts of a library in the background; a context at whose end all compilers are stopped.
 
     Errors are ignored here; they appear when the library is made. quick: compile without optimization
-    (loading/behind.py).
+    (loading/optimized_library.py).
     """
 
     def __init__(self, portable: bool, cache: Cache | None = None, quick: bool = False) -> None:

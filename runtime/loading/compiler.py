@@ -89,7 +89,7 @@ def build_flags(portable: bool, command: tuple[str, ...] = (), quick: bool = Fal
 
 
 def _add_unit_flags(flags: tuple[str, ...], unit: str) -> tuple[str, ...]:
-    """Return `build_flags` with those added that a unit needs: time loops ("loops"), lanes ("lanes"), a scene's code
+    """Return `flags` with those added that a unit needs: time loops ("loops"), lanes ("lanes"), a scene's code
     ("").
 
     They are added only if the compiler understands GCC's flags.

@@ -46,7 +46,7 @@ class Library:
 
 
 class PendingLibrary(Protocol):
-    """Provide an optimized library that is being made (behind.py); both methods pass it to `switch_to`."""
+    """Provide an optimized library that is being made (optimized_library.py); both methods pass it to `switch_to`."""
 
     def switch_if_ready(self, functions: Functions) -> bool:
         """Use the library if it exists; return whether it is still to come."""

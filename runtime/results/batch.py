@@ -245,7 +245,7 @@ class Batch:
 
     def to_xarray(self, names: Iterable[str] | str = (), part: str = "series") -> xarray.Dataset:
         """Return an xarray Dataset over `run` and `time` with every series by its name in a Result, and those of
-        `check_names`.
+        `names`.
 
         Runs with output times of their own have them as `t` over both; `time` is then a counter. Variables over `run`
         alone: samples, ends, failures, diagnostics, parameters and, as "A.peak.F", the peaks; those over all steps as
@@ -277,7 +277,7 @@ class Batch:
 
     def to_dataframe(self, names: Iterable[str] | None = None) -> pandas.DataFrame:
         """Return a long pandas table with a row for each reached sample: run, given parameters, t, and the series
-        `check_names`, or all for None.
+        `names`, or all for None.
 
         SI, units in `attrs["units"]`.
         """
@@ -292,7 +292,7 @@ class Batch:
         export.write_batch_csv(self, path, names)
 
     def to_mat(self, path: str | os.PathLike[str], names: Iterable[str] | None = None) -> None:
-        """Write a MATLAB file: `t` and the series `check_names`, or all, n × N each, and given parameters n × 1; see
+        """Write a MATLAB file: `t` and the series `names`, or all, n × N each, and given parameters n × 1; see
         Result.to_mat.
         """
         from gudgeon.results.files import export
@@ -317,7 +317,7 @@ def make_failures(errors: Mapping[int, GudgeonError]) -> tuple[Failure, ...]:
 def check_series_names(source: KernelSource, names: str | Iterable[str], argument_name: str = "names") -> list[str]:
     """Return the names of series as a list without repetitions, in their order.
 
-    `check_names` is one name or several; `argument_name` names the argument in errors. Raises UnknownNameError with the
+    `names` is one name or several; `argument_name` names the argument in errors. Raises UnknownNameError with the
     nearest name.
     """
     unique_names, empty_result = (
@@ -330,7 +330,7 @@ def check_series_names(source: KernelSource, names: str | Iterable[str], argumen
 
 
 def find_evaluation_parts(source: KernelSource, names: Iterable[str]) -> frozenset[str]:
-    """Return the parts of an Evaluation that the series `check_names` need; "t" needs none."""
+    """Return the parts of an Evaluation that the series `names` need; "t" needs none."""
     all_series = get_catalogue(source)
     return frozenset(part for name in names if name != "t" for part in all_series[name].parts)
 
@@ -352,7 +352,7 @@ def depends_on_works(source: KernelSource, name: str) -> bool:
 
 
 def check_stored(batch: Batch, names: Iterable[str]) -> None:
-    """Raise GudgeonError for the first of `check_names` that a batch without states did not store.
+    """Raise GudgeonError for the first of `names` that a batch without states did not store.
 
     A batch with states can evaluate every series, so that nothing is raised.
     """

@@ -261,7 +261,7 @@ class Simulation(NotebookDisplay):
           take it without error control;
         - "taylor": for smooth motion, its series, of an order that follows from `rtol`: tight tolerances cost little;
         - "scipy:DOP853", "sundials:cvode" and others: cross-checks (integrators/peers).
-        `horizon`: run thrice more to find the time to which it can be trusted (horizon.py).
+        `horizon`: run thrice more for the time to which it can be trusted (predictability_horizon.py).
         `parameters`: {address or parameter name: float in SI or '0.5 mm'}, each number once. Where `start` is given,
         they are over its own parameters, which hold unless replaced; a number that differs is told in the run's
         notes. A state of another mechanism, scene, file or overrides is refused. Ctrl-C ends the run and keeps

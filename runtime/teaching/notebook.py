@@ -346,7 +346,7 @@ def _write_numpy_comparison(model: Model, mechanism: str) -> str:
 def _write_run_comparison(model: Model, massless: bool, plain: bool) -> str:
     """Return the Python text of the cell that compares the derivation with the end of a run of the compiled simulator.
 
-    Accelerations are compared; if the scene has play or friction (not `escape_markdown`), only the Jacobian.
+    Accelerations are compared; if the scene has play or friction (not `plain`), only the Jacobian.
     massless: drives alone determine the accelerations.
     """
     head = (

@@ -331,7 +331,7 @@ def test_auto_does_not_try_steps_that_are_known_to_be_too_long(
 ) -> None:
     """Far too long a step is accepted where its estimate vanishes by chance; the audit found errors of 11 to 44 limits.
 
-    `first_switch`: behind a corner of friction a step was as long as once fitted there, three times one just refused.
+    `corner`: behind a corner of friction a step was as long as once fitted there, three times one just refused.
     `return`: a fast mode at rest was not seen when the explicit method took over, 30 times too long for its stability.
     """
     run = loader(tmp_path)(text, "dry").simulate(end, rtol=rtol, output=3, audit="full")

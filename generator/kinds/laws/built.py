@@ -244,7 +244,7 @@ def _check_expression(
 
 
 def _list_inputs_of_law(law: Law) -> str:
-    """Return a phrase that lists what `build_law` may use: variables, parameters and the pair."""
+    """Return a phrase that lists what `build` may use: variables, parameters and the pair."""
     numbers = ", ".join(field_of_law.name for field_of_law in law.parameters) or "none"
     return f"variables: {', '.join(law.variables)}; parameters: {numbers}; pair: {', '.join(PAIR)}"
 

@@ -143,7 +143,7 @@ def compute_subtracted_series(
 def _find_series_at_samples(
     job: Job, simulation: Simulation, table: Table, runs: Array, batch: Batch, names: list[str], failures: list[str]
 ) -> dict[str, Array]:
-    """Return the series `iterate_names` of another scene at the samples of these runs, (n, N) each, NaN where missing.
+    """Return the series `names` of another scene at the samples of these runs, (n, N) each, NaN where missing.
 
     Equal runs are computed once, and the most recent series come from a cache. Kinematically driven scenes are
     computed from the motion alone, others are simulated. Failures of runs are entered in `failures`.

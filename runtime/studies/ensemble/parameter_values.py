@@ -131,7 +131,7 @@ def parse_values(numbers: ParameterValues, slot: RuntimeParameter, may_repeat: b
 
 
 def check_finite(values: Array, text: Text) -> Array:
-    """Return the array `parse_values` unchanged. Raises BadValueError at `text`, the second end, unless all are
+    """Return the array `values` unchanged. Raises BadValueError at `text`, the second end, unless all are
     finite.
     """
     if not np.isfinite(values).all():
