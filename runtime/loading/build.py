@@ -41,7 +41,8 @@ def compile_kernels(
 
     portable: use no instructions that only this CPU has. rebuild: compile even if the cache has it. background: parts
     that may be under way already. quick: if the cache has none, a quickly compiled library may serve while the
-    optimized one is made (optimized_library.py). Raises BuildError without a compiler, or if compiling or loading fails.
+    optimized one is made (optimized_library.py). Raises BuildError without a compiler, or if compiling or loading
+    fails.
     """
     cache = cache or get_default_cache()
     try:
