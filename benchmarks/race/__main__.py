@@ -81,7 +81,7 @@ def machine_facts() -> dict[str, str]:
         "machine": f"{machine()}, {platform.system()}",
         "compiler": specified.splitlines()[0].strip() if specified else "unknown",
         "python": platform.python_version(),
-        "processes that wanted a core before the race began, a minute's mean": f"{os.getloadavg()[0]:.1f}",
+        "load average over the minute before the race": f"{os.getloadavg()[0]:.1f}",
         "packages": race_record.versions(),
     }
 

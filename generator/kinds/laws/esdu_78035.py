@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from gudgeon.generator.kinds.laws.dissipation import SEPARATION
 from gudgeon.generator.kinds.laws.elastic_pair import CYLINDER_FIELDS, make_cylinder_force
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 
@@ -38,8 +39,7 @@ LAW = Law(
     "of internal and external cylinder contact force models, Nonlinear Dynamics 63 (2011) 681-697, doi "
     "10.1007/s11071-010-9830-3",
     validity="a contact that is narrow compared with the radii; the equation for F_e has no solution for a "
-    "penetration above 4 clearances, and a run stops at 3.7 clearances; where surfaces are driven "
-    "apart fast, the formula pulls, and the force is then set to 0 unless the option pulls is true",
+    f"penetration above 4 clearances, and a run stops at 3.7 clearances; {SEPARATION}",
     fields=CYLINDER_FIELDS,
     build=build,
     in_hole=True,

@@ -13,7 +13,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import OF_PENETRATION, Bound, number
-from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, PULLS, RESTITUTION, make_hysteresis_factor
+from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, PULLS, RESTITUTION, SEPARATION, make_hysteresis_factor
 from gudgeon.generator.kinds.laws.law import DEEPEST, SECANT_DEPTH, Law, LawInputs
 from gudgeon.language.units import FORCE, LENGTH
 
@@ -44,8 +44,7 @@ LAW = Law(
     validity="the range for which the user knows the elastic force; the elastic force must be 0 at zero "
     "penetration, which every run checks with its parameter values; the elastic force must not be "
     "negative up to the clearance, or up to `deepest` where the file gives it; that is checked with "
-    "the parameter values of the file and of its scenes; where surfaces are driven apart fast, the "
-    "formula pulls, and the force is then set to 0 unless the option pulls is true",
+    f"the parameter values of the file and of its scenes; {SEPARATION}",
     fields=(
         number(
             "force",

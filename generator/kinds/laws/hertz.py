@@ -12,7 +12,14 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import Bound, number
-from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, FACTORS, PULLS, RESTITUTION, make_normal_force
+from gudgeon.generator.kinds.laws.dissipation import (
+    DISSIPATION,
+    FACTORS,
+    PULLS,
+    RESTITUTION,
+    SEPARATION,
+    make_normal_force,
+)
 from gudgeon.generator.kinds.laws.elastic_pair import GEOMETRY, make_pair_stiffness
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DIMENSIONLESS
@@ -38,8 +45,7 @@ LAW = Law(
     reference="H. Hertz, Ueber die Beruehrung fester elastischer Koerper, Journal fuer die reine und angewandte "
     "Mathematik 92 (1882) 156-171, doi 10.1515/crll.1882.92.156",
     validity="a point or a line contact whose stiffness is known, or a contact with the stiffness of spheres, "
-    "at small penetrations; where surfaces are driven apart fast, the formula pulls, and the force is"
-    " then set to 0 unless the option pulls is true",
+    f"at small penetrations; {SEPARATION}",
     fields=(
         number(
             "stiffness",

@@ -16,7 +16,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import Bound, number
-from gudgeon.generator.kinds.laws.dissipation import PULLS
+from gudgeon.generator.kinds.laws.dissipation import NO_PULL, PULLS
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DAMPING, STIFFNESS
 
@@ -41,8 +41,7 @@ LAW = Law(
     "(1960); T. Schwager, T. Poeschel, Coefficient of restitution and linear-dashpot model revisited, "
     "Granular Matter 9 (2007) 465-469",
     validity="the law has the same restitution at any speed; the force begins with the damping times the "
-    "approach speed; near the end of each contact the formula pulls, and the force is then set to 0 "
-    "unless the option pulls is true",
+    f"approach speed; near the end of each contact {NO_PULL}",
     fields=(
         number(
             "stiffness",
