@@ -56,9 +56,9 @@ def _define_root_options(version: opt.Version = False) -> None:
     pass
 
 
-@app.command()
+@app.command("run")
 @report_errors
-def run(
+def simulate_file(
     file: opt.File,
     scene: opt.Scenes = None,
     set_: opt.Set = None,
@@ -123,9 +123,9 @@ def run(
     )
 
 
-@app.command()
+@app.command("check")
 @report_errors
-def check(
+def check_file(
     file: opt.File,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="A scene a table: unknowns, operations.")] = False,
     branches: opt.Branches = False,
@@ -134,7 +134,7 @@ def check(
     laws: opt.Laws = None,
     quiet: opt.Quiet = False,
 ) -> int:
-    """Is a mechanism file valid, does it assemble, and what can move? Mistakes are told with line and column.
+    """Check a mechanism file: is it valid, does it assemble, and what can move? Errors have line and column.
 
     Example: gudgeon check engine.yaml -v
     """
@@ -143,9 +143,9 @@ def check(
     return check_mechanism(file, verbose, json, branches, tuple(set_ or ()))
 
 
-@app.command()
+@app.command("emit")
 @report_errors
-def emit(
+def emit_code(
     file: opt.File,
     folder: Annotated[
         Path,
@@ -167,9 +167,9 @@ def emit(
     return emit_c(file, folder, tuple(scene or ()))
 
 
-@app.command()
+@app.command("equations")
 @report_errors
-def equations(
+def write_equation_pages(
     file: opt.File,
     target: opt.Pages,
     scene: opt.ScenesOfPages = None,
@@ -188,7 +188,7 @@ def equations(
 
 @app.command("laws")
 @report_errors
-def force_laws(
+def list_laws(
     name: opt.LawName = None,
     plot: opt.Plot = None,
     set_: opt.Set = None,
@@ -204,16 +204,16 @@ def force_laws(
     return show_laws(LawsRequest(name, json, plot, tuple(set_ or ())))
 
 
-@app.command()
+@app.command("new")
 @report_errors
-def new(
+def create_file(
     name: opt.Name,
     like: opt.Like = None,
     study: opt.OfStudy = False,
     files_as_json: opt.FilesJson = False,
     quiet: opt.Quiet = False,
 ) -> int:
-    """Begin a mechanism file, NAME.yaml, or a study's, with comments that explain it.
+    """Write a new mechanism file, NAME.yaml, or a study file, with comments that explain it.
 
     Example: gudgeon new engine --like slider_crank
     """
@@ -224,10 +224,10 @@ def new(
 
 @app.command("import")
 @report_errors
-def import_(
+def import_file(
     file: opt.Foreign, target: opt.Mechanism = None, files_as_json: opt.FilesJson = False, quiet: opt.Quiet = False
 ) -> int:
-    """Make a mechanism file of a linkage that was drawn or synthesized elsewhere.
+    """Convert a linkage that was drawn or synthesized elsewhere to a mechanism file.
 
     Example: gudgeon import four_bar.json -o four_bar.yaml
     """
@@ -236,9 +236,9 @@ def import_(
     return import_linkage(file, target)
 
 
-@app.command()
+@app.command("exercise")
 @report_errors
-def exercise(
+def create_exercise(
     file: opt.File,
     target: opt.Sheet,
     scene: opt.OneScene = "ideal",
@@ -250,7 +250,8 @@ def exercise(
 ) -> int:
     """Make an exercise sheet of a mechanism, and its solutions in a second file.
 
-    Write Φ, count the freedoms, Φ_q at a position, γ, the force in a joint: numbers are drawn from the seed.
+    Tasks: write Φ, count the degrees of freedom, Φ_q at a position, γ, the force in a joint. The seed selects the
+    numbers.
 
     Example: gudgeon exercise engine.yaml -o sheet.html --seed 7
     """
@@ -259,9 +260,9 @@ def exercise(
     return write_exercise(file, target, scene, seed, at)
 
 
-@app.command()
+@app.command("draw")
 @report_errors
-def draw(
+def draw_mechanism(
     file: opt.File,
     scene: opt.OneScene = "ideal",
     at: opt.At = None,
@@ -274,7 +275,7 @@ def draw(
 ) -> int:
     """Draw a mechanism: bodies, joints, drives, forces, joints with play magnified.
 
-    A start that does not close is drawn with what does not reach, in red, and then told as `check` tells it.
+    A start that does not close is drawn with its gaps in red, and then reported as `check` reports it.
 
     Example: gudgeon draw engine.yaml --scene worn --at 20ms -o engine.png
     """
@@ -283,9 +284,9 @@ def draw(
     return draw_file(Request(file, scene, at, target, tuple(set_ or ()), branches))
 
 
-@app.command()
+@app.command("schema")
 @report_errors
-def schema(
+def print_json_schema(
     study: Annotated[bool, typer.Option("--study", help="Of study files.")] = False, laws: opt.Laws = None
 ) -> int:
     """Print the JSON Schema of mechanism files, for editors that complete and check YAML.
@@ -297,9 +298,9 @@ def schema(
     return print_schema(study)
 
 
-@app.command()
+@app.command("bench")
 @report_errors
-def bench(
+def benchmark_methods(
     file: opt.File,
     scene: opt.Scenes = None,
     set_: opt.Set = None,
@@ -316,10 +317,10 @@ def bench(
     laws: opt.Laws = None,
     quiet: opt.Quiet = False,
 ) -> int:
-    """Run time against error with every method, for each scene: a table, a CSV file, a picture.
+    """Measure run time against error with every method, for each scene: a table, a CSV file, a picture.
 
-    Errors are taken against another method at a much tighter tolerance. The cross-checks (scipy:*, sundials:*)
-    take part where a scene allows them, at fewer tolerances where they are slow; with --quick they stay away.
+    Errors are taken against another method at a much tighter tolerance. The cross-checks (scipy:*, sundials:*) run
+    where a scene allows them, at fewer tolerances where they are slow, and not with --quick.
 
     Example: gudgeon bench engine.yaml --scene worn --mark-step 0.1ms
     """
@@ -333,7 +334,7 @@ def bench(
 @app.command("stress", hidden=True)
 @app.command("map")
 @report_errors
-def verdicts(
+def map_stability(
     context: typer.Context,
     file: opt.File,
     scene: opt.Scenes = None,
@@ -354,10 +355,10 @@ def verdicts(
     laws: opt.Laws = None,
     quiet: opt.Quiet = False,
 ) -> int:
-    """Tolerance (rk4: step) × clearance, or what --axis or --box say: where is a run stable, where does it fail?
+    """Map where runs are stable and where they fail: tolerance (rk4: step) × clearance, or the axes of --axis or --box.
 
-    Each run is stable, inaccurate, diverged or outside the model, with its reason; failures with what to
-    type to see them again.
+    Each run is stable, inaccurate, diverged or outside the model, with its reason. Failures have the command that
+    repeats them.
 
     Example: gudgeon map engine.yaml --scene worn --method rk4 --mark-step 0.1ms
 
@@ -372,9 +373,9 @@ def verdicts(
     return map_file(request, MapOptions(method, at, tuple(axis or ()), box, tuple(range_ or ())))
 
 
-@app.command()
+@app.command("study")
 @report_errors
-def study(
+def run_study(
     file: opt.StudyFile,
     finished: opt.Finished = None,
     out: opt.Folder = None,
@@ -390,9 +391,9 @@ def study(
     starts: opt.Starts = None,
     seed: opt.StartSeed = None,
 ) -> int:
-    """Many runs of a mechanism, over grids, draws and perturbed starts, and what is measured of them: one dataset.
+    """Run a study: many runs of a mechanism, over grids, draws and perturbed starts, measured into one dataset.
 
-    Finished blocks of runs are on disk at once: after Ctrl-C, a kill or a full disk the same command goes on.
+    Finished blocks of runs are on disk at once: after Ctrl-C, a kill or a full disk the same command resumes.
 
     Example: gudgeon study clearance.yaml --out clearance.study, then gudgeon study report clearance.study
     """
@@ -401,9 +402,9 @@ def study(
     return study_file(Request(file, out, threads, restart, set_, runs, json, finished, workers, dask, starts, seed))
 
 
-def get_command_name(one: CommandInfo) -> str:
+def get_command_name(command: CommandInfo) -> str:
     """Return the name by which a registered command is called: its own, else that of its function."""
-    return str(one.name or getattr(one.callback, "__name__", ""))
+    return str(command.name or getattr(command.callback, "__name__", ""))
 
 
 def select_called_command(app: typer.Typer) -> typer.Typer:
@@ -411,10 +412,10 @@ def select_called_command(app: typer.Typer) -> typer.Typer:
 
     If the first argument names no command, the copy has all of them.
     """
-    named = [command for command in app.registered_commands if sys.argv[1:2] == [get_command_name(command)]]
-    alone = copy(app)
-    alone.registered_commands = named or app.registered_commands
-    return alone
+    called_commands = [command for command in app.registered_commands if sys.argv[1:2] == [get_command_name(command)]]
+    app_copy = copy(app)
+    app_copy.registered_commands = called_commands or app.registered_commands
+    return app_copy
 
 
 def main() -> None:

@@ -24,23 +24,25 @@ BLOCK = (2.1, 1.25)  # half length and width of a slider, in units
 SLOT, STRIP = 1.0, 0.55  # half widths: of a slotted link, of a bar that guides
 
 
-def draw_bodies(posture: Posture, plan: Plan, unconnected: frozenset[str] = frozenset()) -> Iterator[Shape]:
+def draw_bodies(posture: Posture, layout: Plan, unconnected_bodies: frozenset[str] = frozenset()) -> Iterator[Shape]:
     """Yield the outlines of every body of a scene, closed lines, and dots of its named points.
 
-    Bodies in `unconnected` have the colour of an error.
+    Bodies in `unconnected_bodies` have the colour of an error.
     """
     for tint, body in enumerate(posture.bodies):
-        for role, outline in _iterate_outlines(posture, plan, body):
-            yield Line(f"body {body}", "loose" if body in unconnected and role == "body" else role, outline, True, tint)
-        yield from _draw_point_marks(posture, plan, body, tint)
+        for role, outline in _iterate_outlines(posture, layout, body):
+            yield Line(
+                f"body {body}", "loose" if body in unconnected_bodies and role == "body" else role, outline, True, tint
+            )
+        yield from _draw_point_marks(posture, layout, body, tint)
 
 
-def _iterate_outlines(posture: Posture, plan: Plan, body: str) -> Iterator[tuple[str, Array]]:
+def _iterate_outlines(posture: Posture, layout: Plan, body: str) -> Iterator[tuple[str, Array]]:
     """Yield role and closed outline (N, 2) of a body: its link or plate, its guides for other bodies, its blocks.
 
     A body with a guide or block that has points at one place only is drawn without link or plate.
     """
-    unit, positions = plan.unit, remove_repeated_positions(find_outline_points(posture, body).values())
+    unit, positions = layout.unit, remove_repeated_positions(find_outline_points(posture, body).values())
     guide_parts, block_parts = [], []
     for part in iterate_sliding_joints(posture):
         guide, slider = map(get_body_name, find_guide_and_slider(part))
@@ -51,7 +53,7 @@ def _iterate_outlines(posture: Posture, plan: Plan, body: str) -> Iterator[tuple
     if not ((block_parts or guide_parts) and _has_one_position(posture, body)):
         yield "body", compute_rounded_outline(positions, unit if len(positions) > 1 else 1.6 * unit)
     for part in guide_parts:
-        ends = compute_guide_ends(posture, plan, part)
+        ends = compute_guide_ends(posture, layout, part)
         if wall_gap := compute_wall_gap(posture, part, unit):
             yield "guide", compute_rounded_outline(ends, BLOCK[1] * unit + wall_gap + 0.55 * unit)
             yield "channel", compute_rounded_outline(ends, BLOCK[1] * unit + wall_gap)
@@ -75,14 +77,14 @@ def _has_one_position(posture: Posture, body: str) -> bool:
     return len(remove_repeated_positions(posture.get_position(name) for name in names)) < 2
 
 
-def compute_guide_ends(posture: Posture, plan: Plan, part: PartInfo) -> list[Array]:
+def compute_guide_ends(posture: Posture, layout: Plan, part: PartInfo) -> list[Array]:
     """Return both ends of a slot or guide bar, two points (2,) in m, as far as the slider travels.
 
     They extend to the body's own point on the line, except for a slot on one of the body's links.
     """
     line_point, axis, _ = find_sliding_axis(posture, part)
-    low_coordinate, high_coordinate = plan.travel[part.name]
-    overhang = (BLOCK[0] + 0.6 if is_block(part) else 1.6) * plan.unit
+    low_coordinate, high_coordinate = layout.travel[part.name]
+    overhang = (BLOCK[0] + 0.6 if is_block(part) else 1.6) * layout.unit
     low_coordinate, high_coordinate = low_coordinate - overhang, high_coordinate + overhang
     guide = get_body_name(find_guide_and_slider(part)[0])
     if is_block(part) or not _is_on_link(
@@ -110,20 +112,23 @@ def _is_on_link(posture: Posture, body: str, *ends: Array) -> bool:
     return False
 
 
-def _draw_point_marks(posture: Posture, plan: Plan, body: str, tint: int) -> Iterator[Shape]:
-    """Yield a small dot for each named point of a body that no joint, drive or force element uses."""
+def _draw_point_marks(posture: Posture, layout: Plan, body: str, tint: int) -> Iterator[Shape]:
+    """Yield a small dot for each named point of a body that no joint, drive or force element uses.
+
+    `tint` is the number of the body's colour.
+    """
     used_points = {end for part in posture.source.parts for end in part.ends}
     for name in posture.points:
         owner, _, point = name.partition(".")
         if owner == body and name not in used_points and point not in ("head", "tail", "origin", "com"):
-            yield Disc(f"point {name}", "mark", posture.get_position(name), 0.22 * plan.unit, tint)
+            yield Disc(f"point {name}", "mark", posture.get_position(name), 0.22 * layout.unit, tint)
 
 
-def label_bodies(posture: Posture, plan: Plan) -> Iterator[Label]:
+def label_bodies(posture: Posture, layout: Plan) -> Iterator[Label]:
     """Yield the label of each body at the mean of its points, then the labels of named points that have a dot."""
     for body in posture.bodies:
         positions = remove_repeated_positions(find_outline_points(posture, body).values())
         mean_position = np.mean(positions, axis=0)
-        yield Label(f"body {body}", "body", body, mean_position, 1.2 * plan.unit)
-    for shape in (shape for body in posture.bodies for shape in _draw_point_marks(posture, plan, body, 0)):
-        yield Label(shape.part, "point", shape.part.rpartition(".")[2], shape.centre, 0.4 * plan.unit)  # type: ignore[union-attr]
+        yield Label(f"body {body}", "body", body, mean_position, 1.2 * layout.unit)
+    for shape in (shape for body in posture.bodies for shape in _draw_point_marks(posture, layout, body, 0)):
+        yield Label(shape.part, "point", shape.part.rpartition(".")[2], shape.centre, 0.4 * layout.unit)  # type: ignore[union-attr]

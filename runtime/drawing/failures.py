@@ -16,23 +16,24 @@ from gudgeon.drawing.posture import Posture, get_joint_type
 from gudgeon.drawing.shapes import Label, Line, Shape, unit_vector
 from gudgeon.model.compiled import Array
 
-OPEN = 1e-3  # fraction of the largest residual above which a residual is reported
-REACH = 4.0  # units, of an arrow to where a body may go
-MOVES = 1e-6  # fraction of the largest motion below which there is none
+MIN_REPORTED_FRACTION = 1e-3  # fraction of the largest residual above which a residual is reported
+ARROW_LENGTH = 4.0  # units, of an arrow to where a body may go
+MIN_MOTION_FRACTION = 1e-6  # fraction of the largest motion below which there is none
 
 
 def draw_gaps(closure: Closure, posture: Posture) -> tuple[list[Shape], list[Label]]:
     """Return red lines across the gaps of a linkage that does not close, and labels with the residuals of all open
     joints.
 
-    Reported are residuals above OPEN times the largest one. A length without a line and an angle have a label only.
+    Reported are residuals above MIN_REPORTED_FRACTION times the largest one. A length without a line and an angle have
+    a label only.
     """
     residual = closure.compute_residual(posture.q)
     scaled = np.abs(residual / closure.row_scale)
     max_residual = float(scaled.max(initial=0.0))
     open_rows: dict[str, list[int]] = {}
     for row, owner in enumerate(closure.owners):
-        if max_residual > 0.0 and scaled[row] > OPEN * max_residual:
+        if max_residual > 0.0 and scaled[row] > MIN_REPORTED_FRACTION * max_residual:
             open_rows.setdefault(owner, []).append(row)
     shapes, labels = list[Shape](), list[Label]()
     for owner, row_indices in open_rows.items():
@@ -72,11 +73,11 @@ def _compute_gap_line(posture: Posture, part: PartInfo, lengths: list[float]) ->
 
 
 def draw_free_motions(
-    closure: Closure, posture: Posture, unit: float, unconnected: tuple[str, ...]
+    closure: Closure, posture: Posture, unit: float, unconnected_bodies: tuple[str, ...]
 ) -> tuple[list[Shape], list[Label]]:
     """Return arrows along the free motions of the bodies of a closed linkage, and labels.
 
-    The names of bodies in `unconnected` get the label "nothing holds NAME". `unit` is half a bar's width in m.
+    The names of bodies in `unconnected_bodies` get the label "nothing holds NAME". `unit` is half a bar's width in m.
     """
     motions = compute_free_motions(closure.linkage, closure.p, posture.q, closure.t)
     max_motion = float(np.abs(motions * np.where(closure.is_angle, closure.size, 1.0)[:, None]).max(initial=0.0))
@@ -85,11 +86,16 @@ def draw_free_motions(
         body_motions = motions[info.index : info.index + 3]
         body_shapes = list(
             _draw_motion_arrows(
-                body_motions, posture.get_centre_of_mass(body), body, unit, MOVES * max_motion, closure.size
+                body_motions,
+                posture.get_centre_of_mass(body),
+                body,
+                unit,
+                MIN_MOTION_FRACTION * max_motion,
+                closure.size,
             )
         )
         shapes += body_shapes
-        if body in unconnected:
+        if body in unconnected_bodies:
             labels.append(
                 Label(f"free {body}", "free", f"nothing holds {body}", posture.get_centre_of_mass(body), 1.5 * unit)
             )
@@ -117,7 +123,11 @@ def _draw_motion_arrows(
     for direction in free_directions:
         for sign in (1.0, -1.0):
             yield from draw_arrow(
-                part, "free", centre + sign * unit * direction, centre + sign * REACH * unit * direction, head_length
+                part,
+                "free",
+                centre + sign * unit * direction,
+                centre + sign * ARROW_LENGTH * unit * direction,
+                head_length,
             )
     shows_rotation = not free_directions or len(free_directions) > 1
     if shows_rotation and float(np.abs(motions[2]).max(initial=0.0)) * size > min_motion:

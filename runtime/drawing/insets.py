@@ -54,14 +54,14 @@ def draw_insets(
     unit: float,
     lower_corner: Array,
     upper_corner: Array,
-    touching: frozenset[str] = frozenset(),
-    touched: frozenset[str] = frozenset(),
+    contact_names: frozenset[str] = frozenset(),
+    earlier_contact_names: frozenset[str] = frozenset(),
 ) -> Iterator[tuple[list[Shape], Label, str]]:
     """Yield shapes, label and note of the inset of each joint with play that is not visible to scale.
 
     Insets are in columns to the right of the box, or in rows below a box that is too low. Gap and eccentricity are to
-    scale; radii and a slider's lengths are not. `touching`: joints and corners in contact, drawn red; `touched`: those
-    that were in contact since the previous picture, with a red bearing or wall.
+    scale; radii and a slider's lengths are not. `contact_names`: joints and corners in contact, drawn red;
+    `earlier_contact_names`: those that were in contact since the previous picture, with a red bearing or wall.
     """
     radius = RADIUS * unit
     joint_names = dict.fromkeys(joint.joint for joint in posture.source.clearances)
@@ -72,7 +72,7 @@ def draw_insets(
         clearance, factor = posture.get_clearance(joint), compute_magnification(posture, joint, unit)
         draw_inset = _draw_slider if joint in posture.guides else _draw_journal
         shapes, eccentricity_ratio, label_distance = draw_inset(
-            posture, joint, centre, radius, touching, touched - touching
+            posture, joint, centre, radius, contact_names, earlier_contact_names - contact_names
         )
         label_text = f"{joint} ×{factor:g}, e/c = {eccentricity_ratio:.2f}"
         unit_factor, unit_text = choose_prefix(clearance, "m")
@@ -87,22 +87,27 @@ def draw_insets(
 
 
 def _draw_journal(
-    posture: Posture, joint: str, centre: Array, radius: float, touching: frozenset[str], touched: frozenset[str]
+    posture: Posture,
+    joint: str,
+    centre: Array,
+    radius: float,
+    contact_names: frozenset[str],
+    earlier_contact_names: frozenset[str],
 ) -> tuple[list[Shape], float, float]:
     """Return shapes of a journal in its bearing, the eccentricity ratio, and the distance of the label below the centre
     (m).
 
-    `radius` is that of the inset in m. The bearing is red if `joint` is in `touched`, the journal if it is in
-    `touching`.
+    `radius` is that of the inset in m. The bearing is red if `joint` is in `earlier_contact_names`, the journal if it
+    is in `contact_names`.
     """
     clearance, factor = posture.get_clearance(joint), compute_magnification(posture, joint, radius / RADIUS)
     eccentricity_vector = compute_eccentricity(posture, joint)
     part, hole_radius = f"inset {joint}", clearance * factor + JOURNAL * radius
     journal_centre = centre + factor * eccentricity_vector
     shapes: list[Shape] = [
-        Disc(part, "touched" if joint in touched else "bearing", centre, 1.16 * hole_radius),
+        Disc(part, "touched" if joint in earlier_contact_names else "bearing", centre, 1.16 * hole_radius),
         Disc(part, "hole", centre, hole_radius),
-        Disc(part, "touching" if joint in touching else "journal", journal_centre, JOURNAL * radius),
+        Disc(part, "touching" if joint in contact_names else "journal", journal_centre, JOURNAL * radius),
         Disc(part, "clearance", centre, clearance * factor),
         Line(part, "scale", np.array([centre, journal_centre])),
     ]
@@ -110,7 +115,12 @@ def _draw_journal(
 
 
 def _draw_slider(
-    posture: Posture, joint: str, centre: Array, radius: float, touching: frozenset[str], touched: frozenset[str]
+    posture: Posture,
+    joint: str,
+    centre: Array,
+    radius: float,
+    contact_names: frozenset[str],
+    earlier_contact_names: frozenset[str],
 ) -> tuple[list[Shape], float, float]:
     """Return shapes of a slider in its guide, the largest e/c of its corners, and the distance of the label below the
     centre (m).
@@ -127,7 +137,7 @@ def _draw_slider(
     wall_distance = HIGH * radius + clearance * factor + WALL * radius
     shapes: list[Shape] = []
     for sign, wall_name in ((1.0, "upper"), (-1.0, "lower")):
-        is_red = any(name in touched for name in corner_approaches if wall_name in name)
+        is_red = any(name in earlier_contact_names for name in corner_approaches if wall_name in name)
         wall = compute_rectangle(centre + sign * wall_distance * normal, axis, 1.16 * radius, WALL * radius)
         shapes.append(Line(part, "touched" if is_red else "bearing", wall, True))
     corner_positions = {
@@ -142,7 +152,7 @@ def _draw_slider(
     )
     shapes.append(Line(part, "journal", np.array([*upper, *reversed(lower)]), True))
     for name, position in corner_positions.items():
-        shapes.append(Disc(part, "touching" if name in touching else "journal", position, DOT * radius))
+        shapes.append(Disc(part, "touching" if name in contact_names else "journal", position, DOT * radius))
     label_distance = 1.16 * abs(axis[1]) * radius + abs(normal[1]) * (wall_distance + WALL * radius) + 0.2 * radius
     return shapes, max(corner_approaches.values()) / clearance, float(label_distance)
 

@@ -142,26 +142,26 @@ def place_names(
     half_sizes: Mapping[str, Array],
     previous_offsets: Mapping[str, tuple[float, float]],
     to_pixels: Any,
-    metre: float,
-    point: float,
+    metre_size: float,
+    point_size: float,
     picture_box: Array,
 ) -> dict[str, tuple[float, float]]:
     """Return the offset of the middle of each name from its part, in pixels, by part.
 
     `half_sizes`: half of each name's width and height. `previous_offsets`: offsets of the previous picture, which a
-    name keeps while it overlaps no other name and is within `picture_box`. `metre`, `point`: their size in pixels. A
-    name without a free position is left out.
+    name keeps while it overlaps no other name and is within `picture_box`. `metre_size`, `point_size`: size of a metre
+    and of a typographic point in pixels. A name without a free position is left out.
     """
     offsets, occupied_boxes, leader_lines = dict[str, tuple[float, float]](), np.zeros((0, 4)), np.zeros((0, 4))
     shape_segments: Array | None = None
     for label in sketch.labels:
-        anchor, half_size, clearance = to_pixels(label.place), half_sizes[label.part], label.clear * metre
+        anchor, half_size, clearance = to_pixels(label.place), half_sizes[label.part], label.clear * metre_size
         text_centre = anchor + previous_offsets.get(label.part, (0.0, 0.0))
         box = np.array([[*(text_centre - half_size), *(text_centre + half_size)]])
         if (
             label.part not in previous_offsets
             or find_overlaps(box, occupied_boxes).any()
-            or not _is_within(box, picture_box)[0]
+            or not _are_boxes_within(box, picture_box)[0]
         ):
             shape_segments = (
                 collect_outline_segments(sketch.shapes, to_pixels) if shape_segments is None else shape_segments
@@ -171,7 +171,7 @@ def place_names(
                 half_size,
                 label.way,
                 clearance,
-                point,
+                point_size,
                 shape_segments,
                 occupied_boxes,
                 picture_box,
@@ -181,7 +181,7 @@ def place_names(
                 continue
             text_centre = position
             box = np.array([[*(text_centre - half_size), *(text_centre + half_size)]])
-            if is_leader_needed(anchor, text_centre, half_size, clearance, point):
+            if is_leader_needed(anchor, text_centre, half_size, clearance, point_size):
                 leader_lines = np.vstack(
                     [leader_lines, compute_leader_line(anchor, text_centre, half_size, clearance)]
                 )  # which later names avoid
@@ -200,13 +200,13 @@ def compute_leader_line(anchor: Array, text_centre: Array, half_size: Array, cle
     return np.array([[*start, *edge]])
 
 
-def is_leader_needed(anchor: Array, text_centre: Array, half_size: Array, clearance: float, point: float) -> bool:
+def is_leader_needed(anchor: Array, text_centre: Array, half_size: Array, clearance: float, point_size: float) -> bool:
     """Return whether a name is more than LED points from its part, so that it needs a leader line.
 
-    Arguments as for `compute_leader_line`, in pixels; `point` is the size of a point.
+    Arguments as for `compute_leader_line`, in pixels; `point_size` is the size of a point.
     """
     edge = np.clip(anchor, text_centre - half_size, text_centre + half_size)
-    return float(np.hypot(*(edge - anchor))) - clearance > LED * point
+    return float(np.hypot(*(edge - anchor))) - clearance > LED * point_size
 
 
 def make_identifier(kind: str, part: str) -> str:
@@ -234,7 +234,7 @@ def find_best_position(
     half_size: Array,
     direction: float,
     clearance: float,
-    point: float,
+    point_size: float,
     shape_segments: Array,
     occupied_boxes: Array,
     picture_box: Array,
@@ -251,12 +251,12 @@ def find_best_position(
     unit_vectors = np.column_stack([np.cos(angles), np.sin(angles)])
     fallback, fewest = anchor, np.inf
     for ring in RINGS:
-        radius = clearance + ring * point
+        radius = clearance + ring * point_size
         middles = anchor + unit_vectors * (radius + half_size)
-        if ring == RINGS[0] and clearance * point > 0.0:
+        if ring == RINGS[0] and clearance * point_size > 0.0:
             middles = np.vstack([anchor, middles])
-        boxes = np.hstack([middles - half_size - GAP * point, middles + half_size + GAP * point])
-        is_free = ~find_overlaps(boxes, occupied_boxes).any(axis=1) & _is_within(boxes, picture_box)
+        boxes = np.hstack([middles - half_size - GAP * point_size, middles + half_size + GAP * point_size])
+        is_free = ~find_overlaps(boxes, occupied_boxes).any(axis=1) & _are_boxes_within(boxes, picture_box)
         crossings = np.array(
             [
                 count_crossings(box, shape_segments) + CROSSED * count_crossings(box, leader_lines)
@@ -266,11 +266,11 @@ def find_best_position(
             ]
         )
         for j in np.flatnonzero(is_free):
-            if len(occupied_boxes) and is_leader_needed(anchor, middles[j], half_size, clearance, point):
+            if len(occupied_boxes) and is_leader_needed(anchor, middles[j], half_size, clearance, point_size):
                 leader = compute_leader_line(anchor, middles[j], half_size, clearance)
                 n_crossed = sum(
                     count_crossings(box, leader)
-                    for box in occupied_boxes + LEFT_FREE * point * np.array([-1, -1, 1, 1])
+                    for box in occupied_boxes + LEFT_FREE * point_size * np.array([-1, -1, 1, 1])
                 )
                 crossings[j] += CROSSED * (
                     n_crossed + sum(_have_intersection(leader[0], other_line) for other_line in leader_lines)
@@ -291,14 +291,14 @@ def find_overlaps(boxes: Array, other_boxes: Array) -> NDArray[np.bool_]:
     return np.asarray(overlaps_in_x & (a[..., 1] < b[..., 3]) & (b[..., 1] < a[..., 3]), dtype=bool)
 
 
-def _is_within(boxes: Array, picture_box: Array) -> NDArray[np.bool_]:
+def _are_boxes_within(boxes: Array, picture_box: Array) -> NDArray[np.bool_]:
     """Return which boxes (B, 4) are entirely within `picture_box` (4,), as (B,)."""
     return np.asarray(
         (boxes[:, :2] >= picture_box[:2]).all(axis=1) & (boxes[:, 2:] <= picture_box[2:]).all(axis=1), dtype=bool
     )
 
 
-def _have_intersection(first: Array, second: Array) -> bool:
+def _have_intersection(first_segment: Array, second_segment: Array) -> bool:
     """Return whether two segments (4,) cross in their interiors."""
 
     def compute_signed_area(line: Array, point: Array) -> float:
@@ -308,13 +308,13 @@ def _have_intersection(first: Array, second: Array) -> bool:
 
     return all(
         compute_signed_area(a, b[:2]) * compute_signed_area(a, b[2:]) < 0.0
-        for a, b in ((first, second), (second, first))
+        for a, b in ((first_segment, second_segment), (second_segment, first_segment))
     )
 
 
-def count_crossings(box: Array, lines: Array) -> float:
+def count_crossings(box: Array, segments: Array) -> float:
     """Return the number of segments (S, 4) that meet a box (4,), by the method of Liang and Barsky."""
-    start, span = lines[:, :2], lines[:, 2:] - lines[:, :2]
+    start, span = segments[:, :2], segments[:, 2:] - segments[:, :2]
     with np.errstate(all="ignore"):
         t_low, t_high = (box[:2] - start) / span, (box[2:] - start) / span
     t_enter, t_leave = np.minimum(t_low, t_high), np.maximum(t_low, t_high)

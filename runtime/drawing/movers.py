@@ -32,15 +32,15 @@ RADII = {"angle": DRIVEN, "coordinate": DRIVEN, "torque": LOADED, "rotational_sp
 ALONG = 0.5  # cosine above which a guide counts as parallel to a coordinate
 
 
-def draw_drives_and_forces(posture: Posture, plan: Plan) -> Iterator[Shape]:
+def draw_drives_and_forces(posture: Posture, layout: Plan) -> Iterator[Shape]:
     """Yield the shapes of drives, then of force elements."""
     for part in posture.iterate_parts("drives"):
-        yield from _DRIVES[part.kind](posture, plan, part)
+        yield from _DRIVES[part.kind](posture, layout, part)
     for part in posture.iterate_parts("forces"):
-        yield from _FORCES.get(part.kind, _draw_generic_element)(posture, plan, part)
+        yield from _FORCES.get(part.kind, _draw_generic_element)(posture, layout, part)
 
 
-def label_drives_and_forces(posture: Posture, plan: Plan, shows_zero_loads: bool) -> Iterator[Label]:
+def label_drives_and_forces(posture: Posture, layout: Plan, shows_zero_loads: bool) -> Iterator[Label]:
     """Yield the label of each drive, then of each force element.
 
     With `shows_zero_loads`, a force or torque whose load is zero has the label "NAME = 0".
@@ -51,10 +51,10 @@ def label_drives_and_forces(posture: Posture, plan: Plan, shows_zero_loads: bool
         if part.kind in ("distance", "spring_damper"):
             position, clearance = 0.5 * (posture.get_position(part.ends[0]) + posture.get_position(part.ends[1])), 1.2
         elif part.kind == "coordinate" and part.options["coordinate"] != "theta":
-            (position, direction_vector), clearance = _find_arrow_position(posture, plan, part), 0.5
+            (position, direction_vector), clearance = _find_arrow_position(posture, layout, part), 0.5
             direction = float(np.degrees(np.arctan2(direction_vector[1], direction_vector[0])))
         elif part.kind == "force":
-            arrow_vector = _compute_arrow_vector(posture, plan, part)
+            arrow_vector = _compute_arrow_vector(posture, layout, part)
             position, clearance = (
                 posture.get_position(part.ends[0]) + 0.5 * arrow_vector,
                 0.5 if arrow_vector.any() else 1.2,
@@ -71,17 +71,17 @@ def label_drives_and_forces(posture: Posture, plan: Plan, shows_zero_loads: bool
             shows_zero_loads and part.kind in ("force", "torque") and not np.any(posture.loads.get(part.name, 1.0))
         )
         text = f"{part.name} = 0" if is_zero else part.name
-        yield Label(f"{kind} {part.name}", kind, text, position, clearance * plan.unit, direction)
+        yield Label(f"{kind} {part.name}", kind, text, position, clearance * layout.unit, direction)
 
 
-def draw_arrow(part: str, role: str, tail: Array, tip: Array, head: float) -> Iterator[Shape]:
+def draw_arrow(part: str, role: str, tail: Array, tip: Array, head_length: float) -> Iterator[Shape]:
     """Yield line and head of a straight arrow from `tail` to `tip`; the line ends within the head.
 
-    `head` is the length of the head in m. The head has the role "ROLE head".
+    `head_length` is the length of the head in m. The head has the role "ROLE head".
     """
     direction = unit_vector(tip - tail)
-    yield Line(part, role, np.array([tail, tip - 0.8 * head * direction]))
-    yield Line(part, f"{role} head", compute_arrow_head(tip, direction, head), True)
+    yield Line(part, role, np.array([tail, tip - 0.8 * head_length * direction]))
+    yield Line(part, f"{role} head", compute_arrow_head(tip, direction, head_length), True)
 
 
 def draw_round_arrow(
@@ -106,7 +106,7 @@ def find_pivot(posture: Posture, part: PartInfo) -> Array:
 
     It is a joint between the body and the other one or the ground, or else the body's centre of mass.
     """
-    joint, body = _find_pivot(posture, part)
+    joint, body = _find_pivot_joint_and_body(posture, part)
     if joint is not None:
         return posture.get_position(next(end for end in joint.ends if get_body_name(end) == body))
     return posture.get_centre_of_mass(body) if body in posture.bodies else np.zeros(2)
@@ -120,13 +120,13 @@ def compute_arrow_radii(posture: Posture) -> dict[str, float]:
     radii = dict[str, float]()
     for part in (*posture.iterate_parts("drives"), *posture.iterate_parts("forces")):
         if part.kind in RADII and part.options.get("coordinate", "theta") == "theta":
-            joint, _ = _find_pivot(posture, part)
+            joint, _ = _find_pivot_joint_and_body(posture, part)
             if joint is not None:
                 radii[joint.name] = max(radii.get(joint.name, 0.0), RADII[part.kind])
     return radii
 
 
-def _find_pivot(posture: Posture, part: PartInfo) -> tuple[PartInfo | None, str]:
+def _find_pivot_joint_and_body(posture: Posture, part: PartInfo) -> tuple[PartInfo | None, str]:
     """Return the joint about which the body of a drive or force element turns, None without one, and the body's name.
 
     The body is the first one that is not the ground; the joint connects it with the element's other body or the ground.
@@ -137,32 +137,32 @@ def _find_pivot(posture: Posture, part: PartInfo) -> tuple[PartInfo | None, str]
     return find_pivot_joint(posture, turning_body, other_body), turning_body
 
 
-def _draw_angle_drive(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+def _draw_angle_drive(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shape]:
     """Yield the arrow of a driven angle around its pivot, counterclockwise if the angle grows.
 
     The rate is that of the first body relative to the second; an unknown rate counts as growing.
     """
     rate = posture.get_angular_velocity(get_body_name(part.ends[0]))
     rate -= posture.get_angular_velocity(get_body_name(part.ends[1])) if len(part.ends) > 1 else 0.0
-    centre, u = find_pivot(posture, part), plan.unit
+    centre, u = find_pivot(posture, part), layout.unit
     yield from draw_round_arrow(f"drive {part.name}", "drive", centre, DRIVEN * u, rate >= 0.0, HEAD * u)
 
 
-def _draw_coordinate_drive(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+def _draw_coordinate_drive(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shape]:
     """Yield the arrow of a driven coordinate in the direction of its rate.
 
     An angle is drawn like an angle drive. An unknown rate counts as positive.
     """
     if (axis := part.options["coordinate"]) == "theta":
-        yield from _draw_angle_drive(posture, plan, part)
+        yield from _draw_angle_drive(posture, layout, part)
         return
     index = posture.bodies[get_body_name(part.ends[0])].index + "xy".index(axis)
     direction = np.eye(2)["xy".index(axis)] * (-1.0 if posture.v is not None and posture.v[index] < 0.0 else 1.0)
-    (middle, _), half_arrow = _find_arrow_position(posture, plan, part), 0.5 * ARROW * plan.unit * direction
-    yield from draw_arrow(f"drive {part.name}", "drive", middle - half_arrow, middle + half_arrow, HEAD * plan.unit)
+    (middle, _), half_arrow = _find_arrow_position(posture, layout, part), 0.5 * ARROW * layout.unit * direction
+    yield from draw_arrow(f"drive {part.name}", "drive", middle - half_arrow, middle + half_arrow, HEAD * layout.unit)
 
 
-def _find_arrow_position(posture: Posture, plan: Plan, part: PartInfo) -> tuple[Array, Array]:
+def _find_arrow_position(posture: Posture, layout: Plan, part: PartInfo) -> tuple[Array, Array]:
     """Return the middle of a driven coordinate's arrow (2,), in m, and its offset direction, a unit vector: above or to
     the left.
 
@@ -171,22 +171,22 @@ def _find_arrow_position(posture: Posture, plan: Plan, part: PartInfo) -> tuple[
     axis = np.eye(2)["xy".index(part.options["coordinate"])]
     position, normal = posture.get_position(part.ends[0]), rotate_quarter_turn(axis)
     for joint in iterate_sliding_joints(posture):
-        if joint.name in plan.ground_directions and get_body_name(part.ends[0]) in map(get_body_name, joint.ends):
+        if joint.name in layout.ground_directions and get_body_name(part.ends[0]) in map(get_body_name, joint.ends):
             _, line_direction, slider = find_sliding_axis(posture, joint)
             if abs(float(line_direction @ axis)) > ALONG:
                 position, normal = (
                     slider,
-                    -normal if float(plan.ground_directions[joint.name] @ normal) > 0.0 else normal,
+                    -normal if float(layout.ground_directions[joint.name] @ normal) > 0.0 else normal,
                 )
-    return position + 2.0 * plan.unit * normal, normal
+    return position + 2.0 * layout.unit * normal, normal
 
 
-def _draw_cylinder(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+def _draw_cylinder(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shape]:
     """Yield the symbol of a driven distance: a hydraulic cylinder with barrel, piston, rod, and a pin at each end."""
-    name, u = f"drive {part.name}", plan.unit
+    name, u = f"drive {part.name}", layout.unit
     begin, end = (posture.get_position(point) for point in part.ends)
     axis, length = unit_vector(end - begin), float(np.hypot(*(end - begin)))
-    yield from _draw_ground_ends(posture, part, name, plan)
+    yield from _draw_ground_ends(posture, part, name, layout)
     yield Line(name, "piston", np.array([begin + 0.5 * length * axis, end]))
     yield Line(name, "barrel", compute_rectangle(begin + 0.34 * length * axis, axis, 0.27 * length, 0.85 * u), True)
     yield Line(name, "drive", np.array([begin, begin + 0.07 * length * axis]))
@@ -199,23 +199,28 @@ def _draw_cylinder(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Sha
     yield from (Disc(name, "pin", position, 0.8 * PIN * u) for position in (begin, end))
 
 
-def _draw_ground_ends(posture: Posture, part: PartInfo, name: str, plan: Plan) -> Iterator[Shape]:
-    """Yield a hatched wall at each end of a drive or force element on the ground where no joint draws the ground."""
+def _draw_ground_ends(posture: Posture, part: PartInfo, owner: str, layout: Plan) -> Iterator[Shape]:
+    """Yield a hatched wall at each end of a drive or force element on the ground where no joint draws the ground.
+
+    `owner` is the part to which the shapes belong, such as "force S1".
+    """
     joint_ends = {end for joint in posture.iterate_parts("joints") if not has_rail(joint) for end in joint.ends}
     for end in part.ends:
         if get_body_name(end) == GROUND and end not in joint_ends:
-            yield from draw_ground_wall(name, posture.get_position(end), plan.ground_directions[part.name], plan.unit)
+            yield from draw_ground_wall(
+                owner, posture.get_position(end), layout.ground_directions[part.name], layout.unit
+            )
 
 
-def _draw_spring_damper(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+def _draw_spring_damper(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shape]:
     """Yield a spring, a damper, or both in parallel, between the two points of an element.
 
     An element without stiffness and damping is drawn as a spring. Between coincident points only dots are drawn. Next
     to a ground rail, both symbols are on the side away from the ground.
     """
-    name, u = f"force {part.name}", plan.unit
+    name, u = f"force {part.name}", layout.unit
     begin, end = (posture.get_position(point) for point in part.ends)
-    yield from _draw_ground_ends(posture, part, name, plan)
+    yield from _draw_ground_ends(posture, part, name, layout)
     yield from (Disc(name, "mark", position, 0.26 * u) for position in (begin, end))
     if float(np.hypot(*(end - begin))) < 1e-6 * u:
         return
@@ -223,7 +228,7 @@ def _draw_spring_damper(posture: Posture, plan: Plan, part: PartInfo) -> Iterato
         posture.get_parameter(f"forces.{part.name}.{key}") != 0.0 for key in ("stiffness", "damping")
     )
     offset = 1.15 * u * rotate_quarter_turn(unit_vector(end - begin)) if has_spring and has_damper else np.zeros(2)
-    ground_side = _find_ground_side(posture, plan, part, begin, end)
+    ground_side = _find_ground_side(posture, layout, part, begin, end)
     if has_spring and has_damper and ground_side is not None:  # both next to the rail
         offset = -1.15 * u * ground_side
         begin, end, attachments = begin + offset, end + offset, (begin, end)
@@ -246,7 +251,7 @@ def _draw_spring_damper(posture: Posture, plan: Plan, part: PartInfo) -> Iterato
             yield Line(name, "spring", np.array([attachment, attachments[0] + fraction * (end - begin)]))
 
 
-def _find_ground_side(posture: Posture, plan: Plan, part: PartInfo, begin: Array, end: Array) -> Array | None:
+def _find_ground_side(posture: Posture, layout: Plan, part: PartInfo, begin: Array, end: Array) -> Array | None:
     """Return the direction of the ground, a unit vector, if an element lies along the rail of the joint between its
     bodies.
 
@@ -256,23 +261,29 @@ def _find_ground_side(posture: Posture, plan: Plan, part: PartInfo, begin: Array
     for joint in iterate_sliding_joints(posture):
         if (
             has_rail(joint)
-            and joint.name in plan.ground_directions
+            and joint.name in layout.ground_directions
             and bodies == {get_body_name(end) for end in joint.ends}
         ):
             line_point, axis, _ = find_sliding_axis(posture, joint)
-            if max(abs(float((point - line_point) @ rotate_quarter_turn(axis))) for point in (begin, end)) < plan.unit:
-                return plan.ground_directions[joint.name]
+            if (
+                max(abs(float((point - line_point) @ rotate_quarter_turn(axis))) for point in (begin, end))
+                < layout.unit
+            ):
+                return layout.ground_directions[joint.name]
     return None
 
 
-def _draw_damper(name: str, begin: Array, end: Array, unit: float) -> Iterator[Shape]:
-    """Yield the symbol of a damper between two points: a piston in a cylinder that is open on one side."""
+def _draw_damper(owner: str, begin: Array, end: Array, unit: float) -> Iterator[Shape]:
+    """Yield the symbol of a damper between two points: a piston in a cylinder that is open on one side.
+
+    `owner` is the part to which the shapes belong, `unit` half a bar's width in m.
+    """
     axis, middle = unit_vector(end - begin), 0.5 * (begin + end)
     half_width = 0.75 * unit * rotate_quarter_turn(axis)
     half_length = min(1.6 * unit, 0.3 * float(np.hypot(*(end - begin))))
     cylinder_bottom, cylinder_top = middle - half_length * axis, middle + half_length * axis
     yield Line(
-        name,
+        owner,
         "spring",
         np.array(
             [
@@ -283,31 +294,31 @@ def _draw_damper(name: str, begin: Array, end: Array, unit: float) -> Iterator[S
             ]
         ),
     )
-    yield Line(name, "spring", np.array([begin, cylinder_bottom]))
-    yield Line(name, "spring", np.array([middle, end]))
-    yield Line(name, "piston", np.array([middle - 0.85 * half_width, middle + 0.85 * half_width]))
+    yield Line(owner, "spring", np.array([begin, cylinder_bottom]))
+    yield Line(owner, "spring", np.array([middle, end]))
+    yield Line(owner, "piston", np.array([middle - 0.85 * half_width, middle + 0.85 * half_width]))
 
 
-def _draw_spiral_spring(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+def _draw_spiral_spring(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shape]:
     """Yield a spiral spring of 2.25 turns around the pivot of a rotational spring or damper."""
     angle, centre = np.linspace(0.0, 4.5 * np.pi, 90), find_pivot(posture, part)
-    radius = plan.unit * np.linspace(0.6, WOUND, len(angle))
+    radius = layout.unit * np.linspace(0.6, WOUND, len(angle))
     yield Line(
         f"force {part.name}", "spring", centre + np.column_stack([np.cos(angle), np.sin(angle)]) * radius[:, None]
     )
 
 
-def _draw_torque(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+def _draw_torque(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shape]:
     """Yield the round arrow of a torque around its pivot; clockwise only if the torque is negative."""
     is_counterclockwise = posture.loads.get(part.name, (1.0, 0.0))[0] >= 0.0
-    centre, unit = find_pivot(posture, part), plan.unit
+    centre, unit = find_pivot(posture, part), layout.unit
     yield from draw_round_arrow(f"force {part.name}", "force", centre, LOADED * unit, is_counterclockwise, HEAD * unit)
 
 
-def _draw_force(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+def _draw_force(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shape]:
     """Yield the arrow of a force that begins at its point; a ring if the force is zero or unknown."""
-    name, unit, point = f"force {part.name}", plan.unit, posture.get_position(part.ends[0])
-    arrow_vector = _compute_arrow_vector(posture, plan, part)
+    name, unit, point = f"force {part.name}", layout.unit, posture.get_position(part.ends[0])
+    arrow_vector = _compute_arrow_vector(posture, layout, part)
     if not arrow_vector.any():
         yield Disc(name, "no force", point, 0.9 * unit)
         return
@@ -316,21 +327,21 @@ def _draw_force(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]
     )
 
 
-def _compute_arrow_vector(posture: Posture, plan: Plan, part: PartInfo) -> Array:
+def _compute_arrow_vector(posture: Posture, layout: Plan, part: PartInfo) -> Array:
     """Return the drawn vector of a force from tail to tip, (2,), in m of the drawing; 0 if the force is zero or
     unknown.
 
-    Its length is proportional to the force if the plan has a scale, otherwise the same for all forces.
+    Its length is proportional to the force if the layout has a scale, otherwise the same for all forces.
     """
     load = np.array(posture.loads.get(part.name, (0.0, 0.0)))
     if not (np.isfinite(load).all() and load.any()):
         return np.zeros(2)
-    return load * plan.newton if plan.newton > 0.0 else ARROW * plan.unit * unit_vector(load)
+    return load * layout.newton if layout.newton > 0.0 else ARROW * layout.unit * unit_vector(load)
 
 
-def _draw_dry_friction(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+def _draw_dry_friction(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shape]:
     """Yield a rough line under the second body's point, and for a moving surface the arrow of its speed."""
-    name, u = f"force {part.name}", plan.unit
+    name, u = f"force {part.name}", layout.unit
     line_direction = posture.compute_direction(part, "direction", get_body_name(part.ends[0]))
     down = (
         -rotate_quarter_turn(line_direction)
@@ -351,11 +362,11 @@ def _draw_dry_friction(posture: Posture, plan: Plan, part: PartInfo) -> Iterator
         )
 
 
-def _draw_generic_element(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+def _draw_generic_element(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shape]:
     """Yield a line with a dot at each end, for a force element of a kind without a symbol."""
     positions = [posture.get_position(end) for end in part.ends]
     yield Line(f"force {part.name}", "spring", np.array(positions))
-    yield from (Disc(f"force {part.name}", "mark", position, 0.3 * plan.unit) for position in positions)
+    yield from (Disc(f"force {part.name}", "mark", position, 0.3 * layout.unit) for position in positions)
 
 
 _DRIVES = {"angle": _draw_angle_drive, "coordinate": _draw_coordinate_drive, "distance": _draw_cylinder}

@@ -48,7 +48,7 @@ def write_animation_page(
     frames = [_make_frame(sketch, identifiers, to_pixels, scale, styles) for sketch in sketches]
     labels = [label for label in first.labels if label.part in label_offsets]
     label_parts = [label.part for label in labels]
-    offsets_by_picture = _track_names(sketches, label_offsets, half_sizes, scale)
+    offsets_by_picture = _iterate_name_offsets(sketches, label_offsets, half_sizes, scale)
     label_positions = [
         _compute_label_positions(sketch, label_parts, to_pixels, offsets)
         for sketch, offsets in zip(sketches, offsets_by_picture, strict=True)
@@ -137,7 +137,7 @@ def _format_style(role: str, tint: int) -> str:
     return f"stroke:{edge};fill:{face};stroke-width:{width:.2f}{dashes}"
 
 
-def _track_names(
+def _iterate_name_offsets(
     sketches: Sequence[Sketch],
     label_offsets: Mapping[str, tuple[float, float]],
     half_sizes: Mapping[str, Array],
@@ -174,13 +174,13 @@ def _compute_label_positions(
     return positions
 
 
-def _format_name_element(text: str, role: str, part: str, sketch: Sketch) -> str:
+def _format_name_element(label_text: str, role: str, part: str, sketch: Sketch) -> str:
     """Return the SVG text element of a name, without position, in the style of its role."""
     colour, weight = NAMES[role]
     tint = next((shape.tint for shape in sketch.shapes if shape.part == part), 0)
     colour = EDGES[tint % len(EDGES)] if colour == "edge" else colour
     style = "italic" if role == "joint" else "normal"
-    return f'<text fill="{colour}" font-weight="{weight}" font-style="{style}">{escape(text)}</text>'
+    return f'<text fill="{colour}" font-weight="{weight}" font-style="{style}">{escape(label_text)}</text>'
 
 
 def _encode_changes(frames: Sequence[Sequence[Any]]) -> list[list[Any]]:

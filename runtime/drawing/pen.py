@@ -31,7 +31,7 @@ STAND = 2.3  # how far below its pin the ground is
 class Pen(JointAt):
     """Drawing functions for one joint: each method adds to `shapes`. Roles are those of roles.py."""
 
-    plan: Plan
+    layout: Plan
     shapes: list[Shape] = field(default_factory=list)
 
     ROLLER: ClassVar[float] = 0.95  # radius in units
@@ -45,12 +45,12 @@ class Pen(JointAt):
     @property
     def unit(self) -> float:
         """Half a bar's width, m."""
-        return self.plan.unit
+        return self.layout.unit
 
     @property
     def on_ground(self) -> bool:
         """Whether one of the bodies is the ground."""
-        return self.part.name in self.plan.ground_directions
+        return self.part.name in self.layout.ground_directions
 
     def axis_of_body(self, k: int) -> Array:
         """Return the x axis of the first (0) or second (1) body, a unit vector."""
@@ -80,14 +80,14 @@ class Pen(JointAt):
         """
         for end in self.part.ends if self.on_ground else ():
             if get_body_name(end) == GROUND:
-                position, direction = self.posture.get_position(end), self.plan.ground_directions[self.part.name]
+                position, direction = self.posture.get_position(end), self.layout.ground_directions[self.part.name]
                 self.shapes.extend(_draw_stand(self.name, position, direction, self.unit))
 
     def wall(self, position: Array) -> None:
         """Add the ground at a fixed point; nothing if neither body is the ground."""
         if self.on_ground:
             self.shapes.extend(
-                draw_ground_wall(self.name, position, self.plan.ground_directions[self.part.name], self.unit, 2.0)
+                draw_ground_wall(self.name, position, self.layout.ground_directions[self.part.name], self.unit, 2.0)
             )
 
     def bearing(self) -> None:
@@ -104,20 +104,23 @@ class Pen(JointAt):
         if has_play:
             self.disc("worn", self.first, WORN * self.unit)
 
-    def rail(self, below: float, side: float = 1.0) -> None:
+    def rail(self, distance: float, side_sign: float = 1.0) -> None:
         """Add the hatched ground under a slider over its whole travel.
 
-        `below` is its distance from the slider's line in m. With `side` −1 the ground is on the other side of the
-        line.
+        `distance` is that of the ground from the slider's line in m. With `side_sign` −1 the ground is on the other
+        side of the line.
         """
         line_point, axis, name = self.on_line, self.along, self.part.name
         if name in self.posture.guides:
             axis = compute_guide_directions(self.posture, self.part)[0]
-        min_travel, max_travel = self.plan.travel[name]
-        overhang, ground_direction = (2.0 * BLOCK[0] + 0.4) * self.unit * axis, side * self.plan.ground_directions[name]
+        min_travel, max_travel = self.layout.travel[name]
+        overhang, ground_direction = (
+            (2.0 * BLOCK[0] + 0.4) * self.unit * axis,
+            side_sign * self.layout.ground_directions[name],
+        )
         begin, end = (
-            line_point + min_travel * axis - overhang + below * ground_direction,
-            line_point + max_travel * axis + overhang + below * ground_direction,
+            line_point + min_travel * axis - overhang + distance * ground_direction,
+            line_point + max_travel * axis + overhang + distance * ground_direction,
         )
         self.line("rail", [begin, end])
         for stroke in compute_hatching(begin, end, ground_direction, 0.95 * self.unit):
@@ -129,7 +132,7 @@ class Pen(JointAt):
         Rails are on one side without play, on both sides with play. The axis line lies under the block.
         """
         if not self.on_ground:
-            self.line("axis", compute_guide_ends(self.posture, self.plan, self.part))
+            self.line("axis", compute_guide_ends(self.posture, self.layout, self.part))
             return
         wall_gap = compute_wall_gap(self.posture, self.part, self.unit)
         for sign in (1.0, -1.0) if wall_gap else (1.0,):
@@ -139,7 +142,7 @@ class Pen(JointAt):
         """Add the slot in the guiding body, as long as the travel."""
         self.line(
             "slot",
-            list(compute_rounded_outline(compute_guide_ends(self.posture, self.plan, self.part), SLOT * self.unit)),
+            list(compute_rounded_outline(compute_guide_ends(self.posture, self.layout, self.part), SLOT * self.unit)),
             True,
         )
 

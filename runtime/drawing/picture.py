@@ -21,11 +21,12 @@ from matplotlib.axes import Axes  # isort: skip
 from matplotlib.figure import Figure  # isort: skip
 from matplotlib.patches import Circle, Patch, Polygon  # isort: skip
 
-LARGEST, SMALLEST = 8.0, 3.2  # inches, of the longer and the shorter side
-LEAST_UNIT, MOST = 0.042, 24.0  # inches: of half a bar's width at least, for which the longer side may grow so far
+MAX_SIDE_IN, MIN_SIDE_IN = 8.0, 3.2  # inches, of the longer and the shorter side
+# inches: of half a bar's width at least, for which the longer side may grow so far
+MIN_UNIT_IN, MAX_GROWN_SIDE_IN = 0.042, 24.0
 APART = 0.3  # inches between pictures side by side
 PER_INCH = 12.0  # characters of a caption
-FEW = 28  # names that fit in the larger type
+MAX_LARGE_NAMES = 28  # names that fit in the larger type
 STYLE = {"font.size": 9, "text.usetex": False, "svg.hashsalt": "gudgeon", "path.sketch": None}
 _LACKS = re.compile(r"Glyph (\d+) .*missing from font")
 
@@ -47,7 +48,7 @@ def draw_sketch(ax: Axes, sketch: Sketch, is_background: bool = False) -> None:
         patch.set_gid(identifier if shape_counts[shape.part] == 1 else f"{identifier}-{shape_counts[shape.part]}")
         ax.add_artist(patch)  # limits are set below: add_patch would look for them shape by shape
     if sketch.labels:
-        names = NameLabels(sketch, 8.0 if len(sketch.labels) <= FEW else 7.0)
+        names = NameLabels(sketch, 8.0 if len(sketch.labels) <= MAX_LARGE_NAMES else 7.0)
         ax.add_artist(names)
         names.set_clip_on(False)
     ax.set(xlim=(sketch.low[0], sketch.high[0]), ylim=(sketch.low[1], sketch.high[1]), aspect="equal")
@@ -69,14 +70,15 @@ def _make_patch(shape: Shape, role: Role, is_grey: bool) -> Patch:
     return Polygon(shape.points, closed=shape.closed, **style)
 
 
-def compute_figure_size(sketch: Sketch, max_length: float = LARGEST) -> tuple[float, float]:
+def compute_figure_size(sketch: Sketch, max_length: float = MAX_SIDE_IN) -> tuple[float, float]:
     """Return width and height in inches that suit a sketch.
 
-    The longer side is `max_length`, but grows up to MOST so that half a bar's width is at least LEAST_UNIT.
+    The longer side is `max_length`, but grows up to MAX_GROWN_SIDE_IN so that half a bar's width is at least
+    MIN_UNIT_IN.
     """
     width, height = (float(x) for x in sketch.high - sketch.low)
-    scale = max(max_length, min(MOST, LEAST_UNIT * max(width, height) / sketch.unit)) / max(width, height)
-    return max(SMALLEST, width * scale), max(0.75 * SMALLEST, height * scale)
+    scale = max(max_length, min(MAX_GROWN_SIDE_IN, MIN_UNIT_IN * max(width, height) / sketch.unit)) / max(width, height)
+    return max(MIN_SIDE_IN, width * scale), max(0.75 * MIN_SIDE_IN, height * scale)
 
 
 def build_figure(sketches: Sequence[Sketch], titles: Sequence[str], caption: str) -> Figure:
@@ -86,7 +88,7 @@ def build_figure(sketches: Sequence[Sketch], titles: Sequence[str], caption: str
     """
     n_columns = min(len(sketches), 3 if len(sketches) != 4 else 2)
     n_rows = -(-len(sketches) // n_columns)
-    picture_sizes = [compute_figure_size(sketch, LARGEST if n_columns == 1 else 5.0) for sketch in sketches]
+    picture_sizes = [compute_figure_size(sketch, MAX_SIDE_IN if n_columns == 1 else 5.0) for sketch in sketches]
     width, height = max(w for w, _ in picture_sizes), max(h for _, h in picture_sizes)
     n_lines = len(textwrap.wrap(caption, int(PER_INCH * n_columns * width)))
     title_height, notes_height = 0.25 + 0.17 * n_lines, 0.17 * max(len(sketch.notes) for sketch in sketches) + 0.05

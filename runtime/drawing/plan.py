@@ -24,19 +24,18 @@ ASIDE = (
     0.03,
     0.1,
 )  # fraction of the size from which the ground's points, or all points, count as on one side of a guide
-WIDE = 3.0  # units: a clearance that needs no magnification
+MAX_MAGNIFIED = 3.0  # units: a clearance that needs no magnification
 # half a bar's width as a fraction of the whole, its minimum, and its maximum as a fraction of the shortest link
-SHARE, LEAST, OF_LINK = 0.017, 0.005, 0.16
+UNIT_FRACTION, MIN_UNIT_FRACTION, MAX_LINK_FRACTION = 0.017, 0.005, 0.16
 
 
 @dataclass(frozen=True, eq=False)
 class Plan:
     """Layout of the drawings of a scene.
 
-    `unit`: half a bar's width (m). `ground_directions`: for a joint, cylinder or spring on the ground the direction
-    of the ground
-    from it, (2,). `travel`: for a sliding joint the smallest and largest position along its axis (m), over all
-    postures. `newton`: drawn length of an applied force of 1 N (m); 0: all have one length.
+    `unit`: half a bar's width (m). `ground_directions`: for a joint, cylinder or spring on the ground the direction of
+    the ground from it, (2,). `travel`: for a sliding joint the smallest and largest position along its axis (m), over
+    all postures. `newton`: drawn length of an applied force of 1 N (m); 0: all have one length.
     """
 
     unit: float
@@ -45,13 +44,13 @@ class Plan:
     newton: float = 0.0
 
 
-def make_plan(postures: Sequence[Posture], start: Posture | None = None) -> Plan:
+def make_plan(postures: Sequence[Posture], start_posture: Posture | None = None) -> Plan:
     """Return the layout for the drawings of one posture, or of several postures of a motion.
 
-    The side of the ground at a guide depends on the ground's points and on `start`, by default the first posture. All
-    drawings of a mechanism therefore agree.
+    The side of the ground at a guide depends on the ground's points and on `start_posture`, by default the first
+    posture. All drawings of a mechanism therefore agree.
     """
-    first_posture, start = postures[0], start or postures[0]
+    first_posture, start_posture = postures[0], start_posture or postures[0]
     positions = np.array([position for posture in postures for position in _collect_drawn_points(posture)])
     ground_directions, travel = dict[str, Array](), dict[str, tuple[float, float]]()
     for part in iterate_sliding_joints(first_posture):
@@ -60,7 +59,7 @@ def make_plan(postures: Sequence[Posture], start: Posture | None = None) -> Plan
     for part in first_posture.iterate_parts("joints"):
         if any(get_body_name(end) == GROUND for end in part.ends):
             ground_directions[part.name] = (
-                _find_rail_side(start, part) if has_rail(part) else _find_pin_ground_direction(postures, part)
+                _find_rail_side(start_posture, part) if has_rail(part) else _find_pin_ground_direction(postures, part)
             )
     for part in (
         *first_posture.iterate_parts("drives", "distance"),
@@ -102,18 +101,18 @@ def _compute_symbol_unit(posture: Posture, positions: Array) -> float:
         lengths = (
             abs(posture.get_parameter(parameter.address)) for parameter in posture.source.slots if parameter.unit == "m"
         )
-        return SHARE * (max(lengths, default=0.0) or 1.0)
+        return UNIT_FRACTION * (max(lengths, default=0.0) or 1.0)
     spans = []
     for body in posture.bodies:
         outline_points = remove_repeated_positions(find_outline_points(posture, body).values())
         spans += [float(np.hypot(*(a - b))) for k, a in enumerate(outline_points) for b in outline_points[:k]]
     shortest = min((span for span in spans if span > 1e-3 * drawing_size), default=drawing_size)
-    return max(LEAST * drawing_size, min(SHARE * drawing_size, OF_LINK * shortest))
+    return max(MIN_UNIT_FRACTION * drawing_size, min(UNIT_FRACTION * drawing_size, MAX_LINK_FRACTION * shortest))
 
 
 def is_visible_to_scale(posture: Posture, joint: str, unit: float) -> bool:
     """Return whether a joint's play is visible without magnification."""
-    return posture.get_clearance(joint) > WIDE * unit
+    return posture.get_clearance(joint) > MAX_MAGNIFIED * unit
 
 
 def _compute_slider_position(posture: Posture, part: PartInfo) -> float:
@@ -122,18 +121,18 @@ def _compute_slider_position(posture: Posture, part: PartInfo) -> float:
     return float((slider - line_point) @ axis)
 
 
-def _find_rail_side(start: Posture, part: PartInfo) -> Array:
+def _find_rail_side(start_posture: Posture, part: PartInfo) -> Array:
     """Return the direction of the ground at a guide, a unit vector across its axis.
 
-    The ground is away from its other points, or else away from the mechanism at `start`. If neither differs enough, it
-    is below or to the right.
+    The ground is away from its other points, or else away from the mechanism at `start_posture`. If neither differs
+    enough, it is below or to the right.
     """
-    line_point, axis, slider = find_sliding_axis(start, part)
+    line_point, axis, slider = find_sliding_axis(start_posture, part)
     normal = rotate_quarter_turn(axis)
-    ground = [start.get_position(name) for name in start.points if get_body_name(name) == GROUND]
+    ground = [start_posture.get_position(name) for name in start_posture.points if get_body_name(name) == GROUND]
     for positions, reference, min_offset in (
         (ground, line_point, ASIDE[0]),
-        (_collect_drawn_points(start), slider, ASIDE[1]),
+        (_collect_drawn_points(start_posture), slider, ASIDE[1]),
     ):
         offset = float((np.array(positions) - reference).mean(axis=0) @ normal)
         if abs(offset) > min_offset * float(np.ptp(positions, axis=0).max()):

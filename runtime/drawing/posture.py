@@ -72,7 +72,7 @@ class Posture:
         return {body: tuple(names) for body, names in names_by_body.items()}
 
     @cached_property
-    def _slots(self) -> Mapping[str, int]:
+    def _parameter_indices(self) -> Mapping[str, int]:
         """Index of each parameter by address."""
         return {parameter.address: k for k, parameter in enumerate(self.source.slots)}
 
@@ -118,7 +118,7 @@ class Posture:
         return (part for part in self.source.parts if part.name == name)
 
     @cached_property
-    def _places(self) -> dict[str, Array]:
+    def _positions(self) -> dict[str, Array]:
         """Cache of positions by point."""
         return {}
 
@@ -127,12 +127,12 @@ class Posture:
 
         `point` is a name such as "L1.head". The position is cached in this posture.
         """
-        if point not in self._places:
+        if point not in self._positions:
             info = self.points.get(point)
-            self._places[point] = (
+            self._positions[point] = (
                 compute_point_position(self.source, self.p, self.q, info) if info is not None else np.zeros(2)
             )
-        return self._places[point]
+        return self._positions[point]
 
     def get_centre_of_mass(self, body: str) -> Array:
         """Return the position of a body's centre of mass, (2,), m."""
@@ -151,11 +151,11 @@ class Posture:
 
     def get_parameter(self, address: str) -> float:
         """Return a parameter of the file, SI; 0 if it is absent or a plain 0."""
-        return float(self.p[self._slots[address]]) if address in self._slots else 0.0
+        return float(self.p[self._parameter_indices[address]]) if address in self._parameter_indices else 0.0
 
     def is_specified(self, address: str) -> bool:
         """Return whether the file specifies a value at an address."""
-        return address in self._slots or any(entry.address == address for entry in self.source.written)
+        return address in self._parameter_indices or any(entry.address == address for entry in self.source.written)
 
     def compute_direction(self, part: PartInfo, key: str, body: str) -> Array:
         """Return a vector of a joint or force element as a unit vector in ground axes, (2,).

@@ -26,18 +26,19 @@ from gudgeon.drawing.shapes import Disc, Shape, Sketch
 from gudgeon.drawing.sketch import compute_common_box, make_sketch
 from gudgeon.model.compiled import Array
 
-EXACT = 1e-9  # tolerance of a carried point as a fraction of the drawing's size
+EXACT = 1e-9  # tolerance of a moved point as a fraction of the drawing's size
 TRIED = ((0.25, 0.03, 14), (0.02, 0.003, 8))  # additional postures: changes of q and p, and their number
 SEED = 20261123
-FEW = 5  # postures that show the same shape, at least
+MIN_POSTURES = 5  # postures that show the same shape, at least
 
 
 @dataclass(frozen=True)
-class Carrier:
+class MovingFrame:
     """A moving frame of points: P ("": the origin), an angle φ and a length s.
 
     φ: () for 0, ("body", k) for q[k], ("pair", Q) for the direction from P to Q, ("axis", k, k, j) for parameters and
-    q[j] (−1: none), ("load", name). s: −1: none, −2: the distance of P and Q, else an index in p.
+    q[j] (−1: none), ("load", name). s: −1: none, −2: the distance of P and Q, else an index in p. In drawing.js
+    it is a carrier.
     """
 
     point: str = ""
@@ -45,7 +46,7 @@ class Carrier:
     length_index: int = -1
 
     def compute_frame(self, posture: Posture) -> tuple[Array, Array, float]:
-        """Return origin r_P (2,) in m, rotation matrix A (2, 2) and length s of the carrier at a posture.
+        """Return origin r_P (2,) in m, rotation matrix A (2, 2) and length s of the moving frame at a posture.
 
         The matrix is the identity if the direction that defines φ is a zero vector.
         """
@@ -73,21 +74,21 @@ class Carrier:
 
 
 @dataclass(frozen=True, eq=False)
-class CarriedShape:
-    """A shape with the carrier of each point and its c₀, c₁, (N, 4); for a disc also its radius r₀ + r₁ p[k]."""
+class MovingShape:
+    """A shape with the moving frame of each point and its c₀, c₁, (N, 4); for a disc also its radius r₀ + r₁ p[k]."""
 
     shape: Shape
-    carriers: tuple[Carrier, ...]
+    moving_frames: tuple[MovingFrame, ...]
     offsets: Array
     radius: tuple[float, float, int] = (0.0, 0.0, -1)
     max_error: float = 0.0  # m: how far it is off at the worst posture that was tried
 
     def move_to(self, posture: Posture) -> Shape:
         """Return the shape moved to a posture: points of a line, or centre and radius of a disc."""
-        positions = np.empty((len(self.carriers), 2))
-        for carrier in dict.fromkeys(self.carriers):
-            origin, rotation, s = carrier.compute_frame(posture)
-            point_indices = [k for k, other in enumerate(self.carriers) if other == carrier]
+        positions = np.empty((len(self.moving_frames), 2))
+        for moving_frame in dict.fromkeys(self.moving_frames):
+            origin, rotation, s = moving_frame.compute_frame(posture)
+            point_indices = [k for k, other in enumerate(self.moving_frames) if other == moving_frame]
             positions[point_indices] = (
                 origin + (self.offsets[point_indices, :2] + s * self.offsets[point_indices, 2:]) @ rotation.T
             )
@@ -101,10 +102,10 @@ class CarriedShape:
 class Rig:
     """All shapes in the order of painting, names, and the box and unit of the drawing (m)."""
 
-    shapes: tuple[CarriedShape, ...]
+    shapes: tuple[MovingShape, ...]
     sketch: Sketch  # of the first posture: its labels, its box
 
-    labels: tuple[Carrier, ...]
+    labels: tuple[MovingFrame, ...]
     label_offsets: Array  # of labels, (L, 4)
 
     @property
@@ -116,13 +117,15 @@ class Rig:
         """Return the data for drawing.js as a dictionary that JSON can hold.
 
         Lengths are integers in units of `resolution` times the size of the drawing. Successive points of a shape with
-        one carrier are joined to one list.
+        one moving frame are joined to one list.
         """
         step = resolution * self.size
-        order = {
-            carrier: k
-            for k, carrier in enumerate(
-                dict.fromkeys([*(carrier for shape in self.shapes for carrier in shape.carriers), *self.labels])
+        frame_indices = {
+            moving_frame: k
+            for k, moving_frame in enumerate(
+                dict.fromkeys(
+                    [*(moving_frame for shape in self.shapes for moving_frame in shape.moving_frames), *self.labels]
+                )
             )
         }
         return {
@@ -130,27 +133,31 @@ class Rig:
             "low": self.sketch.low.tolist(),
             "high": self.sketch.high.tolist(),
             "unit": self.sketch.unit,
-            "carriers": [[carrier.point, list(carrier.turn), carrier.length_index] for carrier in order],
-            "shapes": [_encode_shape(shape, order, step) for shape in self.shapes],
+            "carriers": [
+                [moving_frame.point, list(moving_frame.turn), moving_frame.length_index]
+                for moving_frame in frame_indices
+            ],
+            "shapes": [_encode_shape(shape, frame_indices, step) for shape in self.shapes],
             "labels": [
-                [order[carrier], *_round_to_integers(offset, step)]
-                for carrier, offset in zip(self.labels, self.label_offsets, strict=True)
+                [frame_indices[moving_frame], *_round_to_integers(offset, step)]
+                for moving_frame, offset in zip(self.labels, self.label_offsets, strict=True)
             ],
         }
 
 
-def _encode_shape(carried: CarriedShape, carrier_indices: dict[Carrier, int], step: float) -> list[Any]:
-    """Return a shape for JSON: [part, role, tint, closed or radius, carrier, [integers], carrier, [integers], …].
+def _encode_shape(moving_shape: MovingShape, frame_indices: dict[MovingFrame, int], step: float) -> list[Any]:
+    """Return a shape for JSON: [part, role, tint, closed or radius, frame index, [integers], frame index, …].
 
-    A line has 0 or 1 for closed, a disc [r₀, r₁, k]. Integers are offsets in units of `step` (m).
+    `frame_indices` are the indices of the moving frames in the JSON. A line has 0 or 1 for closed, a disc [r₀, r₁, k].
+    Integers are offsets in units of `step` (m).
     """
-    shape, encoded_points, previous_carrier = carried.shape, list[Any](), None
-    for carrier, offset in zip(carried.carriers, carried.offsets, strict=True):
-        if carrier != previous_carrier:
-            encoded_points += [carrier_indices[carrier], []]
-        encoded_points[-1] += _round_to_integers(offset if carrier.length_index != -1 else offset[:2], step)
-        previous_carrier = carrier
-    r0, r1, k = carried.radius
+    shape, encoded_points, previous_frame = moving_shape.shape, list[Any](), None
+    for moving_frame, offset in zip(moving_shape.moving_frames, moving_shape.offsets, strict=True):
+        if moving_frame != previous_frame:
+            encoded_points += [frame_indices[moving_frame], []]
+        encoded_points[-1] += _round_to_integers(offset if moving_frame.length_index != -1 else offset[:2], step)
+        previous_frame = moving_frame
+    r0, r1, k = moving_shape.radius
     closed: Any = [round(r0 / step), r1, k] if isinstance(shape, Disc) else int(shape.closed)
     return [shape.part, shape.role, shape.tint, closed, *encoded_points]
 
@@ -160,61 +167,61 @@ def _round_to_integers(lengths: Array, step: float) -> list[int]:
     return [round(float(x) / step) for x in lengths]
 
 
-def make_rig(postures: Sequence[Posture], plan: Plan | None = None) -> Rig:
-    """Return the rig for the postures of a motion: the drawing of the first one, with a carrier for each point.
+def make_rig(postures: Sequence[Posture], layout: Plan | None = None) -> Rig:
+    """Return the rig for the postures of a motion: the drawing of the first one, with a moving frame for each point.
 
-    Insets are left out, and drives' arrows keep their direction of the first posture. A point that no carrier
-    reproduces to EXACT gets the nearest carrier; the error is stored as `off`.
+    Insets are left out, and drives' arrows keep their direction of the first posture. A point that no moving frame
+    reproduces to EXACT gets the nearest moving frame; the error is stored as `max_error`.
     """
-    plan = plan or make_plan(postures)
+    layout = layout or make_plan(postures)
     postures = [replace(posture, v=postures[0].v) for posture in postures]
-    box = compute_common_box(postures, [plan])
-    sketches = [make_sketch(postures[0], plan, box=box, shows_insets=False, shows_zero_loads=False)]
+    box = compute_common_box(postures, [layout])
+    sketches = [make_sketch(postures[0], layout, box=box, shows_insets=False, shows_zero_loads=False)]
     motion_postures = list(postures[:: max(1, len(postures) // 6)][:8])
     trial_postures = [*motion_postures, *_vary_postures(motion_postures, float((box[1] - box[0]).max()))]
     sketches += [
-        make_sketch(posture, plan, box=box, shows_insets=False, shows_zero_loads=False)
+        make_sketch(posture, layout, box=box, shows_insets=False, shows_zero_loads=False)
         for posture in trial_postures[1:]
     ]
     shapes_by_key = [{key: shape for key, shape in _number_shapes(sketch)} for sketch in sketches]
-    size, carried_by_key = float((box[1] - box[0]).max()), dict[tuple[str, int], CarriedShape]()
+    size, moving_shapes_by_key = float((box[1] - box[0]).max()), dict[tuple[str, int], MovingShape]()
     parts = dict.fromkeys(shape.part for shape in sketches[0].shapes)
     for part in parts:
         part_shapes = [(key, shape) for key, shape in _number_shapes(sketches[0]) if shape.part == part]
-        search = _CarrierSearch(
-            trial_postures, list(_iterate_candidates(trial_postures[0], part)), EXACT * size, len(motion_postures)
+        search = _FrameSearch(
+            trial_postures, list(_iterate_candidate_frames(trial_postures[0], part)), EXACT * size, len(motion_postures)
         )
         for key, shape in part_shapes:
-            carried_by_key[key] = search.carry(
+            moving_shapes_by_key[key] = search.attach_shape(
                 shape, [shapes_of_posture.get(key) for shapes_of_posture in shapes_by_key]
             )
     shapes = sorted(
-        (carried_by_key[key] for key, _ in _number_shapes(sketches[0])),
-        key=lambda carried: ROLES[carried.shape.role].order,
+        (moving_shapes_by_key[key] for key, _ in _number_shapes(sketches[0])),
+        key=lambda moving_shape: ROLES[moving_shape.shape.role].order,
     )
-    label_carriers = [
-        _find_label_carrier(trial_postures, sketches, k, EXACT * size, len(motion_postures))
+    label_frames = [
+        _find_label_frame(trial_postures, sketches, k, EXACT * size, len(motion_postures))
         for k in range(len(sketches[0].labels))
     ]
     labels, offsets = (
-        tuple(carrier for carrier, _ in label_carriers),
-        np.array([offset for _, offset in label_carriers]),
+        tuple(moving_frame for moving_frame, _ in label_frames),
+        np.array([offset for _, offset in label_frames]),
     )
     return Rig(tuple(shapes), sketches[0], labels, offsets.reshape(-1, 4))
 
 
-def _find_label_carrier(
+def _find_label_frame(
     postures: Sequence[Posture], sketches: Sequence[Sketch], k: int, tolerance: float, n_motion: int
-) -> tuple[Carrier, Array]:
-    """Return carrier and offsets (4,) of the k-th name, which moves with its part.
+) -> tuple[MovingFrame, Array]:
+    """Return moving frame and offsets (4,) of the k-th name, which moves with its part.
 
     `sketches` are the drawings of `postures`, of which the first `n_motion` belong to the motion. `tolerance` is in m.
     """
     label = sketches[0].labels[k]
-    search = _CarrierSearch(postures, list(_iterate_candidates(postures[0], label.part)), tolerance, n_motion)
+    search = _FrameSearch(postures, list(_iterate_candidate_frames(postures[0], label.part)), tolerance, n_motion)
     label_positions = [Disc(label.part, "mark", sketch.labels[k].place, 1.0) for sketch in sketches]
-    carried = search.carry(label_positions[0], list(label_positions))
-    return carried.carriers[0], carried.offsets[0]
+    moving_shape = search.attach_shape(label_positions[0], list(label_positions))
+    return moving_shape.moving_frames[0], moving_shape.offsets[0]
 
 
 def _number_shapes(sketch: Sketch) -> Iterator[tuple[tuple[str, int], Shape]]:
@@ -226,7 +233,7 @@ def _number_shapes(sketch: Sketch) -> Iterator[tuple[tuple[str, int], Shape]]:
 
 
 def _vary_postures(postures: Sequence[Posture], size: float) -> Iterator[Posture]:
-    """Yield additional postures with separated bodies, other lengths and other loads, by which carriers are
+    """Yield additional postures with separated bodies, other lengths and other loads, by which moving frames are
     distinguished.
 
     Positions, parameters in m and loads change at random with a fixed seed, so that the postures are always the same.
@@ -257,11 +264,11 @@ def _vary_postures(postures: Sequence[Posture], size: float) -> Iterator[Posture
             yield Posture(source, p, q, posture.t, posture.v, loads)
 
 
-def _iterate_candidates(posture: Posture, part: str) -> Iterator[Carrier]:
-    """Yield the possible carriers of a part's shapes, the simplest first.
+def _iterate_candidate_frames(posture: Posture, part: str) -> Iterator[MovingFrame]:
+    """Yield the possible moving frames of a part's shapes, the simplest first.
 
     `part` is a kind and a name, such as "body L1". The order is: fixed points, points with a rotation, pairs of points
-    with their distance, then carriers with a length of the file.
+    with their distance, then moving frames with a length of the file.
     """
     source, kind = posture.source, part.partition(" ")[0]
     name = part.partition(" ")[2]
@@ -292,9 +299,9 @@ def _iterate_candidates(posture: Posture, part: str) -> Iterator[Carrier]:
         if kind == "gravity"
         else []
     )
-    yield from (Carrier("", turn) for turn in turns)
-    yield from (Carrier(point, turn) for turn in turns for point in points)
-    yield from (Carrier(item, ("pair", second), -2) for item, second in permutations(points, 2))
+    yield from (MovingFrame("", turn) for turn in turns)
+    yield from (MovingFrame(point, turn) for turn in turns for point in points)
+    yield from (MovingFrame(item, ("pair", second), -2) for item, second in permutations(points, 2))
     length_indices = [
         k
         for address, k in parameter_indices.items()
@@ -307,12 +314,12 @@ def _iterate_candidates(posture: Posture, part: str) -> Iterator[Carrier]:
         if item.is_corner and item.joint in (item_part.name for item_part in parts)
     ]
     for k in dict.fromkeys(length_indices):
-        yield from (Carrier(point, turn, k) for turn in turns for point in points)
-        yield from (Carrier(item, ("pair", second), k) for item, second in permutations(points, 2))
+        yield from (MovingFrame(point, turn, k) for turn in turns for point in points)
+        yield from (MovingFrame(item, ("pair", second), k) for item, second in permutations(points, 2))
 
 
 def _list_axis_directions(posture: Posture, parts: Sequence[Any]) -> list[tuple[Any, ...]]:
-    """Return the angles of carriers for the directions of parts' axes: ("axis", index of x, index of y, index in q).
+    """Return the angles φ of moving frames along parts' axes: ("axis", index of x, index of y, index in q).
 
     There is one in the frame of each of the two bodies of a part. Directions whose components are all absent from the
     parameters are left out.
@@ -333,62 +340,69 @@ def _list_axis_directions(posture: Posture, parts: Sequence[Any]) -> list[tuple[
     return turns
 
 
-class _CarrierSearch:
-    """Possible carriers of a part with their frames at all postures; the first `real` postures have the file's
+class _FrameSearch:
+    """Possible moving frames of a part, evaluated at all postures; the first `n_motion` postures have the file's
     parameters.
     """
 
     def __init__(
-        self, postures: Sequence[Posture], carriers: Sequence[Carrier], tolerance: float, n_motion: int
+        self, postures: Sequence[Posture], moving_frames: Sequence[MovingFrame], tolerance: float, n_motion: int
     ) -> None:
-        """Evaluate the frames of the carriers at all postures; the first `n_motion` belong to the motion, `tolerance`
-        is in m.
-        """
-        self.postures, self.carriers, self.exact, self.real = postures, carriers, tolerance, n_motion
-        self.frames = [[carrier.compute_frame(posture) for posture in postures] for carrier in carriers]
+        """Evaluate the frames at all postures; the first `n_motion` belong to the motion, `tolerance` is in m."""
+        self.postures, self.moving_frames, self.tolerance, self.n_motion = postures, moving_frames, tolerance, n_motion
+        self.evaluated_frames = [
+            [moving_frame.compute_frame(posture) for posture in postures] for moving_frame in moving_frames
+        ]
 
-    def carry(self, shape: Shape, shapes: Sequence[Shape | None]) -> CarriedShape:
-        """Return the shape with the first carrier of each point that reproduces it within the tolerance, else the best
-        one.
+    def attach_shape(self, shape: Shape, shapes_by_posture: Sequence[Shape | None]) -> MovingShape:
+        """Return the shape with the first moving frame of each point that reproduces it within the tolerance.
 
-        `shapes` are its drawings at all postures, None where it is absent. If too few have the same number of points,
-        only the first is used.
+        A point that no moving frame reproduces gets the best one.
+
+        `shapes_by_posture` are its drawings at all postures, None where it is absent. If fewer than MIN_POSTURES have
+        the same number of points, only the first is used.
         """
         points = _get_shape_points(shape)
         indices = [
             k
-            for k, candidate in enumerate(shapes)
+            for k, candidate in enumerate(shapes_by_posture)
             if candidate is not None
             and type(candidate) is type(shape)
             and len(_get_shape_points(candidate)) == len(points)
         ]
-        indices = indices if len(indices) >= FEW else list(range(1))
-        positions = np.array([_get_shape_points(shapes[k]) for k in indices])  # type: ignore[arg-type]
-        best_carriers, best_errors = np.zeros(len(points), dtype=int), np.full(len(points), np.inf)
+        indices = indices if len(indices) >= MIN_POSTURES else list(range(1))
+        positions = np.array([_get_shape_points(shapes_by_posture[k]) for k in indices])  # type: ignore[arg-type]
+        best_frame_indices, best_errors = np.zeros(len(points), dtype=int), np.full(len(points), np.inf)
         offsets, best_ranks = np.zeros((len(points), 4)), np.full(len(points), np.inf)
-        for index in range(len(self.carriers)):
-            if not (best_ranks > self.exact).any():
+        for index in range(len(self.moving_frames)):
+            if not (best_ranks > self.tolerance).any():
                 break
-            fitted, rank, errors = self._fit_carrier(index, positions, indices)
-            is_better = (best_ranks > self.exact) & (rank < (1.0 - 1e-6) * best_ranks)
-            best_carriers[is_better], best_ranks[is_better], best_errors[is_better] = (
+            fitted, rank, errors = self._fit_frame(index, positions, indices)
+            is_better = (best_ranks > self.tolerance) & (rank < (1.0 - 1e-6) * best_ranks)
+            best_frame_indices[is_better], best_ranks[is_better], best_errors[is_better] = (
                 index,
                 rank[is_better],
                 errors[is_better],
             )
             offsets[is_better] = fitted[is_better]
-        carriers = tuple(self.carriers[index] for index in best_carriers)
-        return CarriedShape(
-            shape, carriers, offsets, self._fit_radius(shape, shapes), float(best_errors.max(initial=0.0))
+        moving_frames = tuple(self.moving_frames[index] for index in best_frame_indices)
+        return MovingShape(
+            shape,
+            moving_frames,
+            offsets,
+            self._fit_radius(shape, shapes_by_posture),
+            float(best_errors.max(initial=0.0)),
         )
 
-    def _fit_carrier(self, index: int, positions: Array, posture_indices: Sequence[int]) -> tuple[Array, Array, Array]:
-        """Return offsets c₀, c₁ (N, 4), ranks (N,) and largest errors (N,) in m of all points for one carrier.
+    def _fit_frame(
+        self, frame_index: int, positions: Array, posture_indices: Sequence[int]
+    ) -> tuple[Array, Array, Array]:
+        """Return offsets c₀, c₁ (N, 4), ranks (N,) and largest errors (N,) in m of all points for one moving frame.
 
         A rank is the error, plus 1000 times the error at postures of the motion if that exceeds the tolerance. The
         search prefers smaller ranks. `positions` (K, N, 2) belong to `posture_indices`.
         """
-        frames = [self.frames[index][k] for k in posture_indices]
+        frames = [self.evaluated_frames[frame_index][k] for k in posture_indices]
         local_points = np.array(
             [
                 (points_at_posture - origin) @ rotation
@@ -397,7 +411,7 @@ class _CarrierSearch:
         )
         s = np.array([s for *_, s in frames])
         slope = np.zeros_like(local_points[0])
-        if self.carriers[index].length_index != -1 and np.ptp(s) > 0.0:
+        if self.moving_frames[frame_index].length_index != -1 and np.ptp(s) > 0.0:
             slope = np.tensordot(s - s.mean(), local_points - local_points.mean(axis=0), 1) / float(
                 ((s - s.mean()) ** 2).sum()
             )
@@ -405,16 +419,16 @@ class _CarrierSearch:
         errors = np.linalg.norm(local_points - offset - s[:, None, None] * slope, axis=2)
         max_errors, motion_errors = (
             errors.max(axis=0),
-            errors[[k for k, posture_index in enumerate(posture_indices) if posture_index < self.real]].max(axis=0),
+            errors[[k for k, posture_index in enumerate(posture_indices) if posture_index < self.n_motion]].max(axis=0),
         )
         # where nothing explains it at other lengths, it is right at least at the file's
         return (
             np.hstack([offset, slope]),
-            np.where(motion_errors > self.exact, 1e3 * motion_errors, 0.0) + max_errors,
+            np.where(motion_errors > self.tolerance, 1e3 * motion_errors, 0.0) + max_errors,
             max_errors,
         )
 
-    def _fit_radius(self, shape: Shape, shapes: Sequence[Shape | None]) -> tuple[float, float, int]:
+    def _fit_radius(self, shape: Shape, shapes_by_posture: Sequence[Shape | None]) -> tuple[float, float, int]:
         """Return r₀, r₁ and parameter index k of a disc's radius r₀ + r₁ p[k]; index −1 for a constant radius.
 
         The constant radius is also returned if no single parameter explains all drawings. For a line the result is (0,
@@ -423,14 +437,14 @@ class _CarrierSearch:
         if not isinstance(shape, Disc):
             return 0.0, 0.0, -1
         radii = np.array(
-            [drawn_shape.radius if isinstance(drawn_shape, Disc) else shape.radius for drawn_shape in shapes]
+            [drawn_shape.radius if isinstance(drawn_shape, Disc) else shape.radius for drawn_shape in shapes_by_posture]
         )
-        if np.ptp(radii) <= self.exact:
+        if np.ptp(radii) <= self.tolerance:
             return shape.radius, 0.0, -1
         p = np.array([posture.p for posture in self.postures])
         for k in np.flatnonzero(np.ptp(p[:, : len(self.postures[0].source.slots)], axis=0) > 0.0):
             slope = (radii[-1] - radii[0]) / (p[-1, k] - p[0, k]) if p[-1, k] != p[0, k] else 0.0
-            if np.abs(radii - radii[0] - slope * (p[:, k] - p[0, k])).max() <= self.exact:
+            if np.abs(radii - radii[0] - slope * (p[:, k] - p[0, k])).max() <= self.tolerance:
                 return float(radii[0] - slope * p[0, k]), float(slope), int(k)
         return shape.radius, 0.0, -1
 

@@ -92,7 +92,7 @@ def compute_convex_hull(points: Sequence[Array]) -> Array:
         return np.array(list(dict.fromkeys((float(x), float(y)) for x, y in points)))
     size = max(abs(x) for point in (sorted_points[0], sorted_points[-1]) for x in point) + 1e-300
 
-    def half(points_in_order: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
+    def build_half_hull(points_in_order: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
         """Return the lower or upper chain of the hull without its last point, for points sorted by x, ascending or
         descending.
         """
@@ -106,7 +106,7 @@ def compute_convex_hull(points: Sequence[Array]) -> Array:
             chain.append((x, y))
         return chain[:-1]
 
-    corners = [*half(sorted_points), *half(reversed(sorted_points))]
+    corners = [*build_half_hull(sorted_points), *build_half_hull(reversed(sorted_points))]
     first = next(
         (corners.index(corner) for corner in ((float(x), float(y)) for x, y in points) if corner in corners), 0
     )
@@ -134,9 +134,9 @@ def compute_rounded_outline(points: Sequence[Array], radius: float) -> Array:
     return np.concatenate(outline)
 
 
-def compute_rectangle(centre: Array, axis: Array, length: float, width: float) -> Array:
-    """Return the corners (4, 2) of a rectangle; `axis` is a unit vector, `length` and `width` are halves, in m."""
-    half_length_vector, half_width_vector = length * axis, width * rotate_quarter_turn(axis)
+def compute_rectangle(centre: Array, axis: Array, half_length: float, half_width: float) -> Array:
+    """Return the corners (4, 2) of a rectangle with its length along the unit vector `axis`; sizes are in m."""
+    half_length_vector, half_width_vector = half_length * axis, half_width * rotate_quarter_turn(axis)
     return np.array(
         [
             centre - half_length_vector - half_width_vector,

@@ -32,7 +32,7 @@ MARGIN = 2.6  # units around all
 
 def make_sketch(
     posture: Posture,
-    plan: Plan | None = None,
+    layout: Plan | None = None,
     *,
     shapes_on_top: Sequence[Shape] = (),
     labels: Sequence[Label] = (),
@@ -44,65 +44,64 @@ def make_sketch(
     shows_insets: bool = True,
     shows_zero_loads: bool = True,
 ) -> Sketch:
-    """Return the drawing of a posture, with `shapes_on_top` shapes, their `labels`, and `arrows` with their scales on
-    top.
+    """Return the drawing of a posture; `shapes_on_top` with their `labels`, and `arrows` with their scales, lie on top.
 
-    With a `box` from `compute_common_box` the drawing has the same box as others of a motion; names of a picture that
-    is not `shows_zero_loads` contain no values that change. `touching`: joints with play in contact, None: those that
-    overlap; `touched`:
-    those in contact since the previous picture. `shows_insets` False leaves insets out. Bodies in `unconnected` have
-    the colour of an error.
+    With a `box` from `compute_common_box` the drawing has the same box as others of a motion. Without
+    `shows_zero_loads` names contain no values that change. `touching`: joints with play in contact, None: those that
+    overlap; `touched`: those in contact since the previous picture. `shows_insets` False leaves insets out. Bodies in
+    `unconnected` have the colour of an error.
     """
-    plan = plan or make_plan([posture])
+    layout = layout or make_plan([posture])
     shapes_on_top = [*shapes_on_top, *(shape for kind in arrows for shape in kind.shapes)]
     shapes = [
-        *draw_bodies(posture, plan, unconnected),
-        *draw_joints(posture, plan),
-        *draw_drives_and_forces(posture, plan),
+        *draw_bodies(posture, layout, unconnected),
+        *draw_joints(posture, layout),
+        *draw_drives_and_forces(posture, layout),
         *shapes_on_top,
     ]
-    low, high = box or compute_box(shapes, plan)
-    all_labels = [*label_bodies(posture, plan), *label_joints(posture, plan, compute_arrow_radii(posture))]
-    all_labels = [*labels, *all_labels, *label_drives_and_forces(posture, plan, shows_zero_loads)]
+    low, high = box or compute_box(shapes, layout)
+    all_labels = [*label_bodies(posture, layout), *label_joints(posture, layout, compute_arrow_radii(posture))]
+    all_labels = [*labels, *all_labels, *label_drives_and_forces(posture, layout, shows_zero_loads)]
     touching = find_contacts(posture) if touching is None else touching
     notes, upper_corner, annotations = list[str](), high.copy(), list[Shape]()
     for inset_shapes, label, note in (
-        draw_insets(posture, plan.unit, low, high, touching, touched) if shows_insets else ()
+        draw_insets(posture, layout.unit, low, high, touching, touched) if shows_insets else ()
     ):
         annotations += inset_shapes
         all_labels, notes = [*all_labels, label], [*notes, note]
-        upper_corner = np.maximum(upper_corner, compute_bounding_box(inset_shapes)[1] + 1.5 * plan.unit)
-        low = np.minimum(low, [low[0], float(compute_bounding_box(inset_shapes)[0][1]) - 3.0 * plan.unit])
-    for reference_shapes, label in _draw_references(posture, plan, low, high, arrows):
+        upper_corner = np.maximum(upper_corner, compute_bounding_box(inset_shapes)[1] + 1.5 * layout.unit)
+        low = np.minimum(low, [low[0], float(compute_bounding_box(inset_shapes)[0][1]) - 3.0 * layout.unit])
+    for reference_shapes, label in _draw_references(posture, layout, low, high, arrows):
         annotations += reference_shapes
         all_labels.append(label)
-    low = np.minimum(low, compute_bounding_box(annotations)[0] - 0.8 * plan.unit)
-    return Sketch((*shapes, *annotations), tuple(all_labels), low, upper_corner, plan.unit, tuple(notes))
+    low = np.minimum(low, compute_bounding_box(annotations)[0] - 0.8 * layout.unit)
+    return Sketch((*shapes, *annotations), tuple(all_labels), low, upper_corner, layout.unit, tuple(notes))
 
 
-def compute_box(shapes: Sequence[Shape], plan: Plan) -> tuple[Array, Array]:
+def compute_box(shapes: Sequence[Shape], layout: Plan) -> tuple[Array, Array]:
     """Return the box of shapes with a margin for names."""
     lower_corner, upper_corner = compute_bounding_box(shapes)
-    return lower_corner - MARGIN * plan.unit, upper_corner + MARGIN * plan.unit
+    return lower_corner - MARGIN * layout.unit, upper_corner + MARGIN * layout.unit
 
 
-def compute_common_box(postures: Sequence[Posture], plans: Sequence[Plan]) -> tuple[Array, Array]:
+def compute_common_box(postures: Sequence[Posture], layouts: Sequence[Plan]) -> tuple[Array, Array]:
     """Return the lower and upper corner of the box that contains the drawings of several postures, in m.
 
-    `plans` is one plan for all postures, or one for each.
+    `layouts` is one layout for all postures, or one for each.
     """
-    postures_and_plans = zip(postures, plans if len(plans) > 1 else [plans[0]] * len(postures), strict=True)
+    postures_and_layouts = zip(postures, layouts if len(layouts) > 1 else [layouts[0]] * len(postures), strict=True)
     boxes = [
         compute_box(
-            [*draw_bodies(posture, plan), *draw_joints(posture, plan), *draw_drives_and_forces(posture, plan)], plan
+            [*draw_bodies(posture, layout), *draw_joints(posture, layout), *draw_drives_and_forces(posture, layout)],
+            layout,
         )
-        for posture, plan in postures_and_plans
+        for posture, layout in postures_and_layouts
     ]
     return np.min([low for low, _ in boxes], axis=0), np.max([high for _, high in boxes], axis=0)
 
 
 def _draw_references(
-    posture: Posture, plan: Plan, lower_corner: Array, upper_corner: Array, arrows: Sequence[Arrows]
+    posture: Posture, layout: Plan, lower_corner: Array, upper_corner: Array, arrows: Sequence[Arrows]
 ) -> Iterator[tuple[list[Shape], Label]]:
     """Yield shapes and label of each reference: gravity, the scale of lengths, and a reference arrow for each kind of
     arrow.
@@ -110,7 +109,7 @@ def _draw_references(
     Gravity is in the upper left corner of the box, if there is gravity. The scale is below the box, the arrows below
     the scale.
     """
-    unit = plan.unit
+    unit = layout.unit
     if (gravity := find_gravity_direction(posture)) is not None:
         centre = np.array([lower_corner[0] + 1.5 * unit, upper_corner[1] - 2.5 * unit])
         shapes = list(
@@ -138,15 +137,15 @@ def format_length(length: float) -> str:
     return f"{1e3 * length:g} mm" if length < 1.0 else f"{length:g} m"
 
 
-def draw_joints(posture: Posture, plan: Plan) -> Iterator[Shape]:
+def draw_joints(posture: Posture, layout: Plan) -> Iterator[Shape]:
     """Yield the shapes of all joints, drawn by the symbols of their kinds."""
     for part in posture.iterate_parts("joints"):
-        pen = Pen(posture, part, plan)
+        pen = Pen(posture, part, layout)
         get_joint_type(part).symbol.draw(pen)
         yield from pen.shapes
 
 
-def label_joints(posture: Posture, plan: Plan, arrow_radii: Mapping[str, float]) -> Iterator[Label]:
+def label_joints(posture: Posture, layout: Plan, arrow_radii: Mapping[str, float]) -> Iterator[Label]:
     """Yield the label of each joint, outside of the arrows around it.
 
     `arrow_radii` are the radii in units of these arrows, by joint. The label of a joint on a rail lies beyond the
@@ -156,8 +155,8 @@ def label_joints(posture: Posture, plan: Plan, arrow_radii: Mapping[str, float])
         symbol = get_joint_type(part).symbol
         position = symbol.place(JointAt(posture, part))
         clearance, angle = max(symbol.clear, arrow_radii.get(part.name, 0.0)), 45.0
-        if has_rail(part) and part.name in plan.ground_directions:  # beyond the ground, where nothing slides
-            x, y = plan.ground_directions[part.name]
+        if has_rail(part) and part.name in layout.ground_directions:  # beyond the ground, where nothing slides
+            x, y = layout.ground_directions[part.name]
             clearance, angle = BLOCK[1] + 1.2, float(np.degrees(np.arctan2(y, x)))
-            clearance += compute_wall_gap(posture, part, plan.unit) / plan.unit
-        yield Label(f"joint {part.name}", "joint", part.name, position, clearance * plan.unit, angle)
+            clearance += compute_wall_gap(posture, part, layout.unit) / layout.unit
+        yield Label(f"joint {part.name}", "joint", part.name, position, clearance * layout.unit, angle)

@@ -13,16 +13,16 @@ from gudgeon.model.compiled import Array
 
 from matplotlib.figure import Figure  # isort: skip  (labels.py says where it is missing)
 
-WIDEST, HIGHEST = 6.3, 5.0  # inches on the page
+MAX_WIDTH_IN, MAX_HEIGHT_IN = 6.3, 5.0  # inches on the page
 
 
 def write_tikz(sketch: Sketch, escape_latex: Callable[[str], str]) -> str:
     """Return a sketch as the text of a tikzpicture with definitions of its colours.
 
-    It is at most WIDEST by HIGHEST inches. `escape_latex` converts a name to LaTeX without commands.
+    It is at most MAX_WIDTH_IN by MAX_HEIGHT_IN inches. `escape_latex` converts a name to LaTeX without commands.
     """
-    width, height = compute_figure_size(sketch, WIDEST)
-    shrink_factor = min(1.0, WIDEST / width, HIGHEST / height)
+    width, height = compute_figure_size(sketch, MAX_WIDTH_IN)
+    shrink_factor = min(1.0, MAX_WIDTH_IN / width, MAX_HEIGHT_IN / height)
     width, height = width * shrink_factor, height * shrink_factor
     figure = Figure(figsize=(width, height), dpi=72)
     draw_sketch(figure.add_axes((0.0, 0.0, 1.0, 1.0)), sketch)
@@ -30,13 +30,13 @@ def write_tikz(sketch: Sketch, escape_latex: Callable[[str], str]) -> str:
     to_points = figure.axes[0].transData.transform  # pixels at 72 to the inch are TeX's bp
     colours = _Colours()
     lines = [
-        _draw_path(shape, to_points, colours) for shape in sorted(sketch.shapes, key=lambda s: ROLES[s.role].order)
+        _format_path(shape, to_points, colours) for shape in sorted(sketch.shapes, key=lambda s: ROLES[s.role].order)
     ]
     names = next((artist for artist in figure.axes[0].get_children() if isinstance(artist, NameLabels)), None)
-    lines += list(_draw_names(names, sketch, to_points, colours, escape_latex)) if names is not None else []
+    lines += list(_iterate_name_nodes(names, sketch, to_points, colours, escape_latex)) if names is not None else []
     bounding_box = rf"\useasboundingbox (0,0) rectangle ({72.0 * width:.1f},{72.0 * height:.1f});"
     begin = r"\begin{tikzpicture}[x=1bp, y=1bp, line join=round, line cap=round]"
-    return "\n".join((*colours.defined(), begin, bounding_box, *lines, r"\end{tikzpicture}"))
+    return "\n".join((*colours.format_definitions(), begin, bounding_box, *lines, r"\end{tikzpicture}"))
 
 
 class _Colours:
@@ -44,20 +44,20 @@ class _Colours:
 
     def __init__(self) -> None:
         """Create an empty list of colours."""
-        self._draw_names: dict[str, str] = {}
+        self._tikz_names: dict[str, str] = {}
 
     def __call__(self, colour: str) -> str:
         """Return the TikZ name of a colour."""
         if not colour.startswith("#"):
             return colour
-        return self._draw_names.setdefault(colour[1:].upper(), f"gudgeon{len(self._draw_names)}")
+        return self._tikz_names.setdefault(colour[1:].upper(), f"gudgeon{len(self._tikz_names)}")
 
-    def defined(self) -> list[str]:
+    def format_definitions(self) -> list[str]:
         """Return the definitions of all used colours."""
-        return [rf"\definecolor{{{name}}}{{HTML}}{{{code}}}" for code, name in self._draw_names.items()]
+        return [rf"\definecolor{{{name}}}{{HTML}}{{{code}}}" for code, name in self._tikz_names.items()]
 
 
-def _draw_path(shape: Shape, to_points: Callable[[Array], Array], colours: _Colours) -> str:
+def _format_path(shape: Shape, to_points: Callable[[Array], Array], colours: _Colours) -> str:
     """Return the TikZ command of a line or circle in the style of its role.
 
     `to_points` converts metres to points; `colours` collects the colours that need a definition.
@@ -90,7 +90,7 @@ def _format_coordinates(point: Sequence[float] | Array) -> str:
     return f"({point[0]:.2f},{point[1]:.2f})"
 
 
-def _draw_names(
+def _iterate_name_nodes(
     names: NameLabels,
     sketch: Sketch,
     to_points: Callable[[Array], Array],

@@ -21,10 +21,9 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
 from gudgeon.integrators.threads import available_threads
 from gudgeon.language import tree
-from gudgeon.language.argument_checks import check_names as plain_names
-from gudgeon.language.argument_checks import is_integer, raise_bad_value, shorten_value
+from gudgeon.language.argument_checks import check_names, is_integer, raise_bad_value, shorten_value
 from gudgeon.language.text_output import format_count
-from gudgeon.model.choices import format_values_of_runs as chosen_of_runs
+from gudgeon.model.choices import format_values_of_runs
 from gudgeon.results.diagnostics import Extremes
 from gudgeon.results.peaks import BatchPeaks, find_batch_extremes
 from gudgeon.results.results import Result, make_empty_result
@@ -306,7 +305,7 @@ def collect_given_values(source: KernelSource, p: Array, is_given: NDArray[np.bo
     `p` (n, n_slots + n_derived) has the parameters of all runs, `is_given` (n, n_slots) which of them were given.
     """
     given_parameters = [(source.slots[k], p[:, k]) for k in np.flatnonzero(is_given.any(axis=0)).tolist()]
-    return {parameter.address: chosen_of_runs(parameter, values) for parameter, values in given_parameters}
+    return {parameter.address: format_values_of_runs(parameter, values) for parameter, values in given_parameters}
 
 
 def make_failures(errors: Mapping[int, GudgeonError]) -> tuple[Failure, ...]:
@@ -317,11 +316,11 @@ def make_failures(errors: Mapping[int, GudgeonError]) -> tuple[Failure, ...]:
 def check_series_names(source: KernelSource, names: str | Iterable[str], argument_name: str = "names") -> list[str]:
     """Return the names of series as a list without repetitions, in their order.
 
-    `names` is one name or several; `argument_name` names the argument in errors. Raises UnknownNameError with the
-    nearest name.
+    `names` is one name or several, "t" among them; `argument_name` names the argument in errors. Raises
+    UnknownNameError with the nearest name.
     """
     unique_names, empty_result = (
-        list(dict.fromkeys(plain_names(names, argument_name, "a list of names of series"))),
+        list(dict.fromkeys(check_names(names, argument_name, "a list of names of series"))),
         make_empty_result(source),
     )
     for name in unique_names:
@@ -425,17 +424,23 @@ def iterate_rows(batch: Batch, names: Sequence[str]) -> Iterator[Row]:
     """
     check_stored(batch, names)
     make_row = _read_stored_row if batch.states is None else _evaluate_row
-    parts = find_evaluation_parts(batch.source, names)
+    evaluation_parts = find_evaluation_parts(batch.source, names)
 
     def make_block(first_run: int) -> list[Row]:
         """Return the rows of BLOCK runs from `first_run` on."""
-        rows = (make_row(batch, i, names, parts) for i in range(first_run, min(first_run + BLOCK, len(batch))))
+        rows = (
+            make_row(batch, i, names, evaluation_parts) for i in range(first_run, min(first_run + BLOCK, len(batch)))
+        )
         return [row for row in rows if row is not None]
 
-    yield from _evaluate_in_order(make_block, range(0, len(batch), BLOCK), min(batch.threads, available_threads()))
+    yield from _evaluate_blocks_in_order(
+        make_block, range(0, len(batch), BLOCK), min(batch.threads, available_threads())
+    )
 
 
-def _evaluate_in_order(evaluate_block: Callable[[int], list[Row]], first_runs: range, n_threads: int) -> Iterator[Row]:
+def _evaluate_blocks_in_order(
+    evaluate_block: Callable[[int], list[Row]], first_runs: range, n_threads: int
+) -> Iterator[Row]:
     """Yield the rows of all blocks of runs in their order, evaluated in `n_threads` threads.
 
     `evaluate_block` returns the rows of the block that begins at a run. At most AHEAD blocks a thread are evaluated in
@@ -455,11 +460,11 @@ def _evaluate_in_order(evaluate_block: Callable[[int], list[Row]], first_runs: r
             executor.shutdown(cancel_futures=True)
 
 
-def _evaluate_row(batch: Batch, i: int, names: Sequence[str], parts: frozenset[str]) -> Row | None:
+def _evaluate_row(batch: Batch, i: int, names: Sequence[str], evaluation_parts: frozenset[str]) -> Row | None:
     """Return run number, sample times and {name: values} of run i, evaluated from its states; None if it has no
     samples.
     """
-    run: Result | None = batch.result.evaluate_samples(i, parts)
+    run: Result | None = batch.result.evaluate_samples(i, evaluation_parts)
     return None if run is None else (i, run.t, {name: run[name] for name in names})
 
 

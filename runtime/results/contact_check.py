@@ -96,7 +96,7 @@ def compute_penetrations(run: Result) -> Array:
 
 
 def check_samples(run: Result, run_with_peaks: Result | None = None) -> ContactCheck:
-    """Compare the samples of a run with its list of contacts and return the faults, by time.
+    """Compare the samples of a run with its list of contacts and return a ContactCheck with the faults, by time.
 
     `run_with_peaks` is the run whose diagnostics have the peaks over all steps; None: the same run. Joints with a film
     only are skipped. Forces are checked only if they can be evaluated.
@@ -109,18 +109,18 @@ def check_samples(run: Result, run_with_peaks: Result | None = None) -> ContactC
         force = np.full(len(run.t), np.nan) if run.compiled is None or joint.film else run[f"{joint.name}.F"]
         is_free = ~_find_samples_in_contact(run, k)
         depth_limit = max(DEPTH_TOL * float(run.p[joint.clearance]), SHALLOW)
-        faults += _find_excursions(
+        faults += _find_sample_faults(
             run, joint, "penetration", is_free & (penetration[:, k] > depth_limit), penetration[:, k], force
         )
         is_touching = is_free & (np.abs(penetration[:, k]) <= SHALLOW)
         carries_force = (force > FORCE_TOL * float(np.nanmax(force, initial=0.0))) & ~is_touching
-        faults += _find_excursions(
+        faults += _find_sample_faults(
             run, joint, "force", is_free & (penetration[:, k] <= depth_limit) & carries_force, penetration[:, k], force
         )
         if joint.name in run.source.rigid and run.compiled is not None:
             pull = sum(run[f"{joint.name}.F{axis}"] * run[f"{joint.name}.e{axis}"] for axis in "xy")
             pulls = ~is_free & (pull > PULL_TOL * float(np.abs(pull).max(initial=0.0)))
-            faults += _find_excursions(run, joint, "pull", pulls, penetration[:, k], force)
+            faults += _find_sample_faults(run, joint, "pull", pulls, penetration[:, k], force)
         faults += _find_peak_faults(run_with_peaks or run, k, joint, float(np.nanmax(force[is_touching], initial=0.0)))
     return ContactCheck(len(run.t), tuple(sorted(faults, key=lambda fault: fault.t)))
 
@@ -139,29 +139,30 @@ def _find_samples_in_contact(run: Result, k: int) -> NDArray[np.bool_]:
     return np.cumsum(n_contacts)[:-1] > 0
 
 
-def _find_excursions(
-    run: Result, joint: ClearanceInfo, kind: str, is_wrong: NDArray[np.bool_], penetration: Array, force: Array
+def _find_sample_faults(
+    run: Result, joint: ClearanceInfo, kind: str, fault_mask: NDArray[np.bool_], penetration: Array, force: Array
 ) -> Iterator[Fault]:
-    """Yield one fault of a kind for each group of neighbouring samples that `is_wrong` (N,) marks.
+    """Yield one fault of a kind for each group of neighbouring samples that `fault_mask` (N,) marks.
 
+    `penetration` (m) and `force` (N) are those of the joint at all samples, (N,). The fault has their largest values.
     Its time is that of the largest penetration for "penetration", else that of the largest force.
     """
-    indices = np.flatnonzero(is_wrong)
-    for run_of_samples in np.split(indices, np.flatnonzero(np.diff(indices) > 1) + 1):
-        if len(run_of_samples):
+    indices = np.flatnonzero(fault_mask)
+    for neighbour_indices in np.split(indices, np.flatnonzero(np.diff(indices) > 1) + 1):
+        if len(neighbour_indices):
             worst = (
-                run_of_samples[np.argmax(penetration[run_of_samples])]
+                neighbour_indices[np.argmax(penetration[neighbour_indices])]
                 if kind == "penetration"
-                else run_of_samples[np.argmax(force[run_of_samples])]
+                else neighbour_indices[np.argmax(force[neighbour_indices])]
             )
-            max_force = float(force[run_of_samples].max())
-            yield Fault(kind, joint.name, float(run.t[worst]), float(penetration[run_of_samples].max()), max_force)
+            max_force = float(force[neighbour_indices].max())
+            yield Fault(kind, joint.name, float(run.t[worst]), float(penetration[neighbour_indices].max()), max_force)
 
 
-def _find_peak_faults(run: Result, k: int, joint: ClearanceInfo, touching_force: float) -> Iterator[Fault]:
+def _find_peak_faults(run: Result, k: int, joint: ClearanceInfo, max_touching_force: float) -> Iterator[Fault]:
     """Yield a fault for each peak over all steps that exceeds the force of every listed contact of joint k.
 
-    Joints with a film and rigid guides are skipped. `touching_force` (N) is the largest force of samples that only
+    Joints with a film and rigid guides are skipped. `max_touching_force` (N) is the largest force of samples that only
     touch.
     """
     if joint.film or (joint.is_corner and joint.joint in run.source.rigid):
@@ -176,7 +177,8 @@ def _find_peak_faults(run: Result, k: int, joint: ClearanceInfo, touching_force:
     peaks = [(extremes.max, extremes.t_max) for extremes in force_extremes]
     peaks += [(extremes.F, extremes.t) for extremes in run.diagnostics.peaks if extremes.joint == joint.name]
     limit = max(
-        touching_force, max_contact_force * (1.0 + (PEAK_TOL_FIXED if np.isfinite(run.diagnostics.step) else PEAK_TOL))
+        max_touching_force,
+        max_contact_force * (1.0 + (PEAK_TOL_FIXED if np.isfinite(run.diagnostics.step) else PEAK_TOL)),
     )
     for force, t in peaks:
         if limit < force:
@@ -187,7 +189,7 @@ def _compute_bearing_penetration(run: Result, joint: ClearanceInfo) -> Array:
     """Return the penetration of a journal at all samples, (N,), m: ‖e‖ − c, less the contour's depth in the direction
     of e.
     """
-    first, second = _compute_end_points(run, joint)
+    first, second = _find_end_point_names(run, joint)
     ex, ey = (_compute_point_positions(run, second) - _compute_point_positions(run, first)).T
     delta = np.hypot(ex, ey) - float(run.p[joint.clearance])
     if (depths := find_contour(run.source, run.p, joint.name)) is not None:
@@ -201,7 +203,7 @@ def _compute_wall_penetration(run: Result, joint: ClearanceInfo) -> Array:
     It is the displacement of the corner towards its wall from the middle of the guide, less the gap. The mounting angle
     is `angle` of the joint, or else the direction of `axis`.
     """
-    first, second = _compute_end_points(run, joint)
+    first, second = _find_end_point_names(run, joint)
     parameter_indices = run.source.slot_index
     values = {
         key: float(run.p[parameter_indices[address]])
@@ -227,7 +229,7 @@ def _has_mounting_angle(run: Result, joint: ClearanceInfo) -> bool:
     return any(entry.address == f"joints.{joint.joint}.angle" for entry in run.source.written)
 
 
-def _compute_end_points(run: Result, joint: ClearanceInfo) -> tuple[str, str]:
+def _find_end_point_names(run: Result, joint: ClearanceInfo) -> tuple[str, str]:
     """Return the names of the two points that a joint with play connects: that of the bearing, then that of the
     journal.
     """

@@ -62,7 +62,7 @@ class Lyapunov:
         It is NaN during the first tenth of the time, while the difference turns to the direction of largest growth.
         """
         exponents = np.full(len(self.growth), np.nan)
-        exponents[self._first :] = _compute_slopes(self.t[self._first :], self._logs[self._first :])
+        exponents[self._first :] = _compute_regression_slopes(self.t[self._first :], self._logs[self._first :])
         return exponents
 
     @property
@@ -75,23 +75,23 @@ class Lyapunov:
     @cached_property
     def uncertainty(self) -> float:
         """One standard error of the exponent, 1/s; NaN for too few intervals."""
-        error = _compute_standard_error(self.t[self._first :], self._logs[self._first :])
+        error = _compute_slope_error(self.t[self._first :], self._logs[self._first :])
         return math.hypot(error, self.unresolved)
 
     @property
     def per_return(self) -> float:
         """Exponent per return to the section; NaN without a section, or with fewer than two returns."""
-        logs = self._returns[1]
-        return float(_compute_slopes(np.arange(len(logs)), logs)[-1]) if len(logs) > 1 else math.nan
+        logs = self._section_returns[1]
+        return float(_compute_regression_slopes(np.arange(len(logs)), logs)[-1]) if len(logs) > 1 else math.nan
 
     @cached_property
     def per_return_uncertainty(self) -> float:
         """One standard error of `per_return`."""
-        times, logs = self._returns
+        times, logs = self._section_returns
         if len(times) < 2:
             return math.nan
         mean_time = (times[-1] - times[0]) / (len(times) - 1)
-        return math.hypot(_compute_standard_error(np.arange(len(logs)), logs), self.unresolved * mean_time)
+        return math.hypot(_compute_slope_error(np.arange(len(logs)), logs), self.unresolved * mean_time)
 
     @property
     def sign(self) -> int:
@@ -136,7 +136,7 @@ class Lyapunov:
         return np.concatenate([[0.0], np.cumsum(self.growth)])
 
     @cached_property
-    def _returns(self) -> tuple[Array, Array]:
+    def _section_returns(self) -> tuple[Array, Array]:
         """The times of the returns after the first tenth of the time, (r,), and the logarithm of the growth up to each,
         (r,).
 
@@ -155,14 +155,14 @@ class Lyapunov:
         return f"<Lyapunov {text}, by the {self.by}, {self.t[0]:g} … {self.t[-1]:g} s>"
 
 
-def _compute_slopes(x: Array, logs: Array) -> Array:
+def _compute_regression_slopes(x: Array, growth_logs: Array) -> Array:
     """Return the slopes (k,) of the least-squares lines through the first 2, 3, … k + 1 of the points (x, logs).
 
     Each point is weighted by the interval before it. Where x hardly spreads, the slope is that from the first point to
     the last.
     """
     weights = np.diff(x)
-    x_shifted, y_shifted = x[1:] - x[0], logs[1:] - logs[0]
+    x_shifted, y_shifted = x[1:] - x[0], growth_logs[1:] - growth_logs[0]
     sum_1, sum_x, sum_xx, sum_y, sum_xy = (
         np.cumsum(weights * term)
         for term in (x_shifted**0, x_shifted, x_shifted * x_shifted, y_shifted, x_shifted * y_shifted)
@@ -178,8 +178,8 @@ def _compute_slopes(x: Array, logs: Array) -> Array:
         )
 
 
-def _compute_standard_error(x: Array, logs: Array) -> float:
-    """Return the standard error of the slope of `logs` over x, from the slopes in BLOCKS blocks of equal length.
+def _compute_slope_error(x: Array, growth_logs: Array) -> float:
+    """Return the standard error of the slope of `growth_logs` over x, from the slopes in BLOCKS blocks of equal length.
 
     Returns NaN with fewer than three intervals a block.
     """
@@ -190,5 +190,5 @@ def _compute_standard_error(x: Array, logs: Array) -> float:
     for begin, end in zip(edges, edges[1:], strict=False):
         inside = x[(x > begin) & (x < end)]
         block_x = np.concatenate([[begin], inside, [end]])
-        slopes.append(_compute_slopes(block_x, np.interp(block_x, x, logs))[-1])
+        slopes.append(_compute_regression_slopes(block_x, np.interp(block_x, x, growth_logs))[-1])
     return float(np.std(slopes, ddof=1) / math.sqrt(BLOCKS))

@@ -16,7 +16,7 @@ from gudgeon.language.text_output import format_one_line
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
 
-MOST = 12  # largest number of names of one kind in a table
+MAX_NAMES = 12  # largest number of names of one kind in a table
 Rows = list[tuple[str, ...]]
 _MARKS = re.compile(r"([\\{}$&#%_^~])")
 
@@ -35,7 +35,8 @@ class NotebookDisplay:
         cells = "".join(
             f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in build_table_rows(self)
         )
-        return f"<p>{escape(title)}, scene {escape(self.source.scene)}</p>{_draw_start(self)}<table>{cells}</table>"
+        heading = f"<p>{escape(title)}, scene {escape(self.source.scene)}</p>"
+        return f"{heading}{_build_start_image(self)}<table>{cells}</table>"
 
     def _repr_latex_(self) -> str:
         """Return the table of `build_table_rows` as a LaTeX array."""
@@ -52,30 +53,34 @@ def build_table_rows(scene_or_run: Any) -> Rows:
 
     They are ranges of the main series for a run, and the components for a scene.
     """
-    return [*_run_rows(scene_or_run)] if hasattr(scene_or_run, "names") else [*_iterate_scene_rows(scene_or_run.source)]
+    return (
+        [*_iterate_run_rows(scene_or_run)]
+        if hasattr(scene_or_run, "names")
+        else [*_iterate_scene_rows(scene_or_run.source)]
+    )
 
 
 def _iterate_scene_rows(source: KernelSource) -> Iterator[tuple[str, ...]]:
     """Yield a row for each kind of component of a scene: the kind, and its number with the first names."""
-    yield "bodies", _list_names([body.name for body in source.bodies])
-    yield "joints", _list_names([joint.name for joint in source.joints])
-    yield "joints with play", _list_names([joint.name for joint in source.clearances])
-    yield "drives", _list_names([drive.name for drive in source.drives])
+    yield "bodies", _format_name_list([body.name for body in source.bodies])
+    yield "joints", _format_name_list([joint.name for joint in source.joints])
+    yield "joints with play", _format_name_list([joint.name for joint in source.clearances])
+    yield "drives", _format_name_list([drive.name for drive in source.drives])
     yield "coordinates, rows of Φ", f"{len(source.coordinates)}, {len(source.rows)}"
     yield "formulation", source.formulation
 
 
-def _list_names(names: list[str]) -> str:
-    """Return the number of names and the first MOST of them: "14: A, B … and 2 more"."""
-    suffix = f" and {len(names) - MOST} more" if len(names) > MOST else ""
-    return f"{len(names)}: {', '.join(names[:MOST])}{suffix}" if names else "none"
+def _format_name_list(names: list[str]) -> str:
+    """Return the number of names and the first MAX_NAMES of them: "14: A, B … and 2 more"."""
+    suffix = f" and {len(names) - MAX_NAMES} more" if len(names) > MAX_NAMES else ""
+    return f"{len(names)}: {', '.join(names[:MAX_NAMES])}{suffix}" if names else "none"
 
 
-def _run_rows(run: Any) -> Iterator[tuple[str, ...]]:
+def _iterate_run_rows(run: Any) -> Iterator[tuple[str, ...]]:
     """Yield a heading and a row for each main series of a run: name, smallest and largest sample, unit.
 
-    At most MOST series are shown; series without a finite sample are left out. The last row is the number of impacts,
-    if there are any.
+    At most MAX_NAMES series are shown; series without a finite sample are left out. The last row is the number of
+    impacts, if there are any.
     """
     from gudgeon.results.series import choose_watched_series, list_drive_series
 
@@ -83,14 +88,14 @@ def _run_rows(run: Any) -> Iterator[tuple[str, ...]]:
     joints = [f"{joint.name}.F" for joint in source.clearances or source.joints]
     names = dict.fromkeys([*choose_watched_series(run), *source.outputs, *list_drive_series(source), *joints])
     yield f"of {len(run.t)} samples", "least", "largest", "unit"
-    for name in list(names)[:MOST]:
+    for name in list(names)[:MAX_NAMES]:
         if name in run.names and np.isfinite(run[name]).any():
             yield name, f"{np.nanmin(run[name]):.5g}", f"{np.nanmax(run[name]):.5g}", run.unit(name) or "1"
     if len(run.impacts):
         yield "impacts", "", str(len(run.impacts)), "1"
 
 
-def _draw_start(scene_or_run: Any) -> str:
+def _build_start_image(scene_or_run: Any) -> str:
     """Return an HTML image element with the mechanism at its start; "" if it cannot be drawn."""
     try:
         from gudgeon.results.figures.mechanism_plots import draw_start_picture

@@ -91,22 +91,22 @@ def _extend_by_samples(extremes: Extremes, run: Result) -> Extremes:
 
 
 def _extend_extremes(
-    extreme: tuple[Array | float, Array | float], t: Array, values: Array, sign: float
+    current_extremes: tuple[Array | float, Array | float], t: Array, values: Array, sign: float
 ) -> tuple[Array, Array]:
     """Return extremes (n,) of n runs and their times, replaced by samples that lie beyond.
 
-    `extreme` has values and times; `t` and `values` are the samples (n, N), NaN where there is none. `sign` is 1 for
-    maxima, −1 for minima.
+    `current_extremes` has values and times; `t` and `values` are the samples (n, N), NaN where there is none. `sign` is
+    1 for maxima, −1 for minima.
     """
-    values_found, times = (np.atleast_1d(np.asarray(x, dtype=float)) for x in extreme)
+    extreme_values, times = (np.atleast_1d(np.asarray(x, dtype=float)) for x in current_extremes)
     if not values.shape[1]:
-        return values_found, times
+        return extreme_values, times
     signed_samples = np.where(np.isfinite(values), sign * values, -np.inf)
     best_indices, run_indices = signed_samples.argmax(axis=1), np.arange(len(signed_samples))
     is_beyond = np.isfinite(signed_samples[run_indices, best_indices]) & ~(
-        sign * values_found >= signed_samples[run_indices, best_indices]
+        sign * extreme_values >= signed_samples[run_indices, best_indices]
     )
-    return np.where(is_beyond, values[run_indices, best_indices], values_found), np.where(
+    return np.where(is_beyond, values[run_indices, best_indices], extreme_values), np.where(
         is_beyond, t[run_indices, best_indices], times
     )
 
@@ -126,37 +126,41 @@ def _make_peak_not_requested_error(name: str, is_error: bool) -> BadValueError:
 
 
 def build_extreme_rows(
-    scenes: Sequence[Sequence[Extremes]], formatters: Sequence[Callable[[float, str, float], str]], of_errors: bool
+    scene_extremes: Sequence[Sequence[Extremes]],
+    formatters: Sequence[Callable[[float, str, float], str]],
+    is_error: bool,
 ) -> list[tuple[str, list[str]]]:
     """Return rows (name, one cell a scene) of a table of extremes; a scene without the series has the cell "–".
 
-    `formatters` convert value, unit and time of each scene to text. With `of_errors`, each error has one row with the
+    `formatters` convert value, unit and time of each scene to text. With `is_error`, each error has one row with the
     largest magnitude; other series have two, "NAME max" and "NAME min".
     """
     extremes_by_scene = [
-        {item.name: item for item in extremes if bool(item.against) == of_errors} for extremes in scenes
+        {item.name: item for item in extremes if bool(item.against) == is_error} for extremes in scene_extremes
     ]
     rows = []
     for name in dict.fromkeys(name for by_name in extremes_by_scene for name in by_name):
-        for end_name in ("",) if of_errors else ("max", "min"):
+        for bound in ("",) if is_error else ("max", "min"):
             cell_arguments = [
-                _format_extreme_cell(by_name[name], end_name) if name in by_name else None
-                for by_name in extremes_by_scene
+                _get_extreme(by_name[name], bound) if name in by_name else None for by_name in extremes_by_scene
             ]
             cell_texts = [
                 formatter(*arguments) if arguments else "–"
                 for formatter, arguments in zip(formatters, cell_arguments, strict=True)
             ]
-            rows.append((f"{name} {end_name}".strip(), cell_texts))
+            rows.append((f"{name} {bound}".strip(), cell_texts))
     return rows
 
 
-def _format_extreme_cell(extremes: Extremes, end_name: str) -> tuple[float, str, float]:
-    """Return value, unit and time of an extreme: "max", "min", or "" for the one of the larger magnitude."""
-    end_name = end_name or ("min" if -extremes.min > extremes.max else "max")
+def _get_extreme(extremes: Extremes, bound: str) -> tuple[float, str, float]:
+    """Return value, unit and time (s) of an extreme of a series.
+
+    `bound` is "max", "min", or "" for the one of the larger magnitude.
+    """
+    bound = bound or ("min" if -extremes.min > extremes.max else "max")
     return (
         (extremes.max, extremes.unit, extremes.t_max)
-        if end_name == "max"
+        if bound == "max"
         else (extremes.min, extremes.unit, extremes.t_min)
     )
 
@@ -186,7 +190,7 @@ class BatchPeaks:
 
 def find_batch_extremes(
     source: KernelSource,
-    runs: Sequence[Sequence[Extremes]],
+    run_extremes_list: Sequence[Sequence[Extremes]],
     name: str,
     is_error: bool,
     get_samples: Callable[[], tuple[Array, Array]],
@@ -202,7 +206,7 @@ def find_batch_extremes(
             (extremes for extremes in run_extremes if extremes.name == name and bool(extremes.against) == is_error),
             None,
         )
-        for run_extremes in runs
+        for run_extremes in run_extremes_list
     ]
     first_known = next(filter(None, extremes_by_run), None)
     if first_known is None:
@@ -219,13 +223,15 @@ def find_batch_extremes(
     return BatchPeaks(name, first_known.unit, **values, against=first_known.against)
 
 
-def build_extreme_columns(runs: Sequence[Sequence[Extremes]]) -> Iterator[tuple[str, str, Array]]:
+def build_extreme_columns(run_extremes_list: Sequence[Sequence[Extremes]]) -> Iterator[tuple[str, str, Array]]:
     """Yield column name, unit and values (n,) of each extreme of n runs for tables; NaN for a run without it.
 
     Columns are "S9.ay.peak.max", "S9.ay.peak.t_max", "S9.ay.error.min" and so on.
     """
     for series_key in dict.fromkeys(
-        (extremes.name, extremes.unit, extremes.against) for run_extremes in runs for extremes in run_extremes
+        (extremes.name, extremes.unit, extremes.against)
+        for run_extremes in run_extremes_list
+        for extremes in run_extremes
     ):
         extremes_by_run = [
             next(
@@ -236,7 +242,7 @@ def build_extreme_columns(runs: Sequence[Sequence[Extremes]]) -> Iterator[tuple[
                 ),
                 None,
             )
-            for run_extremes in runs
+            for run_extremes in run_extremes_list
         ]
         for end_name in ENDS:
             values = np.array([getattr(extremes, end_name) if extremes else np.nan for extremes in extremes_by_run])

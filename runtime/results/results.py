@@ -81,7 +81,7 @@ class Result(NotebookDisplay):
         if name == "t":
             return self.t
         if name not in self.stored:
-            values = self._series(name).compute(self)[:]
+            values = self._get_series(name).compute(self)[:]
             values.flags.writeable = False
             self.stored[name] = values
         return self.stored[name]
@@ -109,14 +109,14 @@ class Result(NotebookDisplay):
 
         Raises UnknownNameError with the nearest name.
         """
-        return "s" if check_text(name, "the name of a series") == "t" else self._series(name).unit
+        return "s" if check_text(name, "the name of a series") == "t" else self._get_series(name).unit
 
     def meaning(self, name: str) -> str:
         """Return the meaning of a series in one line.
 
         Raises UnknownNameError with the nearest name.
         """
-        return "time" if check_text(name, "the name of a series") == "t" else self._series(name).meaning
+        return "time" if check_text(name, "the name of a series") == "t" else self._get_series(name).meaning
 
     @cached_property
     def parameters(self) -> Mapping[str, Any]:
@@ -378,7 +378,7 @@ class Result(NotebookDisplay):
 
         return get_catalogue(self.source)
 
-    def _series(self, name: str) -> Series:
+    def _get_series(self, name: str) -> Series:
         """Return the catalogue's entry of the series `name`.
 
         Raises UnknownNameError with the nearest name.

@@ -24,9 +24,10 @@ if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Trajectory
     from gudgeon.results.results import Result
 
-ROWS = ("t", "q", "v", "accelerations", "state", "memory", "work")  # arrays of a Result with a row for each sample
+# arrays of a Result with a row for each sample
+SAMPLE_ARRAYS = ("t", "q", "v", "accelerations", "state", "memory", "work")
 Run = TypeVar("Run", bound="Result")
-FEW = 6  # times that repr shows
+MAX_SHOWN_TIMES = 6  # times that repr shows
 OLDER = "the file was written before states at events were kept: run the scene again"
 
 
@@ -51,28 +52,30 @@ def join_start(run: Run) -> Run:
     start_row = run.start_row
     if start_row is None:
         return run
-    arrays: dict[str, Any] = {name: _concatenate(getattr(start_row, name), getattr(run, name)) for name in ROWS}
+    arrays: dict[str, Any] = {
+        name: _concatenate_arrays(getattr(start_row, name), getattr(run, name)) for name in SAMPLE_ARRAYS
+    }
     common_series = run.stored.keys() & start_row.stored.keys()
     stored = {name: np.concatenate([start_row.stored[name], run.stored[name]]) for name in common_series}
     return replace(run, **arrays, stored=stored, start_row=None)
 
 
-def _concatenate(*parts: Array | None) -> Array | None:
+def _concatenate_arrays(*arrays: Array | None) -> Array | None:
     """Return the concatenated arrays; None if one of them is None."""
-    available = [part for part in parts if part is not None]
-    return np.concatenate(available) if len(available) == len(parts) else None
+    available = [part for part in arrays if part is not None]
+    return np.concatenate(available) if len(available) == len(arrays) else None
 
 
-def _select_samples(run: Run, select: Callable[[Array], Array]) -> Run:
-    """Return a copy of the run with the samples that `select` takes from each array, without series computed so far.
+def _select_samples(run: Run, select_rows: Callable[[Array], Array]) -> Run:
+    """Return a copy of the run with the samples that `select_rows` takes from each array.
 
-    If the run's Evaluation exists, the same samples of it are selected.
+    Series computed so far are dropped. If the run's Evaluation exists, the same samples of it are selected.
     """
-    arrays = ((name, getattr(run, name)) for name in ROWS)
-    selected: dict[str, Any] = {name: None if values is None else select(values) for name, values in arrays}
+    arrays = ((name, getattr(run, name)) for name in SAMPLE_ARRAYS)
+    selected: dict[str, Any] = {name: None if values is None else select_rows(values) for name, values in arrays}
     selected_run = replace(run, **selected, stored={})
     if (evaluation := run.__dict__.get("evaluation")) is not None:
-        selected_run.__dict__["evaluation"] = Evaluation(*(select(part) for part in vars(evaluation).values()))
+        selected_run.__dict__["evaluation"] = Evaluation(*(select_rows(part) for part in vars(evaluation).values()))
     return selected_run
 
 
@@ -119,8 +122,11 @@ class AtEvents:
         return len(self.rows)
 
     def __repr__(self) -> str:
-        """Return number and times of the states: "3 states at 'top': t = 0.1, 0.3, 0.5 s"; at most FEW times."""
-        times = [f"{t:.6g}" for t in self.t[:FEW]] + ["…"] * (len(self) > FEW)
+        """Return number and times of the states, such as "2 states at 'top': t = 0.1, 0.3 s".
+
+        At most MAX_SHOWN_TIMES times are listed.
+        """
+        times = [f"{t:.6g}" for t in self.t[:MAX_SHOWN_TIMES]] + ["…"] * (len(self) > MAX_SHOWN_TIMES)
         states = "state" if len(self) == 1 else "states"
         return f"{len(self)} {states} at {self.event!r}" + (f": t = {', '.join(times)} s" if times else "")
 
@@ -169,13 +175,13 @@ def make_result_at_events(run: Result) -> Result:
     return make_result_of_samples(run, run.events["t"], q, v, work, memory, state)
 
 
-def make_result_of_samples(run: Result, t: Array, *parts: Array) -> Result:
+def make_result_of_samples(run: Result, t: Array, *sample_arrays: Array) -> Result:
     """Return a copy of a result with other samples: the start, then one for each of the times t.
 
-    `parts` are q, v, works, memory and contact state at these samples, start included. Accelerations, envelope and
-    computed series are dropped.
+    `sample_arrays` are q, v, works, memory and contact state at these samples, start included. Accelerations,
+    envelope and computed series are dropped.
     """
-    q, v, work, memory, state = parts
+    q, v, work, memory, state = sample_arrays
     return replace(
         run,
         t=np.concatenate([run.t[:1], t]),

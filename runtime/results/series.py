@@ -73,7 +73,7 @@ AT_WALL = {
 }
 EVEN = 1e-6  # of an interval: samples that far from even are not
 WINDOWS = ("boxcar", "hann", "hamming", "blackman", "blackmanharris", "flattop")
-MOST_ORDER = 16
+MAX_FILTER_ORDER = 16
 
 
 @dataclass(frozen=True)
@@ -125,13 +125,13 @@ def explain_missing_masses(source: KernelSource) -> str:
     return f"{', '.join(source.massless)} {'has' if len(source.massless) == 1 else 'have'} no mass or no inertia"
 
 
-def find_missing_names(source: KernelSource, expression_json: Any, available: Container[str]) -> list[str]:
+def find_missing_names(source: KernelSource, expression_json: Any, available_names: Container[str]) -> list[str]:
     """Return the names in an output's expression that this scene does not have, such as A.Fn where A has no play.
-    `available` contains the names of series; parameters and t are always available.
+    `available_names` contains the names of series; parameters and t are always available.
     """
     parameter_names = {parameter.address.removeprefix("parameters.") for parameter in source.slots} | {"t"}
     used_names = [name.path for name in expression_tree.iterate_names(expression_tree.from_json(expression_json))]
-    return [path for path in dict.fromkeys(used_names) if path not in available and path not in parameter_names]
+    return [path for path in dict.fromkeys(used_names) if path not in available_names and path not in parameter_names]
 
 
 def find_rate_names(name: str) -> tuple[str, str]:
@@ -222,13 +222,15 @@ def _iterate_guide_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
         )
 
 
-def _iterate_reaction_series(name: str, row: int, kind: str, location: str) -> Iterator[tuple[str, Series]]:
-    """Yield (name, series) Fx, Fy, M and F of a joint or guide, from a row of Evaluation.reactions."""
+def _iterate_reaction_series(name: str, row_index: int, force_kind: str, location: str) -> Iterator[tuple[str, Series]]:
+    """Yield (name, series) Fx, Fy, M and F of a joint or guide, from a row of Evaluation.reactions. `force_kind` and
+    `location` are words of the meanings of the series.
+    """
     for column, (component, unit, quantity) in enumerate(REACTION):
-        series = _make_evaluated_series(unit, f"{kind} {quantity}: {location}", "reactions", row, column)
+        series = _make_evaluated_series(unit, f"{force_kind} {quantity}: {location}", "reactions", row_index, column)
         yield f"{name}.{component}", series
-    compute_magnitude = partial(_compute_magnitude, name=name)
-    yield f"{name}.F", Series("N", f"{kind} force, magnitude: {location}", compute_magnitude, frozenset({"reactions"}))
+    compute_magnitude, parts = partial(_compute_magnitude, name=name), frozenset({"reactions"})
+    yield f"{name}.F", Series("N", f"{force_kind} force, magnitude: {location}", compute_magnitude, parts)
 
 
 def _get_body_name(source: KernelSource, body: int) -> str:
@@ -259,7 +261,7 @@ def _iterate_clearance_series(source: KernelSource) -> Iterator[tuple[str, Serie
             yield f"{joint.name}.{name}", series
         compute_magnitude = partial(_compute_magnitude, name=joint.name)
         yield f"{joint.name}.F", Series("N", meanings["F"] + suffix, compute_magnitude, parts)
-        compute_ratio = partial(_eccentricity_ratio, joint=joint)
+        compute_ratio = partial(_compute_eccentricity_ratio, joint=joint)
         yield f"{joint.name}.eps", Series("", meanings["eps"] + suffix, compute_ratio, parts)
         states = "0 free, 1 impact (until the penetration first stops growing), 2 contact"
         yield f"{joint.name}.state", _make_stored_series("", f"{states}{suffix}", "state", k)
@@ -276,7 +278,7 @@ def _iterate_state_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
             yield name, _make_stored_series("m", meaning, "memory", first_index + k)
 
 
-def _eccentricity_ratio(run: Result, joint: ClearanceInfo) -> Array:
+def _compute_eccentricity_ratio(run: Result, joint: ClearanceInfo) -> Array:
     """Return the eccentricity ratio e/c, (N,), of a joint with play."""
     return run[f"{joint.name}.e"] / run.p[joint.clearance]
 
@@ -366,7 +368,7 @@ def _compute_energy_residual(run: Result) -> Array:
 def _make_output_series(
     source: KernelSource, name: str, expression_json: Any, series_by_name: Mapping[str, Series]
 ) -> Series:
-    """Return the series of an output of the mechanism file, from its expression and the series `known` before it."""
+    """Return the series of an output of the mechanism file, from its expression and the series defined before it."""
     expression = expression_tree.from_json(expression_json)
     used_names = {name_node.path for name_node in expression_tree.iterate_names(expression)}
     units = {"t": "s"} | {path: series_by_name[path].unit for path in used_names if path in series_by_name}
@@ -383,25 +385,25 @@ def _make_output_series(
 
 
 def make_unknown_series_error(
-    source: KernelSource, available: Mapping[str, Series], name: Any, parameters: Iterable[str]
+    source: KernelSource, available_series: Mapping[str, Series], name: Any, parameter_names: Iterable[str]
 ) -> UnknownNameError:
-    """Return, without raising it, the error for a name that is not in `available`, with nearest names and the reason.
+    """Return, without raising it, the error for a name that is not in `available_series`, with nearest names and why.
     The reason may be: not a text, a parameter, an output that needs other names, a body without masses.
     """
     if not isinstance(name, str):
         return UnknownNameError(f"nothing is named {shorten_value(name)}", hint="a name is a text: run.names lists all")
-    if name in parameters:
-        similar_series = ", ".join(path for path in available if path.rpartition(".")[2] == name)
+    if name in parameter_names:
+        similar_series = ", ".join(path for path in available_series if path.rpartition(".")[2] == name)
         hint = f'its value is run.parameters["{name}"]' + (f"; series: {similar_series}" if similar_series else "")
         return UnknownNameError(f"{name!r} is a parameter, no series", hint=hint)
     if name in source.outputs:
-        missing = ", ".join(find_missing_names(source, source.outputs[name], available))
+        missing = ", ".join(find_missing_names(source, source.outputs[name], available_series))
         hint = "a joint's play, contact and reaction have results only in the scenes that have them"
         hint = MASSLESS_HINT if source.massless else hint
         return UnknownNameError(f"output {name!r} needs {missing}, which scene {source.scene!r} lacks", hint=hint)
     if (reason := explain_missing_masses(source)) and name in get_catalogue(replace(source, massless=())):
         return UnknownNameError(f"{name!r} is not known: {reason}", hint=MASSLESS_HINT)
-    nearest_names = find_near_names(name, available)
+    nearest_names = find_near_names(name, available_series)
     hint = f"nearest: {', '.join(nearest_names)}" if nearest_names else "run.names lists all names"
     return UnknownNameError(f"the scene {source.scene!r} has nothing named {name!r}", hint=hint)
 
@@ -446,9 +448,8 @@ def compute_sampling_rate(t: Array) -> float:
     intervals = np.diff(t)
     if len(intervals) < 8 or not np.all(np.abs(intervals - intervals.mean()) <= EVEN * intervals.mean()):
         message = "a spectrum or a filter takes nine samples at even times or more"
-        raise BadValueError(
-            message, hint="simulate(…, output=N) has equal intervals; an event that ends a run adds one"
-        )
+        hint = "simulate(…, output=N) has equal intervals; an event that ends a run adds one"
+        raise BadValueError(message, hint=hint)
     return float(1.0 / intervals.mean())
 
 
@@ -476,7 +477,7 @@ def low_pass(t: Array, values: Array, cutoff: float, order: int = 2, causal: boo
     """
     from scipy.signal import butter, sosfilt, sosfilt_zi, sosfiltfilt
 
-    sampling_rate, order = compute_sampling_rate(t), check_integer(order, "order", 1, MOST_ORDER)
+    sampling_rate, order = compute_sampling_rate(t), check_integer(order, "order", 1, MAX_FILTER_ORDER)
     check_finite(values)
     if not 0.0 < cutoff < 0.499 * sampling_rate:
         message = f"cutoff: {cutoff:g} Hz with {sampling_rate:g} samples a second: expected one below half of that"

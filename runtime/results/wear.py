@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from gudgeon.results.state import Array
 
 POINTS = 3600  # cells of a circumference
-SHARE = 0.9  # fraction of the volume that lies in the worn arc
+WORN_FRACTION = 0.9  # fraction of the volume that lies in the worn arc
 HOUR = 3600.0  # s
 LAWS = ("archard", "reye")
 
@@ -99,7 +99,7 @@ class Surface:
         """Worn volume per hour of such running, m³/h."""
         return self.volume / self.hours
 
-    def arc(self, share: float = SHARE) -> float:
+    def arc(self, share: float = WORN_FRACTION) -> float:
         """Return the length in rad of the shortest arc of whole cells that contains the fraction `share` of the worn
         volume.
 
@@ -162,11 +162,11 @@ class Wear:
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write angle (rad) and both depths (m) as CSV, with a line for each cell and all digits."""
         from gudgeon.files.writing import write_bytes
-        from gudgeon.language.argument_checks import check_path as named
+        from gudgeon.language.argument_checks import check_path
 
         rows = zip(self.angle.tolist(), self.bearing.depth.tolist(), self.journal.depth.tolist(), strict=True)
         text = "".join(f"{angle!r},{bearing!r},{journal!r}\n" for angle, bearing, journal in rows)
-        write_bytes(named(path, "path"), f"angle,bearing,journal\n{text}".encode())
+        write_bytes(check_path(path, "path"), f"angle,bearing,journal\n{text}".encode())
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Plot the depth over the angle in each body's own frame."""
@@ -255,19 +255,19 @@ class Worn:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the Dataset of `to_xarray` as one complete NetCDF file, which `xarray.open_dataset` reads."""
         from gudgeon.files.writing import write_bytes
-        from gudgeon.language.argument_checks import check_path as named
+        from gudgeon.language.argument_checks import check_path
 
-        write_bytes(named(path, "path"), bytes(self.to_xarray().to_netcdf(engine="h5netcdf")))
-
-
-def compute_cell_angles(points: int) -> Array:
-    """Return the angles of the middles of `points` equal cells of a circumference, (points,), rad."""
-    return (np.arange(points) + 0.5) * (2.0 * np.pi / points)
+        write_bytes(check_path(path, "path"), bytes(self.to_xarray().to_netcdf(engine="h5netcdf")))
 
 
-def compute_shortest_arc(depths: Array, share: float = SHARE) -> float:
-    """Return the length in rad of the shortest arc of whole cells that contains the fraction `share` of the sum of
-    `depths` (points,).
+def compute_cell_angles(n_cells: int) -> Array:
+    """Return the angles of the middles of `n_cells` equal cells of a circumference, (n_cells,), rad."""
+    return (np.arange(n_cells) + 0.5) * (2.0 * np.pi / n_cells)
+
+
+def compute_shortest_arc(depths: Array, fraction: float = WORN_FRACTION) -> float:
+    """Return the length in rad of the shortest arc of whole cells that contains a `fraction` of the sum of `depths`
+    (n_cells,).
 
     Arcs may pass angle 0. Returns NaN if the sum is zero.
     """
@@ -275,7 +275,7 @@ def compute_shortest_arc(depths: Array, share: float = SHARE) -> float:
     if not total_depth > 0.0:
         return np.nan
     cumulated = np.concatenate([[0.0], np.cumsum(np.concatenate([depths, depths]))])
-    targets = cumulated[:n_cells] + share * total_depth * (1.0 - 1e-12)
+    targets = cumulated[:n_cells] + fraction * total_depth * (1.0 - 1e-12)
     end_cells = np.searchsorted(cumulated, targets, "left")
     return float((end_cells - np.arange(n_cells)).min()) * 2.0 * np.pi / n_cells
 
@@ -289,29 +289,36 @@ def find_bearing_parameters(source: KernelSource, joint: str) -> tuple[int, int,
     return radius, clearance.constants["R_j"], length
 
 
-def distribute_loads(points: int, low: Array, high: Array, loads: Array, half: Array | None = None) -> Array:
-    """Return loads (r, K) distributed evenly over arcs from `low` to `high` (K,), rad, as sums by cell, (r, points).
+def distribute_loads(
+    n_cells: int, begin_angles: Array, end_angles: Array, loads: Array, half_widths: Array | None = None
+) -> Array:
+    """Return loads (r, K), distributed evenly over arcs of a circumference, as sums by cell, (r, n_cells).
 
-    With `half` (K,), rad, the load of each point of an arc is a parabola that vanishes at that distance on both sides.
-    Angles may be of any turn. A cell receives the integral over it, so that sums of loads are preserved.
+    The arcs are from `begin_angles` to `end_angles` (K,), rad. With `half_widths` (K,), rad, the load of each point of
+    an arc is a parabola that vanishes at that distance on both sides. Angles may be of any turn. A cell receives the
+    integral over it, so that sums of loads are preserved.
     """
-    per_cell = 2.0 * np.pi / points
-    half_width_cells = np.zeros(len(low)) if half is None else half / per_cell
-    begin, end = low / per_cell, high / per_cell
+    per_cell = 2.0 * np.pi / n_cells
+    half_width_cells = np.zeros(len(begin_angles)) if half_widths is None else half_widths / per_cell
+    begin, end = begin_angles / per_cell, end_angles / per_cell
     end = np.maximum(end, begin + np.maximum(1e-9, 1e-6 * half_width_cells))
     first_cells = np.floor(begin - half_width_cells).astype(np.int64)
-    n_cells = np.floor(end + half_width_cells).astype(np.int64) - first_cells + 1
-    arc_indices = np.repeat(np.arange(len(begin)), n_cells)
-    cell = first_cells[arc_indices] + np.arange(len(arc_indices)) - np.repeat(np.cumsum(n_cells) - n_cells, n_cells)
+    cell_counts = np.floor(end + half_width_cells).astype(np.int64) - first_cells + 1
+    arc_indices = np.repeat(np.arange(len(begin)), cell_counts)
+    cell = (
+        first_cells[arc_indices]
+        + np.arange(len(arc_indices))
+        - np.repeat(np.cumsum(cell_counts) - cell_counts, cell_counts)
+    )
     fraction_left, fraction_right = (
         _compute_fraction_below(
-            edge, begin[arc_indices], end[arc_indices], None if half is None else half_width_cells[arc_indices]
+            edge, begin[arc_indices], end[arc_indices], None if half_widths is None else half_width_cells[arc_indices]
         )
         for edge in (cell, cell + 1)
     )
     return np.stack(
         [
-            np.bincount(cell % points, load_row[arc_indices] * (fraction_right - fraction_left), points)
+            np.bincount(cell % n_cells, load_row[arc_indices] * (fraction_right - fraction_left), n_cells)
             for load_row in loads
         ]
     )

@@ -24,7 +24,7 @@ from PIL import Image  # noqa: E402
 import gudgeon  # noqa: E402
 from gudgeon.drawing.insets import compute_eccentricity  # noqa: E402
 from gudgeon.drawing.labels import find_overlaps  # noqa: E402
-from gudgeon.drawing.page import _track_names  # noqa: E402
+from gudgeon.drawing.page import _iterate_name_offsets  # noqa: E402
 from gudgeon.drawing.roles import INK, TINTS  # noqa: E402
 from gudgeon.drawing.shapes import Sketch  # noqa: E402
 from gudgeon.errors import BadValueError, GudgeonError, OutputError, UnknownNameError  # noqa: E402
@@ -207,7 +207,7 @@ def test_names_follow_and_lie_on_no_other(name: str) -> None:
     drawn = list(draw_sketches(run, check_animation_options(run, 1.6, 25.0, [], False, False)))
     scale = 700.0 / float(drawn[0].high[0] - drawn[0].low[0])
     halves = {label.part: np.array([3.5 * len(label.text), 6.0]) for label in drawn[0].labels}
-    followed = list(_track_names(drawn, dict.fromkeys(halves, (0.0, 0.0)), halves, scale))[1:]
+    followed = list(_iterate_name_offsets(drawn, dict.fromkeys(halves, (0.0, 0.0)), halves, scale))[1:]
     fixed = still = moves = 0
     for sketch, before, now in zip(drawn[2:], followed, followed[1:], strict=False):
         middles = {label.part: scale * label.place + now[label.part] for label in sketch.labels}

@@ -149,7 +149,7 @@ def test_the_same_run_gives_the_same_matlab_file(run: Result, tmp_path: Path) ->
 
 def test_names_that_matlab_refuses_are_made_valid_and_stay_apart() -> None:
     names = ["t", "a.b", "a_b", "end", "names", "lambda.A.x", "long." + "y" * 80, "long." + "y" * 79 + ".z"]
-    found = list(export._matlab_names(names).values())
+    found = list(export._make_matlab_names(names).values())
     assert found[:6] == ["t", "a_b", "a_b_2", "end_", "names_2", "lambda_A_x"]
     assert len({*found}) == len(names)
     assert all(len(name) <= 63 for name in found)

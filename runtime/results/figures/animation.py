@@ -111,7 +111,7 @@ def write_animation(run: Result, target: Any, options: AnimationOptions) -> Anim
     Raises BadValueError for another name, GudgeonError if ffmpeg is missing, OutputError if writing fails.
     """
     if target is None:
-        return _build_page(run, options)
+        return _build_animation(run, options)
     file = Path(check_path(target, "the file of an animation"))
     suffix = file.suffix.lower()
     if suffix not in SUFFIXES or os.fspath(target).endswith(os.sep):
@@ -121,12 +121,12 @@ def write_animation(run: Result, target: Any, options: AnimationOptions) -> Anim
         raise GudgeonError(f"{message}\n  install it, or name a .gif or .html")
     check_target(file)
     if suffix == ".html":
-        animation = _build_page(run, options)
+        animation = _build_animation(run, options)
         write_text(file, animation.html)
         return animation
     try:
         with convert_os_errors(file):  # a folder of its own, and what is written there first
-            film_bytes = _write_film(run, options, suffix)
+            film_bytes = _encode_film(run, options, suffix)
     except subprocess.CalledProcessError as error:
         raise OutputError(file, f"ffmpeg ended with {error.returncode}") from error
     write_bytes(file, film_bytes)
@@ -136,17 +136,17 @@ def write_animation(run: Result, target: Any, options: AnimationOptions) -> Anim
 def draw_sketches(run: Result, options: AnimationOptions) -> Iterator[Sketch]:
     """Yield the drawing of each picture of an animation, all in one box and to one scale, and report the progress."""
     motion = select_postures(run, 60)
-    plan = make_plan(motion)
-    box, paths = compute_common_box(motion, [plan]), build_path_lines(run, options.points)
+    layout = make_plan(motion)
+    box, paths = compute_common_box(motion, [layout]), build_path_lines(run, options.points)
     previous_time = options.times[0]
     for k, t in enumerate(options.times):
         if options.progress:
             options.progress(k / len(options.times), f"picture {k + 1} of {len(options.times)}")
         posture = compute_posture(run, float(t))
-        scaled_plan, arrows = draw_requested_arrows(run, posture, motion, plan, options.velocities, options.forces)
+        scaled_layout, arrows = draw_requested_arrows(run, posture, motion, layout, options.velocities, options.forces)
         sketch = make_sketch(
             posture,
-            scaled_plan,
+            scaled_layout,
             shapes_on_top=paths,
             arrows=arrows,
             touching=find_contacts_at_posture(run, posture),
@@ -178,14 +178,14 @@ def _format_caption(run: Result, t: float, options: AnimationOptions) -> str:
     return f"{title}, t = {t:.4f} s{speed_text if abs(slowdown - 1.0) > 1e-9 else ''}"
 
 
-def _build_page(run: Result, options: AnimationOptions) -> Animation:
+def _build_animation(run: Result, options: AnimationOptions) -> Animation:
     """Return the Animation of an HTML page.
 
     matplotlib places the names once; each then keeps its offset from its part until it would overlap another.
     """
     sketch_list = list(draw_sketches(run, options))
-    figure, name_artist = _draw_canvas(sketch_list[0], _format_caption(run, options.times[0], options))
-    offsets = _get_name_offsets(figure, name_artist)
+    figure, name_artist = _build_sketch_figure(sketch_list[0], _format_caption(run, options.times[0], options))
+    offsets = _compute_name_offsets(figure, name_artist)
     half_sizes = (
         {part: 0.5 * (np.array(box[2:]) - box[:2]) for part, box in name_artist.boxes.items()} if name_artist else {}
     )
@@ -197,7 +197,7 @@ def _build_page(run: Result, options: AnimationOptions) -> Animation:
     return Animation(text, width, width * float(np.divide(*(sketch_list[0].high - sketch_list[0].low)[::-1])))
 
 
-def _draw_canvas(sketch: Sketch, caption: str) -> tuple[Figure, NameLabels | None]:
+def _build_sketch_figure(sketch: Sketch, caption: str) -> tuple[Figure, NameLabels | None]:
     """Return a figure of the sketch with a caption at PIXELS per inch, and its names; None without names."""
     width, height = compute_figure_size(sketch, 7.0)
     figure = Figure(figsize=(width, height + 0.3), dpi=PIXELS)
@@ -207,10 +207,10 @@ def _draw_canvas(sketch: Sketch, caption: str) -> tuple[Figure, NameLabels | Non
     return figure, next((artist for artist in ax.get_children() if isinstance(artist, NameLabels)), None)
 
 
-def _get_name_offsets(picture: Figure, names: NameLabels | None) -> dict[str, tuple[float, float]]:
+def _compute_name_offsets(figure: Figure, name_labels: NameLabels | None) -> dict[str, tuple[float, float]]:
     """Return the offsets of the placed names after the layout of a figure."""
-    picture.draw_without_rendering()
-    return names.label_offsets if names is not None else {}
+    figure.draw_without_rendering()
+    return name_labels.label_offsets if name_labels is not None else {}
 
 
 class _GifWriter(PillowWriter):
@@ -248,7 +248,7 @@ def _append_colour_stripes(image: Any) -> Any:
     return extended_image
 
 
-def _write_film(run: Result, options: AnimationOptions, suffix: str) -> bytes:
+def _encode_film(run: Result, options: AnimationOptions, suffix: str) -> bytes:
     """Return the bytes of a GIF or MP4 file, written by matplotlib into a temporary directory.
 
     `suffix` is ".gif" or ".mp4". Raises CalledProcessError if ffmpeg fails.
@@ -261,10 +261,10 @@ def _write_film(run: Result, options: AnimationOptions, suffix: str) -> bytes:
     with matplotlib.rc_context(STYLE), tempfile.TemporaryDirectory() as directory:
         file = os.path.join(directory, f"film{suffix}")
         for t, sketch in zip(options.times, draw_sketches(run, options), strict=True):
-            figure, name_artist = _draw_canvas(sketch, _format_caption(run, float(t), options))
+            figure, name_artist = _build_sketch_figure(sketch, _format_caption(run, float(t), options))
             if name_artist is not None:
                 name_artist.previous_offsets = offsets
-            offsets = _get_name_offsets(figure, name_artist)
+            offsets = _compute_name_offsets(figure, name_artist)
             if t == options.times[0]:
                 writer.setup(figure, file, PIXELS)
             writer.fig = figure

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from gudgeon.model.compiled import Array
     from gudgeon.results.results import Result
 
-MOST = 4  # panels of a figure
+MAX_PANELS = 4  # panels of a figure
 
 
 def get_force_curve(run: Result, joint: str) -> tuple[Array, Array]:
@@ -72,7 +72,7 @@ def _sort_by_time(t: Array, values: Array) -> tuple[Array, Array]:
 
 
 def assign_panels(runs: Iterable[Result]) -> dict[str, list[str]]:
-    """Return the names of the series of each panel of forces, by the panel's title; at most MOST panels.
+    """Return the names of the series of each panel of forces, by the panel's title; at most MAX_PANELS panels.
 
     A bearing has a panel for its force. A guide has panels for force and moment on its slider, at samples, and for the
     forces at its corners, with the extremes of all steps.
@@ -84,7 +84,7 @@ def assign_panels(runs: Iterable[Result]) -> dict[str, list[str]]:
         if corner:
             series_by_title.setdefault(f"moment at {guide}, of samples", [f"{guide}.M"])
             series_by_title.setdefault(f"forces at corners of {guide}", []).append(f"{joint}.F")
-    return dict([*series_by_title.items()][:MOST])
+    return dict([*series_by_title.items()][:MAX_PANELS])
 
 
 def get_curve(run: Result, name: str) -> tuple[Array, Array]:

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 Array = Any
 POINTS = "the name of a point that moves, or a list of such names"
-MANY = 60  # names for which a panel has no room
+MAX_NAMES = 60  # names for which a panel has no room
 
 
 def draw_sketch_at_time(run: Result, t: Any, velocities: bool = False, forces: bool = False) -> Sketch:
@@ -37,9 +37,9 @@ def draw_sketch_at_time(run: Result, t: Any, velocities: bool = False, forces: b
     """
     velocities, forces = check_flag(velocities, "velocities"), check_flag(forces, "forces")
     posture, motion = compute_posture(run, read_time(run, t)), select_postures(run)
-    plan = make_plan(motion)
-    plan, all_arrows = draw_requested_arrows(run, posture, motion, plan, velocities, forces)
-    return make_sketch(posture, plan, arrows=all_arrows, touching=find_contacts_at_posture(run, posture))
+    layout = make_plan(motion)
+    layout, all_arrows = draw_requested_arrows(run, posture, motion, layout, velocities, forces)
+    return make_sketch(posture, layout, arrows=all_arrows, touching=find_contacts_at_posture(run, posture))
 
 
 def find_contacts_at_posture(run: Result, posture: Posture) -> frozenset[str]:
@@ -55,31 +55,31 @@ def find_contacts_at_posture(run: Result, posture: Posture) -> frozenset[str]:
 
 
 def draw_requested_arrows(
-    run: Result, posture: Posture, motion: Sequence[Posture], plan: Plan, velocities: bool, forces: bool
+    run: Result, posture: Posture, motion: Sequence[Posture], layout: Plan, velocities: bool, forces: bool
 ) -> tuple[Plan, list[Arrows]]:
-    """Return the plan, and a list of the requested arrows of velocities and forces.
+    """Return the layout, and a list of the requested arrows of velocities and forces.
 
-    `motion` has postures of the whole run, to which the scale of velocities belongs. With `forces` the returned plan
+    `motion` has postures of the whole run, to which the scale of velocities belongs. With `forces` the returned layout
     draws applied forces to the scale of the reactions.
     """
-    all_arrows = [draw_velocity_arrows(posture, motion, plan)] if velocities else []
+    all_arrows = [draw_velocity_arrows(posture, motion, layout)] if velocities else []
     if not forces:
-        return plan, all_arrows
-    reactions, force_scale = draw_force_arrows(run, posture, plan)
-    return replace(plan, newton=force_scale), [*all_arrows, reactions]
+        return layout, all_arrows
+    reactions, force_scale = draw_force_arrows(run, posture, layout)
+    return replace(layout, newton=force_scale), [*all_arrows, reactions]
 
 
-def draw_velocity_arrows(posture: Posture, motion: Sequence[Posture], plan: Plan) -> Arrows:
+def draw_velocity_arrows(posture: Posture, motion: Sequence[Posture], layout: Plan) -> Arrows:
     """Return the velocity arrows of all points at a posture, with the largest speed of the whole run as scale."""
     speeds = [
         float(np.hypot(*vector))
         for sample_posture in (*motion, posture)
         for _, (_, vector) in compute_velocities(sample_posture)
     ]
-    return draw_arrows("velocity", dict(compute_velocities(posture)), "m/s", plan.unit, max(speeds, default=0.0))
+    return draw_arrows("velocity", dict(compute_velocities(posture)), "m/s", layout.unit, max(speeds, default=0.0))
 
 
-def draw_force_arrows(run: Result, posture: Posture, plan: Plan) -> tuple[Arrows, float]:
+def draw_force_arrows(run: Result, posture: Posture, layout: Plan) -> tuple[Arrows, float]:
     """Return the arrows of joint forces at a posture, and the length of 1 N (m of the drawing; 0 without forces).
 
     Forces act on the second body, for a joint with play on the journal, and are interpolated between samples. The
@@ -93,8 +93,8 @@ def draw_force_arrows(run: Result, posture: Posture, plan: Plan) -> tuple[Arrows
     ]
     max_magnitude = max((magnitude for magnitude in magnitudes if np.isfinite(magnitude)), default=0.0)
     acting_on = " on the second body, applied force" if np.any(applied_forces) else " on the second body"
-    reaction_arrows = replace(draw_arrows("reaction", reactions, "N", plan.unit, max_magnitude), on=acting_on)
-    return reaction_arrows, LONGEST * plan.unit / max_magnitude if max_magnitude > 0.0 else 0.0
+    reaction_arrows = replace(draw_arrows("reaction", reactions, "N", layout.unit, max_magnitude), on=acting_on)
+    return reaction_arrows, LONGEST * layout.unit / max_magnitude if max_magnitude > 0.0 else 0.0
 
 
 def _iterate_joint_forces(run: Result, posture: Posture) -> Iterator[tuple[str, tuple[Array, Array]]]:
@@ -110,11 +110,11 @@ def _iterate_joint_forces(run: Result, posture: Posture) -> Iterator[tuple[str, 
 def draw_start_sketch(run: Result) -> Sketch:
     """Return the drawing at the start of the run, without insets.
 
-    Names are left out if there are more than MANY.
+    Names are left out if there are more than MAX_NAMES.
     """
     motion = select_postures(run)
     sketch = make_sketch(motion[0], make_plan(motion), shows_insets=False)
-    return sketch if len(sketch.labels) <= MANY else replace(sketch, labels=())
+    return sketch if len(sketch.labels) <= MAX_NAMES else replace(sketch, labels=())
 
 
 def draw_start_picture(scene_or_run: Any) -> bytes:
@@ -139,8 +139,8 @@ def draw_path_sketch(run: Result) -> Sketch:
     Its only label is that of the scale.
     """
     motion = select_postures(run)
-    plan = make_plan(motion)
-    sketch = make_sketch(motion[0], plan, box=compute_common_box(motion, [plan]), shows_insets=False)
+    layout = make_plan(motion)
+    sketch = make_sketch(motion[0], layout, box=compute_common_box(motion, [layout]), shows_insets=False)
     return replace(sketch, labels=tuple(label for label in sketch.labels if label.role == "scale"))
 
 

@@ -167,7 +167,9 @@ def draw_run_figure(
         n_rows = 3 + len(force_panels)
         grid = curves_area.add_gridspec(n_rows, max(1, len(watched_series)))
         for column, name in enumerate(watched_series):
-            _draw_motion(curves_area, grid, column, shown_runs, references if runs_with_play else {}, name, colours)
+            _draw_motion_column(
+                curves_area, grid, column, shown_runs, references if runs_with_play else {}, name, colours
+            )
         forces = [curves_area.add_subplot(grid[3 + k, :]) for k in range(len(force_panels))]
         _draw_forces(forces, force_panels, runs_with_play, references, colours)
         curves_area.align_ylabels()
@@ -179,14 +181,14 @@ def draw_run_figure(
     return figure
 
 
-def _split_figure(picture: Figure, n_orbits: int, has_mechanism: bool) -> tuple[Any, Any, Any]:
+def _split_figure(figure: Figure, n_orbits: int, has_mechanism: bool) -> tuple[Any, Any, Any]:
     """Return the subfigures for curves over time, for the mechanism and for orbits; None for one without content.
 
     `n_orbits` is the number of columns of orbits, 0 for none.
     """
     if not (n_orbits or has_mechanism):
-        return picture.subfigures(1, 1), None, None
-    areas: Any = picture.subfigures(1, 2, width_ratios=[1.0, 0.5 if n_orbits == 1 and not has_mechanism else 0.9])
+        return figure.subfigures(1, 1), None, None
+    areas: Any = figure.subfigures(1, 2, width_ratios=[1.0, 0.5 if n_orbits == 1 and not has_mechanism else 0.9])
     left_area, right_area = areas
     if not (n_orbits and has_mechanism):
         return left_area, right_area if has_mechanism else None, right_area if n_orbits else None
@@ -194,30 +196,31 @@ def _split_figure(picture: Figure, n_orbits: int, has_mechanism: bool) -> tuple[
     return left_area, upper_area, lower_area
 
 
-def _draw_mechanism(area: Any, run: Result) -> None:
+def _draw_mechanism(subfigure: Any, run: Result) -> None:
     """Draw the mechanism at the start of the run in a subfigure, with the time as title."""
     from gudgeon.drawing.picture import draw_sketch
     from gudgeon.results.figures.mechanism_plots import draw_start_sketch
 
-    ax = area.add_subplot()
+    ax = subfigure.add_subplot()
     draw_sketch(ax, draw_start_sketch(run))
     ax.set_title(f"t = {format_quantity(float(run.t[0]), 's', 6)}")
 
 
-def _draw_motion(
-    area: Any,
+def _draw_motion_column(
+    subfigure: Any,
     grid: Any,
     column: int,
     runs: Mapping[str, Result],
     references: Mapping[str, Result],
-    name: str,
+    series_name: str,
     colours: Mapping[str, str],
 ) -> None:
     """Draw a series, its velocity and its acceleration in three rows of a column of the grid.
 
-    Scenes with a reference show the difference from it. A series that no scene has is left out.
+    `runs`, `references` and `colours` are by scene. Scenes with a reference show the difference
+    from it. A series that no scene has is left out.
     """
-    names = [series for series in (name, *find_rate_names(name)) if series]
+    names = [series for series in (series_name, *find_rate_names(series_name)) if series]
     for row, series in enumerate(names):
         compared_scenes = [scene for scene in runs if scene in references and series in references[scene]]
         values_by_scene = {scene: runs[scene][series] - references[scene][series] for scene in compared_scenes}
@@ -225,7 +228,7 @@ def _draw_motion(
             values_by_scene = {scene: run[series] for scene, run in runs.items() if series in run}
         if not values_by_scene:
             continue
-        ax = area.add_subplot(grid[row, column] if len(names) > 1 else grid[:3, column])
+        ax = subfigure.add_subplot(grid[row, column] if len(names) > 1 else grid[:3, column])
         factor, text = choose_plot_unit(
             max(map(find_largest_magnitude, values_by_scene.values())), runs[next(iter(values_by_scene))].unit(series)
         )
@@ -245,10 +248,10 @@ def _draw_forces(
     references: Mapping[str, Result],
     colours: Mapping[str, str],
 ) -> None:
-    """Draw one row for each panel: forces in every scene, with their peaks (▾), and the ideal reaction over them,
-    dashed.
+    """Draw the force panels: forces in every scene, with their peaks (▾), and the ideal reaction over them, dashed.
 
-    `panels` has the series of each panel by title.
+    `panels` has the names of the series of each panel by title, in the order of `axes`. `runs`, the ideal runs
+    `references` and `colours` are by scene.
     """
     for ax, (title, names) in zip(axes, panels.items(), strict=True):
         available = [(scene, run, name) for scene, run in runs.items() for name in names if name in run]
@@ -273,23 +276,23 @@ def _draw_forces(
         _format_time_axis(ax, format_label(title, text), [t for t, *_ in curves], ax is axes[-1])
 
 
-def _format_time_axis(ax: Axes, text: str, times: Sequence[Any], is_last_row: bool) -> None:
+def _format_time_axis(ax: Axes, y_label: str, times: Sequence[Any], is_last_row: bool) -> None:
     """Set the labels, limits and ticks of axes over time; only the last row of a column has the label of the time.
 
-    `times` are the time arrays of the curves, which set the limits.
+    `y_label` is wrapped to the height of the axes. `times` are the time arrays of the curves, which set the limits.
     """
-    ax.set_ylabel(_wrap_label(ax, text))
+    ax.set_ylabel(_wrap_label(ax, y_label))
     start, end = min(float(t[0]) for t in times), max(float(t[-1]) for t in times)
     ax.set_xlim(start, end if end > start else start + 1.0)
     ax.tick_params(labelbottom=is_last_row)
     if is_last_row:
-        factor, text = choose_prefix(end, "s")
+        factor, time_unit = choose_prefix(end, "s")
         ax.xaxis.set_major_formatter(lambda t, _: f"{t * factor:g}")
-        ax.set_xlabel(format_label("t", text))
+        ax.set_xlabel(format_label("t", time_unit))
     ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 2.5, 5, 10], min_n_ticks=3))
 
 
-def _wrap_label(ax: Axes, text: str) -> str:
+def _wrap_label(ax: Axes, label: str) -> str:
     """Return a label wrapped to the height of its axes, since names of bodies may be long.
 
     Words that are too long are broken after points.
@@ -299,17 +302,17 @@ def _wrap_label(ax: Axes, text: str) -> str:
     n_rows = spec.get_gridspec().nrows if spec else 1
     points = 72 * ax.figure.bbox.height / ax.figure.dpi * 0.85 * n_spanned / n_rows
     width = max(8, int(points / (0.58 * float(ax.yaxis.label.get_fontsize()))))
-    tokens = [token if len(token) <= width else token.replace(".", ".\u200b") for token in text.split(" ")]
+    tokens = [token if len(token) <= width else token.replace(".", ".\u200b") for token in label.split(" ")]
     lines = textwrap.wrap(" ".join(tokens).replace("\u200b", " \u200b"), width, break_long_words=False)
     return "\n".join(lines).replace(" \u200b", "").replace("\u200b", "")
 
 
-def _draw_orbits(area: Any, joints: Sequence[str], runs: Mapping[str, Result], colours: Mapping[str, str]) -> None:
+def _draw_orbits(subfigure: Any, joints: Sequence[str], runs: Mapping[str, Result], colours: Mapping[str, str]) -> None:
     """Draw an orbit for each joint (down) and scene (across, in several rows if needed), all to one scale."""
     scenes = list(runs)
     n_columns = min(len(scenes), ACROSS)
     n_rows = -(-len(scenes) // n_columns)
-    grid = area.add_gridspec(len(joints) * n_rows, n_columns)
+    grid = subfigure.add_gridspec(len(joints) * n_rows, n_columns)
     joint_scenes = [(joint, scene) for joint in joints for scene in scenes if f"{joint}.e" in runs[scene]]
     half_width = max(
         compute_orbit_half_width(runs[scene], joint) for joint, scene in joint_scenes
@@ -317,11 +320,13 @@ def _draw_orbits(area: Any, joints: Sequence[str], runs: Mapping[str, Result], c
     for joint, scene in joint_scenes:
         row, column = divmod(scenes.index(scene), n_columns)
         cell = grid[joints.index(joint) * n_rows + row, column]
-        ax = area.add_subplot(cell)
+        ax = subfigure.add_subplot(cell)
         draw_orbit(ax, runs[scene], joint, colours[scene], half_width)
         if n_rows > 1:  # the title would be wider than its circle
             ax.set_title(f"{joint}, {scene}", fontsize=7.5)
-    area.supxlabel("journal in the circle e = c, ○ start\nforces: ▾ peak of all steps", fontsize=9, color="#444444")
+    subfigure.supxlabel(
+        "journal in the circle e = c, ○ start\nforces: ▾ peak of all steps", fontsize=9, color="#444444"
+    )
 
 
 def _draw_title_and_legend(

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.results.results import Array, Result
 
-CLOSING = 4  # times that a position between samples is led to Φ = 0
-OF_MOTION = 24  # positions that stand for a motion where a drawing makes room for it
+N_PROJECTIONS = 4  # times that a position between samples is led to Φ = 0
+N_MOTION_POSTURES = 24  # positions that stand for a motion where a drawing makes room for it
 
 
 def read_time(run: Result, t: Any) -> float:
@@ -54,28 +54,28 @@ def compute_posture(run: Result, t: float) -> Posture:
             float(np.interp(t, run.t[neighbours], x[neighbours])),
             float(np.interp(t, run.t[neighbours], y[neighbours])),
         )
-        for name, x, y in _load_series(run)
+        for name, x, y in _iterate_load_series(run)
     }
     if (sample_indices := np.flatnonzero(run.t == t)).size:
         q, v = run.q[sample_indices[0]], run.v[sample_indices[0]]
     else:
         q, v = _interpolate_cubic(run, k, t)
         if run.compiled is not None:  # between coarse samples the cubic takes joints apart
-            for _ in range(CLOSING):
+            for _ in range(N_PROJECTIONS):
                 q, v = project_state(run.compiled, t, q, v, run.p)
     return Posture(run.source, run.p, q, t, v, loads)
 
 
-def select_postures(run: Result, count: int = OF_MOTION) -> list[Posture]:
+def select_postures(run: Result, count: int = N_MOTION_POSTURES) -> list[Posture]:
     """Return up to `count` postures at samples spread evenly over the whole run, the start first."""
     sample_indices = np.unique(np.linspace(0, len(run.t) - 1, count).round().astype(int))
-    series = [*_load_series(run)]
+    series = [*_iterate_load_series(run)]
     loads = [{name: (float(x[k]), float(y[k])) for name, x, y in series} for k in sample_indices]
     samples = zip(sample_indices, loads, strict=True)
     return [Posture(run.source, run.p, run.q[k], float(run.t[k]), run.v[k], loads_there) for k, loads_there in samples]
 
 
-def _load_series(run: Result) -> Iterator[tuple[str, Any, Any]]:
+def _iterate_load_series(run: Result) -> Iterator[tuple[str, Any, Any]]:
     """Yield the name and two series (N,) of each force and torque element: Fx and Fy of a force; M and zeros of a
     torque.
     """
@@ -111,7 +111,7 @@ def evaluate_loads(source: KernelSource, p: Array, q: Array, v: Array) -> dict[s
     expressions = {entry.address: entry.tree for entry in source.written}
     parameters = {parameter.address: float(x) for parameter, x in zip(source.slots, p, strict=False)}
 
-    def evaluate_value(address: str) -> float:
+    def evaluate_address(address: str) -> float:
         """Return the value of an address of the file at the state, from its expression or its parameter; 0 if it has
         neither.
         """
@@ -124,9 +124,9 @@ def evaluate_loads(source: KernelSource, p: Array, q: Array, v: Array) -> dict[s
     loads = {}
     for part in source.parts:
         if part.kind == "torque":
-            loads[part.name] = evaluate_value(f"forces.{part.name}.value"), 0.0
+            loads[part.name] = evaluate_address(f"forces.{part.name}.value"), 0.0
         elif part.kind == "force":
-            x, y = (evaluate_value(f"forces.{part.name}.value.{axis}") for axis in "xy")
+            x, y = (evaluate_address(f"forces.{part.name}.value.{axis}") for axis in "xy")
             axes_body = part.options["axes"] == "body" and part.ends[0].partition(".")[0]
             angle = (
                 float(sample[f"{axes_body}.theta"][0]) if axes_body in {body.name for body in source.bodies} else 0.0

@@ -16,8 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.errors import BadValueError, UnknownNameError
-from gudgeon.language.argument_checks import check_flag, check_positive, raise_bad_value, shorten_value
-from gudgeon.language.argument_checks import check_names as listed_names
+from gudgeon.language.argument_checks import check_flag, check_names, check_positive, raise_bad_value, shorten_value
 from gudgeon.language.plot_units import choose_plot_unit, format_label
 from gudgeon.language.text_output import format_figure_title
 from gudgeon.results.figures import joint_curves
@@ -67,7 +66,7 @@ class Plot:
         Without names these are the default series (default_watch), drives and forces. Forces include the extremes of
         all steps.
         """
-        requested_names = [name for names_argument in names for name in listed_names(names_argument, "names", SERIES)]
+        requested_names = [name for names_argument in names for name in check_names(names_argument, "names", SERIES)]
         run, panels = self.run, dict[str, list[str]]()
         joints = [joint.name for joint in run.source.clearances or run.source.joints]
         forces = {
@@ -90,7 +89,7 @@ class Plot:
 
     def series(self, *names: str | Sequence[str], ax: Axes | None = None) -> Axes:
         """Plot series of one unit over time in one panel, and return the axes."""
-        series_names = [name for names_argument in names for name in listed_names(names_argument, "names", SERIES)]
+        series_names = [name for names_argument in names for name in check_names(names_argument, "names", SERIES)]
         return self._plot_curves({name: (self.run.t, self.run[name]) for name in series_names}, ax)
 
     def _plot_curves(self, curves: Mapping[str, tuple[Any, Any]], ax: Axes | None, x_label: str = "t [s]") -> Axes:
@@ -142,7 +141,7 @@ class Plot:
 
     def phase(self, x: str, y: str | None = None, ax: Axes | None = None) -> Axes:
         """Plot one series over another, with a ring at the start; by default the rate of "S9.y" over "S9.y"."""
-        y = self._find_rate(x) if y is None else y
+        y = self._find_rate_name(x) if y is None else y
         return self._plot_series_pair(self.run[x], self.run[y], x, y, ax, "-")
 
     def section(self, event: str, x: str, y: str | None = None, ax: Axes | None = None) -> Axes:
@@ -150,12 +149,12 @@ class Plot:
 
         Without `y` it is the rate of x. Raises BadValueError if the event did not happen.
         """
-        y, states = self._find_rate(x) if y is None else y, self.run.at_events(event)
+        y, states = self._find_rate_name(x) if y is None else y, self.run.at_events(event)
         if not len(states):
             raise BadValueError(f"plot.section: {event} did not happen in this run")
         return self._plot_series_pair(states[x], states[y], x, y, ax, ".", f", at {event}, {len(states)} states")
 
-    def _find_rate(self, name: str) -> str:
+    def _find_rate_name(self, name: str) -> str:
         """Return the name of the series that is the rate of a series, such as "S9.vy" for "S9.y".
 
         Raises BadValueError if there is none, UnknownNameError for an unknown series.
@@ -167,22 +166,23 @@ class Plot:
         return rate_name
 
     def _plot_series_pair(
-        self, xs: Any, ys: Any, x: str, y: str, ax: Axes | None, style: str, suffix: str = ""
+        self, x_values: Any, y_values: Any, x_name: str, y_name: str, ax: Axes | None, style: str, suffix: str = ""
     ) -> Axes:
-        """Plot values `ys` of the series y over values `xs` of the series x, with units, and return the axes.
+        """Plot the values of one series over those of another, with their units, and return the axes.
 
+        `x_name` and `y_name` are the names of the series, for labels and units.
         `style` is a line style of matplotlib: "-" adds a ring at the start. `suffix` is added to the caption.
         """
         with matplotlib.rc_context(STYLE):
             ax = create_axes(5.2, 4.4) if ax is None else check_axes(ax)
             (x_factor, x_unit), (y_factor, y_unit) = (
                 choose_plot_unit(find_largest_magnitude(values), self.run.unit(name))
-                for name, values in ((x, xs), (y, ys))
+                for name, values in ((x_name, x_values), (y_name, y_values))
             )
-            ax.plot(xs * x_factor, ys * y_factor, style, color=COLOURS[1], lw=0.8, ms=3.0)
+            ax.plot(x_values * x_factor, y_values * y_factor, style, color=COLOURS[1], lw=0.8, ms=3.0)
             if style == "-":
-                ax.plot(xs[:1] * x_factor, ys[:1] * y_factor, "o", ms=4, mfc="white", mec=IDEAL, mew=0.9)
-            ax.set(xlabel=format_label(x, x_unit), ylabel=format_label(y, y_unit))
+                ax.plot(x_values[:1] * x_factor, y_values[:1] * y_factor, "o", ms=4, mfc="white", mec=IDEAL, mew=0.9)
+            ax.set(xlabel=format_label(x_name, x_unit), ylabel=format_label(y_name, y_unit))
             ax.set_title(format_figure_title(format_caption(self.run) + suffix, TITLE))
         return ax
 
@@ -195,7 +195,7 @@ class Plot:
         """
         from gudgeon.results.series import compute_spectrum
 
-        series_names = [name for names_argument in names for name in listed_names(names_argument, "names", SERIES)]
+        series_names = [name for names_argument in names for name in check_names(names_argument, "names", SERIES)]
         spectra = {name: compute_spectrum(self.run.t, self.run[name], window) for name in series_names}
         ax = self._plot_curves(spectra, ax, "f [Hz]")
         ax.set_title(format_figure_title(f"{format_caption(self.run)}, window {window}", TITLE))
@@ -245,7 +245,7 @@ class Plot:
             draw_sketch_at_time(self.run, t, velocities, forces),
             f"t\u00a0=\u00a0{read_time(self.run, t):.6g}\u00a0s",
         )
-        return self._draw_with_caption(
+        return self._draw_sketch_with_caption(
             sketch, ax, lambda on: draw_sketch(on, sketch), f"{format_caption(self.run)}, {caption}"
         )
 
@@ -261,14 +261,16 @@ class Plot:
             raise BadValueError("plot.path: expected the name of a point at least", hint='for example "coupler.head"')
         sketch = draw_path_sketch(self.run)
         caption = f"{format_caption(self.run)}, drawn at t\u00a0=\u00a0{float(self.run.t[0]):.6g}\u00a0s"
-        return self._draw_with_caption(sketch, ax, lambda on: draw_path(self.run, sketch, names, on), caption, LEGEND)
+        return self._draw_sketch_with_caption(
+            sketch, ax, lambda on: draw_path(self.run, sketch, names, on), caption, LEGEND
+        )
 
-    def _draw_with_caption(
-        self, sketch: Sketch, ax: Axes | None, draw: Callable[[Axes], None], caption: str, margin: float = 0.0
+    def _draw_sketch_with_caption(
+        self, sketch: Sketch, ax: Axes | None, draw_content: Callable[[Axes], None], caption: str, margin: float = 0.0
     ) -> Axes:
         """Draw a sketch on new or given axes, with the caption as title above and its notes below; return the axes.
 
-        `draw` paints the sketch on axes. `margin` is space in inches that new axes leave for a legend.
+        `draw_content` paints the sketch on axes. `margin` is space in inches that new axes leave for a legend.
         """
         from gudgeon.drawing.picture import PER_INCH, compute_figure_size
 
@@ -276,7 +278,7 @@ class Plot:
             width, height = compute_figure_size(sketch, 7.0)
             caption_width = TITLE if ax is not None else min(TITLE, int(PER_INCH * (width + margin)))
             ax = create_axes(width + margin, height) if ax is None else check_axes(ax)
-            draw(ax)
+            draw_content(ax)
             ax.set_title(format_figure_title(caption, caption_width))
             ax.text(0.0, -0.01, "\n".join(sketch.notes), transform=ax.transAxes, va="top", fontsize=7.5)
         return ax

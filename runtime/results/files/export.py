@@ -16,9 +16,7 @@ import numpy as np
 from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.files.free_space import check_disk, check_memory
 from gudgeon.files.writing import open_atomic
-from gudgeon.language.argument_checks import check_list, raise_bad_value
-from gudgeon.language.argument_checks import check_names as plain_names
-from gudgeon.language.argument_checks import check_path as named
+from gudgeon.language.argument_checks import check_list, check_names, check_path, raise_bad_value
 from gudgeon.language.text_output import escape_for_spreadsheet
 from gudgeon.results.batch import (
     Batch,
@@ -78,7 +76,7 @@ def list_requested_series(run: Result, names: Iterable[str] | None) -> list[str]
         return list(run.names)
     if isinstance(names, str):
         raise_bad_value("names", names, "a list of names of series")
-    unique_names = list(dict.fromkeys(plain_names(names, "names", "a list of names of series")))
+    unique_names = list(dict.fromkeys(check_names(names, "names", "a list of names of series")))
     for name in unique_names:
         run.unit(name)
     return [name for name in unique_names if name != "t"]
@@ -178,7 +176,7 @@ def _write_csv(path: str | os.PathLike[str], columns_by_run: Iterator[Columns], 
 
     Raises OutputError at once if `n_rows` lines of the length of some of the first do not fit on the disk.
     """
-    with open_atomic(named(path, "path")) as file:
+    with open_atomic(check_path(path, "path")) as file:
         for k, run_columns in enumerate(columns_by_run):
             columns = list(run_columns.values())
             if k == 0:
@@ -245,13 +243,13 @@ def _write_mat(
     """
     from scipy.io import savemat
 
-    matlab_names = _matlab_names([name for name, *_ in descriptions])
+    matlab_names = _make_matlab_names([name for name, *_ in descriptions])
     contents: dict[str, Any] = {matlab_names[name]: columns[name] for name in matlab_names}
     contents["variables"] = np.array(list(matlab_names.values()), dtype=object)
     for column, cell_name in enumerate(("names", "units", "meanings")):
         contents[cell_name] = np.array([row[column] for row in descriptions], dtype=object)
     contents |= {"mechanism": result.source.mechanism, "scene": result.source.scene}
-    path = named(path, "path")
+    path = check_path(path, "path")
     check_disk(Path(path).parent, sum(float(column.nbytes) for column in columns.values()), "it", path)
     with open_atomic(path) as file:
         savemat(file, contents, long_field_names=True, oned_as="column")
@@ -259,7 +257,7 @@ def _write_mat(
         file.write(MATLAB.ljust(DATE))  # the same run gives the same bytes
 
 
-def _matlab_names(names: Sequence[str]) -> dict[str, str]:
+def _make_matlab_names(names: Sequence[str]) -> dict[str, str]:
     """Return a valid and unique MATLAB name for each name: "S9.y" → "S9_y".
 
     Keywords get an underscore, repetitions a number, and long names are cut.
@@ -298,7 +296,7 @@ def join(runs: Iterable[Result | Batch]) -> xarray.Dataset:
     if len(names := list(dict.fromkeys(run.source.mechanism for run in results))) > 1:
         raise BadValueError(f"join: {names[0]!r} and {names[1]!r} are two mechanisms", hint="join scenes of one")
     xarray = import_xarray()
-    _check_times(results)
+    _check_output_times(results)
     datasets, scene_index = [run.to_xarray() for run in results], _import_pandas().Index(scenes, name="scene")
     attributes = {"mechanism": names[0], "title": results[0].source.title}
     joined: Any = xarray.concat(
@@ -313,7 +311,7 @@ def join(runs: Iterable[Result | Batch]) -> xarray.Dataset:
     return joined.assign_attrs(attributes)
 
 
-def _check_times(results: list[Result | Batch]) -> None:
+def _check_output_times(results: list[Result | Batch]) -> None:
     """Raise BadValueError for batches whose runs have different numbers of output times, or common times and times of
     their own.
     """

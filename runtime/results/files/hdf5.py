@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from gudgeon.errors import GudgeonError
 from gudgeon.files.free_space import check_disk
 from gudgeon.files.writing import open_atomic
-from gudgeon.language.argument_checks import check_path as named
+from gudgeon.language.argument_checks import check_path
 from gudgeon.waiting.cancellation import run_interruptible
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
@@ -82,14 +82,14 @@ def generate_file_chunks(tables: Sequence[Table]) -> Iterator[Any]:
 
     The layout is made in another thread; the arrays are not copied.
     """
-    image, offsets_and_values = run_interruptible(partial(_lay_out, tables))
+    image, offsets_and_values = run_interruptible(partial(_lay_out_file, tables))
     checksum = position = 0
     for offset, values in sorted(offsets_and_values, key=lambda offset_and_values: offset_and_values[0]):
-        for chunk in (image.between(position, offset), np.ascontiguousarray(values).data.cast("B")):
+        for chunk in (image.read_range(position, offset), np.ascontiguousarray(values).data.cast("B")):
             checksum = zlib.crc32(chunk, checksum)
             yield chunk
         position = offset + values.nbytes
-    tail = image.between(position, image.size)
+    tail = image.read_range(position, image.size)
     yield tail
     yield SEAL % zlib.crc32(tail, checksum)
 
@@ -104,7 +104,7 @@ def write_tables(tables: Iterator[Table], path: str | os.PathLike[str]) -> None:
         import h5py  # noqa: F401
     except ModuleNotFoundError as error:
         raise GudgeonError("NetCDF files need h5py: pip install 'gudgeon[xarray]'") from error
-    path, table_list = named(path, "path"), []
+    path, table_list = check_path(path, "path"), []
     with DelayedCtrlC() as ctrl_c:  # Python drops what is raised in callbacks of weak references, Ctrl-C too
         for table in tables:
             table_list.append(table)
@@ -135,7 +135,7 @@ def is_damaged(path: Path) -> bool:
         return stored_checksum != SEAL % checksum
 
 
-class _Image(io.RawIOBase):
+class _FileImage(io.RawIOBase):
     """A file in memory that stores only the written pages, so that the gaps for arrays need no memory."""
 
     def __init__(self) -> None:
@@ -161,7 +161,7 @@ class _Image(io.RawIOBase):
 
     def readinto(self, buffer: Any) -> int:
         """Fill the buffer from the position, advance it, and return the buffer's length."""
-        buffer[:] = self.between(self._at, self._at + len(buffer))
+        buffer[:] = self.read_range(self._at, self._at + len(buffer))
         self._at += len(buffer)
         return len(buffer)
 
@@ -170,39 +170,39 @@ class _Image(io.RawIOBase):
         self.size = self._at if size is None else size
         return self.size
 
-    def between(self, begin: int, end: int) -> bytes:
+    def read_range(self, begin: int, end: int) -> bytes:
         """Return the bytes [begin, end), zeros where nothing was written."""
         empty_page, first_page = bytes(PAGE), begin // PAGE
         pages = (self._pages.get(page, empty_page) for page in range(first_page, -(-end // PAGE)))
         return b"".join(pages)[begin - first_page * PAGE : end - first_page * PAGE]
 
 
-def _lay_out(tables: Sequence[Table]) -> tuple[_Image, list[tuple[int, Array]]]:
+def _lay_out_file(tables: Sequence[Table]) -> tuple[_FileImage, list[tuple[int, Array]]]:
     """Return the image of the file without numeric arrays, and (offset, values) of each array.
 
     Tables without rows and attributes are left out.
     """
     import h5py
 
-    image, offsets_and_values = _Image(), []
+    image, offsets_and_values = _FileImage(), []
     with h5py.File(image, "w", track_order=True) as file:
         for number, table in enumerate(table for table in tables if table.length or table.attributes):
             group = file.create_group(table.group, track_order=True) if table.group else file
             for dataset, variable in _lay_out_table(group, table, number) if table.length else ():
                 for key, text in variable.attributes.items():
-                    _write_text(dataset, key, text)
+                    _write_text_attribute(dataset, key, text)
                 if not variable.is_text:
                     offsets_and_values.append((dataset.id.get_offset(), variable.values))
             for key, text in table.attributes.items():
-                _write_text(group, key, text)
+                _write_text_attribute(group, key, text)
     return image, offsets_and_values
 
 
-def _lay_out_table(group: Any, table: Table, number: int) -> Iterator[tuple[Any, Variable]]:
+def _lay_out_table(group: Any, table: Table, dimension_number: int) -> Iterator[tuple[Any, Variable]]:
     """Yield (dataset, variable) for each variable of a table, created in the HDF5 group.
 
-    A dimension without a coordinate variable gets a placeholder dataset, which is not yielded. `number` is the NetCDF
-    number of the dimension.
+    A dimension without a coordinate variable gets a placeholder dataset, which is not yielded. `dimension_number` is
+    the NetCDF number of the dimension.
     """
     from h5py import h5ds
 
@@ -212,7 +212,7 @@ def _lay_out_table(group: Any, table: Table, number: int) -> Iterator[tuple[Any,
     )
     scale = _create_dataset(group, first_variable)
     h5ds.set_scale(scale.id, (table.dimension if has_coordinate else NO_VARIABLE % table.length).encode())
-    scale.attrs["_Netcdf4Dimid"] = np.int32(number)
+    scale.attrs["_Netcdf4Dimid"] = np.int32(dimension_number)
     if has_coordinate:
         yield scale, first_variable
     for variable in table.variables[has_coordinate:]:
@@ -240,7 +240,7 @@ def _create_dataset(group: Any, variable: Variable) -> Any:
     return h5py.Dataset(h5d.create(group.id, variable.name.encode(), type_, space, properties))
 
 
-def _write_text(item: Any, key: str, text: str) -> None:
+def _write_text_attribute(owner: Any, attribute_name: str, text: str) -> None:
     """Write a text attribute of a group or dataset, in compact form if it is short enough, as NetCDF does.
 
     The compact form is ten times faster.
@@ -249,9 +249,9 @@ def _write_text(item: Any, key: str, text: str) -> None:
 
     data = text.encode()
     if len(data) > LONGEST:
-        item.attrs[key] = text
+        owner.attrs[attribute_name] = text
         return
     type_ = h5t.C_S1.copy()
     type_.set_size(max(len(data), 1))
     type_.set_cset(h5t.CSET_UTF8)
-    h5a.create(item.id, key.encode(), type_, h5s.create(h5s.SCALAR)).write(np.array(data), mtype=type_)
+    h5a.create(owner.id, attribute_name.encode(), type_, h5s.create(h5s.SCALAR)).write(np.array(data), mtype=type_)

@@ -248,7 +248,7 @@ def read_source(file: File) -> KernelSource:
     """Return the kernel source of a file. Raises ValueError or TypeError for wrong types and names."""
     source = KernelSource.from_json(file.read_text_attribute("source", "" if file.is_old else COMPILED))
     check_typed(source, KernelSource, "source")
-    _check_names(source)
+    _check_names_and_units(source)
     return source
 
 
@@ -282,7 +282,7 @@ def read_result(file: File, source: KernelSource, names: tuple[str, ...]) -> Res
         diagnostics=diagnostics,
         events=read_events(file, source),
         stored=stored,
-        trace=_read_trace(file, source),
+        trace=_read_envelope(file, source),
     )
     if file.has(START):
         run.start_row = read_start_row(file, run)
@@ -302,10 +302,10 @@ def check_times(t: Array) -> None:
         raise ValueError("the times of samples do not ascend")
 
 
-def _check_given(source: KernelSource, p: Array, given: Array, is_given: Array) -> None:
+def _check_given_values(source: KernelSource, p: Array, given_values: Array, is_given: Array) -> None:
     """Raise ValueError unless overridden values equal the values of the run, and flags are 0 or 1."""
     for slot, value, overriding_value, was_overridden in zip(
-        source.slots, p.tolist(), given.tolist(), is_given.tolist(), strict=False
+        source.slots, p.tolist(), given_values.tolist(), is_given.tolist(), strict=False
     ):
         if was_overridden not in (0, 1) or was_overridden and not overriding_value == value:
             raise ValueError(f"{slot.address} is {value!r}, and was given as {overriding_value!r}")
@@ -324,7 +324,7 @@ def check_extremes(extremes: tuple[Extremes, ...], names: Container[str]) -> tup
     return extremes
 
 
-def _check_names(source: KernelSource) -> None:
+def _check_names_and_units(source: KernelSource) -> None:
     """Raise ValueError unless all names of a source are identifiers with dots and all units are valid."""
     named_items: list[Any] = [*source.bodies, *source.joints, *source.clearances, *source.drives, *source.events]
     named_items += source.points
@@ -343,15 +343,14 @@ def _has_series(file: File, name: str) -> bool:
     return name not in DRIFT or file.has(name)
 
 
-def _read_series(file: File, name: str, length: int) -> Array:
-    """Return a series of the file, read-only, with `length` values; older files name some outputs otherwise."""
+def _read_series(file: File, name: str, n_samples: int) -> Array:
+    """Return a series of the file, read-only, with `n_samples` values; older files name some outputs otherwise."""
     stored_name = (
         f"output.{name}" if file.is_old and name in OLD_NAMES else name if file.is_old else name_variable(name)
     )
-    stored_name = (
-        stored_name if file.has(stored_name) else name
-    )  # an output that is called like a group that older files have not
-    values = file.read_numbers(stored_name, length, "i1" if name.endswith(".state") else "f8")
+    # an output that is called like a group that older files have not
+    stored_name = stored_name if file.has(stored_name) else name
+    values = file.read_numbers(stored_name, n_samples, "i1" if name.endswith(".state") else "f8")
     values.flags.writeable = False
     return values
 
@@ -365,7 +364,7 @@ def _read_parameters(file: File, source: KernelSource) -> tuple[Array, Array, Ar
             file.read_numbers("parameters.given", n_parameters),
         )
         is_given = file.read_numbers("parameters.is_given", n_parameters, "i1")
-        _check_given(source, p, given, is_given)
+        _check_given_values(source, p, given, is_given)
         return p, given, is_given.astype(bool)
     values, given = (
         file.read_numbers(f"parameters/{name}", n_parameters) if n_parameters else np.zeros(0)
@@ -373,7 +372,7 @@ def _read_parameters(file: File, source: KernelSource) -> tuple[Array, Array, Ar
     )
     is_given = file.read_numbers("parameters/is_given", n_parameters, "i1") if n_parameters else np.zeros(0)
     derived_values = file.read_numbers(f"{COMPILED}/value", n_derived) if n_derived else np.zeros(0)
-    _check_given(source, values, given, is_given)
+    _check_given_values(source, values, given, is_given)
     return np.concatenate([values, derived_values]), given, is_given.astype(bool)
 
 
@@ -406,7 +405,7 @@ def _read_records(file: File, kind: str, dtype: np.dtype[Any], names: list[str])
     return table
 
 
-def _read_trace(file: File, source: KernelSource) -> Envelope | None:
+def _read_envelope(file: File, source: KernelSource) -> Envelope | None:
     """Return the envelope over the steps; None if the run had none or the file is older."""
     if not file.has(TRACE):
         return None
@@ -416,43 +415,45 @@ def _read_trace(file: File, source: KernelSource) -> Envelope | None:
     return Envelope(t, np.moveaxis(np.array(columns).reshape(len(columns), len(TRACE_COLUMNS), len(t)), 2, 0).copy())
 
 
-def rebuild_samples(source: KernelSource, stored: Mapping[str, Array], length: int) -> dict[str, Any]:
-    """Return the arrays that the integrator stores, rebuilt from `length` samples of their series."""
-    q, v, a = (_read_motion(source, stored, length, order) for order in range(3))
+def rebuild_samples(source: KernelSource, stored_series: Mapping[str, Array], n_samples: int) -> dict[str, Any]:
+    """Return the arrays that the integrator stores, rebuilt from `n_samples` samples of their series."""
+    q, v, a = (_read_motion(source, stored_series, n_samples, order) for order in range(3))
     return {
         "q": q,
         "v": v,
         "accelerations": a,
-        "state": _read_columns(stored, [f"{joint.name}.state" for joint in source.clearances], length, np.int8),
-        "memory": _read_columns(stored, _list_memory_series(source), length),
-        "work": _read_works(source, stored, length),
+        "state": _read_columns(
+            stored_series, [f"{joint.name}.state" for joint in source.clearances], n_samples, np.int8
+        ),
+        "memory": _read_columns(stored_series, _list_memory_series(source), n_samples),
+        "work": _read_works(source, stored_series, n_samples),
     }
 
 
-def _read_motion(source: KernelSource, stored: Mapping[str, Array], samples: int, order: int) -> Array:
+def _read_motion(source: KernelSource, stored_series: Mapping[str, Array], n_samples: int, order: int) -> Array:
     """Return q, q̇ or q̈ (order 0, 1, 2), (N, n), from series of bodies. Raises ValueError for wrong indices."""
     if sorted(body.index for body in source.bodies) != list(range(0, 3 * len(source.bodies), 3)):
         raise ValueError("the bodies' places in q are not theirs")
-    values = np.empty((samples, 3 * len(source.bodies)))
+    values = np.empty((n_samples, 3 * len(source.bodies)))
     for body in source.bodies:
         for axis, names in enumerate(MOTION):
-            values[:, body.index + axis] = stored[f"{body.name}.{names[order]}"]
+            values[:, body.index + axis] = stored_series[f"{body.name}.{names[order]}"]
     return values
 
 
-def _read_columns(stored: Mapping[str, Array], names: list[str], samples: int, dtype: Any = float) -> Array:
+def _read_columns(stored_series: Mapping[str, Array], names: list[str], n_samples: int, dtype: Any = float) -> Array:
     """Return the named series as the columns of an array (N, k); a column is 0 for an empty name."""
-    values = np.empty((samples, len(names)), dtype)
+    values = np.empty((n_samples, len(names)), dtype)
     for column, name in enumerate(names):
-        values[:, column] = stored[name] if name else 0.0  # a place that no law's state has
+        values[:, column] = stored_series[name] if name else 0.0  # a place that no law's state has
     return values
 
 
-def _read_works(source: KernelSource, stored: Mapping[str, Array], samples: int) -> Array:
+def _read_works(source: KernelSource, stored_series: Mapping[str, Array], n_samples: int) -> Array:
     """Return the works of drives, forces and joints with play, (N, 3); NaN for a scene without masses."""
     if source.massless:
-        return np.full((samples, 3), np.nan)
-    return _read_columns(stored, ["work.drives", "work.forces", "work.clearances"], samples)
+        return np.full((n_samples, 3), np.nan)
+    return _read_columns(stored_series, ["work.drives", "work.forces", "work.clearances"], n_samples)
 
 
 def _list_memory_series(source: KernelSource) -> list[str]:
@@ -484,11 +485,11 @@ def read_start_row(file: File, run: Result) -> Result:
     return replace(run, t=t, **rebuild_samples(run.source, stored, 1), trace=None, stored=stored)
 
 
-def _read_given_start(file: File, final: State) -> State:
+def _read_given_start(file: File, final_state: State) -> State:
     """Return the state that a run was given as `start`; identity and parameters are those of its final state."""
-    offsets = np.cumsum([1, len(final.q), len(final.v), len(final.state), len(final.memory)])
+    offsets = np.cumsum([1, len(final_state.q), len(final_state.v), len(final_state.state), len(final_state.memory)])
     t, q, v, state, memory = np.split(file.read_numbers(f"{GIVEN_START}/value", int(offsets[-1])), offsets[:-1])
-    return replace(final, t=float(t[0]), q=q, v=v, state=state.astype(np.int8), memory=memory)
+    return replace(final_state, t=float(t[0]), q=q, v=v, state=state.astype(np.int8), memory=memory)
 
 
 def read_provenance(file: File) -> dict[str, str]:

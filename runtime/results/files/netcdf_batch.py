@@ -80,7 +80,7 @@ def build_batch_tables(batch: Batch) -> Iterator[Table]:
     if not batch.states:
         tables_by_run += build_stored_series_tables(batch)
         yield build_long_table(KEPT, [(i, table) for i, table in tables_by_run if table.group == KEPT], {})
-    yield Table(RUNS, NUMBER, tuple(_run_variables(batch, runs)), {})
+    yield Table(RUNS, NUMBER, tuple(_iterate_run_variables(batch, runs)), {})
     units = {slot.address: slot.unit for slot in batch.source.slots}
     given_variables = (
         Variable(name, values, units.get(name, ""), "given") for name, values in batch.parameters.items()
@@ -217,7 +217,7 @@ def _read_part_table(batch: Batch, part: str) -> Table:
     return build_long_table(part, filled_tables, {})
 
 
-def _run_variables(batch: Batch, runs: Mapping[int, Result]) -> Iterator[Variable]:
+def _iterate_run_variables(batch: Batch, runs: Mapping[int, Result]) -> Iterator[Variable]:
     """Yield the columns of the table `runs`, one row a run. `runs` are the results of the runs that began."""
     errors_by_run = {failure.run: failure.error for failure in batch.failures}
     if batch.states:
@@ -246,14 +246,14 @@ def _convert_error_to_json(error: GudgeonError) -> str:
     )
 
 
-def _read_error_json(text: str, partial: Result | None) -> GudgeonError:
+def _read_error_json(text: str, partial_result: Result | None) -> GudgeonError:
     """Return the error from its JSON, with the partial result. Raises ValueError for an unknown class."""
     data = json.loads(text)
     cls = getattr(errors, str(data["kind"]), None)
     if not (isinstance(cls, type) and issubclass(cls, GudgeonError)):
         raise ValueError(f"there is no error {data['kind']!r}")
     error = cls.__new__(cls, str(data["text"]))
-    error.__dict__ |= {"time": float(data["time"]), "pivot": str(data["pivot"]), "partial": partial}
+    error.__dict__ |= {"time": float(data["time"]), "pivot": str(data["pivot"]), "partial": partial_result}
     error.__dict__ |= {"outside_model": bool(data["outside_model"]), "message": str(data["text"]), "where": None}
     return error
 
@@ -266,31 +266,33 @@ def load(path: str | os.PathLike[str]) -> Batch:
 class _RunRows(File):
     """The rows of one run in the long tables, with the interface of a single run's file."""
 
-    def __init__(self, whole: LongTables, run: int) -> None:
+    def __init__(self, long_tables: LongTables, run: int) -> None:
         """Store the file of the batch and the number of the run."""
-        self.whole, self.run, self.is_old = whole, run, False
+        self.long_tables, self.run, self.is_old = long_tables, run, False
 
     def has(self, group: str) -> bool:
         """Return whether the run has rows in a group, or the file has a series of that name."""
-        return self.whole.count(group, self.run) > 0 or self.whole.file.has(f"{netcdf.SERIES}/{group}")
+        return self.long_tables.count_rows(group, self.run) > 0 or self.long_tables.file.has(f"{netcdf.SERIES}/{group}")
 
     def read_text_attribute(self, key: str, group: str = "") -> str:
         """Return the diagnostics of the run, JSON."""
-        return self.whole.diagnostics[self.run]
+        return self.long_tables.diagnostics[self.run]
 
     def read_numbers(self, name: str, length: int | None = None, dtype: str = "f8") -> Array:
         """Return the run's rows of a numeric column."""
-        return self._check_length(name, length, self.whole.column(name, dtype)[self.whole.rows(name, self.run)])
+        rows = self.long_tables.find_rows(name, self.run)
+        return self._check_length(name, length, self.long_tables.read_column(name, dtype)[rows])
 
     def read_texts(self, name: str, length: int | None = None) -> list[str]:
         """Return the run's rows of a text column."""
-        return list(self._check_length(name, length, self.whole.column(name, "")[self.whole.rows(name, self.run)]))
+        rows = self.long_tables.find_rows(name, self.run)
+        return list(self._check_length(name, length, self.long_tables.read_column(name, "")[rows]))
 
-    def _check_length(self, name: str, length: int | None, rows: Array) -> Array:
-        """Return the rows unchanged. Raises ValueError unless their number is `length`; None allows any number."""
-        if length is not None and len(rows) != length:
-            raise ValueError(f"run {self.run} has {len(rows)} values of {name}, expected {length}")
-        return rows
+    def _check_length(self, name: str, length: int | None, values: Array) -> Array:
+        """Return the values unchanged. Raises ValueError unless their number is `length`; None allows any number."""
+        if length is not None and len(values) != length:
+            raise ValueError(f"run {self.run} has {len(values)} values of {name}, expected {length}")
+        return values
 
 
 class LongTables:
@@ -299,10 +301,8 @@ class LongTables:
     def __init__(self, file: File, n_runs: int, has_states: bool) -> None:
         """Read the first row of each run in each group and, if `has_states`, the diagnostics. Raises ValueError."""
         has_diagnostics = n_runs and has_states
-        self.file, self.diagnostics = (
-            file,
-            file.read_texts(f"{RUNS}/diagnostics", n_runs) if has_diagnostics else [""] * n_runs,
-        )
+        self.file = file
+        self.diagnostics = file.read_texts(f"{RUNS}/diagnostics", n_runs) if has_diagnostics else [""] * n_runs
         self.columns: dict[str, Array] = {}
         self.begins: dict[str, Array] = {}
         for group in (netcdf.SERIES, *netcdf.PARTS, netcdf.START, netcdf.GIVEN_START, netcdf.COMPILED, KEPT, TIMES):
@@ -315,17 +315,17 @@ class LongTables:
                 raise ValueError(f"the rows of {group} are of no run")
             self.begins[group] = np.searchsorted(run_numbers, np.arange(n_runs + 1))
 
-    def count(self, group: str, run: int) -> int:
+    def count_rows(self, group: str, run: int) -> int:
         """Return the number of rows of a run in a group."""
         begins = self.begins.get(group, np.zeros(run + 2, np.int64))
         return int(begins[run + 1] - begins[run])
 
-    def rows(self, name: str, run: int) -> slice:
+    def find_rows(self, name: str, run: int) -> slice:
         """Return the rows of a run in the table of a column."""
         begins = self.begins[name.rpartition("/")[0] or netcdf.SERIES]
         return slice(int(begins[run]), int(begins[run + 1]))
 
-    def column(self, name: str, dtype: str) -> Array:
+    def read_column(self, name: str, dtype: str) -> Array:
         """Return a column of all runs by "group/name" or name of a series, read on first access (dtype "": texts)."""
         name = f"{name.rpartition('/')[0] or netcdf.SERIES}/{name_column(name.rpartition('/')[2])}"
         if name not in self.columns:
@@ -381,7 +381,7 @@ def _read_batch(opened_file: Any, size: int) -> Batch:
         [_RunRows(long_tables, i) for i in range(count)],
         file.read_numbers(f"{RUNS}/samples", count, "i8"),
     )
-    padded = [_pad_runs(runs, name, count, t.shape[-1], source) for name in ("q", "v", "work", "state")]
+    padded = [_pad_samples(runs, name, count, t.shape[-1], source) for name in ("q", "v", "work", "state")]
     return Batch(
         source=source,
         t=t,
@@ -391,7 +391,7 @@ def _read_batch(opened_file: Any, size: int) -> Batch:
         if stored_names is None
         else read_stored_series(long_tables, stored_names, series_names, samples, t.shape[-1]),
         t_last=file.read_numbers(f"{RUNS}/t_last", count),
-        parameters=_read_given(file, source, count, runs),
+        parameters=_read_parameters(file, source, count, runs),
         impacts=tuple(read_impacts(run, source) for run in run_files),
         events=tuple(read_events(run, source) for run in run_files),
         peaks=_read_peaks(file, source, count),
@@ -405,20 +405,20 @@ def _read_batch(opened_file: Any, size: int) -> Batch:
     )
 
 
-def read_times(long_tables: LongTables, n_runs: int, is_separate: bool) -> Array:
+def read_times(long_tables: LongTables, n_runs: int, has_times_by_run: bool) -> Array:
     """Return the requested times: (N,), or (n, N) padded with NaN where each run has its own. Raises ValueError."""
     t = long_tables.file.read_numbers(f"{TIMES}/time")
-    if not is_separate:
+    if not has_times_by_run:
         check_times(t)
         return t
     for i in range(n_runs):
         check_times(t[long_tables.begins[TIMES][i] : long_tables.begins[TIMES][i + 1]])
-    return _unroll_column(long_tables, TIMES, t, n_runs, max(long_tables.count(TIMES, i) for i in range(n_runs)))
+    return _unroll_column(long_tables, TIMES, t, n_runs, max(long_tables.count_rows(TIMES, i) for i in range(n_runs)))
 
 
-def _unroll_column(long_tables: LongTables, group: str, column: Array, n_runs: int, n_samples: int) -> Array:
+def _unroll_column(long_tables: LongTables, group: str, column: Array, n_runs: int, n_columns: int) -> Array:
     """Return a column of a long table as (n, N), NaN where a run has no row. Raises ValueError for a wrong length."""
-    values = np.full((n_runs, n_samples), np.nan)
+    values = np.full((n_runs, n_columns), np.nan)
     if len(column) != long_tables.begins[group][-1]:
         raise ValueError(f"{group} has {len(column)} values, expected {long_tables.begins[group][-1]}")
     for i in range(n_runs):
@@ -434,7 +434,7 @@ def read_stored_series(
     is_valid = (
         isinstance(stored_names, list) and "t" in stored_names and all(name in ("t", *names) for name in stored_names)
     )
-    if not is_valid or [long_tables.count(KEPT, i) for i in range(len(samples))] != samples.tolist():
+    if not is_valid or [long_tables.count_rows(KEPT, i) for i in range(len(samples))] != samples.tolist():
         raise ValueError("the series that were kept are not those of its runs")
     series_by_name = {}
     for name in stored_names:
@@ -457,7 +457,7 @@ def _read_extremes(file: File, source: KernelSource, n_runs: int, runs: Mapping[
     return tuple(check_extremes(run_extremes, get_catalogue(source)) for run_extremes in extremes)
 
 
-def _pad_runs(runs: Mapping[int, Result], name: str, n_runs: int, n_samples: int, source: KernelSource) -> Array:
+def _pad_samples(runs: Mapping[int, Result], name: str, n_runs: int, n_samples: int, source: KernelSource) -> Array:
     """Return "q", "v", "work" or "state" of all runs as (n, N, width), NaN (codes: 0) where a run has no sample."""
     dtype = np.int8 if name == "state" else np.float64
     width = {"work": 3, "state": len(source.clearances)}.get(name, len(source.coordinates))
@@ -468,7 +468,7 @@ def _pad_runs(runs: Mapping[int, Result], name: str, n_runs: int, n_samples: int
     return padded
 
 
-def _read_given(file: File, source: KernelSource, n_runs: int, runs: Mapping[int, Result]) -> dict[str, Array]:
+def _read_parameters(file: File, source: KernelSource, n_runs: int, runs: Mapping[int, Result]) -> dict[str, Array]:
     """Return the given parameters of the runs, (n,) each, by address. Raises ValueError for invalid ones."""
     if not file.has(GIVEN):
         return {}

@@ -18,7 +18,7 @@ import numpy as np
 
 from gudgeon.errors import GudgeonError, InputError, escape_line_breaks
 from gudgeon.files.reading import check_regular
-from gudgeon.language.argument_checks import check_path as named
+from gudgeon.language.argument_checks import check_path
 from gudgeon.results.files.hdf5 import is_damaged
 from gudgeon.results.state import Array
 
@@ -41,7 +41,7 @@ def open_result_file(path: str | os.PathLike[str], read_content: Callable[[Any, 
         import h5py
     except ModuleNotFoundError as error:
         raise GudgeonError("NetCDF files need h5py: pip install 'gudgeon[xarray]'") from error
-    path, path_text = Path(named(path, "path")), escape_line_breaks(os.fspath(path))
+    path, path_text = Path(check_path(path, "path")), escape_line_breaks(os.fspath(path))
     try:
         status = path.stat()
     except OSError:  # a name that is too long, too
@@ -180,19 +180,19 @@ def check_typed(value: Any, expected_type: Any, location: str) -> None:
     if origin is tuple:
         _check_tuple(value, get_args(expected_type), location)
     elif isinstance(origin, type) and issubclass(origin, Mapping):
-        _check_class(value, Mapping, location)
+        _check_instance(value, Mapping, location)
         for key, item in value.items():
-            _check_class(key, str, location)
+            _check_instance(key, str, location)
             check_typed(item, get_args(expected_type)[1], f"{location}.{key}")
     elif isinstance(expected_type, UnionType):
         if not any(_has_type(value, member_type) for member_type in get_args(expected_type)):
             raise TypeError(f"{location} is {type(value).__name__}, expected {expected_type}")
     elif isinstance(expected_type, type) and is_dataclass(expected_type):
-        _check_class(value, expected_type, location)
+        _check_instance(value, expected_type, location)
         for name, member_type in _get_field_types(expected_type).items():
             check_typed(getattr(value, name), member_type, f"{location}.{name}")
     else:
-        _check_class(value, {float: (float, int)}.get(expected_type, expected_type), location)
+        _check_instance(value, {float: (float, int)}.get(expected_type, expected_type), location)
 
 
 def _has_type(value: Any, expected_type: Any) -> bool:
@@ -206,7 +206,7 @@ def _has_type(value: Any, expected_type: Any) -> bool:
 
 def _check_tuple(value: Any, item_types: tuple[Any, ...], location: str) -> None:
     """Raise TypeError unless a value is a tuple with entries of these types; (T, ...) allows any number of T."""
-    _check_class(value, tuple, location)
+    _check_instance(value, tuple, location)
     if len(item_types) == 2 and item_types[1] is Ellipsis:
         item_types = item_types[:1] * len(value)
     if len(item_types) != len(value):
@@ -215,7 +215,7 @@ def _check_tuple(value: Any, item_types: tuple[Any, ...], location: str) -> None
         check_typed(item, item_type, f"{location}[{k}]")
 
 
-def _check_class(value: Any, expected_class: Any, location: str) -> None:
+def _check_instance(value: Any, expected_class: Any, location: str) -> None:
     """Raise TypeError unless a value is an instance of a class or None for None; a bool does not count as a number."""
     is_unexpected_bool = isinstance(value, bool) and expected_class is not bool
     if is_unexpected_bool or not isinstance(value, NoneType if expected_class is None else expected_class):
@@ -223,7 +223,7 @@ def _check_class(value: Any, expected_class: Any, location: str) -> None:
 
 
 @cache
-def _get_field_types(kind: Any) -> dict[str, Any]:
+def _get_field_types(dataclass_type: Any) -> dict[str, Any]:
     """Return the type hints of the fields of a dataclass."""
-    hints = get_type_hints(kind)
-    return {field.name: hints[field.name] for field in fields(kind)}
+    hints = get_type_hints(dataclass_type)
+    return {field.name: hints[field.name] for field in fields(dataclass_type)}

@@ -87,11 +87,11 @@ def compute_scene_report(run: Result, reference: Result | None, watch: Sequence[
     return SceneReport(
         *values,
         bool(remaining_rows) or run.diagnostics.phi_max > 0.0,
-        _find_largest_by_unit(run, forces, (*drives, *guides)),
+        _find_largest_magnitudes(run, forces, (*drives, *guides)),
     )
 
 
-def _find_largest_by_unit(
+def _find_largest_magnitudes(
     run: Result, forces: Mapping[str, tuple[float, float]], drives_and_guides: Sequence[Extreme]
 ) -> dict[str, float]:
     """Return the largest magnitude in a run by unit, with which rounding errors are compared.
@@ -179,9 +179,9 @@ def build_tables(title: str, reports: Sequence[SceneReport], width: int, verbose
 
 
 def _build_table(
-    title: str, reports: Sequence[SceneReport], rows: list[tuple[str, list[str]]], columns: slice
+    title: str, reports: Sequence[SceneReport], rows: list[tuple[str, list[str]]], column_range: slice
 ) -> Table:
-    """Return one rich Table with the columns `columns` of the rows; a row without cells is a heading."""
+    """Return one rich Table with the columns `column_range` of the rows; a row without cells is a heading."""
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
     from rich.text import Text
@@ -191,14 +191,14 @@ def _build_table(
     title = format_one_line(title)
     table = Table(title=title or None, title_justify="left", title_style="bold", box=SIMPLE_HEAD, pad_edge=False)
     table.add_column("", no_wrap=True)
-    for report in reports[columns]:
+    for report in reports[column_range]:
         table.add_column(report.scene, justify="right", no_wrap=True)
     for name, cells in rows:
         if not cells:
             table.add_section()
             table.add_row(Text(name, style="bold"))
         else:
-            table.add_row(f"  {name}", *cells[columns])
+            table.add_row(f"  {name}", *cells[column_range])
     return table
 
 
@@ -231,21 +231,21 @@ def _build_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     return rows
 
 
-def _format_peak_cell(value: float, unit: str, t: float, scales: Mapping[str, float]) -> str:
+def _format_peak_cell(value: float, unit: str, t: float, max_magnitudes: Mapping[str, float]) -> str:
     """Return a peak and its time as a cell, "–" if it is not known, "≈ 0" if it is rounding error.
 
-    `scales` has the largest magnitude of the run by unit.
+    `max_magnitudes` has the largest magnitude of the run by unit.
     """
-    if math.isfinite(t) and _is_noise(abs(value), unit, scales):
+    if math.isfinite(t) and _is_rounding_error(abs(value), unit, max_magnitudes):
         return ZERO
     factor, unit_text = choose_plot_unit(value, unit)
     time_text = format_quantity(t, "s") if 0.0 < abs(t) < 1e-3 else f"{t:.4f} s"
     return f"{value * factor + 0.0:.4g} {unit_text}".strip() + f" at {time_text}" if math.isfinite(t) else "–"
 
 
-def _is_noise(size: float, unit: str, scales: Mapping[str, float]) -> bool:
+def _is_rounding_error(magnitude: float, unit: str, max_magnitudes: Mapping[str, float]) -> bool:
     """Return whether a value is no larger than rounding errors."""
-    return 0.0 < size < NOISE * scales.get(unit, 0.0)
+    return 0.0 < magnitude < NOISE * max_magnitudes.get(unit, 0.0)
 
 
 def _format_error_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
@@ -267,22 +267,23 @@ def _format_motion_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[
     return [(name, [cells.get(name, "–") for cells in cells_by_scene]) for name in names]
 
 
-def _format_extreme_rows(reports: Sequence[SceneReport], of_errors: bool) -> list[tuple[str, list[str]]]:
+def _format_extreme_rows(reports: Sequence[SceneReport], is_error: bool) -> list[tuple[str, list[str]]]:
     """Return the rows of peaks over all steps of the series in `peaks:` of a scene.
 
-    With `of_errors` they are those of the errors against another scene.
+    With `is_error` they are those of the errors against another scene.
     """
-    formatters = [partial(_format_peak_cell, scales=report.scales) for report in reports]
-    return build_extreme_rows([report.diagnostics.extremes for report in reports], formatters, of_errors)
+    formatters = [partial(_format_peak_cell, max_magnitudes=report.scales) for report in reports]
+    return build_extreme_rows([report.diagnostics.extremes for report in reports], formatters, is_error)
 
 
-def _format_range_cell(extreme: Extreme, scales: Mapping[str, float]) -> str:
+def _format_range_cell(extreme: Extreme, max_magnitudes: Mapping[str, float]) -> str:
     """Return the smallest and largest value of a series as a cell; "≈ 0" if both are rounding errors."""
-    if _is_noise(magnitude := max(abs(extreme.low), abs(extreme.high)), extreme.unit, scales):
+    if _is_rounding_error(magnitude := max(abs(extreme.low), abs(extreme.high)), extreme.unit, max_magnitudes):
         return ZERO
     factor, unit_text = choose_plot_unit(magnitude, extreme.unit)
     low, high = (
-        0.0 if _is_noise(abs(value), extreme.unit, scales) else value * factor for value in (extreme.low, extreme.high)
+        0.0 if _is_rounding_error(abs(value), extreme.unit, max_magnitudes) else value * factor
+        for value in (extreme.low, extreme.high)
     )
     return f"{low:.5g} … {high:.5g} {unit_text}".strip()
 
@@ -326,7 +327,10 @@ def _format_guide_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[s
 def _format_peak_rows(
     reports: Sequence[SceneReport], peaks: Sequence[tuple[Extreme, ...]]
 ) -> list[tuple[str, list[str]]]:
-    """Return the rows of peaks at the samples of each scene, without series whose peaks over all steps are known."""
+    """Return the rows of peaks at the samples of each scene, without series whose peaks over all steps are known.
+
+    `peaks` has the extremes of the series of each scene, in the order of `reports`.
+    """
     cells_by_scene = [
         {peak.name: _format_peak_cell(peak.peak, peak.unit, peak.t, scene_report.scales) for peak in scene_peaks}
         for scene_report, scene_peaks in zip(reports, peaks, strict=True)
@@ -370,14 +374,14 @@ def _format_play_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[st
 def _format_event_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     """Return the rows of events: their number and first time; a dash in scenes that do not have the event."""
 
-    def cell(times: tuple[float, ...] | None) -> str:
+    def format_event_cell(times: tuple[float, ...] | None) -> str:
         """Return number and first time of an event as a cell."""
         if not times:
             return "–" if times is None else "none"
         return f"at {times[0]:.7g} s" if len(times) == 1 else f"{len(times)}, first at {times[0]:.7g} s"
 
     names = dict.fromkeys(name for report in reports for name in report.events)
-    return [(name, [cell(report.events.get(name)) for report in reports]) for name in names]
+    return [(name, [format_event_cell(report.events.get(name)) for report in reports]) for name in names]
 
 
 def _format_accuracy_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:

@@ -18,7 +18,7 @@ from gudgeon.results.reports.run_report import NOT_ASKED
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
 
-SIDE, MOST = 260, 6000  # pixels of an orbit, its points
+SIDE, MAX_POINTS = 260, 6000  # pixels of an orbit, its points
 Rows = list[tuple[str, str]]
 
 
@@ -251,7 +251,7 @@ def build_accuracy_rows(accuracy: Mapping[str, Any]) -> Rows:
 
 
 def draw_orbit_svg(run: Result, joint: str) -> str:
-    """Return the journal's path through all steps in the circle e = c as an SVG figure, thinned to MOST points.
+    """Return the journal's path through all steps in the circle e = c as an SVG figure, thinned to MAX_POINTS points.
 
     `joint` is a bearing with play. The start is a small circle.
     """
@@ -261,7 +261,7 @@ def draw_orbit_svg(run: Result, joint: str) -> str:
     x, y = x[is_finite] / c, y[is_finite] / c
     half_width = 1.06 * max(1.0, float(np.hypot(x, y).max(initial=0.0)))
     scale = SIDE / (2.0 * half_width)
-    stride = slice(None, None, max(1, -(-len(x) // MOST)))
+    stride = slice(None, None, max(1, -(-len(x) // MAX_POINTS)))
     points_in_pixels = zip(SIDE / 2 + scale * x[stride], SIDE / 2 - scale * y[stride], strict=True)
     path = " ".join(f"{pixel_x:.1f},{pixel_y:.1f}" for pixel_x, pixel_y in points_in_pixels)
     start_coordinates = path.partition(" ")[0].partition(",")

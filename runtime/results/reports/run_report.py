@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from gudgeon.generator.kinds.laws.law import Law
     from gudgeon.results.results import Array, Result
 
-SQUEEZE = 0.5  # largest |ε̇| over the surfaces' mean rate that counts as slow squeezing
+MAX_SLOW_SQUEEZE = 0.5  # largest |ε̇| over the surfaces' mean rate that counts as slow squeezing
 OFF = 0.02  # fraction of the joints' work; a quadrature that misses more is reported
 _COMMENT = re.compile(r"/\*\n(.*?)\n \*/", re.DOTALL)
 _LAW = re.compile(
@@ -43,7 +43,7 @@ class RunReport:
     run: Result
 
     @cached_property
-    def _found(self) -> dict[str, Any]:
+    def _report_values(self) -> dict[str, Any]:
         """All values of the report by section, in SI, as a dictionary that `to_dict`, the page and the text share."""
         run = join_start(self.run)
         joints = {joint.name: _compute_joint_values(run, k, joint) for k, joint in enumerate(run.source.clearances)}
@@ -64,27 +64,27 @@ class RunReport:
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain values in SI for JSON, None where there is no value."""
-        json_values: dict[str, Any] = replace_non_finite(self._found)
+        json_values: dict[str, Any] = replace_non_finite(self._report_values)
         return json_values
 
     def to_html(self) -> str:
         """Return a self-contained HTML page with tables, and each joint's orbit as SVG."""
         from gudgeon.results.reports.run_page import build_report_page
 
-        return build_report_page(self.run, self._found)
+        return build_report_page(self.run, self._report_values)
 
     def _repr_html_(self) -> str:
         """Return the report as HTML for a notebook."""
         from gudgeon.results.reports.html_page import build_article
         from gudgeon.results.reports.run_page import build_sections
 
-        return build_article(build_sections(self.run, self._found))
+        return build_article(build_sections(self.run, self._report_values))
 
     def __str__(self) -> str:
         """Return the report as text."""
         from gudgeon.results.reports.run_page import format_report
 
-        return format_report(self._found)
+        return format_report(self._report_values)
 
     def __repr__(self) -> str:
         """Return mechanism and scene in one line."""
@@ -99,7 +99,7 @@ def _compute_joint_values(run: Result, k: int, joint: ClearanceInfo) -> dict[str
     """
     peak, clearance = run.diagnostics.peak(joint.name), float(run.p[joint.clearance])
     impacts = run.impacts[run.impacts["joint"] == k]
-    examined, max_penetration = _compute_joint_statistics(run, joint.name), peak.e_max - clearance
+    examined, max_penetration = _find_joint_statistics(run, joint.name), peak.e_max - clearance
     mean_clearance = float(run.p[joint.constants.get("mean_clearance", joint.clearance)])  # rough surfaces: their means
     if any(contour.joint == joint.name for contour in run.source.contours) and len(run.t):
         max_penetration = float(
@@ -223,7 +223,7 @@ def _compute_free_restitution(run: Result, joint: ClearanceInfo) -> float | None
     )
 
 
-def _compute_joint_statistics(run: Result, joint: str) -> Any:
+def _find_joint_statistics(run: Result, joint: str) -> Any:
     """Return the contact statistics of a joint from the second pass through the run.
 
     Returns None if they were not requested.
@@ -245,7 +245,7 @@ def _compute_time_fractions(run: Result, k: int, joint: ClearanceInfo, impacts: 
     end_times = np.where(np.isnan(impacts["t_off"]), end, impacts["t_off"])
     contact_times = np.clip(end_times, begin, end) - np.clip(impacts["t_on"], begin, end)
     contact_fraction = float(contact_times.sum()) / (end - begin)
-    examined = _compute_joint_statistics(run, joint.name)
+    examined = _find_joint_statistics(run, joint.name)
     if examined is not None and joint.dry:
         impacting_fraction = min(examined.impacting, contact_fraction)
     else:
@@ -293,7 +293,7 @@ def _compute_energy_balance(run: Result) -> dict[str, float] | None:
         "residual": diagnostics.energy_residual,
         "turned_over": diagnostics.energy_turned_over,
     }
-    statistics = [_compute_joint_statistics(run, joint.name) for joint in run.source.clearances]
+    statistics = [_find_joint_statistics(run, joint.name) for joint in run.source.clearances]
     if statistics and all(statistics):
         dissipated = [
             energy
@@ -438,14 +438,14 @@ def _compute_length_ratio(run: Result, joint: ClearanceInfo) -> float:
 
 
 def _compute_fast_squeeze_fraction(run: Result, joint: ClearanceInfo) -> float:
-    """Return the fraction of the samples on the film at which |ε̇| is over SQUEEZE times the mean rotation of the
-    surfaces.
+    """Return the fraction of the samples on the film at which squeezing is fast.
 
-    It is 0 without samples on the film.
+    There |ε̇| is over MAX_SLOW_SQUEEZE times the mean rate of rotation of the surfaces. The fraction
+    is 0 without samples on the film.
     """
     body_names = [run.source.bodies[body].name for body in (joint.first, joint.second) if body >= 0]
     mean_rate = 0.5 * np.abs(sum(run[f"{name}.omega"] for name in body_names))
     clearance = float(run.p[joint.clearance])
     is_on_film = run[f"{joint.name}.e"] < clearance
-    is_fast = np.abs(run[f"{joint.name}.deltadot"]) / clearance > SQUEEZE * mean_rate
+    is_fast = np.abs(run[f"{joint.name}.deltadot"]) / clearance > MAX_SLOW_SQUEEZE * mean_rate
     return float((is_fast & is_on_film).sum()) / max(int(is_on_film.sum()), 1)
