@@ -34,7 +34,7 @@ class Quantity:
 
     @property
     def is_zero(self) -> bool:
-        """Return whether the number is a literal zero that is not `kept`; a parameter is never assumed to be zero."""
+        """Return whether the number is a literal zero and not `is_always_parameter`; no parameter is such a zero."""
         return not self.is_always_parameter and isinstance(self.value, Number) and self.value.value == 0.0
 
 

@@ -61,8 +61,8 @@ class Events:
             return event
         n_open, n_pieces, last_piece = _count_open_parentheses(event.value), 0, event
         for _ in range(MAX_PIECES):
-            piece = self._peek(n_pieces)
-            if not _is_plain_scalar(piece) or in_mapping and not _is_missing_value(self._peek(n_pieces + 1)):
+            piece = self._peek_event(n_pieces)
+            if not _is_plain_scalar(piece) or in_mapping and not _is_missing_value(self._peek_event(n_pieces + 1)):
                 break
             n_open, last_piece, n_pieces = (
                 n_open + _count_open_parentheses(piece.value),
@@ -79,7 +79,7 @@ class Events:
         event.end_mark = last_piece.end_mark
         return event
 
-    def _peek(self, index: int) -> Any:
+    def _peek_event(self, index: int) -> Any:
         """Return the event after `index` others without consuming it; None at the end."""
         while len(self._ahead) <= index:
             try:

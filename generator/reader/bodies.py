@@ -60,7 +60,7 @@ def _read_body(reader: Reader, name: Text, node: Map, materials: Materials) -> B
             mass_properties.set_slender_inertia(node["inertia"].where)
         if "shape" in node:
             implied_points = _make_implied_points(mass_properties.length, address, name)
-            mass_properties.set_shape(
+            mass_properties.set_properties_from_shape(
                 node.get_mapping("shape"), node.find_key("shape"), {**points, **implied_points}, "inertia" in node
             )
     return Body(

@@ -45,13 +45,13 @@ def check_values(reader: Reader, parameters: Mapping[str, Quantity], scenes: Map
 
 
 def _check_with_parameters(
-    reader: Reader, parameters: Mapping[str, Quantity], scene: SceneSpec | None, reported: Container[str] = ()
+    reader: Reader, parameters: Mapping[str, Quantity], scene: SceneSpec | None, reported_addresses: Container[str] = ()
 ) -> Container[str]:
     """Check all numbers with the file's parameters or a scene's, and return the addresses of the wrong ones.
 
-    `scene` None: with the file's parameters. Numbers in `reported`, numbers that follow from an unreadable one, and
-    errors that follow from another error are not reported. () is returned for parameters in a cycle, which was reported
-    already.
+    `scene` None: with the file's parameters. Numbers in `reported_addresses`, numbers that follow from an unreadable
+    one, and errors that follow from another error are not reported. () is returned for parameters in a cycle, which was
+    reported already.
     """
     scene_parameters = scene.parameters if scene else {}
     context = f" in scene {scene.name}" if scene else ""
@@ -60,28 +60,28 @@ def _check_with_parameters(
     except InputError:
         return ()  # a cycle, reported already
     unreadable = (
-        _find_unreadable(reader, {**parameters, **scene_parameters}, parameter_numbers) if reader.errors else ()
+        _find_unreadable_numbers(reader, {**parameters, **scene_parameters}, parameter_numbers) if reader.errors else ()
     )
-    values = _evaluate_all(reader, parameter_numbers)
+    values = _evaluate_constant_numbers(reader, parameter_numbers)
     errors: dict[str, list[tuple[str, str]]] = {}
 
-    def record(address: str, message: str, hint: str) -> None:
+    def record_error(address: str, message: str, hint: str) -> None:
         """Add an error, message and hint, for the number at `address`, unless it was reported before."""
-        if address not in reported:
+        if address not in reported_addresses:
             errors.setdefault(address, []).append((message, hint))
 
     for address, value in values.items():
         if not math.isfinite(value) and address not in unreadable:
-            record(address, f"is {value}{context}", FINITE)
+            record_error(address, f"is {value}{context}", FINITE)
         elif address in reader.meaning_of_integers and math.isfinite(value) and value != math.floor(value):
-            record(address, f"is {value:.6g}{context}", f"expected a whole {reader.meaning_of_integers[address]}")
+            record_error(address, f"is {value:.6g}{context}", f"expected a whole {reader.meaning_of_integers[address]}")
     for address, quantity in reader.quantities.items():
         if address in unreadable or quantity.operands or isinstance(quantity.value, Number):
             continue
         if ".parameters." not in address or address in values:
             message, hint = _find_invalid_part(quantity, parameter_numbers, not math.isfinite(values.get(address, 0.0)))
             if message:
-                record(address, f"{message}{context}", hint)
+                record_error(address, f"{message}{context}", hint)
     for condition in reader.conditions:
         violation = _describe_violation(condition, values)
         if violation:
@@ -89,21 +89,23 @@ def _check_with_parameters(
             value_text, hint = violation
             message = f"is {value_text} {unit}".rstrip() + f"{context}: {condition.message}"
             is_massless = condition.address.endswith(".mass") and values[condition.address] == 0.0
-            record(condition.address, message, f"{hint} {unit}".rstrip() + MASSLESS * is_massless)
+            record_error(condition.address, message, f"{hint} {unit}".rstrip() + MASSLESS * is_massless)
     for vector in reader.nonzero_vectors:
         if all(values.get(component.address) == 0.0 for component in vector):
-            record(vector[0].address, f"and .y are both 0{context}", "expected a direction, such as [1, 0]")
+            record_error(vector[0].address, f"and .y are both 0{context}", "expected a direction, such as [1, 0]")
     _report_errors(reader, errors, scene_parameters)
     return errors.keys()
 
 
-def _find_unreadable(reader: Reader, parameters: Mapping[str, Quantity], order: Iterable[str]) -> set[str]:
+def _find_unreadable_numbers(
+    reader: Reader, parameters: Mapping[str, Quantity], ordered_names: Iterable[str]
+) -> set[str]:
     """Return parameters and addresses of numbers that could not be read, or that depend on such a number.
 
-    `order`: names of the parameters, each after those that it depends on.
+    `ordered_names`: names of the parameters, each after those that it depends on.
     """
     unreadable: set[str] = set()
-    for path, quantity in (*((name, parameters[name]) for name in order), *reader.quantities.items()):
+    for path, quantity in (*((name, parameters[name]) for name in ordered_names), *reader.quantities.items()):
         is_broken = isinstance(quantity.value, Number) and math.isnan(quantity.value.value)
         if is_broken or any(name.path in unreadable for name in iterate_names(quantity.value)):
             unreadable.add(path)
@@ -123,7 +125,7 @@ def _report_errors(
         if not _is_caused_by_error(reader, quantity, errors):
             location, description_of_users = (
                 _find_location_of_cause(quantity, scene_parameters),
-                _describe_users(reader, address),
+                _describe_users_of_expression(reader, address),
             )
             reader.errors += [
                 BadValueError(f"{address} {message}{description_of_users}", location, hint)
@@ -144,7 +146,7 @@ def _is_caused_by_error(reader: Reader, quantity: Quantity, wrong_addresses: Con
     )
 
 
-def _describe_users(reader: Reader, address: str) -> str:
+def _describe_users_of_expression(reader: Reader, address: str) -> str:
     """Return a phrase that names the values that use a named expression.
 
     "" for the address of another number, and for an expression that only other expressions use.
@@ -223,7 +225,7 @@ def _find_underflowing_value(part: Expr, parameter_numbers: Mapping[str, float])
     return value if abs(value) < sys.float_info.min and all(math.isfinite(x) and x for x in (left, right)) else None
 
 
-def _evaluate_all(reader: Reader, values_by_name: dict[str, float]) -> dict[str, float]:
+def _evaluate_constant_numbers(reader: Reader, values_by_name: dict[str, float]) -> dict[str, float]:
     """Return all numbers (SI) that parameters alone determine, by address.
 
     Numbers that other numbers depend on are added to `values_by_name`, the values of parameters. Expressions of t or

@@ -114,9 +114,9 @@ class Reader:
     def check_shape(self, root: Map) -> Map:
         """Return the file's tree without the entries whose keys or node types are wrong.
 
-        Their errors are collected, and the names of the removed entries are stored in `left_out`. A key that is given
-        twice adds ANY_NAME to them, since it may have been meant as a missing key. Raises TooManyErrors if nothing is
-        left to read.
+        Their errors are collected, and the names of the removed entries are stored in `removed_names`. A key that is
+        given twice adds ANY_NAME to them, since it may have been meant as a missing key. Raises TooManyErrors if
+        nothing is left to read.
         """
         with self.collect_errors():
             checked = check_shape(root)
@@ -183,17 +183,17 @@ class Reader:
         pattern = re.compile(rf"(?<![\w.])(?:{'|'.join(names)})(?!\w| *\()")
         return [text for text in self.parsed_texts if pattern.search(text)] if names else []
 
-    def read_quantity(self, text: Text, address: str, expected: Dimension | None, varies: str = "") -> Quantity:
+    def read_quantity(self, text: Text, address: str, expected: Dimension | None, name_scope: str = "") -> Quantity:
         """Read the number or expression at an address, check its dimension, and register and return it as a quantity.
 
-        `expected` is its dimension, None if any. `varies` says which names it may use in addition to parameters
+        `expected` is its dimension, None if any. `name_scope` says which names it may use in addition to parameters
         (generator/field.py). Named expressions are replaced by their trees. An error is collected, and the value is NaN
         then.
         """
         tree: Expr = make_unreadable_number(text)
         dimension = expected
 
-        def read(spelling_text: str) -> tuple[Expr, Dimension | None]:
+        def read_spelling(spelling_text: str) -> tuple[Expr, Dimension | None]:
             """Return the expression tree and dimension of one spelling of the value. Raises InputError.
 
             A name that is also a unit is interpreted by `choose_interpretation`. `add_unit_hints` calls this function
@@ -202,14 +202,17 @@ class Reader:
             spelling = (
                 text if spelling_text is text else Text.make(spelling_text, text.where, text.plain, text.one_line)
             )
-            parsed = self.parse_expression(spelling, address, constant=not varies)
-            dimensions = self.find_name_dimensions(parsed, text.where, varies)
+            parsed = self.parse_expression(spelling, address, constant=not name_scope)
+            dimensions = self.find_name_dimensions(parsed, text.where, name_scope)
             if dimensions:
                 parsed = choose_interpretation(spelling, parsed, expected, dimensions.get, self.curves)
             return parsed, check_dimension(parsed, expected, dimensions.get, text.where)
 
-        with self.collect_errors(), add_unit_hints(text, text.where, read, expected, _NumberNames(self, "", False)):
-            tree, dimension = read(text)
+        with (
+            self.collect_errors(),
+            add_unit_hints(text, text.where, read_spelling, expected, _NumberNames(self, "", False)),
+        ):
+            tree, dimension = read_spelling(text)
         if not isinstance(tree, Number):
             self._record_candidate_dimension(tree, expected)
             if used_expressions := self.find_named_expressions(tree):
@@ -233,7 +236,7 @@ class Reader:
         return quantity
 
     def parse_expression(self, text: Text, address: str, constant: bool = False) -> Expr:
-        """Parse a scalar of the file and return its expression tree; its text is recorded in `texts`.
+        """Parse a scalar of the file and return its expression tree; its text is recorded in `parsed_texts`.
 
         `constant`: the value must not contain named expressions. Raises BadValueError for an empty value,
         ExpressionError for a text on several lines, and InputError for other errors.
@@ -247,34 +250,36 @@ class Reader:
             )
         return parse(text, text.where, _NumberNames(self, address, constant), self.curves)
 
-    def find_name_dimensions(self, expr: Expr, location: Location, varies: str = "") -> dict[str, Dimension | None]:
+    def find_name_dimensions(self, expr: Expr, location: Location, name_scope: str = "") -> dict[str, Dimension | None]:
         """Return the dimension of every name in `expr` by name, None for a name that fits any dimension.
 
-        `varies` says which names are allowed in addition to parameters. Calls of curves are checked too. Raises an
+        `name_scope` says which names are allowed in addition to parameters. Calls of curves are checked too. Raises an
         ExpressionError or UnknownNameError at a name that is not allowed there, InputErrors for several.
         """
         for call in iterate_curve_calls(expr):
-            check_curve_call(call, offset_location(location, call.offset), varies != "")
+            check_curve_call(call, offset_location(location, call.offset), name_scope != "")
         dimensions: dict[str, Dimension | None] = {}
         errors: dict[str, InputError] = {}
         for name in iterate_names(expr):
             if name.path not in dimensions and name.path not in errors:
                 try:
-                    dimensions[name.path] = self._find_dimension(name, offset_location(location, name.offset), varies)
+                    dimensions[name.path] = self._find_dimension(
+                        name, offset_location(location, name.offset), name_scope
+                    )
                 except InputError as error:
                     errors[name.path] = error
         if errors:
             raise combine_errors(errors.values())
         return dimensions
 
-    def _find_dimension(self, name: Name, location: Location, varies: str) -> Dimension | None:
+    def _find_dimension(self, name: Name, location: Location, name_scope: str) -> Dimension | None:
         """Return the dimension of one name; None if it fits any dimension.
 
-        Tried in this order: t, parameters, named expressions, and results in the scope `varies`. A named expression is
-        checked for names that this value must not contain. Raises an InputError at `location` if the name is unknown or
-        `varies` does not allow it.
+        Tried in this order: t, parameters, named expressions, and results in the scope `name_scope`. A named expression
+        is checked for names that this value must not contain. Raises an InputError at `location` if the name is unknown
+        or `name_scope` does not allow it.
         """
-        allows_time, result_dimension = varies not in CONSTANT_IN_TIME, self.result_scopes.get(varies)
+        allows_time, result_dimension = name_scope not in CONSTANT_IN_TIME, self.result_scopes.get(name_scope)
         if name.path == "t":
             return _find_dimension_of_time(location, allows_time, result_dimension is not None)
         if name.path in self.parameters:
@@ -290,7 +295,7 @@ class Reader:
         if name.path.lower() in ("time", "t"):
             raise ExpressionError(f"{name.path!r} is no name here", location, "time is written t")
         raise make_unknown_name_error(
-            "name", name.path, (*self.parameters, *(self.expressions if varies else ())), location
+            "name", name.path, (*self.parameters, *(self.expressions if name_scope else ())), location
         )
 
     def _check_dependencies_of_expression(

@@ -139,22 +139,22 @@ def _read_curve(reader: Reader, name: Text, node: Map) -> Curve | None:
     address = f"curves.{name}"
     errors_before = len(reader.errors)
     options = read_fields(reader, node, [f for f in CURVE.fields if f.kind == WORD], FieldContext(address)).options
-    x_unit, y_unit = _read_unit(node, "x", address), _read_unit(node, "y", address)
+    x_unit, y_unit = _read_column_unit(node, "x", address), _read_column_unit(node, "y", address)
     if ("points" in node) == ("table" in node):
         fault = "both points and a table" if "points" in node else "neither points nor a table"
         raise MissingKeyError(f"{address} has {fault}", name.where, "expected points: [[x, y], …] or table: FILE.csv")
     data = _read_table_bytes(reader, node["table"]) if "table" in node else b""
     if len(reader.errors) > errors_before:
         return None
-    ends, extrapolate = str(options["ends"]), str(options["extrapolate"])
-    if ends == PERIODIC and extrapolate != STOP:
+    end_condition, extrapolate = str(options["ends"]), str(options["extrapolate"])
+    if end_condition == PERIODIC and extrapolate != STOP:
         location = node["extrapolate"].where
         raise BadValueError(f"{address} is periodic and goes on {extrapolate!r}", location, "leave extrapolate out")
     interpolation = str(options["interpolation"])
-    if interpolation == MONOTONE and ends == NOT_A_KNOT:
+    if interpolation == MONOTONE and end_condition == NOT_A_KNOT:
         hint = "expected natural, clamped or periodic"
         raise BadValueError(f"{address} is monotone with ends: not_a_knot", node["ends"].where, hint)
-    long_table = _parse_long_table(data, x_unit, y_unit, ends)
+    long_table = _parse_long_table(data, x_unit, y_unit, end_condition)
     if long_table is None:
         rows = (
             _parse_table_rows(reader, node["table"], data)
@@ -162,11 +162,11 @@ def _read_curve(reader: Reader, name: Text, node: Map) -> Curve | None:
             else _convert_points_to_rows(node["points"], address)
         )
         x, y = _convert_column_to_si(rows, 0, x_unit), _convert_column_to_si(rows, 1, y_unit)
-        _check_points(address, ends, rows, x, y, name.where)
+        _check_points(address, end_condition, rows, x, y, name.where)
     else:
         x, y = long_table
-    coefficients = compute_spline(x, y, ends, interpolation)
-    knots, coefficients = make_even_pieces(x, coefficients) if ends == PERIODIC else (x, coefficients)
+    coefficients = compute_spline(x, y, end_condition, interpolation)
+    knots, coefficients = make_even_pieces(x, coefficients) if end_condition == PERIODIC else (x, coefficients)
     if not np.isfinite(np.array(coefficients)).all():
         hint = "expected points whose slopes are numbers: are two of them too close?"
         raise BadValueError(f"{address} has a slope that is no number", name.where, hint)
@@ -174,7 +174,7 @@ def _read_curve(reader: Reader, name: Text, node: Map) -> Curve | None:
         str(name),
         knots,
         coefficients,
-        ends,
+        end_condition,
         extrapolate,
         x_unit.dimension if x_unit else None,
         y_unit.dimension if y_unit else None,
@@ -186,7 +186,7 @@ def _read_curve(reader: Reader, name: Text, node: Map) -> Curve | None:
     )
 
 
-def _read_unit(node: Map, key: str, address: str) -> Unit | None:
+def _read_column_unit(node: Map, key: str, address: str) -> Unit | None:
     """Return the unit of a column, `x` or `y`; None for bare SI numbers, which fit any dimension. Raises UnitError."""
     if key not in node:
         return None
@@ -228,7 +228,7 @@ def _parse_table_rows(reader: Reader, name: Text, data: bytes) -> list[Row]:
 
 
 def _parse_long_table(
-    data: bytes, x_unit: Unit | None, y_unit: Unit | None, ends: str
+    data: bytes, x_unit: Unit | None, y_unit: Unit | None, end_condition: str
 ) -> tuple[tuple[float, ...], tuple[float, ...]] | None:
     """Return both columns (SI) of a table of more than a megabyte, parsed at once; None if it must be read row by row.
 
@@ -258,7 +258,7 @@ def _parse_long_table(
     x, y = (table * scales).T
     sizes = np.abs(table[table != 0.0])
     fits = np.isfinite(table).all() and (sizes < _HIGH).all() and (sizes > _LOW).all() and (np.diff(x) > 0.0).all()
-    if not fits or (ends == PERIODIC and y[0] != y[-1]):
+    if not fits or (end_condition == PERIODIC and y[0] != y[-1]):
         return None
     return tuple(x.tolist()), tuple(y.tolist())
 
@@ -296,20 +296,20 @@ def _convert_column_to_si(rows: Sequence[Row], column: int, unit: Unit | None) -
 
 
 def _check_points(
-    address: str, ends: str, rows: Sequence[Row], x: Sequence[float], y: Sequence[float], location: Location
+    address: str, end_condition: str, rows: Sequence[Row], x: Sequence[float], y: Sequence[float], location: Location
 ) -> None:
     """Raise BadValueError unless there are enough points, x rises strictly, and periodic curves end as they begin.
 
-    `address`: the curve's address; `ends`: its end condition; `location`: the location of its name.
+    `address`: the curve's address; `end_condition`: its key `ends`; `location`: the location of its name.
     """
-    if len(x) < LEAST[ends]:
-        hint = f"expected at least {LEAST[ends]} for ends: {ends}"
+    if len(x) < LEAST[end_condition]:
+        hint = f"expected at least {LEAST[end_condition]} for ends: {end_condition}"
         raise BadValueError(f"{address} has {len(x)} point{'s' * (len(x) != 1)}", location, hint)
     for k in range(1, len(x)):
         if not x[k] > x[k - 1]:
             texts = rows[k].cells[0], rows[k - 1].cells[0]
             hint = "expected rising x, each once"
             raise BadValueError(f"{address}: x is {texts[0]} behind {texts[1]}", rows[k].locations[0], hint)
-    if ends == PERIODIC and y[0] != y[-1]:
+    if end_condition == PERIODIC and y[0] != y[-1]:
         hint = f"expected {rows[0].cells[1]}, as in the first point, or other ends"
         raise BadValueError(f"{address} is periodic and ends at {rows[-1].cells[1]}", rows[-1].locations[1], hint)

@@ -32,9 +32,10 @@ _COORDINATES = ("x", "y", "theta", "vx", "vy", "omega", "ax", "ay", "alpha")
 
 
 def read_names(reader: Reader, root: Map) -> tuple[PointNames, ResultNames]:
-    """Return the names of points and of results; other names go to reader.parameters, .expressions and .scopes.
+    """Return the names of points and of results; the others go to reader.parameters and reader.expressions.
 
-    A BadNameError is collected for each name that is not allowed or used twice. Nothing else of the sections is read.
+    reader.result_scopes gets the names of motion and of results. A BadNameError is collected for each name that is not
+    allowed or used twice. Nothing else of the sections is read.
     """
     reader.parameters.update(dict.fromkeys(map(str, root.get_mapping("parameters"))))
     expressions = (name for name in root.get_mapping("expressions").list_keys() if name != "t")
@@ -67,7 +68,7 @@ def _check_labels(reader: Reader, root: Map) -> None:
 def _check_expression_names(reader: Reader, root: Map) -> None:
     """Collect an error for each name of a parameter, curve or expression that is not allowed or used twice.
 
-    Names that are not allowed are recorded in reader.refused.
+    Names of outputs count as used. Names that are not allowed are recorded in reader.refused_names.
     """
     users_of_names: dict[str, str] = {}
     for section, kind in _EXPRESSION_SECTIONS.items():

@@ -68,7 +68,7 @@ def _read_named_expression(
     expression.
     """
     tree = choose_interpretation(text, tree, None, reader.find_number_dimension, reader.curves)
-    sizes[name] = _check_size(name, tree, text.where, sizes)
+    sizes[name] = _check_expression_size(name, tree, text.where, sizes)
     value = replace_names(
         tree, {other_name: expression.expanded_tree for other_name, expression in reader.expressions.items()}
     )
@@ -77,7 +77,9 @@ def _read_named_expression(
     return NamedExpression(tree, value, check_dimension(tree, None, dimensions.get, text.where), text.where)
 
 
-def _check_size(name: str, tree: Expr, location: Location, sizes: Mapping[str, tuple[int, int]]) -> tuple[int, int]:
+def _check_expression_size(
+    name: str, tree: Expr, location: Location, sizes: Mapping[str, tuple[int, int]]
+) -> tuple[int, int]:
     """Return the number of parts and levels of a tree with all names replaced. Raises LimitError if it is too large.
 
     `sizes` contains these numbers for each named expression that was read before.

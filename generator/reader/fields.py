@@ -28,7 +28,7 @@ from gudgeon.language.text_output import format_count
 from gudgeon.language.tree import Number
 from gudgeon.language.units import DIMENSIONLESS
 
-_NOWHERE: Mapping[str, str] = MappingProxyType({})
+_NO_HINTS: Mapping[str, str] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class _Kind(Protocol):
 
 
 def read_kind(
-    reader: Reader, node: Map, kinds: Mapping[str, _Kind], address: str, hints: Mapping[str, str] = _NOWHERE
+    reader: Reader, node: Map, kinds: Mapping[str, _Kind], address: str, hints: Mapping[str, str] = _NO_HINTS
 ) -> tuple[Text, frozenset[str | None]]:
     """Return the key that states an entry's kind, and the keys that its unknown keys probably mean (`check_keys`).
 
@@ -94,7 +94,7 @@ def find_kind_key(node: Map, kinds: Mapping[str, _Kind], other_keys: Iterable[st
 
 
 def check_keys(
-    reader: Reader, node: Map, known_keys: Sequence[str], address: str, hints: Mapping[str, str] = _NOWHERE
+    reader: Reader, node: Map, known_keys: Sequence[str], address: str, hints: Mapping[str, str] = _NO_HINTS
 ) -> frozenset[str | None]:
     """Collect an error for each unknown key of an entry, and return the known keys that these probably stand for.
 

@@ -34,9 +34,9 @@ class Materials:
             quantities = read_fields(reader, node, MATERIAL.fields, FieldContext(f"materials.{name}")).quantities
             self.by_name[str(name)] = Material(str(name), quantities)
         for needs in (ELASTIC_KEYS, ("density",)):
-            self._make_replaceable(needs)
+            self._make_properties_replaceable(needs)
 
-    def _make_replaceable(self, properties: tuple[str, ...]) -> None:
+    def _make_properties_replaceable(self, properties: tuple[str, ...]) -> None:
         """Make the values of materials that can be chosen run-time parameters, also those that are written as 0.
 
         `properties` are the properties that a use needs; nothing changes unless at least two materials have them all.
@@ -54,29 +54,29 @@ class Materials:
         """Return the names of the materials that have all properties in `properties`."""
         return [name for name, material in self.by_name.items() if all(key in material.numbers for key in properties)]
 
-    def read_properties(self, address: str, text: Text, properties: tuple[str, ...]) -> dict[str, Quantity]:
+    def read_properties(self, address: str, material_name: Text, properties: tuple[str, ...]) -> dict[str, Quantity]:
         """Return the properties of the material named at an address, by their names `properties`.
 
         If another material has them too, the properties become run-time parameters at this address, with the bounds of
         materials, and `choices` gets the address. Raises UnknownNameError, MissingKeyError.
         """
         self._needs[address] = properties
-        quantities = self._find_material(text, properties).numbers
+        quantities = self._find_material(material_name, properties).numbers
         if len(self._find_materials_with(properties)) < 2:
             return {key: quantities[key] for key in properties}
         parameters = {
             key: self._reader.register_quantity(
-                make_dependent_quantity(f"{address}.{key}", quantities[key], text.where)
+                make_dependent_quantity(f"{address}.{key}", quantities[key], material_name.where)
             )
             for key in properties
         }
         for field in MATERIAL.fields:
             for bound in field.bounds if field.name in parameters else ():
                 self._reader.add_condition(parameters[field.name], bound.relation, float(bound.limit), bound.why)
-        self.choices[address] = Choice(address, str(text), parameters)
+        self.choices[address] = Choice(address, str(material_name), parameters)
         return parameters
 
-    def resolve_choice(self, address: Text, text: Text) -> str:
+    def resolve_choice(self, address: Text, material_name: Text) -> str:
         """Return the name of the material that a scene gives an address. Raises UnknownNameError, MissingKeyError.
 
         The address must be that of a bearing, guide or shape with a material, whose needed properties the material must
@@ -84,22 +84,26 @@ class Materials:
         """
         if address not in self._needs:
             raise make_unknown_name_error("address of a material", address, self._needs, address.where)
-        return self._find_material(text, self._needs[address]).name
+        return self._find_material(material_name, self._needs[address]).name
 
-    def _find_material(self, text: Text, properties: tuple[str, ...]) -> Material:
-        """Return the material named `text` if it has all properties in `properties`.
+    def _find_material(self, material_name: Text, properties: tuple[str, ...]) -> Material:
+        """Return the material named `material_name` if it has all properties in `properties`.
 
         Raises UnknownNameError, with an example if the file has no materials, and MissingKeyError.
         """
         if not self.by_name:
-            raise UnknownNameError(f"unknown material {str(text)[:200]!r}", text.where, f"write it: {EXAMPLE_SECTION}")
-        if text not in self.by_name:
-            raise make_unknown_name_error("material", text, self.by_name, text.where)
-        missing_keys = [key for key in properties if key not in self.by_name[text].numbers]
+            raise UnknownNameError(
+                f"unknown material {str(material_name)[:200]!r}", material_name.where, f"write it: {EXAMPLE_SECTION}"
+            )
+        if material_name not in self.by_name:
+            raise make_unknown_name_error("material", material_name, self.by_name, material_name.where)
+        missing_keys = [key for key in properties if key not in self.by_name[material_name].numbers]
         if missing_keys:
             suitable_names = ", ".join(self._find_materials_with(properties))
-            hint = f"expected the key {missing_keys[0]!r} in materials.{text}" + (
+            hint = f"expected the key {missing_keys[0]!r} in materials.{material_name}" + (
                 f", or one of: {suitable_names}" * bool(suitable_names)
             )
-            raise MissingKeyError(f"material {text} has no {' and no '.join(missing_keys)}", text.where, hint)
-        return self.by_name[text]
+            raise MissingKeyError(
+                f"material {material_name} has no {' and no '.join(missing_keys)}", material_name.where, hint
+            )
+        return self.by_name[material_name]

@@ -32,7 +32,7 @@ def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
             continue
         with reader.collect_errors():
 
-            def read(spelling_text: str, name: str = name, text: Text = text) -> Expr:
+            def read_spelling(spelling_text: str, name: str = name, text: Text = text) -> Expr:
                 """Return the tree of one spelling of a parameter's value, after checks of its names and dimension.
 
                 `add_unit_hints` calls this function with other spellings. Raises InputError.
@@ -43,8 +43,8 @@ def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
                 _find_parameter_dimension(name, tree, lambda _: None, text.where)
                 return tree
 
-            with add_unit_hints(text, text.where, read, None, reader.parameters):
-                trees[name] = read(text)
+            with add_unit_hints(text, text.where, read_spelling, None, reader.parameters):
+                trees[name] = read_spelling(text)
     order: tuple[str, ...] = tuple(trees)
     with reader.collect_errors():
         order = sort_by_dependencies(trees, {name: text.where for name, text in texts.items()})
@@ -65,13 +65,13 @@ def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
 
 
 def _find_parameter_dimension(
-    name: str, tree: Expr, dimension_of: Callable[[str], Dimension | None], location: Location
+    name: str, tree: Expr, find_name_dimension: Callable[[str], Dimension | None], location: Location
 ) -> Dimension | None:
     """Return the dimension of a parameter, None without a unit. Raises InputError for exponents finer than halves.
 
-    `dimension_of` returns the dimension of another parameter. `location` locates errors.
+    `find_name_dimension` returns the dimension of another parameter. `location` locates errors.
     """
-    dimension = check_dimension(tree, None, dimension_of, location)
+    dimension = check_dimension(tree, None, find_name_dimension, location)
     if dimension is not None and not dimension.has_halves_at_most:
         raise InputError(
             f"the unit of parameter {name} has a broken exponent", location, "expected whole or half powers of m, kg, s"

@@ -16,7 +16,7 @@ IMPLIED_POINTS = ("origin", "com", "tail", "head")
 CORNERS_OF_SIDES = ("P", "Q", "R")
 
 
-_NONE: Mapping[str, str] = MappingProxyType({})
+_NO_HINTS: Mapping[str, str] = MappingProxyType({})
 
 
 class PointNames:
@@ -86,7 +86,7 @@ def find_coordinate_dimension(
     dimensions: Mapping[str, Dimension],
     point_names: PointNames,
     location: Location,
-    hints: Mapping[str, str] = _NONE,
+    hints: Mapping[str, str] = _NO_HINTS,
 ) -> Dimension:
     """Return the dimension of a coordinate such as "L7.theta". Raises UnknownNameError at the wrong part.
 

@@ -130,7 +130,7 @@ class ResultNames:
         results_of_owner = [path for path in self.iterate_names() if path.partition(".")[0] == name]
         raise make_unknown_name_error("series", name, results_of_owner or [*outputs, *self.iterate_names()], name.where)
 
-    def check_availability(self, name: Text, scene: str, play: Container[str]) -> None:
+    def check_result_availability(self, name: Text, scene: str, play: Container[str]) -> None:
         """Raise BadValueError for a result that a joint has only with play, or only without, in other scenes.
 
         `play` contains the joints that have play in the scene named `scene`. Names of other owners are accepted.

@@ -149,7 +149,7 @@ def _read_scene(reader: Reader, name: Text, merged_scene: _MergedScene, parts: S
             address = f"scenes.{name}.parameters.{key}"
             parameters[str(key)] = reader.read_quantity(text, address, reader.parameters[key])
     with reader.collect_errors():
-        _check_cycles(name, parameters, parts)
+        _check_parameter_cycles(name, parameters, parts)
     simulate = read_fields(
         reader, merged_scene.simulate, SIMULATE.fields, FieldContext(f"scenes.{name}.simulate")
     ).quantities
@@ -161,7 +161,7 @@ def _read_scene(reader: Reader, name: Text, merged_scene: _MergedScene, parts: S
         str(name), play, parameters, simulate, name.where, merged_scene.events, merged_scene.peaks, materials
     )
     with reader.collect_errors():
-        _check_contours(scene, merged_scene.play)
+        _check_contour_friction(scene, merged_scene.play)
     return scene
 
 
@@ -279,10 +279,10 @@ def check_peaks(
                 with reader.collect_errors():
                     result_names.check_series_name(name, outputs)
                     result_names(Name(str(name)), name.where)
-                    result_names.check_availability(name, scene.name, scene.play)
+                    result_names.check_result_availability(name, scene.name, scene.play)
 
 
-def _check_contours(scene: SceneSpec, play_section: Map) -> None:
+def _check_contour_friction(scene: SceneSpec, play_section: Map) -> None:
     """Raise BadValueError if a scene combines a contour with a friction law that has an inner state.
 
     Derivatives by the angle in the bearing and by inner states are not derived together. `play_section` is the scene's
@@ -291,7 +291,7 @@ def _check_contours(scene: SceneSpec, play_section: Map) -> None:
     with_contour = [joint for joint, play in scene.play.items() if play.contour]
     if with_contour and (states := sorted(_find_inner_states(scene))):
         message = f"scene {scene.name} has a contour beside a law with an inner state ({states[0]})"
-        location = play_section[with_contour[0]].key("contour").where
+        location = play_section[with_contour[0]].find_key("contour").where
         raise BadValueError(message, location, "expected friction without an inner state, or no contour")
 
 
@@ -307,7 +307,7 @@ def _find_inner_states(scene: SceneSpec) -> set[str]:
     }
 
 
-def _check_cycles(name: Text, scene_parameters: Mapping[str, Quantity], parts: SceneParts) -> None:
+def _check_parameter_cycles(name: Text, scene_parameters: Mapping[str, Quantity], parts: SceneParts) -> None:
     """Raise CycleError if a scene's parameter values close a cycle that the file's own values do not have.
 
     A cycle of the file's own values was reported when they were read.

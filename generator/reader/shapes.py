@@ -119,7 +119,7 @@ class MassProperties:
             raise BadValueError(fault, location, "expected no com, or a number for inertia")
         self._set_inertia(_AUTO, {"l": self.length}, location)
 
-    def set_shape(self, node: Map, key: Text, points: Mapping[str, Vector], has_inertia: bool) -> None:
+    def set_properties_from_shape(self, node: Map, key: Text, points: Mapping[str, Vector], has_inertia: bool) -> None:
         """Set mass, inertia and centre of mass that follow from the body's shape.
 
         `node` and `key` are the shape's node and key; `points` are the points that a triangle may name. Raises

@@ -28,14 +28,14 @@ def choose_interpretation(
     text: Text,
     tree_with_names: Expr,
     expected: Dimension | None,
-    dimension_of: DimensionOf,
+    find_name_dimension: DimensionOf,
     curves: Mapping[str, Curve],
 ) -> Expr:
     """Return the tree of `text`: `tree_with_names`, in which names precede units, or the one in which all are units.
 
-    `expected` is the dimension of the value, None if any. `dimension_of` returns that of a name. The tree with names is
-    returned if no name is also a unit, if the text cannot be parsed with units, or if only names give the expected
-    dimension. Raises ExpressionError if both readings are possible.
+    `expected` is the dimension of the value, None if any. `find_name_dimension` returns that of a name. The tree with
+    names is returned if no name is also a unit, if the text cannot be parsed with units, or if only names give the
+    expected dimension. Raises ExpressionError if both readings are possible.
     """
     ambiguous_names = sorted(set(find_names_over_units(tree_with_names)))
     if not ambiguous_names:
@@ -50,11 +50,11 @@ def choose_interpretation(
         unit in UNITS for unit in iterate_units(tree_with_units)
     )
     name_fits, unit_fits = (
-        _has_dimension(tree, expected, dimension_of, text) for tree in (tree_with_names, tree_with_units)
+        _has_dimension(tree, expected, find_name_dimension, text) for tree in (tree_with_names, tree_with_units)
     )
     if name_fits and not unit_fits:
         return tree_with_names
-    dimensions = [(dimension_of(name), find_symbol_dimension(name)) for name in ambiguous_names]
+    dimensions = [(find_name_dimension(name), find_symbol_dimension(name)) for name in ambiguous_names]
     if (
         is_quantity
         and unit_fits
@@ -69,10 +69,10 @@ def choose_interpretation(
     raise _make_ambiguity_error(text, ambiguous_names)
 
 
-def _has_dimension(tree: Expr, expected: Dimension | None, dimension_of: DimensionOf, text: Text) -> bool:
+def _has_dimension(tree: Expr, expected: Dimension | None, find_name_dimension: DimensionOf, text: Text) -> bool:
     """Return whether a tree has the expected dimension; `text` locates the expression."""
     try:
-        check_dimension(tree, expected, dimension_of, text.where)
+        check_dimension(tree, expected, find_name_dimension, text.where)
     except UnitError:
         return False
     return True

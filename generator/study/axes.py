@@ -53,10 +53,12 @@ def read_parameters(reader: Reader, root: Map) -> tuple[dict[Text, Text], list[A
                 shared_values[key] = check_text(node, f"parameters.{key}", key, _VALUES)
             else:
                 name = check_dimension_name(key, "parameter")
-                axes.append(Axis(name, key.where, {key: _read_numbers(reader, node, f"parameters.{key}", key)}))
+                axes.append(
+                    Axis(name, key.where, {key: _read_parameter_values(reader, node, f"parameters.{key}", key)})
+                )
     for name, group in _iterate_section_entries(reader, root, "zip"):
         with reader.collect_errors():
-            axes.append(_read_zip(reader, name, check_mapping(group, f"zip.{name}", name)))
+            axes.append(_read_zip_entry(reader, name, check_mapping(group, f"zip.{name}", name)))
     return shared_values, axes
 
 
@@ -70,7 +72,7 @@ def _iterate_section_entries(reader: Reader, root: Map, section: str) -> Iterato
             yield from check_mapping(root[section], section, root.find_key(section)).list_entries()
 
 
-def _read_numbers(reader: Reader, node: Any, address: str, key: Text) -> ParameterValues:
+def _read_parameter_values(reader: Reader, node: Any, address: str, key: Text) -> ParameterValues:
     """Return the values of a parameter: a list, or a range from … to … with a count and a spacing.
 
     No values are returned if a key is missing, whose error is collected. Raises BadValueError for another node.
@@ -93,13 +95,15 @@ def _read_spacing(node: Map, address: str) -> str:
     return check_word(node["spacing"], f"{address}.spacing", node.find_key("spacing"), (LINEAR, GEOMETRIC))
 
 
-def _read_zip(reader: Reader, name: Text, group: Map) -> Axis:
+def _read_zip_entry(reader: Reader, name: Text, group: Map) -> Axis:
     """Return the dimension of an entry of `zip`: parameters that vary together, all with the same number of values.
 
     Raises BadValueError for lists of different lengths and an empty entry, BadNameError for a reserved name.
     """
     dimension = check_label_of_entry(name, "zip") if name == "run" else check_dimension_name(name, "zip")
-    columns = {key: _read_numbers(reader, node, f"zip.{name}.{key}", key) for key, node in group.list_entries()}
+    columns = {
+        key: _read_parameter_values(reader, node, f"zip.{name}.{key}", key) for key, node in group.list_entries()
+    }
     lengths = {key: numbers.count or len(numbers.texts) for key, numbers in columns.items()}
     if len(set(lengths.values())) > 1 and 0 not in lengths.values():
         lengths_text = ", ".join(f"{key} has {length}" for key, length in lengths.items())

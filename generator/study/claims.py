@@ -49,8 +49,8 @@ MORE = {
     "near": ("within",),
 }
 NEEDED = {"alike_along": "within", "spreads_along": "more_than", "larger": "than", "near": "within"}
-TRIAL = tuple(dict.fromkeys((*KINDS, *COMMON, *(key for keys in MORE.values() for key in keys))))
-TREND = (*MESSAGES, *TRIAL, "all", "not_computed")
+STATEMENT_KEYS = tuple(dict.fromkeys((*KINDS, *COMMON, *(key for keys in MORE.values() for key in keys))))
+TREND = (*MESSAGES, *STATEMENT_KEYS, "all", "not_computed")
 
 
 def read_claims(reader: Reader, root: Map) -> Claims:
@@ -74,7 +74,7 @@ def read_claims(reader: Reader, root: Map) -> Claims:
             with reader.collect_errors():
                 trends.append(_read_trend_claim(name, check_mapping(value, f"claims.trends.{name}", name)))
         _check_unique_names(reader, [*(claim.name for claim in numbers), *(claim.name for claim in trends)])
-        _check_references(reader, numbers)
+        _check_claim_references(reader, numbers)
         return Claims(source, tuple(numbers), tuple(trends))
     return Claims()
 
@@ -126,7 +126,7 @@ def _read_number_claim(reader: Reader, name: Text, node: Map) -> NumberClaim:
     )
 
 
-def _check_references(reader: Reader, numbers: Sequence[NumberClaim]) -> None:
+def _check_claim_references(reader: Reader, numbers: Sequence[NumberClaim]) -> None:
     """Collect an error unless the claim that a number refers to (`beside`) exists and has the same measure."""
     measures = {str(claim.name): claim.measure for claim in numbers}
     for claim in numbers:
@@ -164,70 +164,74 @@ def _read_coordinate_values(node: Map, address: str) -> dict[Text, Text]:
     return {key: check_text(value, f"{address}.{key}", key, "one value") for key, value in node.list_entries()}
 
 
-def _read_other_selection(node: Map, key: str, address: str, base: Selection) -> Selection:
-    """Return the selection at a key, {part: …, c: 0.3 mm}, merged over the selection `base` of the trend.
+def _read_other_selection(node: Map, key: str, address: str, base_selection: Selection) -> Selection:
+    """Return the selection at a key, {part: …, c: 0.3 mm}, merged over the selection `base_selection` of the trend.
 
     Raises an InputError.
     """
     selection_node = check_mapping(node[key], f"{address}.{key}", node.find_key(key))
     values = _read_coordinate_values(selection_node, f"{address}.{key}")
-    part = next((value for name, value in values.items() if name == "part"), base.part)
-    inherited_values = {name: value for name, value in base.at.items() if name not in values}
+    part = next((value for name, value in values.items() if name == "part"), base_selection.part)
+    inherited_values = {name: value for name, value in base_selection.at.items() if name not in values}
     return Selection(
         part, inherited_values | {name: value for name, value in values.items() if name != "part"}, node.find_key(key)
     )
 
 
 def _read_trend_claim(name: Text, node: Map) -> TrendClaim:
-    """Return a claim about a trend, with its trials or the reason why it is not computed. Raises an InputError."""
+    """Return a claim about a trend, with its statements or the reason why it is not computed. Raises an InputError."""
     address = f"claims.trends.{name}"
     check_label_of_entry(name, "claim")
     figure, says, note, heading = (read_line(node, key, address) for key in ("figure", "says", "note", "heading"))
     if unknown_keys := [key for key in node.list_keys() if key not in TREND]:
         raise make_unknown_key_error(unknown_keys[0], TREND, address)
     reason = read_line(node, "not_computed", address)
-    trial_node = Map.make([(key, value) for key, value in node.list_entries() if key not in MESSAGES], node.where)
+    statement_node = Map.make([(key, value) for key, value in node.list_entries() if key not in MESSAGES], node.where)
     if reason:
-        if extra_keys := [key for key in trial_node.list_keys() if key != "not_computed"]:
+        if extra_keys := [key for key in statement_node.list_keys() if key != "not_computed"]:
             raise BadValueError(
                 f"{address} is not computed, and has {extra_keys[0]}", extra_keys[0].where, "expected one of both"
             )
         return TrendClaim(name, figure, says, (), reason, note, heading)
-    return TrendClaim(name, figure, says, tuple(_read_trials(name, trial_node, address)), "", note, heading)
+    return TrendClaim(
+        name, figure, says, tuple(_read_trend_statements(name, statement_node, address)), "", note, heading
+    )
 
 
-def _read_trials(name: Text, node: Map, address: str) -> list[Trial]:
-    """Return the trials of a trend: one, or each of `all`, whose keys override those next to `all`.
+def _read_trend_statements(name: Text, node: Map, address: str) -> list[Trial]:
+    """Return the statements of a trend: one, or each of `all`, whose keys override those next to `all`.
 
     Raises an InputError for an unknown key or an empty list.
     """
     if "all" not in node:
-        return [_read_trial(name, node, address)]
-    trial_nodes = node["all"]
-    if not isinstance(trial_nodes, Items) or not trial_nodes:
+        return [_read_trend_statement(name, node, address)]
+    statement_nodes = node["all"]
+    if not isinstance(statement_nodes, Items) or not statement_nodes:
         raise BadValueError(
-            f"{address}.all is {describe_node(trial_nodes)}", node.find_key("all").where, "expected a list of trials"
+            f"{address}.all is {describe_node(statement_nodes)}",
+            node.find_key("all").where,
+            "expected a list of trials",
         )
-    trials = []
-    for k, node_in_list in enumerate(trial_nodes):
-        trial_node = check_mapping(node_in_list, f"{address}.all[{k}]", node.find_key("all"))
-        if unknown_keys := [key for key in trial_node.list_keys() if key not in TRIAL]:
-            raise make_unknown_key_error(unknown_keys[0], TRIAL, f"{address}.all[{k}]")
+    statements = []
+    for k, node_in_list in enumerate(statement_nodes):
+        statement_node = check_mapping(node_in_list, f"{address}.all[{k}]", node.find_key("all"))
+        if unknown_keys := [key for key in statement_node.list_keys() if key not in STATEMENT_KEYS]:
+            raise make_unknown_key_error(unknown_keys[0], STATEMENT_KEYS, f"{address}.all[{k}]")
         inherited_entries = [
-            (key, value) for key, value in node.list_entries() if key != "all" and key not in trial_node
+            (key, value) for key, value in node.list_entries() if key != "all" and key not in statement_node
         ]
-        trials.append(
-            _read_trial(
+        statements.append(
+            _read_trend_statement(
                 name,
-                Map.make([*inherited_entries, *trial_node.list_entries()], trial_node.where),
+                Map.make([*inherited_entries, *statement_node.list_entries()], statement_node.where),
                 f"{address}.all[{k}]",
             )
         )
-    return trials
+    return statements
 
 
-def _read_trial(name: Text, node: Map, address: str) -> Trial:
-    """Read one trial: its kind, measures, selections and limits. Raises an InputError."""
+def _read_trend_statement(name: Text, node: Map, address: str) -> Trial:
+    """Return one statement: its kind, measures, selections and limits. Raises an InputError."""
     selected = [key for key in node.list_keys() if key in KINDS]
     if len(selected) != 1:
         message = (
@@ -240,10 +244,10 @@ def _read_trial(name: Text, node: Map, address: str) -> Trial:
         raise make_unknown_key_error(unknown_keys[0], known_keys, address)
     if (required_key := NEEDED.get(kind)) and required_key not in node:
         raise make_missing_key_error(required_key, node.where, address)
-    base = _read_selection(node, address, kind)
+    base_selection = _read_selection(node, address, kind)
     if kind == COUNTS:
-        counts = _read_counts(check_mapping(node[kind], f"{address}.{kind}", kind), f"{address}.{kind}")
-        return Trial(kind, (), base, kind, counts=counts)
+        counts = _read_expected_counts(check_mapping(node[kind], f"{address}.{kind}", kind), f"{address}.{kind}")
+        return Trial(kind, (), base_selection, kind, counts=counts)
     if "measure" not in node:
         raise make_missing_key_error("measure", node.where, address)
     measures = check_texts(node["measure"], f"{address}.measure", node.find_key("measure"), "names of measures")
@@ -256,7 +260,7 @@ def _read_trial(name: Text, node: Map, address: str) -> Trial:
         None,
     )
     if kind in SELECTION_COMPARISONS:
-        return _read_comparison(node, address, kind, measures, base, factor_or_tolerance)
+        return _read_comparison(node, address, kind, measures, base_selection, factor_or_tolerance)
     comparison_text = check_text(
         node[kind],
         f"{address}.{kind}",
@@ -276,24 +280,24 @@ def _read_trial(name: Text, node: Map, address: str) -> Trial:
             node.find_key("more_than").where,
             f"expected as many as measure: {len(measures)}",
         )
-    return Trial(kind, measures, base, comparison_text, None, other_measures, factor_or_tolerance)
+    return Trial(kind, measures, base_selection, comparison_text, None, other_measures, factor_or_tolerance)
 
 
 def _read_comparison(
-    node: Map, address: str, kind: Text, measures: tuple[Text, ...], base: Selection, factor: Text | None
+    node: Map, address: str, kind: Text, measures: tuple[Text, ...], base_selection: Selection, factor: Text | None
 ) -> Trial:
-    """Return a trial that compares two selections of runs; `kind` is "larger" or "most_lowered".
+    """Return a statement that compares two selections of runs; `kind` is "larger" or "most_lowered".
 
-    `base` is the selection of the trend, `factor` the value of `by` or None. Raises an InputError if a selection is
-    missing.
+    `base_selection` is the selection of the trend, `factor` the value of `by` or None. Raises an InputError if a
+    selection is missing.
     """
     if kind == "larger":
         return Trial(
             kind,
             measures,
-            _read_other_selection(node, kind, address, base),
+            _read_other_selection(node, kind, address, base_selection),
             kind,
-            _read_other_selection(node, "than", address, base),
+            _read_other_selection(node, "than", address, base_selection),
             (),
             factor,
         )
@@ -303,14 +307,14 @@ def _read_comparison(
     return Trial(
         kind,
         measures,
-        _read_other_selection(node, "from", address, base),
+        _read_other_selection(node, "from", address, base_selection),
         kind,
-        _read_other_selection(node, "to", address, base),
+        _read_other_selection(node, "to", address, base_selection),
         other_measures,
     )
 
 
-def _read_counts(node: Map, address: str) -> dict[Text, int]:
+def _read_expected_counts(node: Map, address: str) -> dict[Text, int]:
     """Return the expected counts of bodies, joints and others in a scene, by key.
 
     Raises an InputError for an unknown key.

@@ -69,10 +69,10 @@ def check_text(node: Any, address: str, key: Any, expected_text: str = "a number
 
 def read_line(node: Map, key: str, address: str) -> str:
     """Return the descriptive text at a key on one line; "" if there is none. Raises BadValueError."""
-    return join_words(node[key], f"{address}.{key}", node.find_key(key)) if key in node else ""
+    return check_paragraph(node[key], f"{address}.{key}", node.find_key(key)) if key in node else ""
 
 
-def join_words(node: Any, address: str, key: Any) -> str:
+def check_paragraph(node: Any, address: str, key: Any) -> str:
     """Return a node as a descriptive text on one line, with single spaces.
 
     Raises BadValueError for other nodes, and for more than 1000 or invisible characters.
@@ -196,7 +196,7 @@ def read_about(reader: Reader, root: Map) -> tuple[str, ...]:
             return ()
         node = root["about"]
         paragraphs = list(node) if isinstance(node, Items) and node else [node]
-        return tuple(join_words(paragraph, "about", root.find_key("about")) for paragraph in paragraphs)
+        return tuple(check_paragraph(paragraph, "about", root.find_key("about")) for paragraph in paragraphs)
     return ()
 
 

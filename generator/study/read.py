@@ -48,7 +48,7 @@ from gudgeon.language.names import make_unknown_name_error
 _SET = "value of "  # prefix of locations of values from the command line
 
 
-def check_names(reader: Reader, study: StudyFile, root: Map) -> None:
+def check_dataset_names(reader: Reader, study: StudyFile, root: Map) -> None:
     """Collect an error for each name of the dataset that is reserved or used twice.
 
     Checked are parameters, zips, choices, measures and stored series of one part. `root` is the part's tree.
@@ -290,12 +290,12 @@ def _read_part(reader: Reader, root: Map, file: str, settings: Mapping[str, str]
         keep,
         _read_method(reader, root),
         _read_rtol(reader, root),
-        _read_stop(reader, root),
+        _read_stop_at_events(reader, root),
         _select_result_settings(root) | {"settings": dict(sorted(settings.items()))},
         read_wear(reader, root),
         parameters.left_out,
     )
-    check_names(reader, study, root)
+    check_dataset_names(reader, study, root)
     return study
 
 
@@ -338,7 +338,7 @@ def _read_rtol(reader: Reader, root: Map) -> Text | None:
     return None
 
 
-def _read_stop(reader: Reader, root: Map) -> bool:
+def _read_stop_at_events(reader: Reader, root: Map) -> bool:
     """Return whether runs stop at events, true by default; an error is collected for another word."""
     with reader.collect_errors():
         return (
@@ -388,11 +388,11 @@ def _read_measures(reader: Reader, root: Map, windows: Mapping[str, Window]) -> 
         for name, value in entries.list_entries():
             with reader.collect_errors():
                 measures.append(_read_measure(name, check_mapping(value, f"measures.{name}", name), windows, root))
-                _check_one_origin(measures)
+                _check_single_subtracted_scene(measures)
     return tuple(measures)
 
 
-def _check_one_origin(measures: Sequence[Measure]) -> None:
+def _check_single_subtracted_scene(measures: Sequence[Measure]) -> None:
     """Raise BadValueError if statistics of all steps subtract series of different scenes.
 
     Statistics of samples in a window do not count. Only the last measure is compared with the first.
@@ -434,11 +434,15 @@ def _read_measure(name: Text, node: Map, windows: Mapping[str, Window], root: Ma
             raise make_unknown_name_error("window", window_name, windows, window_name.where)
         window = str(window_name)
     return Measure(
-        check_label_of_entry(name, "measure"), str(statistic), source_name, window, _read_origin(name, node, statistic)
+        check_label_of_entry(name, "measure"),
+        str(statistic),
+        source_name,
+        window,
+        _read_subtracted_scene(name, node, statistic),
     )
 
 
-def _read_origin(name: Text, node: Map, statistic: Text) -> Text | None:
+def _read_subtracted_scene(name: Text, node: Map, statistic: Text) -> Text | None:
     """Return the scene whose series a measure subtracts; None if there is none.
 
     Raises an InputError if a deviation has no scene, or if the statistic is not one of a series.

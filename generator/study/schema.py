@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.contract.methods import KINEMATIC, OFFERED
-from gudgeon.generator.study.claims import MESSAGES, TRIAL
+from gudgeon.generator.study.claims import MESSAGES, STATEMENT_KEYS
 from gudgeon.generator.study.parts import MAX_COUNT, MAX_ROUNDS, MAX_SEED, MAX_TEXT_LENGTH, MAX_TITLE_LENGTH
 from gudgeon.generator.study.read import MAX_TITLE, SERIES_STATISTICS, WINDOW_STATISTICS
 from gudgeon.generator.study.spec import (
@@ -140,7 +140,7 @@ def _make_about_schema() -> Json:
 
 
 def _make_claims_schema() -> Json:
-    """Return the schema of `claims`: numbers, and trends with one trial, several or none."""
+    """Return the schema of `claims`: numbers, and trends with one statement, several or none."""
     coordinate_values, texts = (
         _make_map_schema(_NUMBER),
         {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]},
@@ -155,15 +155,21 @@ def _make_claims_schema() -> Json:
         "properties": {name: {"type": "integer", "minimum": 0} for name in COUNTED_PARTS},
         "additionalProperties": False,
     }
-    trial_properties: Json = dict.fromkeys(TRIAL, _NUMBER) | dict.fromkeys(
+    statement_properties: Json = dict.fromkeys(STATEMENT_KEYS, _NUMBER) | dict.fromkeys(
         ("larger", "than", "from", "to", "at"), coordinate_values
     )
-    trial_properties |= {"measure": texts, "more_than": texts, "most_lowered": texts, "counts": counts, "part": _TEXT}
+    statement_properties |= {
+        "measure": texts,
+        "more_than": texts,
+        "most_lowered": texts,
+        "counts": counts,
+        "part": _TEXT,
+    }
     further_properties = {
-        "all": {"type": "array", "items": _make_object_schema(trial_properties), "minItems": 1},
+        "all": {"type": "array", "items": _make_object_schema(statement_properties), "minItems": 1},
         "not_computed": _TEXT,
     }
-    trend = _make_object_schema(descriptive | trial_properties | further_properties)
+    trend = _make_object_schema(descriptive | statement_properties | further_properties)
     source = {"type": "string", "maxLength": MAX_TEXT_LENGTH}
     return _make_object_schema(
         {"source": source, "numbers": _make_map_schema(number, LABEL), "trends": _make_map_schema(trend, LABEL)}

@@ -77,7 +77,7 @@ def remove_section_name(name: str) -> str:
 
 
 def apply_settings(
-    fixed: Mapping[Text, Text], axes: Sequence[Axis], draw: Draw | None, settings: Mapping[str, str]
+    fixed_parameters: Mapping[Text, Text], axes: Sequence[Axis], draw: Draw | None, settings: Mapping[str, str]
 ) -> VariedParameters:
     """Apply values of `--set`: they replace the file's values of these parameters, fixed or varied.
 
@@ -87,7 +87,7 @@ def apply_settings(
     """
     set_names = {remove_section_name(name) for name in settings}
     set_values = build_tree({f"--set {name}": value for name, value in settings.items()})
-    fixed_values = {key: value for key, value in fixed.items() if remove_section_name(key) not in set_names}
+    fixed_values = {key: value for key, value in fixed_parameters.items() if remove_section_name(key) not in set_names}
     fixed_values |= {Text.make(key.removeprefix("--set "), key.where): value for key, value in set_values.items()}
     axes_with_removed_columns = [
         (axis, {key: numbers for key, numbers in axis.columns.items() if remove_section_name(key) in set_names})

@@ -17,7 +17,7 @@ from typing import Any
 from gudgeon.contract.clearance_info import ClearanceInfo, ContourInfo
 from gudgeon.contract.methods import INTEGRATORS, KINEMATIC, NEED_SLOPES, STAGED
 from gudgeon.contract.reduction_log import ReductionLog
-from gudgeon.contract.stored import convert_lists_to_tuples, format_json, remove_derived, restore_derived
+from gudgeon.contract.stored import convert_lists_to_tuples, format_json, remove_derived_values, restore_derived_values
 
 HEADER = "model.h"
 # line of model.h: the engine depends only on the text before it
@@ -281,12 +281,12 @@ class KernelSource:
     @cached_property
     def _json(self) -> str:
         """Return the JSON text, computed once."""
-        return format_json(remove_derived(asdict(self), _find_json_defaults()))
+        return format_json(remove_derived_values(asdict(self), _find_json_defaults()))
 
     @staticmethod
     def from_json(text: str) -> KernelSource:
         """Return the source that `to_json` wrote; values that were left out are restored."""
-        fields = restore_derived(json.loads(text), _find_json_defaults())
+        fields = restore_derived_values(json.loads(text), _find_json_defaults())
         classes = {
             "bodies": BodyInfo,
             "points": PointInfo,
@@ -346,13 +346,17 @@ def _find_json_defaults() -> dict[str, Any]:
     return {"main": MAIN, **empty_values, **json_defaults, "story": {}}
 
 
-def make_given_parameters(slots: Sequence[RuntimeParameter], parity: int) -> dict[int, float]:
+def make_given_parameters(parameters: Sequence[RuntimeParameter], parity: int) -> dict[int, float]:
     """Return a value for every second parameter from index `parity` (0 or 1) on, by index; choices keep their defaults.
 
     It is GIVEN times the default, GIVEN_ZERO for a default of 0. With these, a library is compared with values of the
     NumPy target (model/reference.py).
     """
-    varied_slots = [(k, parameter) for k, parameter in enumerate(slots) if k % 2 == parity and not parameter.words]
+    varied_parameters = [
+        (k, parameter) for k, parameter in enumerate(parameters) if k % 2 == parity and not parameter.words
+    ]
     return {
-        k: GIVEN * parameter.default or GIVEN_ZERO for k, parameter in varied_slots if math.isfinite(parameter.default)
+        k: GIVEN * parameter.default or GIVEN_ZERO
+        for k, parameter in varied_parameters
+        if math.isfinite(parameter.default)
     }

@@ -43,7 +43,7 @@ def describe_outcome(source: KernelSource) -> Iterator[tuple[str, str]]:
 
 
 def format_names(names: Sequence[str]) -> str:
-    """Return names as "a, b, c"; of more than MOST names the first ones, and how many there are in all."""
+    """Return names as "a, b, c"; of more than MAX_NAMES names the first ones, and how many there are in all."""
     if len(names) <= MAX_NAMES:
         return ", ".join(names)
     return f"{', '.join(names[: MAX_NAMES - 4])}, … ({len(names)} in all)"
@@ -64,44 +64,46 @@ def _list_bodies(names: Iterable[str]) -> str:
     return format_names(tuple(dict.fromkeys(name.rpartition(".")[0] for name in names)))
 
 
-def _describe_play(step: Step) -> str:
+def _describe_joints_with_play(step: Step) -> str:
     """Describe the step that opens joints with play."""
     verb = "has" if len(step.owners) == 1 else "have"
     return f"{format_names(step.owners)} {verb} play: a force law instead of rows, and no joint of the tree"
 
 
-def _describe_redundant(step: Step) -> str:
+def _describe_redundant_equations(step: Step) -> str:
     """Describe the step that leaves out redundant equations."""
     return f"{format_names(step.rows_gone)} say{_get_verb_ending(step.rows_gone)} nothing new: left out"
 
 
-def _describe_gone(step: Step, coordinate: str) -> str:
-    """Return a phrase for the coordinates that a step removes; `coordinate` is their kind, "angle" or "slide"."""
-    return f"the {coordinate}{_get_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
+def _format_removed_coordinates(step: Step, coordinate_kind: str) -> str:
+    """Return a phrase for the coordinates that a step removes; `coordinate_kind` is their kind, "angle" or "slide"."""
+    return f"the {coordinate_kind}{_get_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
 
 
-def _describe_dependence(step: Step, coordinate: str) -> str:
+def _describe_dependent_coordinates(step: Step, coordinate_kind: str) -> str:
     """Describe a step in which coordinates of one kind, "angle" or "slide", follow from those of its owners."""
-    return f"{_describe_gone(step, coordinate)} follow{_get_verb_ending(step.gone)} {format_names(step.owners)}"
+    subject = _format_removed_coordinates(step, coordinate_kind)
+    return f"{subject} follow{_get_verb_ending(step.gone)} {format_names(step.owners)}"
 
 
-def _describe_prescribed(step: Step) -> str:
+def _describe_prescribed_angles(step: Step) -> str:
     """Describe the step in which drives prescribe angles."""
     subject = f"{format_names(step.owners)} prescribe{_get_verb_ending(step.owners)}"
-    return f"{subject} {_describe_gone(step, 'angle')}: known at any time, not integrated"
+    return f"{subject} {_format_removed_coordinates(step, 'angle')}: known at any time, not integrated"
 
 
-def _describe_constant(step: Step) -> str:
+def _describe_constant_angles(step: Step) -> str:
     """Describe the step in which joints keep angles constant."""
-    return f"{format_names(step.owners)} keep{_get_verb_ending(step.owners)} {_describe_gone(step, 'angle')} as it is"
+    subject = f"{format_names(step.owners)} keep{_get_verb_ending(step.owners)}"
+    return f"{subject} {_format_removed_coordinates(step, 'angle')} as it is"
 
 
-def _describe_following(step: Step) -> str:
+def _describe_dependent_angles(step: Step) -> str:
     """Describe the step in which angles follow other angles."""
-    return _describe_dependence(step, "angle")
+    return _describe_dependent_coordinates(step, "angle")
 
 
-def _describe_hub(step: Step) -> str:
+def _describe_shared_point(step: Step) -> str:
     """Describe the step that replaces equations of joints that meet in one point."""
     added_bodies, removed_bodies = _list_bodies(step.rows_come), _list_bodies(step.rows_gone)
     verb = f"stand{_get_verb_ending(step.rows_come[::2])}"
@@ -120,7 +122,7 @@ def _describe_slides(step: Step) -> str:
 
 def _describe_known_slides(step: Step) -> str:
     """Describe the step in which slides become known."""
-    return _describe_dependence(step, "slide")
+    return _describe_dependent_coordinates(step, "slide")
 
 
 def _describe_driven_loops(step: Step) -> str:
@@ -131,12 +133,12 @@ def _describe_driven_loops(step: Step) -> str:
 
 # descriptions by kind of step
 _WORDS: Mapping[str, Callable[[Step], str]] = {
-    message.PLAY: _describe_play,
-    message.REDUNDANT: _describe_redundant,
-    message.PRESCRIBED: _describe_prescribed,
-    message.CONSTANT: _describe_constant,
-    message.FOLLOWING: _describe_following,
-    message.HUB: _describe_hub,
+    message.PLAY: _describe_joints_with_play,
+    message.REDUNDANT: _describe_redundant_equations,
+    message.PRESCRIBED: _describe_prescribed_angles,
+    message.CONSTANT: _describe_constant_angles,
+    message.FOLLOWING: _describe_dependent_angles,
+    message.HUB: _describe_shared_point,
     message.HINGES: _describe_hinges,
     message.SLIDES: _describe_slides,
     message.KNOWN: _describe_known_slides,
@@ -155,18 +157,18 @@ def _format_tree(log: ReductionLog) -> str:
         children.setdefault(placed.parent, []).append(placed.body)
     if len(log.tree) > 2 * MAX_NAMES:
         remark = f", {len(bodies_without_joint)} of them with x and y of their own" * bool(bodies_without_joint)
-        return f"{len(log.tree)} bodies, at most {_find_depth(children, 'ground')} behind each other{remark}"
+        return f"{len(log.tree)} bodies, at most {_measure_tree_depth(children, 'ground')} behind each other{remark}"
 
-    def message_of(body: str) -> str:
+    def format_body(body: str) -> str:
         """Return a body with those that it carries, in brackets, as text."""
         name = f"[{body}]" if body in bodies_without_joint else body
-        return f"{name} ({', '.join(map(message_of, children[body]))})" if body in children else name
+        return f"{name} ({', '.join(map(format_body, children[body]))})" if body in children else name
 
     remark = "; [keeps its x and y: no joint places it, or that is cheaper]" * bool(bodies_without_joint)
-    return ", ".join(map(message_of, children["ground"])) + remark
+    return ", ".join(map(format_body, children["ground"])) + remark
 
 
-def _find_depth(children: Mapping[str, Sequence[str]], body: str) -> int:
+def _measure_tree_depth(children: Mapping[str, Sequence[str]], body: str) -> int:
     """Return the number of bodies in the longest chain carried by a body.
 
     `children` maps a body to those that it carries.

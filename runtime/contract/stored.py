@@ -1,6 +1,7 @@
 """Convert the description of a compiled scene to and from its stored form, without the values that can be derived.
 
-`remove_derived` and `restore_derived` work on the plain data of a KernelSource, and are inverse to each other.
+`remove_derived_values` and `restore_derived_values` work on the plain data of a KernelSource, and are inverse to each
+other.
 """
 
 from __future__ import annotations
@@ -28,8 +29,8 @@ def format_base_units(dimension: tuple[float, float, float]) -> str:
     return (numerator or ("1" if denominator else "")) + denominator
 
 
-def remove_derived(data: Data, defaults: Mapping[str, Any]) -> Data:
-    """Return the data without the values that `restore_derived` restores. `data` is changed.
+def remove_derived_values(data: Data, defaults: Mapping[str, Any]) -> Data:
+    """Return the data without the values that `restore_derived_values` restores. `data` is changed.
 
     Left out are values that follow from others, and those that equal `defaults`. Constraint equations that the start
     has too become their indices.
@@ -51,8 +52,8 @@ def remove_derived(data: Data, defaults: Mapping[str, Any]) -> Data:
     }
 
 
-def restore_derived(data: Data, defaults: Mapping[str, Any]) -> Data:
-    """Return the data with all values that follow from the rest, the inverse of `remove_derived`. `data` is changed."""
+def restore_derived_values(data: Data, defaults: Mapping[str, Any]) -> Data:
+    """Return the data with the values that `remove_derived_values` removed. `data` is changed."""
     for name, default in defaults.items():
         if name not in _FOLLOWING:
             data.setdefault(name, default)
@@ -74,11 +75,13 @@ def restore_derived(data: Data, defaults: Mapping[str, Any]) -> Data:
 def format_json(data: Data) -> str:
     """Return the data as JSON text, one line for each name and each item of a list."""
     return (
-        "{\n" + ",\n".join(f" {_serialize_json(name)}: {_format_value(value)}" for name, value in data.items()) + "\n}"
+        "{\n"
+        + ",\n".join(f" {_serialize_json(name)}: {_format_json_value(value)}" for name, value in data.items())
+        + "\n}"
     )
 
 
-def _format_value(value: Any) -> str:
+def _format_json_value(value: Any) -> str:
     """Return a value as JSON, with lists of objects or lists in one line per item."""
     is_list_of_records = isinstance(value, (list, tuple)) and any(
         isinstance(item, (dict, list, tuple)) for item in value

@@ -28,7 +28,7 @@ _KINDS = {
     "void *": ("unsigned char[]", FLAG),
 }
 Shape = tuple[int | None, ...]  # required lengths; None for any length
-MOST = 2**32  # largest number of entries that are copied
+MAX_ENTRIES = 2**32  # largest number of entries that are copied
 
 
 def make_pointer(ffi: Any, array: NDArray[Any], kind: str = "double *", written: bool = False) -> Any:
@@ -57,13 +57,13 @@ def as_c_array(
     dtype: np.dtype[Any] = FLOAT,
     finite: bool = False,
     always_copy: bool = False,
-    max_entries: int = MOST,
+    max_entries: int = MAX_ENTRIES,
 ) -> NDArray[Any]:
     """Return `values` as C reads them: aligned, C-contiguous, native byte order, `dtype`; unchanged if they are so.
 
-    shape: required lengths, None for any. most: largest number of entries. finite: refuse NaN and infinities. own:
-    always copy, so that later changes of `values` have no effect. Raises ArrayError, which names the array and the
-    entry, for masked entries, text, booleans in place of numbers, complex numbers, other objects, or another shape.
+    shape: required lengths, None for any. finite: refuse NaN and infinities. always_copy: later changes of `values`
+    have no effect. max_entries: largest number of entries. Raises ArrayError, which names the array and the entry, for
+    masked entries, text, booleans in place of numbers, complex numbers, other objects, or another shape.
     """
     if type(values) is np.ndarray and values.dtype is dtype and not always_copy and values.flags.carray:
         array: NDArray[Any] = values
@@ -108,29 +108,29 @@ def _check_shape(array: NDArray[Any], name: str, shape: Shape) -> None:
 
 
 def _convert_to_c_array(
-    values: ArrayLike, name: str, shape: Shape | None, dtype: np.dtype[Any], own: bool, most: int
+    values: ArrayLike, name: str, shape: Shape | None, dtype: np.dtype[Any], always_copy: bool, max_entries: int
 ) -> NDArray[Any]:
     """Return values converted to a C-contiguous array of `dtype`; see `as_c_array` for the arguments.
 
     Raises ArrayError for values that are not real numbers, that do not fit `dtype`, or for another shape.
     """
-    _check_not_masked(values, name)
+    _check_no_masked_entries(values, name)
     try:
         source: NDArray[Any] = np.asarray(values)
     except (TypeError, ValueError, OverflowError, MemoryError) as error:
         raise ArrayError(f"{name}: no array of numbers: {error}") from None
-    if source.size > most:  # before anything of its size is made: a view may stand for any number of entries
-        raise ArrayError(f"{name} has {source.size} entries: expected {most} at most")
+    if source.size > max_entries:  # before anything of its size is made: a view may stand for any number of entries
+        raise ArrayError(f"{name} has {source.size} entries: expected {max_entries} at most")
     if source.dtype.kind == "O":
         source = _convert_objects_to_floats(source, name)
     if source.dtype.kind not in "biuf":
         kind = {"U": "text", "S": "bytes"}.get(source.dtype.kind, source.dtype.name)
-        _raise_not_real(name, f"holds {kind if source.ndim else repr(values)[:60]}")
+        _raise_not_real_error(name, f"holds {kind if source.ndim else repr(values)[:60]}")
     if source.dtype.kind == "b" and dtype.kind == "f":
-        _raise_not_real(name, "holds truths" if source.ndim else f"is {source}")
+        _raise_not_real_error(name, "holds truths" if source.ndim else f"is {source}")
     if shape is not None:
         _check_shape(source, name, shape)
-    array: NDArray[Any] = np.array(source, dtype, order="C") if own else np.asarray(source, dtype, order="C")
+    array: NDArray[Any] = np.array(source, dtype, order="C") if always_copy else np.asarray(source, dtype, order="C")
     if dtype.kind != "f" and not (array == source).all():
         index = tuple(np.argwhere(array != source)[0].tolist())
         raise ArrayError(
@@ -146,14 +146,14 @@ def _convert_objects_to_floats(objects: NDArray[Any], name: str) -> NDArray[Any]
     """
     for index, value in np.ndenumerate(objects):
         if not isinstance(value, Real) or isinstance(value, bool):
-            _raise_not_real(f"{name}{_format_index(index)}", f"is {type(value).__name__} {str(value)[:40]!r}")
+            _raise_not_real_error(f"{name}{_format_index(index)}", f"is {type(value).__name__} {str(value)[:40]!r}")
     try:
         return objects.astype(np.float64)
     except (TypeError, ValueError, OverflowError) as error:
         raise ArrayError(f"{name}: {error}") from None
 
 
-def _check_not_masked(values: Any, name: str) -> None:
+def _check_no_masked_entries(values: Any, name: str) -> None:
     """Raise ArrayError if an entry is masked; a mask that hides nothing is accepted.
 
     Masked arrays and sequences with `numpy.ma.masked` are recognised. Nothing is checked before numpy.ma is imported.
@@ -181,7 +181,7 @@ def _find_masked_rows(ma: Any, values: Any) -> NDArray[np.bool_]:
     return np.logical_or.reduce([mask[field] for field in mask.dtype.names])
 
 
-def _raise_not_real(name: str, message: str) -> NoReturn:
+def _raise_not_real_error(name: str, message: str) -> NoReturn:
     """Raise ArrayError: `name` `message`: expected real numbers."""
     raise ArrayError(
         f"{name} {message}: expected real numbers", hint="an array, a list or a column of floats or integers"

@@ -105,15 +105,15 @@ def find_choices(source: KernelSource) -> tuple[int, ...]:
 
 
 def fill_in_chosen_values(
-    source: KernelSource, selected: Iterable[int], given_values: Array, is_given: Array, p: Array
+    source: KernelSource, choice_indices: Iterable[int], given_values: Array, is_given: Array, p: Array
 ) -> tuple[Any, Any]:
-    """Return copies of values and mask (n_slots,) in which the values that depend on the `selected` choices are set.
+    """Return copies of values and mask (n_parameters,) with the values that depend on the choices `choice_indices`.
 
-    They are those of the chosen materials in p, unless they are given themselves.
+    These values are those of the chosen materials in p, unless they are given themselves.
     """
     index_by_address = {parameter.address: k for k, parameter in enumerate(source.slots)}
     values, mask = given_values.copy(), is_given.copy()
-    for k in selected:
+    for k in choice_indices:
         material, prefix = format_parameter(source.slots[k], float(given_values[k])), f"{source.slots[k].address}."
         for address, k_own in index_by_address.items():
             if address.startswith(prefix) and not is_given[k_own]:
@@ -127,7 +127,7 @@ def fill_in_chosen_values(
 def make_choice_notes(source: KernelSource, given_values: Array, is_given: Array) -> tuple[str, ...]:
     """Return a note for each choice of a run that differs from its scene's.
 
-    given_values, is_given: values and mask (n_slots,).
+    given_values, is_given: values and mask (n_parameters,).
     """
     notes = []
     for k in np.flatnonzero(is_given).tolist():

@@ -43,11 +43,11 @@ class CompiledModel:
         self.__dict__.update(lib=library.lib, ffi=library.ffi)
         self.n, self.n_p = len(source.coordinates), len(source.slots) + len(source.derived)
         self.n_memory = source.n_memory
-        self._free = np.full(max(self.n_memory, 1), np.nan)
-        self._free.flags.writeable = False
+        self._free_contact_states = np.full(max(self.n_memory, 1), np.nan)
+        self._free_contact_states.flags.writeable = False
         self._choices = find_choices(source)
         closed = [row.name for row in source.start_rows]
-        self._kept = np.array([closed.index(row.name) for row in source.rows], dtype=int)
+        self._open_play_rows = np.array([closed.index(row.name) for row in source.rows], dtype=int)
 
     @cached_property
     def lib(self) -> Any:
@@ -112,7 +112,7 @@ class CompiledModel:
         return make_pointer(self.ffi, array, kind, written)
 
     def prepare(self, given: ArrayLike, is_given: ArrayLike) -> Array:
-        """Return all values of a run, (n_slots + n_derived,), from given parameters (n_slots,) and a mask.
+        """Return all values of a run, (n_parameters + n_derived,), from given parameters (n_parameters,) and a mask.
 
         If a choice is given, C is called twice: the values that depend on the choice are taken from the first call.
         Nothing is checked except shapes (ArrayError).
@@ -129,22 +129,23 @@ class CompiledModel:
             )
         return p
 
-    def prepare_each(self, given: Array, is_given: NDArray[np.generic], zero: Sequence[int] = ()) -> Array:
-        """Return the values of n runs, (n, n_slots + n_derived), from parameters and mask (n, n_slots).
+    def prepare_each(self, given: Array, is_given: NDArray[np.generic], zero_indices: Sequence[int] = ()) -> Array:
+        """Return the values of n runs, (n, n_parameters + n_derived), from parameters and mask (n, n_parameters).
 
-        Parameters with an index in `zero` are 0. Runs are computed AT_ONCE at a time, one by one if a choice is given.
+        Parameters with an index in `zero_indices` are 0. RUNS_PER_CALL runs are computed at a time, one by one if a
+        choice is given.
         """
-        n_slots, p = len(self.source.slots), np.empty((len(given), self.n_p))
+        n_parameters, p = len(self.source.slots), np.empty((len(given), self.n_p))
         has_choices = is_given[:, list(self._choices)].any()
         for rows in (slice(k, k + RUNS_PER_CALL) for k in range(0, len(p), RUNS_PER_CALL)):
-            values = np.array(as_c_array(given[rows], "given", (None, n_slots)))
-            mask = np.array(as_c_array(is_given[rows], "is_given", (None, n_slots), dtype=FLAG))
-            values[:, zero], mask[:, zero] = 0.0, True
+            values = np.array(as_c_array(given[rows], "given", (None, n_parameters)))
+            mask = np.array(as_c_array(is_given[rows], "is_given", (None, n_parameters), dtype=FLAG))
+            values[:, zero_indices], mask[:, zero_indices] = 0.0, True
             if has_choices:
                 p[rows] = [self.prepare(*pair) for pair in zip(values, mask, strict=True)]
                 continue
             arguments = self.pointer(values), self.pointer(mask, "unsigned char *"), self._get_output_pointer(p[rows])
-            self.lib.gudgeon_prepare_runs(len(values), n_slots, *arguments)
+            self.lib.gudgeon_prepare_runs(len(values), n_parameters, *arguments)
         return p
 
     def mass(self, p: ArrayLike) -> Array:
@@ -161,7 +162,10 @@ class CompiledModel:
         """Return the Jacobian Φ_q of the closed linkage, (rows, n)."""
         out = np.empty((len(self.source.start_rows), self.n))
         self.lib.gudgeon_phi_q(
-            check_time(t), self._state(q, "q"), self._get_parameter_pointer(p), self._get_output_pointer(out)
+            check_time(t),
+            self._make_coordinate_pointer(q, "q"),
+            self._get_parameter_pointer(p),
+            self._get_output_pointer(out),
         )
         return out
 
@@ -171,19 +175,19 @@ class CompiledModel:
 
     def phi(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
         """Return the residuals Φ(q, t), (m,), of the constraint equations source.rows."""
-        return self.closed_phi(t, q, p)[self._kept]
+        return self.closed_phi(t, q, p)[self._open_play_rows]
 
     def phi_q(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
         """Return the constraint Jacobian Φ_q, (m, n)."""
-        return self.closed_phi_q(t, q, p)[self._kept]
+        return self.closed_phi_q(t, q, p)[self._open_play_rows]
 
     def nu(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
         """Return ν = −Φ_t, (m,)."""
-        return self.closed_nu(t, q, p)[self._kept]
+        return self.closed_nu(t, q, p)[self._open_play_rows]
 
     def gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: ArrayLike) -> Array:
         """Return the right-hand side γ of the acceleration constraints, (m,)."""
-        return self.closed_gamma(t, q, v, p)[self._kept]
+        return self.closed_gamma(t, q, v, p)[self._open_play_rows]
 
     def closed_gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: ArrayLike) -> Array:
         """Return γ of the closed linkage."""
@@ -293,15 +297,15 @@ class CompiledModel:
         v: ArrayLike,
         memory: ArrayLike,
         p: ArrayLike,
-        take: Callable[[], object] = lambda: None,
+        poll_cancellation: Callable[[], object] = lambda: None,
         parts: Collection[str] = PARTS,
     ) -> Evaluation:
         """Return all quantities at N samples: t (N,), q and v (N, n), memory (N, n_clearances + n_frictions).
 
-        `take` is called every few milliseconds, and its exceptions are passed on. `parts`: the requested fields of
-        Evaluation. Raises SingularError for a sample that has no accelerations.
+        `poll_cancellation` is called every few milliseconds, and its exceptions are passed on. `parts`: the requested
+        fields of Evaluation. Raises SingularError for a sample that has no accelerations.
         """
-        return evaluate(self, t, q, v, memory, p, take, parts)
+        return evaluate(self, t, q, v, memory, p, poll_cancellation, parts)
 
     def as_discrete_states(self, memory: ArrayLike | None) -> Array:
         """Return the discrete states (n_memory,): δ̇⁻ per joint with play, mode per friction. Do not write to it.
@@ -310,20 +314,20 @@ class CompiledModel:
         Raises ArrayError for another length.
         """
         if memory is None:
-            return self._free
+            return self._free_contact_states
         array = as_c_array(memory, "memory")
         return array if not self.n_memory and array.shape == (1,) else as_c_array(array, "memory", (self.n_memory,))
 
     def check_pivot(
-        self, status: int, t: float, pivots: tuple[str, ...] | None = None, p: ArrayLike | None = None
+        self, status: int, t: float, pivot_names: tuple[str, ...] | None = None, p: ArrayLike | None = None
     ) -> None:
         """Raise SingularError for a status k > 0, with the constraint equation of the pivot; return for other values.
 
-        `pivots`: names to which k refers, those of the source by default. `p`: parameter values, to name masses whose
-        ratio is too large.
+        `pivot_names`: names to which k refers, those of the source by default. `p`: parameter values, to name masses
+        whose ratio is too large.
         """
         if status > 0:
-            row = (pivots or self.source.pivots)[status - 1]
+            row = (pivot_names or self.source.pivots)[status - 1]
             fault = f"constraint row {row} vanished" if row not in self.source.coordinates else f"{row} is too small"
             message = f"singular or non-finite at t = {t:.9g} s: the pivot of {fault}\n"
             if p is not None and (masses := describe_mass_ratio(self.source, self.mass(p))):
@@ -335,14 +339,14 @@ class CompiledModel:
                 row,
             )
 
-    def _evaluate_constraint_function(self, function: str, t: float, p: ArrayLike, *states: ArrayLike) -> Array:
-        """Return an array of all rows of the closed linkage, computed by the C function named `function`.
+    def _evaluate_constraint_function(self, function_name: str, t: float, p: ArrayLike, *states: ArrayLike) -> Array:
+        """Return an array of all rows of the closed linkage, computed by the C function named `function_name`.
 
         It is Φ, ν or γ. `states` are q, or q and v, (n,) each.
         """
         out = np.full(len(self.source.start_rows), np.nan)
-        pointers = [self._state(state, name) for name, state in zip("qv", states, strict=False)]
-        getattr(self.lib, function)(
+        pointers = [self._make_coordinate_pointer(state, name) for name, state in zip("qv", states, strict=False)]
+        getattr(self.lib, function_name)(
             check_time(t), *pointers, self._get_parameter_pointer(p), self._get_output_pointer(out)
         )
         return out
@@ -361,7 +365,7 @@ class CompiledModel:
         """Return a pointer to the parameter values."""
         return self.pointer(as_c_array(p, "p", (self.n_p,)))
 
-    def _state(self, values: ArrayLike, name: str) -> Any:
+    def _make_coordinate_pointer(self, values: ArrayLike, name: str) -> Any:
         """Return a pointer to q or v."""
         return self.pointer(as_c_array(values, name, (self.n,)))
 

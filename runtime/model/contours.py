@@ -59,22 +59,22 @@ def select_contours_of_run(contours: Mapping[str, Array], i: int) -> dict[str, A
 
 
 def set_contours(source: KernelSource, contour: Mapping[str, Array], values: Array, is_given: NDArray[Any]) -> None:
-    """Write the depths (n,) by joint into values and mask (n_slots,), which are changed.
+    """Write the depths (n,) by joint into values and mask (n_parameters,), which are changed.
 
     Raises BadValueError for depths given twice.
     """
     for info in source.contours:
         if info.joint in contour:
-            slots_of_contour = slice(info.first, info.first + info.count)
-            if is_given[slots_of_contour].any():
+            contour_slice = slice(info.first, info.first + info.count)
+            if is_given[contour_slice].any():
                 raise BadValueError(
                     f"the contour of {info.joint} is given twice: by addresses too", hint="give it once"
                 )
-            values[slots_of_contour], is_given[slots_of_contour] = contour[info.joint], True
+            values[contour_slice], is_given[contour_slice] = contour[info.joint], True
 
 
 def find_contour(source: KernelSource, p: Array, joint: str) -> Array | None:
-    """Return the depths (..., n) of a joint from p (..., n_slots + n_derived); None if its bearing is a circle."""
+    """Return the depths (..., n) of a joint from p (..., n_parameters + n_derived); None if its bearing is a circle."""
     for info in source.contours:
         if info.joint == joint:
             return np.asarray(p[..., info.first : info.first + info.count])
@@ -82,16 +82,16 @@ def find_contour(source: KernelSource, p: Array, joint: str) -> Array | None:
 
 
 def compute_max_clearance(source: KernelSource, p: Array, joint: ClearanceInfo) -> float:
-    """Return the radial clearance (m) of a joint with play, at the deepest point of its contour. p: (n_slots +
-    n_derived,).
+    """Return the radial clearance (m) of a joint with play, at the deepest point of its contour.
+
+    p: (n_parameters + n_derived,).
     """
     depths, c = find_contour(source, p, joint.name), float(p[joint.clearance])
     return c if depths is None else c + float(depths.max())
 
 
 def interpolate_depth(depths: ArrayLike, angle: ArrayLike, order: int = 0) -> Any:
-    """Return the contour depth (m) or its derivative of the given order (1 or 2) at angles (rad) in the bearing's
-    frame.
+    """Return the contour depth (m), or its derivative of order 1 or 2, at angles (rad) in the bearing's frame.
 
     The contour passes through depths (n,) at equal angles from 0 on. As in engine/scene/contour.h, it consists of
     polynomials of degree five, with slopes and second derivatives at their ends by central differences. The shape is
@@ -112,7 +112,10 @@ def interpolate_depth(depths: ArrayLike, angle: ArrayLike, order: int = 0) -> An
 
 
 def compute_min_clearances(source: KernelSource, p: Array) -> Array:
-    """Return the radial clearances (m), at the shallowest point of contours: (..., n_clearances) of p."""
+    """Return the radial clearance (m) of each joint with play, at the shallowest point of its contour.
+
+    p: (..., n_parameters + n_derived); the result has the shape (..., n_clearances).
+    """
     clearances = p[..., [joint.clearance for joint in source.clearances]]
     for info in source.contours:
         index = next(k for k, joint in enumerate(source.clearances) if joint.name == info.joint)
@@ -130,7 +133,7 @@ def compute_corner_gap(
 ) -> tuple[float, float]:
     """Return penetration δ (m) and δ̇ (m/s) of the slider corner that is joint `clearance_index`, at q, v (n,).
 
-    All contacts are open there. They are NaN where the equations of motion have no solution.
+    All contacts are open there. Both are NaN where the equations of motion have no solution.
     """
     memory = np.zeros(compiled.n_memory)
     memory[: len(compiled.source.clearances)] = math.nan

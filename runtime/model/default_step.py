@@ -69,7 +69,7 @@ def evaluate_scene_step(compiled: CompiledModel, p: Array, duration: float) -> f
 def estimate_default_step(compiled: CompiledModel, p: Array, t_end: float) -> float:
     """Return the largest step (s) that all three time scales allow: of the motion, of films and of dry contacts.
 
-    t_end: length of the run (s). It is at most 1e-3 s.
+    t_end: length of the run (s). The step is at most 1e-3 s.
     """
     bounds = [SMOOTH * t_end, 1e-3]
     mass = compute_norm_weights(compiled.source, p, compiled.mass(p))
@@ -90,9 +90,9 @@ def estimate_default_step(compiled: CompiledModel, p: Array, t_end: float) -> fl
     return min(bounds)
 
 
-def _find_longest_arm(compiled: CompiledModel, p: Array, index: int) -> float:
-    """Return the longest distance (m) of a body's points from its centre of mass; index: that of its x in q."""
-    body = next(k for k, info in enumerate(compiled.source.bodies) if info.index == index)
+def _find_longest_arm(compiled: CompiledModel, p: Array, x_index: int) -> float:
+    """Return the longest distance (m) of a body's points from its centre of mass; x_index: index of its x in q."""
+    body = next(k for k, info in enumerate(compiled.source.bodies) if info.index == x_index)
     points = [point for point in compiled.source.points if point.body == body]
     lengths = [math.hypot(*(float(p[k]) if k >= 0 else 0.0 for k in (point.x, point.y))) for point in points]
     return max(lengths, default=0.0)

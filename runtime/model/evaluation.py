@@ -62,13 +62,14 @@ def evaluate(
     v: ArrayLike,
     memory: ArrayLike,
     p: ArrayLike,
-    take: Callable[[], object],
-    parts: Collection[str],
+    poll_cancellation: Callable[[], object],
+    field_names: Collection[str],
 ) -> Evaluation:
     """Return the quantities at N samples of one run; arguments as in CompiledModel.evaluate.
 
-    C is called for chunks of samples, so that `take` is called every few milliseconds. Raises ArrayError for arrays of
-    other shapes, MemoryError if the result does not fit, SingularError for a sample without accelerations.
+    C is called for chunks of samples, so that `poll_cancellation` is called every few milliseconds. Raises ArrayError
+    for arrays of other shapes, MemoryError if the result does not fit, SingularError for a sample without
+    accelerations.
     """
     time = as_c_array(t, "t", (None,))
     if compiled.has_mod_in_drives:  # velocities are those after a switching point; rounding hides the side of t
@@ -84,7 +85,7 @@ def evaluate(
         ("v", _check_matrix(v, "v", N, compiled.n)),
         ("memory", discrete_states),
     )
-    evaluation = _allocate_evaluation(compiled, N, parts)
+    evaluation = _allocate_evaluation(compiled, N, field_names)
     failed_index, first, chunk_size, null_pointer = compiled.ffi.new("long *"), 0, FIRST, compiled.ffi.NULL
     result_arrays, parameter_pointer = (
         tuple(vars(evaluation).values()),
@@ -102,41 +103,47 @@ def evaluate(
             compiled.check_pivot(status, float(time[first + failed_index[0]]), p=p)
         first += count
         chunk_size = 4 * count if perf_counter() - start_time < SOON else max(1, count // 4)
-        take()
-    _mark_indeterminate(compiled, evaluation)
+        poll_cancellation()
+    _mark_indeterminate_forces(compiled, evaluation)
     return evaluation
 
 
 def evaluate_runs(
     compiled: CompiledModel,
-    counts: Sequence[int],
+    sample_counts: Sequence[int],
     t: Array,
     q: Array,
     v: Array,
     memory: Array,
     p: Array,
-    parts: Collection[str],
+    field_names: Collection[str],
 ) -> Evaluation:
-    """Return the quantities at few samples of several runs: counts[i] samples of run i with values p[i].
+    """Return the quantities at few samples of several runs: sample_counts[i] samples of run i with values p[i].
 
-    The samples of the runs follow each other: t (N,), q and v (N, n), memory (N, n_memory), N = sum(counts). `parts`:
-    the requested fields. Raises ArrayError, SingularError.
+    The samples of the runs follow each other: t (N,), q and v (N, n), memory (N, n_memory), N = sum(sample_counts).
+    `field_names`: the requested fields. Raises ArrayError, SingularError.
     """
-    N, time = sum(counts), t + find_rounding_distance(t) if compiled.has_mod_in_drives else t
+    N, time = sum(sample_counts), t + find_rounding_distance(t) if compiled.has_mod_in_drives else t
     shapes = (("t", time, (N,)), ("q", q, (N, compiled.n)), ("v", v, (N, compiled.n)))
     input_pointers = [compiled.pointer(as_c_array(values, name, shape)) for name, values, shape in shapes]
     input_pointers.append(compiled.pointer(as_c_array(memory, "memory", (N, compiled.n_memory))))
-    parameter_pointer = compiled.pointer(as_c_array(p, "p", (len(counts), compiled.n_p)))
-    evaluation, failed_index = _allocate_evaluation(compiled, N, parts), compiled.ffi.new("long *")
+    parameter_pointer = compiled.pointer(as_c_array(p, "p", (len(sample_counts), compiled.n_p)))
+    evaluation, failed_index = _allocate_evaluation(compiled, N, field_names), compiled.ffi.new("long *")
     output_pointers = [
         compiled.pointer(x, written=True) if len(x) else compiled.ffi.NULL for x in vars(evaluation).values()
     ]
-    sample_counts = compiled.ffi.new("long[]", counts)
+    counts_pointer = compiled.ffi.new("long[]", sample_counts)
     status = compiled.lib.gudgeon_evaluate_runs(
-        len(counts), sample_counts, *input_pointers, parameter_pointer, compiled.n_p, *output_pointers, failed_index
+        len(sample_counts),
+        counts_pointer,
+        *input_pointers,
+        parameter_pointer,
+        compiled.n_p,
+        *output_pointers,
+        failed_index,
     )
     compiled.check_pivot(status, math.nan)
-    _mark_indeterminate(compiled, evaluation)
+    _mark_indeterminate_forces(compiled, evaluation)
     return evaluation
 
 
@@ -148,25 +155,29 @@ def find_rounding_distance(t: Array) -> Array:
     return np.asarray(np.maximum(32.0 * np.finfo(float).eps * np.abs(t), 1e-100))
 
 
-def compute_evaluation_bytes(compiled: CompiledModel, parts: Collection[str] | None = None) -> int:
-    """Return the bytes of an evaluation per sample; `parts`: the requested fields, None for all."""
+def compute_evaluation_bytes(compiled: CompiledModel, field_names: Collection[str] | None = None) -> int:
+    """Return the bytes of an evaluation per sample; `field_names`: the requested fields, None for all."""
     return 8 * sum(
         math.prod(empty_array.shape[1:])
         for name, empty_array in compiled.empty_fields
-        if parts is None or name in parts
+        if field_names is None or name in field_names
     )
 
 
-def _allocate_evaluation(compiled: CompiledModel, N: int, parts: Collection[str]) -> Evaluation:
-    """Return an Evaluation of N samples for C to fill, NaN until then; fields that are not requested have no rows.
+def _allocate_evaluation(compiled: CompiledModel, n_samples: int, field_names: Collection[str]) -> Evaluation:
+    """Return an Evaluation of `n_samples` rows of NaN for C to fill; fields that are not requested have no rows.
 
     Fields that C computes together are allocated together. Raises MemoryError for many samples without enough memory.
     """
-    requested_fields = {*parts, *OUTPUTS} if not OUTPUTS.isdisjoint(parts) else parts
-    if N > MIN_CHECKED_SAMPLES:
-        check_memory(float(N) * compute_evaluation_bytes(compiled, requested_fields), f"what follows from {N} samples")
+    requested_fields = {*field_names, *OUTPUTS} if not OUTPUTS.isdisjoint(field_names) else field_names
+    if n_samples > MIN_CHECKED_SAMPLES:
+        check_memory(
+            float(n_samples) * compute_evaluation_bytes(compiled, requested_fields),
+            f"what follows from {n_samples} samples",
+        )
     shapes = [
-        (N if name in requested_fields else 0, *empty_array.shape[1:]) for name, empty_array in compiled.empty_fields
+        (n_samples if name in requested_fields else 0, *empty_array.shape[1:])
+        for name, empty_array in compiled.empty_fields
     ]
     return Evaluation(*(np.full(shape, np.nan) for shape in shapes))
 
@@ -189,7 +200,7 @@ def make_empty_fields(compiled: CompiledModel) -> tuple[tuple[str, Array], ...]:
     return tuple((name, np.empty((0, *widths[name]))) for name in (field.name for field in fields(Evaluation)))
 
 
-def _mark_indeterminate(compiled: CompiledModel, evaluation: Evaluation) -> None:
+def _mark_indeterminate_forces(compiled: CompiledModel, evaluation: Evaluation) -> None:
     """Set forces in an Evaluation to NaN that redundant constraints leave undetermined.
 
     If masses are missing, all forces, energies and powers become NaN.
@@ -207,15 +218,15 @@ def _mark_indeterminate(compiled: CompiledModel, evaluation: Evaluation) -> None
         evaluation.torques[:, [k for k, drive in enumerate(s.drives) if drive.name == owner]] = np.nan
 
 
-def _check_matrix(values: ArrayLike, name: str, rows: int, columns: int | None) -> Array:
-    """Return checked values (rows, columns); arrays of doubles of any layout are not copied.
+def _check_matrix(values: ArrayLike, name: str, n_rows: int, n_columns: int | None) -> Array:
+    """Return checked values (n_rows, n_columns); arrays of doubles of any layout are not copied.
 
-    columns: None for any number. Raises ArrayError for another shape or other values.
+    n_columns: None for any number. Raises ArrayError for another shape or other values.
     """
     if type(values) is not np.ndarray or values.dtype != np.float64:
-        return as_c_array(values, name, (rows, columns))
-    as_c_array(values[:0] if values.ndim else values, name, (0, columns))
-    return values if len(values) == rows else as_c_array(values, name, (rows, columns))
+        return as_c_array(values, name, (n_rows, n_columns))
+    as_c_array(values[:0] if values.ndim else values, name, (0, n_columns))
+    return values if len(values) == n_rows else as_c_array(values, name, (n_rows, n_columns))
 
 
 def compute_sample_bytes(compiled: CompiledModel) -> int:
@@ -230,26 +241,26 @@ def compute_sample_bytes(compiled: CompiledModel) -> int:
 
 def check_sample_memory(
     compiled: CompiledModel,
-    samples: float,
-    runs: int = 1,
+    n_samples: float,
+    n_runs: int = 1,
     stored_series: Collection[str] | None = None,
-    parts: Collection[str] = (),
-    runs_at_once: int = 1,
+    field_names: Collection[str] = (),
+    max_concurrent_runs: int = 1,
 ) -> None:
     """Raise MemoryError if the samples of so many runs do not fit into memory.
 
-    samples: of each run; stored_series: names of series that are stored in place of the states, None for the states.
-    The states then exist for `runs_at_once` runs at a time, with the `parts` that the series need.
+    n_samples: of each run; stored_series: names of series that are stored in place of the states, None for the states.
+    The states then exist for `max_concurrent_runs` runs at a time, with the `field_names` that the series need.
     """
     if stored_series is None:
-        n_bytes = float(samples) * compute_sample_bytes(compiled) * runs
+        n_bytes = float(n_samples) * compute_sample_bytes(compiled) * n_runs
     else:
         n_bytes = (
-            float(samples)
-            * (compute_sample_bytes(compiled) + compute_evaluation_bytes(compiled, parts))
-            * min(runs, runs_at_once)
+            float(n_samples)
+            * (compute_sample_bytes(compiled) + compute_evaluation_bytes(compiled, field_names))
+            * min(n_runs, max_concurrent_runs)
         )
-        n_bytes += float(samples) * 8 * (len(stored_series) + 1) * runs
-    n_bytes += runs * (BYTES_PER_RUN + 16 * compiled.n_p) if runs > 1 else 0
-    text_of_samples = f"{runs} runs of {samples:.0f} samples each" if runs > 1 else f"{samples:.0f} samples"
+        n_bytes += float(n_samples) * 8 * (len(stored_series) + 1) * n_runs
+    n_bytes += n_runs * (BYTES_PER_RUN + 16 * compiled.n_p) if n_runs > 1 else 0
+    text_of_samples = f"{n_runs} runs of {n_samples:.0f} samples each" if n_runs > 1 else f"{n_samples:.0f} samples"
     check_memory(n_bytes, text_of_samples)

@@ -38,14 +38,14 @@ def may_acceleration_jump(compiled: CompiledModel) -> bool:
 
 
 def find_evaluation_times(
-    compiled: CompiledModel, t: Array, q: Array, v: Array, p: Array, begin: float = np.inf
+    compiled: CompiledModel, t: Array, q: Array, v: Array, p: Array, start_time: float = np.inf
 ) -> Array:
     """Return the times (N,) at which the samples of one run are evaluated; the last may be just before t[-1].
 
-    That is so if the accelerations of drives jump at t[-1] and their rates do not. `begin` (s): the start of the run,
-    for a single sample after it. q, v: (N, n).
+    That is so if the accelerations of drives jump at t[-1] and their rates do not. `start_time` (s): the begin of the
+    run, for a single sample after it. q, v: (N, n).
     """
-    previous_time = float(t[-2]) if len(t) > 1 else begin
+    previous_time = float(t[-2]) if len(t) > 1 else start_time
     if not len(t) or not previous_time < t[-1] or not compiled.may_switch:
         return t
     before, after = (float(t[-1] + sign * find_rounding_distance(t[-1])) for sign in (-2.0, 2.0))
@@ -60,8 +60,8 @@ def find_evaluation_times(
 
 def find_evaluation_times_of_result(run: Result, compiled: CompiledModel) -> Array:
     """Return the times (N,) at which the samples of a result are evaluated, as `find_evaluation_times`."""
-    begin = np.inf if run.start_row is None else float(run.start_row.t[0])
-    return find_evaluation_times(compiled, run.t, run.q, run.v, run.p, begin)
+    start_time = np.inf if run.start_row is None else float(run.start_row.t[0])
+    return find_evaluation_times(compiled, run.t, run.q, run.v, run.p, start_time)
 
 
 def _has_jump(before: Array, after: Array) -> NDArray[np.bool_]:

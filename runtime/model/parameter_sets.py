@@ -66,10 +66,10 @@ class Columns(Sequence[Mapping[str, Any]]):
             if name not in omitted_names
         }
 
-    def omit_nonfinite(self) -> dict[int, BadValueError]:
+    def omit_nonfinite_values(self) -> dict[int, BadValueError]:
         """Leave out values that are NaN or infinite.
 
-        Return an error for each run that has any, by index in rising order. Their names are stored in `left_out`.
+        Return an error for each run that has any, by index in rising order. Their names are stored in `omitted_names`.
         """
         errors: dict[int, BadValueError] = {}
         for name, column in self.columns.items():
@@ -79,17 +79,17 @@ class Columns(Sequence[Mapping[str, Any]]):
         return dict(sorted(errors.items()))
 
 
-def _get_value_of_run(column: Column, i: int) -> Any:
-    """Return the value of a column for run i; a NumPy number becomes a Python number."""
+def _get_value_of_run(column: Column, run_index: int) -> Any:
+    """Return the value of a column for the run `run_index`; a NumPy number becomes a Python number."""
     if isinstance(column, ConstantColumn):
         return column.value
-    return column.item(i) if isinstance(column, np.ndarray) else column[i]
+    return column.item(run_index) if isinstance(column, np.ndarray) else column[run_index]
 
 
-def _find_nonfinite_runs(column: Column, n: int) -> Iterable[int]:
-    """Return the indices of the runs, of n, whose value in a column is NaN or infinite."""
+def _find_nonfinite_runs(column: Column, n_runs: int) -> Iterable[int]:
+    """Return the indices of the runs, of `n_runs`, whose value in a column is NaN or infinite."""
     if isinstance(column, ConstantColumn):
-        return range(n if _is_not_finite(column.value) else 0)
+        return range(n_runs if _is_not_finite(column.value) else 0)
     if isinstance(column, np.ndarray):
         return list[int](np.flatnonzero(~np.isfinite(column)).tolist())
     return [i for i, x in enumerate(column) if _is_not_finite(x)]
@@ -111,7 +111,7 @@ def read_parameter_rows(parameters: ParameterSets) -> tuple[Sequence[Mapping[str
     if not rows:
         raise BadValueError("parameters: no run is asked for", hint="a mapping for every run, or {address: values}")
     if isinstance(rows, Columns):
-        errors = rows.omit_nonfinite()
+        errors = rows.omit_nonfinite_values()
     elif len(rows) > 1:
         floats = [x for row in rows for x in row.values() if isinstance(x, FLOATS)]
         for i, row in enumerate(() if all(map(math.isfinite, floats)) else rows):
@@ -124,7 +124,7 @@ def read_parameter_rows(parameters: ParameterSets) -> tuple[Sequence[Mapping[str
 
 
 def read_given_parameters_of_runs(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple[Array, Mask]:
-    """Return values and mask (n_runs, n_slots) of the given parameters; raises as `read_given_parameters`.
+    """Return values and mask (n_runs, n_parameters) of the given parameters; raises as `read_given_parameters`.
 
     Runs that give the same parameters as floats are read at once.
     """
@@ -136,7 +136,7 @@ def read_given_parameters_of_runs(source: KernelSource, rows: Sequence[Mapping[s
 
 
 def read_uniform_rows(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple[Array, Mask] | None:
-    """Return values and mask (n_runs, n_slots) if all runs give the same parameters as floats; else None.
+    """Return values and mask (n_runs, n_parameters) if all runs give the same parameters as floats; else None.
 
     This is fast: it avoids reading each run by itself. A column with one value for all runs may hold any text of a
     number. None also for choices, unknown names and parameters given twice.
@@ -146,28 +146,28 @@ def read_uniform_rows(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -
         if not all(row.keys() == names_of_first_run for row in rows):
             return None
         rows = Columns({name: [row[name] for row in rows] for name in names_of_first_run}, len(rows))
-    slot_indices = [
+    parameter_indices = [
         index_by_address.get(name, index_by_address.get(f"parameters.{name}", -1))
         for name in rows.columns
         if isinstance(name, str)
     ]
     if (
-        len(slot_indices) < len(rows.columns)
-        or len({*slot_indices, -1}) <= len(slot_indices)
-        or any(source.slots[k].words for k in slot_indices)
+        len(parameter_indices) < len(rows.columns)
+        or len({*parameter_indices, -1}) <= len(parameter_indices)
+        or any(source.slots[k].words for k in parameter_indices)
     ):
         return None
     shape = (len(index_by_address), len(rows))  # memory of parameters that no run gives is never touched
     given_values, mask = np.zeros(shape).T, np.zeros(shape, dtype=bool).T
-    for k, column in zip(slot_indices, rows.columns.values(), strict=True):
+    for k, column in zip(parameter_indices, rows.columns.values(), strict=True):
         numbers = _read_floats(column, source.slots[k])
         if numbers is None:
             return None
         given_values[:, k], mask[:, k] = numbers, True
     for i, names in rows.omitted_names.items():
-        omitted_indices = [k for k, name in zip(slot_indices, rows.columns, strict=True) if name in names]
+        omitted_indices = [k for k, name in zip(parameter_indices, rows.columns, strict=True) if name in names]
         given_values[i, omitted_indices], mask[i, omitted_indices] = 0.0, False
-    return (given_values, mask) if np.isfinite(given_values[:, slot_indices]).all() else None
+    return (given_values, mask) if np.isfinite(given_values[:, parameter_indices]).all() else None
 
 
 def _read_floats(column: Column, parameter: RuntimeParameter) -> Array | float | None:
@@ -190,7 +190,7 @@ def _read_floats(column: Column, parameter: RuntimeParameter) -> Array | float |
 def read_each_run(
     rows: Sequence[Mapping[str, Any]], read_run: Callable[[int, Mapping[str, Any]], tuple[Array, Array]]
 ) -> Any:
-    """Return values and mask (n_runs, n_slots) by calling `read_run`(i, mapping of run i) for each run.
+    """Return values and mask (n_runs, n_parameters) by calling `read_run`(i, mapping of run i) for each run.
 
     Raises BadValueError, which names the run.
     """
@@ -233,7 +233,7 @@ def _read_parameter_sets(parameters: ParameterSets) -> list[Mapping[str, Any]] |
 
 
 def read_column(name: str, values: Any) -> list[Any] | None:
-    """Return the values of every run as a list, or None if one holds for all.
+    """Return the values of a column as a list with one for each run; None if one value holds for all runs.
 
     Raises BadValueError, which begins with `name`.
     """
@@ -266,16 +266,16 @@ def _read_column(name: str, values: Any) -> Column:
 
 
 def prepare_values_of_runs(
-    compiled: CompiledModel, given_values: Array, is_given: Mask, free: bool
+    compiled: CompiledModel, given_values: Array, is_given: Mask, without_baumgarte: bool
 ) -> tuple[Array, Array, dict[int, BadValueError]]:
     """Return the values of all runs, those for the motion, and the errors of invalid runs by index.
 
-    Both arrays are (n_runs, n_slots + n_derived). With `free`, the values for the motion have no Baumgarte gains; else
-    they are the same array. Runs are invalid if their parameters violate a condition of
+    Both arrays are (n_runs, n_parameters + n_derived). With `without_baumgarte`, the values for the motion have no
+    Baumgarte gains; else they are the same array. Runs are invalid if their parameters violate a condition of
     `parameters.check_parameter_values`.
     """
     p = compiled.prepare_each(given_values, is_given)
-    motion_values = prepare_without_baumgarte(compiled, given_values, is_given) if free else p
+    motion_values = prepare_without_baumgarte(compiled, given_values, is_given) if without_baumgarte else p
     errors = {}
     parts = [slice(k, k + RUNS_PER_CALL) for k in range(0, len(p), RUNS_PER_CALL)]
     valid = [_find_valid_runs(compiled.source, p[part], is_given[part]) for part in parts]
@@ -288,10 +288,10 @@ def prepare_values_of_runs(
 
 
 def _find_valid_runs(source: KernelSource, p: Array, is_given: Mask) -> Mask:
-    """Return a mask (n_runs,) of the runs that satisfy the conditions of parameters.check.
+    """Return a mask (n_runs,) of the runs that satisfy the conditions of `parameters.check_parameter_values`.
 
-    p: (n_runs, n_slots + n_derived); is_given: (n_runs, n_slots). Runs with undefined expressions may be marked
-    wrongly; `check_parameter_values` decides.
+    p: (n_runs, n_parameters + n_derived); is_given: (n_runs, n_parameters). Runs with undefined expressions may be
+    marked wrongly; `check_parameter_values` decides.
     """
     index_by_address = source.slot_index
     valid = np.asarray(np.isfinite(p).all(axis=1))

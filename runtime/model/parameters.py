@@ -39,14 +39,14 @@ RELATIONS = {">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operat
 
 
 def read_given_parameters(
-    source: KernelSource, parameters: Mapping[str, float | str] | None, what: str = "parameters"
+    source: KernelSource, parameters: Mapping[str, float | str] | None, mapping_name: str = "parameters"
 ) -> tuple[Array, Array]:
-    """Return values and mask (n_slots,) from {address or parameter name: float or '0.5 mm'}.
+    """Return values and mask (n_parameters,) from {address or parameter name: float or '0.5 mm'}.
 
-    None is an empty mapping; a pandas Series is accepted. A name of a group (`gains`) sets all its parameters. `what`
-    names the mapping in messages. Raises UnknownNameError, and BadValueError for a parameter given twice.
+    None is an empty mapping; a pandas Series is accepted. A name of a group (`gains`) sets all its parameters.
+    `mapping_name` is its name in messages. Raises UnknownNameError, and BadValueError for a parameter given twice.
     """
-    parameters = check_mapping(parameters, what, "{address or parameter name: a float in SI, or '0.5 mm'}")
+    parameters = check_mapping(parameters, mapping_name, "{address or parameter name: a float in SI, or '0.5 mm'}")
     index_by_address = source.slot_index
     values, mask, spellings = (
         np.zeros(len(index_by_address)),
@@ -93,9 +93,9 @@ def explain_address(source: KernelSource, address: str) -> tuple[str, str]:
     if expression is None and address.removeprefix("outputs.") not in source.outputs:
         explanations = (
             explain_named_expression,
-            _explain_eccentricity,
-            _explain_material,
-            _explain_motion,
+            _explain_missing_eccentricity,
+            _explain_single_material,
+            _explain_motion_result,
             explain_law_choice,
         )
         return next(
@@ -103,7 +103,7 @@ def explain_address(source: KernelSource, address: str) -> tuple[str, str]:
         )
     key = address.rpartition(".")[2]
     if expression is not None and expression.tree == ZERO:
-        return _explain_zero(address, key)
+        return _explain_literal_zero(address, key)
     message = f"{address} is an expression of t or motion, compiled as it stands: it is no number that can be set"
     return message, (
         f"a number in it can be, once it is a parameter: parameters: {{phase: … deg}}, {key}: phase + …,"
@@ -123,7 +123,7 @@ def _explain_run_option(address: str) -> tuple[str, str]:
     return message, f"tell the run: --{key.replace('_', '-')} of the command, {key}= of simulate"
 
 
-def _explain_motion(source: KernelSource, address: str) -> tuple[str, str]:
+def _explain_motion_result(source: KernelSource, address: str) -> tuple[str, str]:
     """Return (message, hint) for the address of a coordinate or velocity, which is a result; ("", "") for others.
 
     The hint names the drive that determines it, or the start's value, or how to write one.
@@ -180,7 +180,7 @@ def _describe_driving_parameters(source: KernelSource, body: str) -> str:
     return "; ".join(sentences)
 
 
-def _explain_eccentricity(source: KernelSource, address: str) -> tuple[str, str]:
+def _explain_missing_eccentricity(source: KernelSource, address: str) -> tuple[str, str]:
     """Return (message, hint) for an eccentricity at the start that the file does not give; ("", "") for others."""
     section, subsection, joint, *component = [*address.split("."), "", "", ""][:4]
     is_slider_by_joint = {clearance.joint: clearance.is_corner for clearance in source.clearances}
@@ -191,7 +191,7 @@ def _explain_eccentricity(source: KernelSource, address: str) -> tuple[str, str]
     return f"{address}: the file's start does not say where {joint} begins", f"write {example}, then it can be set"
 
 
-def _explain_material(source: KernelSource, address: str) -> tuple[str, str]:
+def _explain_single_material(source: KernelSource, address: str) -> tuple[str, str]:
     """Return (message, hint) for the choice of a material, if the file has only one; ("", "") for others."""
     owner, _, key = address.rpartition(".")
     if not key.endswith("material") or not any(parameter.address.startswith(f"{owner}.") for parameter in source.slots):
@@ -246,7 +246,7 @@ def parse_plain_number(text: str) -> float | None:
 def insert_space_before_unit(text: str) -> str:
     """Return the text with a space before the unit of a number: "0.5mm" becomes "0.5 mm".
 
-    Other texts without spaces around.
+    Other texts are returned without the spaces around them.
     """
     match = _GLUED.fullmatch(text.strip())
     return f"{match[1]} {match[2]}" if match else text.strip()
@@ -262,7 +262,7 @@ def prepare_values(compiled: CompiledModel, parameters: Mapping[str, float | str
 
 
 def prepare_given_values(compiled: CompiledModel, given_values: Array, is_given: Array) -> Array:
-    """Return the checked values p of given parameters and mask, (n_slots,) each. Raises BadValueError."""
+    """Return the checked values p of given parameters and mask, (n_parameters,) each. Raises BadValueError."""
     check_parameter_values(compiled.source, p := compiled.prepare(given_values, is_given), is_given)
     return p
 
@@ -270,7 +270,7 @@ def prepare_given_values(compiled: CompiledModel, given_values: Array, is_given:
 def prepare_without_baumgarte(compiled: CompiledModel, given_values: Array, is_given: NDArray[np.generic]) -> Array:
     """Return the values p of one or n runs with both Baumgarte gains zero, for methods that project.
 
-    given_values, is_given: (n_slots,) or (n, n_slots); they are not changed.
+    given_values, is_given: (n_parameters,) or (n, n_parameters); they are not changed.
     """
     index_by_address = compiled.source.slot_index
     gain_indices = [index_by_address[name] for name in GAINS if name in index_by_address]
@@ -318,12 +318,14 @@ def check_parameter_values(source: KernelSource, p: Array, is_given: NDArray[np.
         raise BadValueError(message)
 
 
-def _format_overflow_message(source: KernelSource, value: Mapping[str, float], k: int, number: float) -> str:
-    """Return a message on derived value k that overflows, with the parameters that cause it.
+def _format_overflow_message(
+    source: KernelSource, value_by_address: Mapping[str, float], derived_index: int, derived_value: float
+) -> str:
+    """Return a message on a derived value that overflows, with the parameters that cause it.
 
-    value: parameters by address; number: the derived value, infinite or NaN.
+    value_by_address: parameters; derived_index: index in source.derived; derived_value: infinite or NaN.
     """
-    index, name = len(source.slots) + k, source.derived[k]
+    index, name = len(source.slots) + derived_index, source.derived[derived_index]
     constant_names = (
         f"{joint.name}.{constant_name}"
         for joint in source.clearances
@@ -333,17 +335,17 @@ def _format_overflow_message(source: KernelSource, value: Mapping[str, float], k
     extreme_parameters = [
         parameter
         for parameter in source.slots
-        if not parameter.words and abs(math.log10(abs(value[parameter.address]) or 1.0)) > FAR
+        if not parameter.words and abs(math.log10(abs(value_by_address[parameter.address]) or 1.0)) > FAR
     ]
     message = ", ".join(
-        f"{parameter.address} is {value[parameter.address]:g} {parameter.unit}".rstrip()
+        f"{parameter.address} is {value_by_address[parameter.address]:g} {parameter.unit}".rstrip()
         for parameter in extreme_parameters[:MAX_REPORTED]
     )
     subject = f"{next(constant_names, f'{name} of the equations')}, which follows"
     sentence = (
         f"{message}, too far from 1 for doubles: {subject} from that," if message else f"{subject} from these values,"
     )
-    return f"{sentence} is {number}"
+    return f"{sentence} is {derived_value}"
 
 
 def list_conditions(source: KernelSource) -> tuple[Condition, ...]:
@@ -398,7 +400,7 @@ def format_conditions(source: KernelSource, address: str) -> str:
     )
 
 
-def _explain_zero(address: str, key: str) -> tuple[str, str]:
+def _explain_literal_zero(address: str, key: str) -> tuple[str, str]:
     """Return (message, hint) for the address of a literal 0, which is not part of the equations.
 
     `key` is its last part.

@@ -21,7 +21,8 @@ def compute_mechanism_sizes(source: KernelSource, p: Array) -> Array:
     """Return the size (m) of the mechanism: the largest distance of a point from its body's origin; 1 if it is 0.
 
     The origin is the centre of mass, or that of the ground; lengths of joints count too. The size scales lengths
-    against angles, and does not depend on the directions of axes. Its shape is (...,) for p (..., n_slots + n_derived).
+    against angles, and does not depend on the directions of axes. Its shape is (...,) for p (..., n_parameters +
+    n_derived).
     """
     x, y, has_y = _get_size_indices(source)
     if not len(x):
@@ -67,7 +68,7 @@ def _get_size_indices(source: KernelSource) -> tuple[NDArray[np.intp], NDArray[n
 
 
 def find_unresolved_clearances(source: KernelSource, p: Array) -> Array:
-    """Return a mask (..., n_clearances) of clearances too small for doubles, from p (..., n_slots + n_derived).
+    """Return a mask (..., n_clearances) of clearances too small for doubles, from p (..., n_parameters + n_derived).
 
     The eccentricity is a difference of coordinates, each of which is rounded to 2^-52 of its value.
     """
@@ -92,11 +93,11 @@ def describe_unresolved_clearance(source: KernelSource, p: Array) -> str:
     return ""
 
 
-def describe_zero_inertia(values: Mapping[str, float], derived: str) -> str:
-    """Return a message on the derived value named `derived`, which is not finite because a moment of inertia is 0.
+def describe_zero_inertia(values: Mapping[str, float], derived_name: str) -> str:
+    """Return a message on the derived value named `derived_name`, which is not finite because a moment of inertia is 0.
 
     "" if no inertia is 0. values: parameter values by address.
     """
     address = next((a for a in values if a.startswith("bodies.") and a.endswith(".inertia") and values[a] == 0.0), "")
     hint = "expected > 0, or 0 in the file, from which equations without it are derived"
-    return f"{address} is 0, by which the equations divide ({derived})\n  {hint}" if address else ""
+    return f"{address} is 0, by which the equations divide ({derived_name})\n  {hint}" if address else ""

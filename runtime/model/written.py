@@ -56,7 +56,7 @@ def make_value_function(source: KernelSource, p: Array, t: float, q: Array, v: A
     points = {point.name: point for point in source.points}
     offset_of_component = {"x": 0, "y": 1, "theta": 2, "vx": 0, "vy": 1, "omega": 2}
 
-    def value(path: str) -> float:
+    def evaluate_name(path: str) -> float:
         """Return the value of a name at the state. Raises KeyError for an unknown name."""
         if path == "t":
             return t
@@ -78,7 +78,7 @@ def make_value_function(source: KernelSource, p: Array, t: float, q: Array, v: A
         displacement = (dx, dy) if state is q else (-omega * dy, omega * dx)
         return float(state[first_index + offset_of_component[component]]) + displacement[offset_of_component[component]]
 
-    return value
+    return evaluate_name
 
 
 def evaluate_at_times(source: KernelSource, p: Array, tree: Expr, t: Array) -> Array:
@@ -135,7 +135,7 @@ def explain_undefined_near(source: KernelSource, p: Array, t: float, q: Array, v
 
             for low, high in pairwise(np.linspace(-search_range, search_range, 33).tolist()):
                 if is_first_branch_active(low) != is_first_branch_active(high):
-                    ends = _find_change(is_first_branch_active, low, high)
+                    ends = _bisect_switching_point(is_first_branch_active, low, high)
                     messages = (_explain_undefined_branch(source, p, info, call, t + h, q + h * v, v) for h in ends)
                     if message := next(filter(None, messages), ""):
                         return message
@@ -161,7 +161,7 @@ def find_undefined_at_switch(
 
         is_negative = evaluate_at_times(source, p, difference, t) < 0.0
         for k in np.flatnonzero(is_negative[1:] != is_negative[:-1])[:MAX_SWITCHING_POINTS].tolist():
-            for switch_time in _find_change(is_first_branch_active, float(t[k]), float(t[k + 1])):
+            for switch_time in _bisect_switching_point(is_first_branch_active, float(t[k]), float(t[k + 1])):
                 values = make_value_function(source, p, switch_time, empty, empty)
                 if any(other is call for other in iterate_active_calls(tree, "where", values)):
                     message = _explain_undefined_branch(source, p, info, call, switch_time, empty, empty)
@@ -169,8 +169,8 @@ def find_undefined_at_switch(
     return min(messages_and_times, key=lambda message_and_time: message_and_time[1], default=None)
 
 
-def _find_change(predicate: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:
-    """Return two adjacent numbers between `low` and `high` between which the answer changes, by bisection.
+def _bisect_switching_point(predicate: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:
+    """Return two adjacent numbers from `low` to `high` between which a predicate changes, by bisection.
 
     predicate: a function with different values at `low` and `high`. The search stops at a distance of 1e-18.
     """
@@ -192,7 +192,7 @@ def _explain_undefined_branch(
     for k, (value, is_active) in enumerate(((first_branch, left <= right), (second_branch, left >= right))):
         if is_active and not math.isfinite(value):
             location = f"line {info.line}, column {info.column}"
-            explanation = explain_culprit(source, call.arguments[2 + k], values)
+            explanation = explain_nonfinite_part(source, call.arguments[2 + k], values)
             switching_point = f"at t = {t:.9g} s, where its where changes over"
             return f"{info.address} ({location}): {switching_point}, a branch is {value}: {explanation}"
     return ""
@@ -288,7 +288,7 @@ def _explain_undefined_samples(run: Result, name: str, tree: Expr) -> str:
     if not is_undefined.any():
         return ""
     k, count = int(is_undefined.argmax()), int(is_undefined.sum())
-    explanation = explain_culprit(run.source, tree, lambda path: float(input_values[path][k]))
+    explanation = explain_nonfinite_part(run.source, tree, lambda path: float(input_values[path][k]))
     remark = f"; it is none at {count} of {len(is_undefined)} samples" if count > 1 else ""
     return f"{name} is no number ({values[k]}) at t = {run.t[k]:.9g} s: {explanation}{remark}"
 
@@ -302,17 +302,17 @@ def _explain_undefined_at(
         value = float(evaluate(tree, values))
         if not math.isfinite(value):
             location = f"line {info.line}, column {info.column}"
-            explanation = explain_culprit(source, tree, values)
+            explanation = explain_nonfinite_part(source, tree, values)
             return f"{info.address} ({location}) is not finite at t = {t:.9g} s, {value}: {explanation}"
     return ""
 
 
-def explain_culprit(source: KernelSource, tree: Expr, values: Values) -> str:
+def explain_nonfinite_part(source: KernelSource, tree: Expr, values: Values) -> str:
     """Return a text on the smallest part of an expression that is not finite although its inputs are.
 
     values: a function from names to values. A part that is a named expression of the file is located by its line.
     """
-    path = _find_path_to_culprit(tree, values)
+    path = _find_path_to_nonfinite_part(tree, values)
     named_expressions = _expand_named_expressions(source)
     owner = next((info for part in path[::-1] for info, expanded in named_expressions if expanded == part), None)
     location = f"in {owner.address} (line {owner.line}, column {owner.column}), " if owner else ""
@@ -324,21 +324,21 @@ def _expand_named_expressions(source: KernelSource) -> list[tuple[WrittenInfo, E
     trees_by_name = {info.address.partition(".")[2]: from_json(json.loads(info.tree)) for info in source.expressions}
     expanded_trees: dict[str, Expr] = {}
 
-    def expand(name: str) -> Expr:
+    def expand_tree(name: str) -> Expr:
         """Return the tree of a named expression with all others put in."""
         if name not in expanded_trees:
             used = {used.path for used in iterate_names(trees_by_name[name])} & trees_by_name.keys()
-            expanded_trees[name] = replace_names(trees_by_name[name], {other: expand(other) for other in used})
+            expanded_trees[name] = replace_names(trees_by_name[name], {other: expand_tree(other) for other in used})
         return expanded_trees[name]
 
-    return [(info, expand(name)) for name, info in zip(trees_by_name, source.expressions, strict=True)]
+    return [(info, expand_tree(name)) for name, info in zip(trees_by_name, source.expressions, strict=True)]
 
 
-def _find_path_to_culprit(tree: Expr, values: Values) -> list[Expr]:
+def _find_path_to_nonfinite_part(tree: Expr, values: Values) -> list[Expr]:
     """Return the path of parts from an expression to the smallest one that is not finite, both included."""
     for part in _find_active_parts(tree, values):
         if not isinstance(part, Number) and not math.isfinite(evaluate(part, values)):
-            return [tree, *_find_path_to_culprit(part, values)]
+            return [tree, *_find_path_to_nonfinite_part(part, values)]
     return [tree]
 
 
@@ -434,12 +434,12 @@ class PartialExpression:
 
 
 def find_undefined_runs(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> NDArray[np.bool_]:
-    """Return a mask (n,) of runs with p (n, n_slots + n_derived) that may have an undefined value.
+    """Return a mask (n,) of runs with p (n, n_parameters + n_derived) that may have an undefined value.
 
-    Values that are given, by the mask is_given (n, n_slots), do not count. undefined_number decides exactly.
+    Values given, by the mask is_given (n, n_parameters), do not count. `describe_undefined_number` decides exactly.
     """
     has_undefined = np.zeros(len(p), dtype=np.bool_)
-    for partial in _find_affected_partials(source, p):
+    for partial in _find_affected_expressions(source, p):
         values_by_name = {name: p[:, k] for name, k in partial.slots.items()}
         undefined = may_be_undefined(partial.tree, values_by_name)
         has_undefined |= undefined & ~is_given[:, partial.slot].astype(bool) if partial.slot >= 0 else undefined
@@ -447,8 +447,8 @@ def find_undefined_runs(source: KernelSource, p: Array, is_given: NDArray[np.gen
 
 
 def describe_undefined_number(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> str:
-    """Return a message on the first undefined value of a run, p (n_p,) and is_given (n_slots,); "" if there is none."""
-    for partial in _find_affected_partials(source, p[np.newaxis]):
+    """Return a message on the first undefined value of a run, p (n_p,), is_given (n_parameters,); "" if none."""
+    for partial in _find_affected_expressions(source, p[np.newaxis]):
         values_by_name = {name: float(p[k]) for name, k in partial.slots.items()}
         if partial.slot >= 0 and is_given[partial.slot]:
             continue
@@ -458,7 +458,7 @@ def describe_undefined_number(source: KernelSource, p: Array, is_given: NDArray[
     return ""
 
 
-def _find_affected_partials(source: KernelSource, p: Array) -> list[PartialExpression]:
+def _find_affected_expressions(source: KernelSource, p: Array) -> list[PartialExpression]:
     """Return the expressions with a parameter that differs from the file's in a run of p (n, n_p); cache its index."""
     cache = vars(source)
     if "partial_slots" not in cache:
@@ -482,12 +482,12 @@ def find_partial_expressions(source: KernelSource) -> list[PartialExpression]:
     """Return the expressions of parameters, drives and forces that may be undefined; read once for each source."""
     cache = vars(source)
     if "partials" not in cache:
-        cache["partials"] = _read_partials(source)
+        cache["partials"] = _read_partial_expressions(source)
     result: list[PartialExpression] = cache["partials"]
     return result
 
 
-def _read_partials(source: KernelSource) -> list[PartialExpression]:
+def _read_partial_expressions(source: KernelSource) -> list[PartialExpression]:
     """Return the expressions of parameters, drives and forces that may be undefined, from the source's JSON trees."""
     parameter_index, result = source.slot_index, []
     trees = [(parameter.address, parameter.tree, k) for k, parameter in enumerate(source.slots) if parameter.tree]

@@ -20,21 +20,24 @@ from gudgeon.generator.kinds.forces.force_type import ElementType, Loads, Slip
 from gudgeon.language.units import DIMENSIONLESS, FORCE, VELOCITY
 
 
-def build(targets: Any, fields: Any) -> Loads:
+def build_loads(target_frames: Any, element_fields: Any) -> Loads:
     """Return the loads of dry friction: a Slip, from which the solver of a step finds the force, stick or slip.
 
-    targets: frames of both points (PointFrame); fields: the element's values. The first body may be the ground.
+    target_frames: frames of both points (PointFrame).
+    element_fields: the element's values. The first body may be the ground.
     """
     import sympy as sp
 
-    first, second = targets
-    u_x, u_y = first.direction(fields.direction("direction"))
+    first, second = target_frames
+    u_x, u_y = first.direction(element_fields.direction("direction"))
     vx, vy = second.velocity
     if first.body is not None:  # the first body's material under the second's point
         vx -= first.body.vx - (second.y - first.body.y) * first.body.omega
         vy -= first.body.vy + (second.x - first.body.x) * first.body.omega
-    speed = fields.quantity("speed")
-    static, kinetic, stribeck_velocity = (fields.quantity(name) for name in ("static", "kinetic", "stribeck_velocity"))
+    speed = element_fields.quantity("speed")
+    static, kinetic, stribeck_velocity = (
+        element_fields.quantity(name) for name in ("static", "kinetic", "stribeck_velocity")
+    )
     slip = Slip(u_x * vx + u_y * vy - speed, speed, static, kinetic, stribeck_velocity)
     return Loads((), sp.Integer(0), sp.Integer(0), {}, slip)
 
@@ -64,7 +67,7 @@ ELEMENT = ElementType(
         number("speed", "speed of the first's surface along the direction", VELOCITY, otherwise="0"),
     ),
     (("F", FORCE), ("v", VELOCITY), ("mode", DIMENSIONLESS)),
-    build,
+    build_loads,
     __doc__,
     also=("friction", "coulomb", "brake"),
 )

@@ -13,20 +13,21 @@ from gudgeon.generator.kinds.forces.force_type import ElementType, Load, Loads
 from gudgeon.language.units import FORCE
 
 
-def build(targets: Any, fields: Any) -> Loads:
+def build_loads(target_frames: Any, element_fields: Any) -> Loads:
     """Return the loads of a force at a point: its components in ground axes, its power F · ṙ and its series.
 
-    targets: the frame of the point (PointFrame); fields: the element's values. A force in body axes turns with the
+    target_frames: the frame of the point (PointFrame).
+    element_fields: the element's values. A force in body axes turns with the
     body.
     """
     import sympy as sp
 
-    (point,) = targets
-    value = fields.vector("value")
-    if fields.option("axes") == "body" and point.body is not None:
+    (point,) = target_frames
+    value = element_fields.vector("value")
+    if element_fields.option("axes") == "body" and point.body is not None:
         cos, sin = point.geometry.find_cos_and_sin(point.body)
         value = (cos * value[0] - sin * value[1], sin * value[0] + cos * value[1])
-    x, y = fields.define_local_vector("force", value)
+    x, y = element_fields.define_local_vector("force", value)
     vx, vy = point.velocity
     series = {"Fx": (x, "N"), "Fy": (y, "N"), "F": (sp.sqrt(x**2 + y**2), "N")}
     return Loads((Load(0, x, y, sp.Integer(0)),), sp.Integer(0), x * vx + y * vy, series)
@@ -42,7 +43,7 @@ ELEMENT = ElementType(
         word("axes", "in which axes the components are", ("ground", "body"), "ground"),
     ),
     (("Fx", FORCE), ("Fy", FORCE), ("F", FORCE)),
-    build,
+    build_loads,
     __doc__,
     also=("load", "point_force"),
 )

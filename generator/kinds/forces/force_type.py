@@ -1,8 +1,8 @@
 """Defines the interface of a force element: its keys, its forces, and what else its file declares. Each other file of
 this folder is one kind and exports `ELEMENT`.
 
-As with joints and laws, nothing here imports SymPy at the top. `build(targets, fields)` gets one PointFrame for each
-target and the element's numbers, and returns a `Loads`.
+As with joints and laws, nothing here imports SymPy at the top. `build(target_frames, element_fields)` gets one
+PointFrame for each target and the element's numbers, and returns a `Loads`.
 """
 
 from __future__ import annotations
@@ -31,25 +31,25 @@ class Load:
 class Slip:
     """Represent a slip velocity that friction may hold at zero: v (m/s), speed of the surface, limits in N.
 
-    `falls` (m/s): slip in which friction falls from static to kinetic (Stribeck, Gaussian); 0: at once.
+    `stribeck_velocity` (m/s): slip in which friction falls from static to kinetic (Stribeck, Gaussian); 0: at once.
     """
 
     v: Any
     speed: Any
     static: Any
     kinetic: Any
-    falls: Any = 0
+    stribeck_velocity: Any = 0
 
     def kinetic_at(self, v: Any) -> Any:
         """Return the friction force (N) at a slip v (m/s) of either sign, which is positive.
 
-        It falls from static to kinetic with the slip; it is constant if `falls` is 0.
+        It falls from static to kinetic with the slip; it is constant if `stribeck_velocity` is 0.
         """
         import sympy as sp
 
-        if self.falls == 0:
+        if self.stribeck_velocity == 0:
             return self.kinetic
-        return self.kinetic + (self.static - self.kinetic) * sp.exp(-((v / self.falls) ** 2))
+        return self.kinetic + (self.static - self.kinetic) * sp.exp(-((v / self.stribeck_velocity) ** 2))
 
 
 @dataclass(frozen=True)

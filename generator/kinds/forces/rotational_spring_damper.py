@@ -12,17 +12,18 @@ from gudgeon.generator.kinds.forces.force_type import ElementType, Load, Loads
 from gudgeon.language.units import DIMENSIONLESS, TORQUE, make_dimension
 
 
-def build(targets: Any, fields: Any) -> Loads:
+def build_loads(target_frames: Any, element_fields: Any) -> Loads:
     """Return the loads of the spring and damper: opposite moments, the potential ½ k (θ − θ_0)² and the power −d ω².
 
-    targets: frames of both bodies' centres of mass (PointFrame); fields: the element's values.
+    target_frames: frames of both bodies' centres of mass (PointFrame).
+    element_fields: the element's values.
     """
     import sympy as sp
 
-    first, second = targets
-    k, theta_0, d = (fields.quantity(name) for name in ("stiffness", "free_angle", "damping"))
+    first, second = target_frames
+    k, theta_0, d = (element_fields.quantity(name) for name in ("stiffness", "free_angle", "damping"))
     theta, omega = second.theta - first.theta - theta_0, second.omega - first.omega
-    moment = fields.define_local("moment", k * theta + d * omega)
+    moment = element_fields.define_local("moment", k * theta + d * omega)
     zero = sp.Integer(0)
     loads = (Load(0, zero, zero, moment), Load(1, zero, zero, -moment))
     return Loads(loads, k * theta**2 / 2, -d * omega**2, {"M": (moment, "N*m")})
@@ -45,7 +46,7 @@ ELEMENT = ElementType(
         ),
     ),
     (("M", TORQUE),),
-    build,
+    build_loads,
     __doc__,
     also=("torsion_spring", "torsional_spring", "rotational_spring", "rotational_damper", "rsda"),
 )

@@ -15,18 +15,21 @@ from gudgeon.generator.kinds.forces.force_type import ElementType, Load, Loads
 from gudgeon.language.units import DAMPING, FORCE, LENGTH, STIFFNESS
 
 
-def build(targets: Any, fields: Any) -> Loads:
+def build_loads(target_frames: Any, element_fields: Any) -> Loads:
     """Return the loads of the spring and damper: opposite forces, the potential ½ k (l − l_0)² and the power −d l̇².
 
-    targets: frames of both points (PointFrame); fields: the element's values. With l_0 = d = 0 no direction is used.
+    target_frames: frames of both points (PointFrame).
+    element_fields: the element's values. With l_0 = d = 0 no direction is used.
     """
     import sympy as sp
 
-    P, Q = targets
-    k, l_0, d = (fields.quantity(name) for name in ("stiffness", "free_length", "damping"))
+    P, Q = target_frames
+    k, l_0, d = (element_fields.quantity(name) for name in ("stiffness", "free_length", "damping"))
     (x, y), (vx, vy) = (
-        fields.define_local_vector("span", (Q.x - P.x, Q.y - P.y)),
-        fields.define_local_vector("span_rate", tuple(b - a for a, b in zip(P.velocity, Q.velocity, strict=True))),
+        element_fields.define_local_vector("span", (Q.x - P.x, Q.y - P.y)),
+        element_fields.define_local_vector(
+            "span_rate", tuple(b - a for a, b in zip(P.velocity, Q.velocity, strict=True))
+        ),
     )
     squared_length = x**2 + y**2
     if l_0 == 0 and d == 0:
@@ -34,10 +37,10 @@ def build(targets: Any, fields: Any) -> Loads:
         force = k * sp.sqrt(squared_length)
         power = sp.Integer(0)
     else:
-        length = fields.define_local("length", sp.sqrt(squared_length))
-        rate = fields.define_local("length_rate", (x * vx + y * vy) / length)
-        force = fields.define_local("force", k * (length - l_0) + d * rate)
-        force_per_length = fields.define_local("pull", force / length)
+        length = element_fields.define_local("length", sp.sqrt(squared_length))
+        rate = element_fields.define_local("length_rate", (x * vx + y * vy) / length)
+        force = element_fields.define_local("force", k * (length - l_0) + d * rate)
+        force_per_length = element_fields.define_local("pull", force / length)
         potential, power = k * (length - l_0) ** 2 / 2, -d * rate**2
         series = {"length": (length, "m")}
     loads = (
@@ -58,7 +61,7 @@ ELEMENT = ElementType(
         number("damping", "d: force by the rate of elongation", DAMPING, bounds=NOT_NEGATIVE, otherwise="0"),
     ),
     (("F", FORCE), ("length", LENGTH)),
-    build,
+    build_loads,
     __doc__,
     also=("spring", "damper", "dashpot", "tsda"),
 )

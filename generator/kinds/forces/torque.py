@@ -13,20 +13,21 @@ from gudgeon.generator.kinds.forces.force_type import ElementType, Load, Loads
 from gudgeon.language.units import TORQUE
 
 
-def build(targets: Any, fields: Any) -> Loads:
+def build_loads(target_frames: Any, element_fields: Any) -> Loads:
     """Return the loads of a torque on the first body, its opposite on a second one, and their power.
 
-    targets: one or two frames of centres of mass (PointFrame); fields: the element's values.
+    target_frames: one or two frames of centres of mass (PointFrame).
+    element_fields: the element's values.
     """
     import sympy as sp
 
     zero = sp.Integer(0)
-    moment = fields.define_local("torque", fields.quantity("value"))
+    moment = element_fields.define_local("torque", element_fields.quantity("value"))
     loads = [Load(0, zero, zero, moment)]
-    power = moment * targets[0].omega
-    if len(targets) == 2:
+    power = moment * target_frames[0].omega
+    if len(target_frames) == 2:
         loads.append(Load(1, zero, zero, -moment))
-        power -= moment * targets[1].omega
+        power -= moment * target_frames[1].omega
     return Loads(tuple(loads), zero, power, {"M": (moment, "N*m")})
 
 
@@ -37,7 +38,7 @@ ELEMENT = ElementType(
     (1, 2),
     (number("value", "the torque on the first body", TORQUE, required=True, varies=OF_MOTION),),
     (("M", TORQUE),),
-    build,
+    build_loads,
     __doc__,
     also=("moment", "couple"),
 )

@@ -20,20 +20,21 @@ from gudgeon.generator.kinds.joints.joint_type import JointType, Symbol
 from gudgeon.language.units import DIMENSIONLESS, LENGTH
 
 
-def rows(first: Any, second: Any, fields: Any) -> list[Any]:
+def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_fields: Any) -> list[Any]:
     """Return one constraint equation: how far the follower's point is from its profile, along the axis (m).
 
-    first, second: frames of the cam's and the follower's point (PointFrame); fields: the joint's values (JointFields).
+    first_frame, second_frame: frames of the cam's and the follower's point (PointFrame).
+    joint_fields: the joint's values (JointFields).
     """
-    u_x, u_y = fields.direction_on("axis", "carrier")
-    along = u_x * (second.x - first.x) + u_y * (second.y - first.y)
-    return [along - fields.profile("profile", first.theta, fields.body_angle("carrier"))]
+    u_x, u_y = joint_fields.direction_on("axis", "carrier")
+    along = u_x * (second_frame.x - first_frame.x) + u_y * (second_frame.y - first_frame.y)
+    return [along - joint_fields.profile("profile", first_frame.theta, joint_fields.body_angle("carrier"))]
 
 
-def gap(joint: Any, residuals: Any) -> Any:
+def find_gap_points(joint: Any, residuals: Any) -> Any:
     """Return the follower's point and the point where the profile requires it, (2,) each in ground axes (m).
 
-    joint: the joint at a posture; residuals: the values of its rows (m).
+    joint: the joint at a posture; residuals: the values of its constraint equations (m).
     """
     return joint.second, joint.second - residuals[0] * joint.direction("axis", joint.option("carrier"))
 
@@ -55,8 +56,8 @@ JOINT = JointType(
     "",
     ("lift",),
     ("m",),
-    rows,
+    derive_constraint_equations,
     __doc__,
-    Symbol(gap=gap),
+    Symbol(gap=find_gap_points),
     also=("follower", "disc_cam", "disk_cam", "plate_cam", "cam_follower"),
 )

@@ -15,16 +15,17 @@ from gudgeon.generator.kinds.joints.joint_type import JointType, Symbol
 from gudgeon.language.units import LENGTH
 
 
-def rows(first: Any, second: Any, fields: Any) -> list[Any]:
+def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_fields: Any) -> list[Any]:
     """Return one constraint equation (m): zero where the distance is `length`, and growing with it at the same rate.
 
-    first, second: frames of both points (PointFrame); fields: the joint's values (JointFields).
+    first_frame, second_frame: frames of both points (PointFrame).
+    joint_fields: the joint's values (JointFields).
     """
-    x, y, length = second.x - first.x, second.y - first.y, fields.quantity("length", 0)
-    return [(x**2 + y**2) * fields.derive("half_inverse_length", 1 / (2 * length)) - length / 2]
+    x, y, length = second_frame.x - first_frame.x, second_frame.y - first_frame.y, joint_fields.quantity("length", 0)
+    return [(x**2 + y**2) * joint_fields.derive("half_inverse_length", 1 / (2 * length)) - length / 2]
 
 
-def draw(pen: Any) -> None:
+def draw_symbol(pen: Any) -> None:
     """Draw the rod between two pins, with a stand at a point of the ground."""
     pen.stand()
     pen.line("rod", [pen.first, pen.second])
@@ -37,7 +38,7 @@ def find_middle(joint: Any) -> Any:
     return 0.5 * (joint.first + joint.second)
 
 
-def gap(joint: Any, residuals: Any) -> Any:
+def find_gap_points(joint: Any, residuals: Any) -> Any:
     """Return the end of a rod of this length from the first point, and the second point.
 
     joint: the joint at a posture; the residuals are not used.
@@ -52,8 +53,8 @@ JOINT = JointType(
     "",
     ("length",),
     ("m",),
-    rows,
+    derive_constraint_equations,
     __doc__,
-    Symbol(draw, find_middle, 0.5, gap),
+    Symbol(draw_symbol, find_middle, 0.5, find_gap_points),
     also=("link", "rod", "massless_rod", "coupler"),
 )

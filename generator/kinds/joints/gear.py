@@ -17,16 +17,17 @@ from gudgeon.generator.kinds.joints.joint_type import JointType, Symbol
 from gudgeon.language.units import LENGTH
 
 
-def rows(first: Any, second: Any, fields: Any) -> list[Any]:
+def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_fields: Any) -> list[Any]:
     """Return one constraint equation: the arc by which the wheels have slipped since the start (m).
 
-    first, second: frames of the wheels (PointFrame); fields: the joint's values (JointFields).
+    first_frame, second_frame: frames of the wheels (PointFrame).
+    joint_fields: the joint's values (JointFields).
     """
-    radius_1, radius_2 = fields.vector("radii")
-    sign = -1 if fields.option("internal") == "true" else 1
-    carrier = fields.body_angle("carrier")
-    arc = radius_1 * (first.theta - carrier) + sign * radius_2 * (second.theta - carrier)
-    return [arc - fields.evaluate_at_guess("mesh", arc)]
+    radius_1, radius_2 = joint_fields.vector("radii")
+    sign = -1 if joint_fields.option("internal") == "true" else 1
+    carrier = joint_fields.body_angle("carrier")
+    arc = radius_1 * (first_frame.theta - carrier) + sign * radius_2 * (second_frame.theta - carrier)
+    return [arc - joint_fields.evaluate_at_guess("mesh", arc)]
 
 
 def find_wheels(joint: Any) -> list[tuple[Any, float]]:
@@ -50,14 +51,14 @@ def find_pitch_point(joint: Any) -> Any:
     return centre + radius * joint.unit_vector((centre_1 if centre is centre_2 else centre_2) - centre)
 
 
-def draw(pen: Any) -> None:
+def draw_symbol(pen: Any) -> None:
     """Draw pitch circles, a spoke fixed in each wheel, a ring with its rim, and the point of contact."""
     for k, (centre, radius) in enumerate(find_wheels(pen)):
         pen.wheel(k, centre, radius, is_ring=k == 1 and pen.option("internal") == "true")
     pen.disc("mark", find_pitch_point(pen), 0.25 * pen.unit)
 
 
-def gap(joint: Any, residuals: Any) -> Any:
+def find_gap_points(joint: Any, residuals: Any) -> Any:
     """Return the ends of the arc by which the wheels have slipped, as a line across that of their centres.
 
     joint: the joint at a posture; residuals: the arc (m).
@@ -78,9 +79,9 @@ JOINT = JointType(
     "",
     ("mesh",),
     ("m",),
-    rows,
+    derive_constraint_equations,
     __doc__,
-    Symbol(draw, find_pitch_point, 0.3, gap, find_radii),
+    Symbol(draw_symbol, find_pitch_point, 0.3, find_gap_points, find_radii),
     joins="bodies",
     also=("gears", "gear_pair", "spur", "rolling", "mesh"),
 )

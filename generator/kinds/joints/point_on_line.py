@@ -14,16 +14,17 @@ from gudgeon.generator.kinds.joints.joint_type import JointType, Slide, Symbol, 
 from gudgeon.language.units import DIMENSIONLESS
 
 
-def rows(first: Any, second: Any, fields: Any) -> list[Any]:
+def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_fields: Any) -> list[Any]:
     """Return one constraint equation: the distance of the point from the line (m), with its sign.
 
-    first, second: frames of the point and of the line's point (PointFrame); fields: the joint's values (JointFields).
+    first_frame, second_frame: frames of the point and of the line's point (PointFrame).
+    joint_fields: the joint's values (JointFields).
     """
-    u_x, u_y = second.direction(fields.direction("direction"))
-    return [u_x * (first.y - second.y) - u_y * (first.x - second.x)]
+    u_x, u_y = second_frame.direction(joint_fields.direction("direction"))
+    return [u_x * (first_frame.y - second_frame.y) - u_y * (first_frame.x - second_frame.x)]
 
 
-def draw(pen: Any) -> None:
+def draw_symbol(pen: Any) -> None:
     """Draw a roller on the ground's rail, or a pin with its block in a slot of the body that guides."""
     if pen.ground_guides:
         pen.rail(pen.ROLLER * pen.unit)
@@ -42,9 +43,9 @@ JOINT = JointType(
     "",
     ("offset",),
     ("m",),
-    rows,
+    derive_constraint_equations,
     __doc__,
-    Symbol(draw, find_sliding_point, gap=find_gap_to_line),
+    Symbol(draw_symbol, find_sliding_point, gap=find_gap_to_line),
     Slide("direction", "second"),
     reaction_at="first",
     also=("slot", "pin_in_slot", "pin_slot", "line", "half_joint"),

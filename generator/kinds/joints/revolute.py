@@ -14,12 +14,12 @@ from typing import Any
 from gudgeon.generator.kinds.joints.joint_type import JointType, Symbol, find_gap_between_points
 
 
-def rows(first: Any, second: Any, fields: Any) -> list[Any]:
+def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_fields: Any) -> list[Any]:
     """Return two constraint equations (m): the points' coordinates in ground axes are equal."""
-    return [first.x - second.x, first.y - second.y]
+    return [first_frame.x - second_frame.x, first_frame.y - second_frame.y]
 
 
-def draw(pen: Any) -> None:
+def draw_symbol(pen: Any) -> None:
     """Draw the pin, on the ground with its stand, with play in its hole."""
     pen.bearing()
     pen.pin(pen.second)
@@ -32,9 +32,9 @@ JOINT = JointType(
     "bearing",
     ("x", "y"),
     ("m", "m"),
-    rows,
+    derive_constraint_equations,
     __doc__,
-    Symbol(draw, gap=find_gap_between_points),
+    Symbol(draw_symbol, gap=find_gap_between_points),
     carries=("x", "y"),
     also=("pin", "hinge", "pivot", "rotational", "rotation", "turning", "journal", "bearing", "ball"),
 )

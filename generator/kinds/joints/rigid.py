@@ -12,13 +12,13 @@ from gudgeon.generator.kinds.joints.joint_type import JointType, Symbol, find_ga
 from gudgeon.language.units import DIMENSIONLESS
 
 
-def rows(first: Any, second: Any, fields: Any) -> list[Any]:
+def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_fields: Any) -> list[Any]:
     """Return three constraint equations: the points' coordinates are equal (m), the angle between the bodies (rad)."""
-    angle_error = second.theta - first.theta - fields.quantity("angle", 0)
-    return [first.x - second.x, first.y - second.y, angle_error]
+    angle_error = second_frame.theta - first_frame.theta - joint_fields.quantity("angle", 0)
+    return [first_frame.x - second_frame.x, first_frame.y - second_frame.y, angle_error]
 
 
-def draw(pen: Any) -> None:
+def draw_symbol(pen: Any) -> None:
     """Draw a black square, and what it is fixed to where that is the ground."""
     pen.wall(pen.first)
     pen.box("weld", pen.second, pen.axis_of_body(0), 0.62, 0.62)
@@ -31,9 +31,9 @@ JOINT = JointType(
     "",
     ("x", "y", "angle"),
     ("m", "m", "rad"),
-    rows,
+    derive_constraint_equations,
     __doc__,
-    Symbol(draw, gap=find_gap_between_points),
+    Symbol(draw_symbol, gap=find_gap_between_points),
     carries=("x", "y"),
     also=("weld", "welded", "fixed", "fix", "clamp", "clamped", "lock"),
 )

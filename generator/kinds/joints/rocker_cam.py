@@ -16,10 +16,10 @@ from gudgeon.generator.kinds.joints.joint_type import JointType
 from gudgeon.language.units import DIMENSIONLESS
 
 
-def rows(first: Any, second: Any, fields: Any) -> list[Any]:
+def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_fields: Any) -> list[Any]:
     """Return one constraint equation: by how much the rocker's angle differs from its profile (rad)."""
-    carrier = fields.body_angle("carrier")
-    return [second.theta - carrier - fields.profile("profile", first.theta, carrier)]
+    carrier = joint_fields.body_angle("carrier")
+    return [second_frame.theta - carrier - joint_fields.profile("profile", first_frame.theta, carrier)]
 
 
 JOINT = JointType(
@@ -38,7 +38,7 @@ JOINT = JointType(
     "",
     ("swing",),
     ("rad",),
-    rows,
+    derive_constraint_equations,
     __doc__,
     joins="bodies",
     also=("oscillating_follower", "cam_rocker", "swinging_follower"),

@@ -15,18 +15,22 @@ from gudgeon.generator.kinds.joints.joint_type import JointType, Slide, Symbol, 
 from gudgeon.language.units import DIMENSIONLESS
 
 
-def rows(first: Any, second: Any, fields: Any) -> list[Any]:
+def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_fields: Any) -> list[Any]:
     """Return two constraint equations: the offset from the axis (m), the angle between the bodies (rad).
 
-    first, second: frames of both points (PointFrame); fields: the joint's values (JointFields).
+    first_frame, second_frame: frames of both points (PointFrame).
+    joint_fields: the joint's values (JointFields).
     """
-    axis = fields.direction("axis")
-    axis_x, axis_y = first.direction(axis)
-    offset = axis_x * (second.y - first.y) - axis_y * (second.x - first.x)
-    return [offset, second.theta - first.theta - fields.quantity("angle", fields.angle_of("axis"))]
+    axis = joint_fields.direction("axis")
+    axis_x, axis_y = first_frame.direction(axis)
+    offset = axis_x * (second_frame.y - first_frame.y) - axis_y * (second_frame.x - first_frame.x)
+    return [
+        offset,
+        second_frame.theta - first_frame.theta - joint_fields.quantity("angle", joint_fields.angle_of("axis")),
+    ]
 
 
-def draw(pen: Any) -> None:
+def draw_symbol(pen: Any) -> None:
     """Draw the ground's rails, or the axis of the body that guides; bodies have their blocks and guides themselves."""
     pen.guide()
 
@@ -41,9 +45,9 @@ JOINT = JointType(
     "guide",
     ("offset", "angle"),
     ("m", "rad"),
-    rows,
+    derive_constraint_equations,
     __doc__,
-    Symbol(draw, find_sliding_point, 1.5, find_gap_to_line),
+    Symbol(draw_symbol, find_sliding_point, 1.5, find_gap_to_line),
     Slide("axis", "first"),
     carries=("offset",),
     also=("prismatic", "slider", "sliding", "slide", "linear", "piston", "guide"),

@@ -13,22 +13,22 @@ from typing import Any
 
 from gudgeon.generator.field import Bound, number
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.generator.kinds.laws.roles import MU, MU_S, make_friction_force, make_odd_function, slip_field
+from gudgeon.generator.kinds.laws.roles import MU, MU_S, declare_slip_field, make_friction_force, make_odd_function
 from gudgeon.language.units import VELOCITY
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the friction force F_t (N) on the journal along t; it rises to mu_s at the slip v0, then decays to mu."""
     import sympy as sp
 
-    mu, mu_s, v0, decay = (s.parameters[name] for name in ("mu", "mu_s", "v0", "decay"))
+    mu, mu_s, v0, decay = (inputs.parameters[name] for name in ("mu", "mu_s", "v0", "decay"))
 
     def compute_coefficient(u: Any) -> Any:
         """Return the friction coefficient for a slip u ≥ 0 (m/s)."""
         rising = mu_s * (1 - sp.Min(u / v0 - 1, 0) ** 2)
         return rising - (mu_s - mu) * (1 - sp.exp(-sp.Max(u - v0, 0) / decay))
 
-    return make_friction_force(s, make_odd_function(s.variables["v_t"], compute_coefficient))
+    return make_friction_force(inputs, make_odd_function(inputs.variables["v_t"], compute_coefficient))
 
 
 LAW = Law(
@@ -49,7 +49,7 @@ LAW = Law(
     fields=(
         MU,
         MU_S,
-        slip_field("v0", "slip at which friction is largest", "v_0"),
+        declare_slip_field("v0", "slip at which friction is largest", "v_0"),
         number(
             "decay",
             "additional slip beyond v0 at which the excess over kinetic friction has fallen to 1/e",
@@ -59,5 +59,5 @@ LAW = Law(
             bounds=(Bound(">", 0.0),),
         ),
     ),
-    build=build,
+    build=build_friction_force,
 )

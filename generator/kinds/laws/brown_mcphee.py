@@ -10,17 +10,17 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.generator.kinds.laws.roles import MU, MU_S, make_friction_force, slip_field
+from gudgeon.generator.kinds.laws.roles import MU, MU_S, declare_slip_field, make_friction_force
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the friction force F_t (N) on the journal along t; x is the slip over that of the peak."""
     import sympy as sp
 
-    mu, mu_s = s.parameters["mu"], s.parameters["mu_s"]
+    mu, mu_s = inputs.parameters["mu"], inputs.parameters["mu_s"]
     x = sp.Symbol("share", real=True)
     coefficient = mu * sp.tanh(4 * x) + (mu_s - mu) * x / (x**2 / 4 + sp.Rational(3, 4)) ** 2
-    return {"share": s.variables["v_t"] / s.parameters["v0"], **make_friction_force(s, coefficient)}
+    return {"share": inputs.variables["v_t"] / inputs.parameters["v0"], **make_friction_force(inputs, coefficient)}
 
 
 LAW = Law(
@@ -36,6 +36,6 @@ LAW = Law(
     "physically meaningful parameters, Journal of Computational and Nonlinear Dynamics 11 (2016) 054502, "
     "doi 10.1115/1.4033658, without its viscous part",
     validity="sliding; the contact creeps at slips below v0, the slip at which friction is largest",
-    fields=(MU, MU_S, slip_field("v0", "slip at which friction is largest", "v_0")),
-    build=build,
+    fields=(MU, MU_S, declare_slip_field("v0", "slip at which friction is largest", "v_0")),
+    build=build_friction_force,
 )

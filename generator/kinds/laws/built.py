@@ -36,7 +36,7 @@ class Probe:
 
 
 def build_law(law: Law, inputs: LawInputs) -> dict[str, Any]:
-    """Return a law's abbreviations and results in SymPy, in order, after checks of what `law.build_law` returns.
+    """Return a law's abbreviations and results in SymPy, in order, after checks of what `law.build` returns.
 
     Prints of the law go to stderr. Raises LawError for an exception in the law, names or symbols that are not allowed,
     functions that C does not have, and missing results.
@@ -44,20 +44,20 @@ def build_law(law: Law, inputs: LawInputs) -> dict[str, Any]:
     import sympy as sp
 
     for name in (*(field_of_law.name for field_of_law in law.parameters), *(state.name for state in law.states)):
-        _check_unreserved(law, name)
+        _check_name_not_reserved(law, name)
     constants = {
         symbol for x in (*inputs.parameters.values(), *vars(inputs.pair).values()) for symbol in _find_symbols(x)
     }
     constants -= {*inputs.variables.values()}
     types_from_file = frozenset(
-        type(part) for x in inputs.parameters.values() for part in _iterate_parts(x)
+        type(part) for x in inputs.parameters.values() for part in _iterate_expression_parts(x)
     )  # in the file: C has them
 
     def derive(name: Any, expression: Any, meaning: Any) -> Any:
         """Check a derived constant and return its symbol, which later expressions may use. Raises LawError."""
         if not isinstance(name, str) or not isinstance(meaning, str):
             raise _make_law_error(law, f"derive({name!r}, …) wants a name, an expression and its meaning")
-        _check_unreserved(law, name)
+        _check_name_not_reserved(law, name)
         value = _convert_to_sympy(law, f"derive({name!r}, …)", expression)
         _check_expression(
             law,
@@ -80,14 +80,14 @@ def build_law(law: Law, inputs: LawInputs) -> dict[str, Any]:
         location = find_error_location(error, ORIGINS[law.name].typed) if law.name in ORIGINS else None
         hint = f"it is given {_list_inputs_of_law(law)}" if isinstance(error, KeyError) else ""
         raise _make_law_error(law, f"build raised {format_exception(error)}", hint, location) from error
-    results = _check_results(law, steps)
+    results = _find_result_names(law, steps)
     expressions, known_symbols = (
         {},
         constants | {symbol for x in inputs.variables.values() for symbol in _find_symbols(x)},
     )
     reserved_names = {*law.variables, *(field_of_law.name for field_of_law in law.parameters)}
     for name, step in steps.items():
-        _check_unreserved(law, name)
+        _check_name_not_reserved(law, name)
         if name in reserved_names:
             raise _make_law_error(law, f"build returns {name!r}, which it is given", "call the abbreviation otherwise")
         expressions[name] = value = _convert_to_sympy(law, name, step)
@@ -148,7 +148,7 @@ def compute_law_key(law: Law) -> str:
         law.instead,
     )
     digest = hashlib.sha256(repr(declaration).encode())
-    choices = list(itertools.islice(_iterate_choices(law), _CHOICES + 1))
+    choices = list(itertools.islice(_iterate_option_choices(law), _CHOICES + 1))
     if len(choices) > _CHOICES:
         return f"{os.getpid()} {uuid.uuid4()}"
     for options, numbers in choices:
@@ -162,8 +162,8 @@ def compute_law_key(law: Law) -> str:
     return digest.hexdigest()
 
 
-def _iterate_choices(law: Law) -> Iterator[tuple[dict[str, str | bool], tuple[str, ...]]]:
-    """Yield every combination of a law's options (by name) and of its optional numbers (names of the given ones)."""
+def _iterate_option_choices(law: Law) -> Iterator[tuple[dict[str, str | bool], tuple[str, ...]]]:
+    """Yield each choice of a law: its options by name, and the names of its required and some optional numbers."""
     required_numbers = [
         field_of_law.name
         for field_of_law in law.parameters
@@ -181,7 +181,7 @@ def _iterate_choices(law: Law) -> Iterator[tuple[dict[str, str | bool], tuple[st
             yield dict(zip(names, values, strict=True)), (*required_numbers, *given_numbers)
 
 
-def _check_results(law: Law, steps: Any) -> frozenset[str]:
+def _find_result_names(law: Law, steps: Any) -> frozenset[str]:
     """Return the names of the law's results. Raises LawError if `steps` is no mapping by name, or lacks a result."""
     results = law.results
     hint = f"expected {{{', '.join(f'{name!r}: …' for name in results)}}}"
@@ -192,8 +192,8 @@ def _check_results(law: Law, steps: Any) -> frozenset[str]:
     return frozenset(results)
 
 
-def _check_unreserved(law: Law, name: str) -> None:
-    """Raise LawError for a name that ends in '_', which only the generator may use (symbols.py)."""
+def _check_name_not_reserved(law: Law, name: str) -> None:
+    """Raise LawError if `name`, any name that `law` defines, ends in '_': such names are the generator's."""
     if name.endswith("_"):
         hint = f"write {name.rstrip('_') or 'x'}; a number's `symbol` may be any letter"
         raise _make_law_error(law, f"{name!r} ends in '_', as names of emitted code do", hint)
@@ -263,7 +263,7 @@ def _find_symbols(value: Any) -> set[Any]:
     return set(getattr(value, "free_symbols", ()))
 
 
-def _iterate_parts(value: Any) -> Iterable[Any]:
+def _iterate_expression_parts(value: Any) -> Iterable[Any]:
     """Return the parts of an expression that the file gives; nothing for a number."""
     import sympy as sp
 
@@ -305,9 +305,9 @@ def make_law_function(
         functions.append((name, sp.lambdify(arguments, step, "numpy")))
         arguments.append(sp.Symbol(name, real=True))
 
-    def compute_results(*state: ArrayLike) -> Results:
+    def compute_results(*variables: ArrayLike) -> Results:
         """Return the law's results by name for arrays of its variables, which are broadcast. Raises LawError."""
-        arrays = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in state))
+        arrays = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in variables))
         values, results_by_name = list(arrays), dict[str, Any]()
         for name, function in functions:
             try:

@@ -18,13 +18,13 @@ from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.generator.kinds.laws.roles import ROUGHNESS, make_overlap_fraction
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_load_fraction(inputs: LawInputs) -> dict[str, Any]:
     """Return the fraction (0 to 1) of the load that the dry contact carries, for δ > 0, as steps by name."""
     import sympy as sp
 
     gone, left = sp.symbols("gone left", real=True)
     share = gone**4 * (gone**3 + left * (7 * gone**2 + left * (21 * gone + 35 * left)))
-    return {"gone": make_overlap_fraction(s, 3, -3), "left": 1 - gone, "share": share}
+    return {"gone": make_overlap_fraction(inputs, 3, -3), "left": 1 - gone, "share": share}
 
 
 LAW = Law(
@@ -46,5 +46,5 @@ LAW = Law(
     "asperities, and the film has the clearance c + 3 sigma; the share b of the dry contact is three "
     "times differentiable",
     fields=(ROUGHNESS,),
-    build=build,
+    build=build_load_fraction,
 )

@@ -10,14 +10,16 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.generator.kinds.laws.roles import MU, make_friction_force, slip_field
+from gudgeon.generator.kinds.laws.roles import MU, declare_slip_field, make_friction_force
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the friction force F_t (N) on the journal along t: −c_f F_n tanh(v_t/v_0)."""
     import sympy as sp
 
-    return make_friction_force(s, s.parameters["mu"] * sp.tanh(s.variables["v_t"] / s.parameters["v0"]))
+    return make_friction_force(
+        inputs, inputs.parameters["mu"] * sp.tanh(inputs.variables["v_t"] / inputs.parameters["v0"])
+    )
 
 
 LAW = Law(
@@ -30,6 +32,6 @@ LAW = Law(
     "comparison of dry friction force models, Nonlinear Dynamics 83 (2016) 1785-1801, "
     "doi 10.1007/s11071-015-2485-3",
     validity="sliding; below the slip v0 the contact creeps where Coulomb's law without smoothing would stick",
-    fields=(MU, slip_field("v0", "slip at which friction is tanh 1 = 0.76 of its largest value", "v_0")),
-    build=build,
+    fields=(MU, declare_slip_field("v0", "slip at which friction is tanh 1 = 0.76 of its largest value", "v_0")),
+    build=build_friction_force,
 )

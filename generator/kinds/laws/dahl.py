@@ -18,14 +18,14 @@ from gudgeon.generator.kinds.laws.roles import MU
 from gudgeon.language.units import LENGTH
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the friction force F_t (N) on the journal along t, and z_rate (m/s), the rate of the bristle state."""
     import sympy as sp
 
-    v_t, z = s.variables["v_t"], s.variables["z"]
-    s.derive(BREAKAWAY, s.parameters["presliding"], "deflection of the bristles at which the surfaces slide")
-    share = z * 1 / s.parameters["presliding"]
-    return {"F_t": -s.parameters["mu"] * s.variables["F_n"] * share, "z_rate": v_t - sp.Abs(v_t) * share}
+    v_t, z = inputs.variables["v_t"], inputs.variables["z"]
+    inputs.derive(BREAKAWAY, inputs.parameters["presliding"], "deflection of the bristles at which the surfaces slide")
+    share = z * 1 / inputs.parameters["presliding"]
+    return {"F_t": -inputs.parameters["mu"] * inputs.variables["F_n"] * share, "z_rate": v_t - sp.Abs(v_t) * share}
 
 
 LAW = Law(
@@ -51,6 +51,6 @@ LAW = Law(
             bounds=(Bound(">", 0.0),),
         ),
     ),
-    build=build,
+    build=build_friction_force,
     states=(State("z", "deflection of the bristles"),),
 )

@@ -78,24 +78,24 @@ DISSIPATION = word(
 )
 
 
-def make_hysteresis_factor(s: LawInputs, factor: str) -> Any:
+def make_hysteresis_factor(inputs: LawInputs, formula_name: str) -> Any:
     """Return the hysteresis factor 1 + a δ̇/δ̇⁻ for a restitution.
 
-    It is not negative unless the law has the option `pulls`. `factor` names the formula of a, a key of FACTORS or
+    It is not negative unless the law has the option `pulls`. `formula_name` names the formula of a, a key of FACTORS or
     EXACT. With a e < 1 the factor stays positive unless something drives the surfaces apart.
     """
     import sympy as sp
 
-    c_e = s.parameters["restitution"]
-    a = _solve_exact_factor(s, c_e) if factor == EXACT else FACTORS[factor](c_e)
-    a = s.derive("hysteresis", a, "hysteresis damping factor a")
-    factor_at_state = 1 + a * s.variables["ratio"]
-    return factor_at_state if s.options.get("pulls") else sp.Max(factor_at_state, 0)
+    c_e = inputs.parameters["restitution"]
+    a = _solve_exact_factor(inputs, c_e) if formula_name == EXACT else FACTORS[formula_name](c_e)
+    a = inputs.derive("hysteresis", a, "hysteresis damping factor a")
+    factor_at_state = 1 + a * inputs.variables["ratio"]
+    return factor_at_state if inputs.options.get("pulls") else sp.Max(factor_at_state, 0)
 
 
-def make_normal_force(s: LawInputs, K: Any, factor: str) -> Any:
+def make_normal_force(inputs: LawInputs, K: Any, formula_name: str) -> Any:
     """Return the normal force K δⁿ (1 + a δ̇/δ̇⁻), not negative, of Hertz's form with hysteresis damping."""
-    return K * s.variables["delta"] ** s.parameters["exponent"] * make_hysteresis_factor(s, factor)
+    return K * inputs.variables["delta"] ** inputs.parameters["exponent"] * make_hysteresis_factor(inputs, formula_name)
 
 
 def compute_delivered_restitution(a: float) -> float:
@@ -111,7 +111,7 @@ def compute_delivered_restitution(a: float) -> float:
     return float(brentq(lambda e: a * (1.0 + e) - math.log1p(a) + math.log1p(-a * e), 1e-12, upper_limit, xtol=1e-15))
 
 
-def _solve_exact_factor(s: LawInputs, c_e: Any) -> Any:
+def _solve_exact_factor(inputs: LawInputs, c_e: Any) -> Any:
     """Return the factor a that solves 1 − a c_e = (1 + a) e^{−a(1 + c_e)}, by four steps of Newton's method.
 
     This is the identity above with e = c_e. The start is Hu and Guo's factor, which exceeds a by half at most, so that
@@ -120,11 +120,11 @@ def _solve_exact_factor(s: LawInputs, c_e: Any) -> Any:
     """
     import sympy as sp
 
-    a = s.derive("a_0", FACTORS["hu_guo"](c_e), "Hu and Guo's factor, from which a is found")
+    a = inputs.derive("a_0", FACTORS["hu_guo"](c_e), "Hu and Guo's factor, from which a is found")
     for k in range(1, 5):
-        decay = s.derive(f"decay_{k}", (1 + a) * sp.exp(-a * (1 + c_e)), "(1 + a) exp(-a(1 + c_e))")
+        decay = inputs.derive(f"decay_{k}", (1 + a) * sp.exp(-a * (1 + c_e)), "(1 + a) exp(-a(1 + c_e))")
         step = (1 - a * c_e - decay) / (decay * (1 + c_e) - decay / (1 + a) - c_e - sp.Float(1e-150))
-        a = s.derive(f"a_{k}", a - sp.Max(sp.Min(step, a / 3), 0), "the next a by Newton's method")
+        a = inputs.derive(f"a_{k}", a - sp.Max(sp.Min(step, a / 3), 0), "the next a by Newton's method")
     return a
 
 

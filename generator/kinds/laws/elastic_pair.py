@@ -35,35 +35,35 @@ GEOMETRY = word(
 )
 
 
-def make_pair_stiffness(s: LawInputs) -> Any:
+def make_pair_stiffness(inputs: LawInputs) -> Any:
     """Return the contact stiffness K (N/m^1.5) of Hertz as a derived constant, for the law's option `geometry`.
 
     A corner on a wall (R_i = ∞) has the radius R_j. Equal materials give a shorter formula.
     """
     import sympy as sp
 
-    pair = s.pair
-    signed_radius = pair.R_j if s.options["geometry"] == "external" else -pair.R_j
+    pair = inputs.pair
+    signed_radius = pair.R_j if inputs.options["geometry"] == "external" else -pair.R_j
     is_flat = pair.R_i == sp.oo  # a corner on a wall: R_i R_j/(R_i ± R_j) = R_j
     radius = sp.sqrt(pair.R_j) if is_flat else sp.sqrt(pair.R_i * pair.R_j / (pair.R_i + signed_radius))
     if (pair.E_i, pair.nu_i) == (pair.E_j, pair.nu_j):
         K = sp.Rational(2, 3) * pair.E_i * radius / (1 - pair.nu_i**2)
     else:  # σ_i + σ_j times E_i, in wholes: two that hold the numbers of one material give its bits
-        compliance_i, compliance_j = (s.whole(1 - nu**2) for nu in (pair.nu_i, pair.nu_j))
-        K = sp.Rational(4, 3) * pair.E_i * radius / (compliance_i + compliance_j * s.whole(pair.E_i / pair.E_j))
-    return s.derive("K", K, "contact stiffness")
+        compliance_i, compliance_j = (inputs.whole(1 - nu**2) for nu in (pair.nu_i, pair.nu_j))
+        K = sp.Rational(4, 3) * pair.E_i * radius / (compliance_i + compliance_j * inputs.whole(pair.E_i / pair.E_j))
+    return inputs.derive("K", K, "contact stiffness")
 
 
-def make_contact_modulus(s: LawInputs) -> Any:
+def make_contact_modulus(inputs: LawInputs) -> Any:
     """Return the contact modulus E* (Pa): 1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j.
 
     Equal materials give a shorter formula.
     """
-    pair = s.pair
+    pair = inputs.pair
     if (pair.E_i, pair.nu_i) == (pair.E_j, pair.nu_j):
         return pair.E_i / (2 * (1 - pair.nu_i**2))
-    compliance_i, compliance_j = (s.whole(1 - nu**2) for nu in (pair.nu_i, pair.nu_j))
-    return pair.E_i / (compliance_i + compliance_j * s.whole(pair.E_i / pair.E_j))
+    compliance_i, compliance_j = (inputs.whole(1 - nu**2) for nu in (pair.nu_i, pair.nu_j))
+    return pair.E_i / (compliance_i + compliance_j * inputs.whole(pair.E_i / pair.E_j))
 
 
 CYLINDER_FIELDS: tuple[Field, ...] = (RESTITUTION, DISSIPATION, PULLS)
@@ -72,28 +72,29 @@ _NEVER = 1e-150  # of 4 ΔR, below every penetration: ln is finite at δ = 0
 _END = 1e-9  # beyond the end, where no run goes on, ln(…) + k − 1 tends to 0, so that a stage's force is a number
 
 
-def make_cylinder_force(s: LawInputs, k: int, deepest: Any) -> dict[str, Any]:
+def make_cylinder_force(inputs: LawInputs, log_constant: int, max_penetration_ratio: Any) -> dict[str, Any]:
     """Return the steps to the normal force F_n (N) of parallel cylinders, δ > 0, by Newton's method.
 
-    F_n contains the hysteresis factor of the option `dissipation`. `k` is the constant in δ = u (ln(4 ΔR/u) + k). The
+    F_n contains the hysteresis factor of the option `dissipation`. `log_constant` is k in δ = u (ln(4 ΔR/u) + k). The
     steps contain `STEPS` unrolled iterations of Newton's method, without a test of convergence. A run stops beyond the
-    penetration `deepest` times the clearance, which becomes a derived parameter, as do the stiffness and 4 ΔR.
+    penetration `max_penetration_ratio` times the clearance. That limit, the stiffness and 4 ΔR become derived
+    parameters.
     """
     import sympy as sp
 
-    delta = s.variables["delta"]
-    K = s.derive("spring", sp.pi * s.pair.L * make_contact_modulus(s), "pi L E*")
-    scale = s.derive("scale", 4 * s.pair.c, "4 (R_i - R_j)")
-    s.derive(DEEPEST, deepest * s.pair.c, "penetration up to which the law holds")
+    delta = inputs.variables["delta"]
+    K = inputs.derive("spring", sp.pi * inputs.pair.L * make_contact_modulus(inputs), "pi L E*")
+    scale = inputs.derive("scale", 4 * inputs.pair.c, "4 (R_i - R_j)")
+    inputs.derive(DEEPEST, max_penetration_ratio * inputs.pair.c, "penetration up to which the law holds")
     above, p = sp.Symbol("above", real=True), [sp.Symbol(f"p_{n}", real=True) for n in range(STEPS + 1)]
     far = sp.Symbol("far", real=True)
     root = sp.Symbol("root_far", real=True)
     steps: dict[str, Any] = {
-        "above": k - 1 - sp.log(delta / scale + sp.Float(_NEVER)),
+        "above": log_constant - 1 - sp.log(delta / scale + sp.Float(_NEVER)),
         "far": (above + sp.sqrt(above**2 + sp.Float(_END**2))) / 2 + sp.Float(_END**2),
         "root_far": sp.sqrt(2 * far),
         "p_0": 1 + root + far * (1 + sp.Float(0.3) * root) / (sp.Float(1.5) + sp.Float(0.3) * root),
     }
     for iterate, next_iterate in zip(p, p[1:], strict=False):
         steps[next_iterate.name] = iterate * (far + sp.log(iterate)) / (iterate - 1)
-    return {**steps, "F_n": K * delta / p[-1] * make_hysteresis_factor(s, str(s.options["dissipation"]))}
+    return {**steps, "F_n": K * delta / p[-1] * make_hysteresis_factor(inputs, str(inputs.options["dissipation"]))}

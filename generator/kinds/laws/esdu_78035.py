@@ -17,11 +17,11 @@ from gudgeon.generator.kinds.laws.elastic_pair import CYLINDER_FIELDS, make_cyli
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the compressive normal force F_n (N) for δ > 0."""
     import sympy as sp
 
-    return make_cylinder_force(s, 1, sp.Rational(37, 10))
+    return make_cylinder_force(inputs, 1, sp.Rational(37, 10))
 
 
 LAW = Law(
@@ -41,6 +41,6 @@ LAW = Law(
     validity="a contact that is narrow compared with the radii; the equation for F_e has no solution for a "
     f"penetration above 4 clearances, and a run stops at 3.7 clearances; {SEPARATION}",
     fields=CYLINDER_FIELDS,
-    build=build,
+    build=build_normal_force,
     in_hole=True,
 )

@@ -18,19 +18,19 @@ from gudgeon.generator.kinds.laws.law import DEEPEST, SECANT_DEPTH, Law, LawInpu
 from gudgeon.language.units import FORCE, LENGTH
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the compressive normal force F_n (N) for δ > 0."""
     import sympy as sp
 
-    force, delta = s.parameters["force"], s.variables["delta"]
-    deepest = s.parameters.get(DEEPEST)
+    force, delta = inputs.parameters["force"], inputs.variables["delta"]
+    deepest = inputs.parameters.get(DEEPEST)
     if deepest is not None:
-        s.derive(DEEPEST, deepest, "penetration up to which the expression holds")
+        inputs.derive(DEEPEST, deepest, "penetration up to which the expression holds")
     if force.has(delta):
-        depth = SECANT_DEPTH * s.pair.c
-        s.derive("spring", force.subs(delta, depth) / depth, "secant stiffness at a twentieth of the clearance")
+        depth = SECANT_DEPTH * inputs.pair.c
+        inputs.derive("spring", force.subs(delta, depth) / depth, "secant stiffness at a twentieth of the clearance")
     F_e = sp.Symbol("F_e", real=True)
-    return {"F_e": force, "F_n": F_e * make_hysteresis_factor(s, str(s.options["dissipation"]))}
+    return {"F_e": force, "F_n": F_e * make_hysteresis_factor(inputs, str(inputs.options["dissipation"]))}
 
 
 LAW = Law(
@@ -66,5 +66,5 @@ LAW = Law(
         DISSIPATION,
         PULLS,
     ),
-    build=build,
+    build=build_normal_force,
 )

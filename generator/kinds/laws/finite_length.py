@@ -34,22 +34,24 @@ G3 = 0.7670
 REST = 0.0084  # r
 
 
-def fit_function(s: Any, ratio: Any, n: Sequence[float]) -> Any:
+def fit_function(inputs: Any, ratio: Any, n: Sequence[float]) -> Any:
     """Return g0 or g1 of symbols, numbers or arrays, for the ratio Λ."""
-    return n[0] + s * (n[1] / (ratio + n[2] * s) + n[3] + s * (n[4] + n[5] * ratio))
+    return n[0] + inputs * (n[1] / (ratio + n[2] * inputs) + n[3] + inputs * (n[4] + n[5] * ratio))
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_film_forces(inputs: LawInputs) -> dict[str, Any]:
     """Return the film forces F_r along n and F_t along t (N, on the journal), and T0.
 
     T0 is the shear torque per unit ω_j − ω_i (N·m·s).
     """
     import sympy as sp
 
-    epsilon, w_n, w_t = (s.variables[name] for name in ("epsilon", "w_n", "w_t"))
-    c = make_film_clearance(s)
-    S = s.derive("S", s.parameters["viscosity"] * s.pair.R_j**3 * s.pair.L / c**2, "film factor mu R_j^3 L/c^2")
-    ratio = s.derive("Lambda", s.pair.L / (2 * s.pair.R_j), "length over diameter")
+    epsilon, w_n, w_t = (inputs.variables[name] for name in ("epsilon", "w_n", "w_t"))
+    c = make_film_clearance(inputs)
+    S = inputs.derive(
+        "S", inputs.parameters["viscosity"] * inputs.pair.R_j**3 * inputs.pair.L / c**2, "film factor mu R_j^3 L/c^2"
+    )
+    ratio = inputs.derive("Lambda", inputs.pair.L / (2 * inputs.pair.R_j), "length over diameter")
     names = ("root", "q", "x", "g0", "g1", "narrow", "a0", "a1", "a2", "a3", "turn")
     root, q, x, g0, g1, narrow, a0, a1, a2, a3, turn = (sp.Symbol(name, real=True) for name in names)
     square = root**2
@@ -67,7 +69,7 @@ def build(s: LawInputs) -> dict[str, Any]:
         "turn": 2 * a0 + x * (a1 - a3 * x**2),
         "F_r": -S * (w_n * turn + epsilon * q * (a1 + x * (2 * a2 + 3 * a3 * x))),
         "F_t": -S * square * w_t * turn,
-        "T0": make_shear_torque(s, c, root),
+        "T0": make_shear_torque(inputs, c, root),
     }
 
 
@@ -91,5 +93,5 @@ LAW = Law(
     "epsilon = 0.9999 the force is evaluated at 0.9999",
     limits=Limits(l_over_d=(0.1, 2.0), epsilon=0.95),
     fields=OIL_FIELDS,
-    build=build,
+    build=build_film_forces,
 )

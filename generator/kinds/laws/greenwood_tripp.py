@@ -20,12 +20,12 @@ from gudgeon.generator.kinds.laws.roles import ROUGHNESS, make_overlap_fraction
 POWER = 6.804
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_load_fraction(inputs: LawInputs) -> dict[str, Any]:
     """Return the fraction (0 to 1) of the load that the dry contact carries, for δ > 0, as steps by name."""
     import sympy as sp
 
     part = sp.Symbol("part", real=True)
-    return {"part": make_overlap_fraction(s, 4, 0), "share": part ** sp.Float(POWER)}
+    return {"part": make_overlap_fraction(inputs, 4, 0), "share": part ** sp.Float(POWER)}
 
 
 LAW = Law(
@@ -49,5 +49,5 @@ LAW = Law(
     "surfaces meet; the clearance c is measured between the tips of the asperities, and the film has "
     "the clearance c + 4 sigma; the approximation of b deviates by at most 0.014",
     fields=(ROUGHNESS,),
-    build=build,
+    build=build_load_fraction,
 )

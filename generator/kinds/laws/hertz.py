@@ -25,11 +25,11 @@ from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DIMENSIONLESS
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the compressive normal force F_n (N) for δ > 0, from the stiffness that is given, or that of the pair."""
-    stiffness = s.parameters.get("stiffness")
-    K = make_pair_stiffness(s) if stiffness is None else s.derive("K", stiffness, "contact stiffness")
-    return {"F_n": make_normal_force(s, K, str(s.options["dissipation"]))}
+    stiffness = inputs.parameters.get("stiffness")
+    K = make_pair_stiffness(inputs) if stiffness is None else inputs.derive("K", stiffness, "contact stiffness")
+    return {"F_n": make_normal_force(inputs, K, str(inputs.options["dissipation"]))}
 
 
 LAW = Law(
@@ -69,7 +69,7 @@ LAW = Law(
         GEOMETRY,
         PULLS,
     ),
-    build=build,
+    build=build_normal_force,
     also={name: {"dissipation": name} for name in FACTORS if name not in ("none", "lankarani_nikravesh")},
     instead={"geometry": "stiffness"},
 )

@@ -21,14 +21,14 @@ from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DAMPING, STIFFNESS
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the compressive normal force F_n (N) for δ > 0."""
     import sympy as sp
 
-    K = s.derive("spring", s.parameters["stiffness"], "stiffness")
-    D = s.derive("damper", s.parameters["damping"], "damping")
-    force = K * s.variables["delta"] + D * s.variables["deltadot"]
-    return {"F_n": force if s.options["pulls"] else sp.Max(force, 0)}
+    K = inputs.derive("spring", inputs.parameters["stiffness"], "stiffness")
+    D = inputs.derive("damper", inputs.parameters["damping"], "damping")
+    force = K * inputs.variables["delta"] + D * inputs.variables["deltadot"]
+    return {"F_n": force if inputs.options["pulls"] else sp.Max(force, 0)}
 
 
 LAW = Law(
@@ -61,5 +61,5 @@ LAW = Law(
         ),
         PULLS,
     ),
-    build=build,
+    build=build_normal_force,
 )

@@ -16,9 +16,9 @@ from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DIMENSIONLESS
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the compressive normal force F_n (N) for δ > 0."""
-    return {"F_n": make_normal_force(s, make_pair_stiffness(s), LAW.name)}
+    return {"F_n": make_normal_force(inputs, make_pair_stiffness(inputs), LAW.name)}
 
 
 LAW = Law(
@@ -53,5 +53,5 @@ LAW = Law(
         ),
         GEOMETRY,
     ),
-    build=build,
+    build=build_normal_force,
 )

@@ -15,17 +15,17 @@ from gudgeon.generator.kinds.laws.elastic_pair import make_contact_modulus
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the compressive normal force F_n (N) for δ > 0."""
     import sympy as sp
 
-    delta = s.variables["delta"]
-    K = s.derive("K", sp.pi / 2 * s.pair.L * make_contact_modulus(s), "pi L E*/2")
+    delta = inputs.variables["delta"]
+    K = inputs.derive("K", sp.pi / 2 * inputs.pair.L * make_contact_modulus(inputs), "pi L E*/2")
     return {
         "F_n": K
         * delta
-        * sp.sqrt(delta / (2 * (s.pair.c + delta)))
-        * make_hysteresis_factor(s, str(s.options["dissipation"]))
+        * sp.sqrt(delta / (2 * (inputs.pair.c + delta)))
+        * make_hysteresis_factor(inputs, str(inputs.options["dissipation"]))
     }
 
 
@@ -47,6 +47,6 @@ LAW = Law(
         DISSIPATION,
         PULLS,
     ),
-    build=build,
+    build=build_normal_force,
     in_hole=True,
 )

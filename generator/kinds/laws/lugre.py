@@ -17,23 +17,23 @@ from typing import Any
 
 from gudgeon.generator.field import Bound, number
 from gudgeon.generator.kinds.laws.law import BREAKAWAY, Law, LawInputs, State
-from gudgeon.generator.kinds.laws.roles import MU, MU_S, make_friction_force, slip_field
+from gudgeon.generator.kinds.laws.roles import MU, MU_S, declare_slip_field, make_friction_force
 from gudgeon.language.units import make_dimension
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the friction force F_t (N) on the journal along t, and z_rate (m/s), the rate of the bristle state."""
     import sympy as sp
 
     names = ("mu", "mu_s", "v_s", "stiffness", "damping")
-    mu, mu_s, v_s, sigma_0, sigma_1 = (s.parameters[name] for name in names)
-    v_t, z = s.variables["v_t"], s.variables["z"]
-    s.derive(BREAKAWAY, mu_s / sigma_0, "deflection at which it slides from rest")
+    mu, mu_s, v_s, sigma_0, sigma_1 = (inputs.parameters[name] for name in names)
+    v_t, z = inputs.variables["v_t"], inputs.variables["z"]
+    inputs.derive(BREAKAWAY, mu_s / sigma_0, "deflection at which it slides from rest")
     g, rate = sp.Symbol("g_v", real=True), sp.Symbol("bending", real=True)
     return {
         "g_v": mu + (mu_s - mu) * sp.exp(-((v_t / v_s) ** 2)),
         "bending": v_t - sigma_0 * sp.Abs(v_t) * z / g,
-        **make_friction_force(s, sigma_0 * z + sigma_1 * rate),
+        **make_friction_force(inputs, sigma_0 * z + sigma_1 * rate),
         "z_rate": rate,
     }
 
@@ -64,7 +64,7 @@ LAW = Law(
             bounds=(Bound(">", 0.0),),
         ),
         MU_S,
-        slip_field("v_s", "slip at which the excess over kinetic friction has fallen to 1/e", "v_s"),
+        declare_slip_field("v_s", "slip at which the excess over kinetic friction has fallen to 1/e", "v_s"),
         number(
             "stiffness",
             "stiffness of the bristles divided by the normal force",
@@ -82,6 +82,6 @@ LAW = Law(
             bounds=(Bound(">=", 0.0),),
         ),
     ),
-    build=build,
+    build=build_friction_force,
     states=(State("z", "deflection of the bristles"),),
 )

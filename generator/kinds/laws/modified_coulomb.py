@@ -19,12 +19,12 @@ from gudgeon.generator.kinds.laws.roles import MU
 from gudgeon.language.units import VELOCITY
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the friction force F_t (N) on the journal along t; it rises linearly between the slips v0 and v1."""
-    v0, v1, v_t = s.parameters["v0"], s.parameters["v1"], s.variables["v_t"]
-    slope = s.derive("friction_slope", 1 / (v1 - v0), "1/(v1 - v0)")
+    v0, v1, v_t = inputs.parameters["v0"], inputs.parameters["v1"], inputs.variables["v_t"]
+    slope = inputs.derive("friction_slope", 1 / (v1 - v0), "1/(v1 - v0)")
     forward, backward = (_limit_to_unit_range((v - v0) * slope) for v in (v_t, -v_t))
-    return {"F_t": -s.parameters["mu"] * (forward - backward) * s.variables["F_n"]}
+    return {"F_t": -inputs.parameters["mu"] * (forward - backward) * inputs.variables["F_n"]}
 
 
 @lru_cache(64)
@@ -65,5 +65,5 @@ LAW = Law(
             bounds=(Bound(">", "v0"),),
         ),
     ),
-    build=build,
+    build=build_friction_force,
 )

@@ -28,9 +28,9 @@ from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DIMENSIONLESS, VELOCITY
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the normal force F_n (N) of a closed contact: the force that keeps e = c, which a run determines."""
-    return {"F_n": s.variables["held_force"]}
+    return {"F_n": inputs.variables["held_force"]}
 
 
 LAW = Law(
@@ -70,6 +70,6 @@ LAW = Law(
             bounds=(Bound(">", 0.0),),
         ),
     ),
-    build=build,
+    build=build_normal_force,
     rigid=True,
 )

@@ -24,25 +24,27 @@ from gudgeon.generator.kinds.laws.law import Law, LawInputs, Limits
 from gudgeon.generator.kinds.laws.roles import CAVITATION, OIL_FIELDS, TINY, make_film_clearance, make_shear_torque
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_film_forces(inputs: LawInputs) -> dict[str, Any]:
     """Return the film forces F_r along n and F_t along t (N, on the journal), and T0.
 
     T0 is the shear torque per unit ω_j − ω_i (N·m·s).
     """
     import sympy as sp
 
-    epsilon, w_n, w_t = (s.variables[name] for name in ("epsilon", "w_n", "w_t"))
-    c = make_film_clearance(s)
-    S = s.derive("S", s.parameters["viscosity"] * s.pair.R_j * s.pair.L**3 / c**2, "film factor mu R_j L^3/c^2")
+    epsilon, w_n, w_t = (inputs.variables[name] for name in ("epsilon", "w_n", "w_t"))
+    c = make_film_clearance(inputs)
+    S = inputs.derive(
+        "S", inputs.parameters["viscosity"] * inputs.pair.R_j * inputs.pair.L**3 / c**2, "film factor mu R_j L^3/c^2"
+    )
     names = ("root", "W", "cosine", "sine", "D", "P", "cc", "sc", "ss")
     root, W, cosine, sine, D, P, cc, sc, ss = (sp.Symbol(name, real=True) for name in names)
     square = root**2
-    if s.options["cavitation"] == "full":
+    if inputs.options["cavitation"] == "full":
         return {
             "root": sp.sqrt(1 - epsilon**2),
             "F_r": -sp.pi * S * w_n * (1 + 2 * epsilon**2) / (square**2 * root),
             "F_t": -sp.pi * S * w_t / (square * root),
-            "T0": make_shear_torque(s, c, root),
+            "T0": make_shear_torque(inputs, c, root),
         }
     return {
         "root": sp.sqrt(1 - epsilon**2),
@@ -57,7 +59,7 @@ def build(s: LawInputs) -> dict[str, Any]:
         "ss": P / (2 * square * root) + epsilon * sine * (1 + (epsilon**2 - 2) * cosine**2) / (square * D**2),
         "F_r": -S * (w_n * cc + w_t * sc),
         "F_t": -S * (w_n * sc + w_t * ss),
-        "T0": make_shear_torque(s, c, root),
+        "T0": make_shear_torque(inputs, c, root),
     }
 
 
@@ -78,5 +80,5 @@ LAW = Law(
     "at large epsilon; above epsilon = 0.9999 the force is evaluated at 0.9999",
     limits=Limits(l_over_d=(0.0, 0.5)),
     fields=(*OIL_FIELDS, CAVITATION),
-    build=build,
+    build=build_film_forces,
 )

@@ -27,21 +27,21 @@ from gudgeon.generator.kinds.laws.roles import (
 )
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_film_forces(inputs: LawInputs) -> dict[str, Any]:
     """Return the film forces F_r along n and F_t along t (N, on the journal), and T0.
 
     T0 is the shear torque per unit ω_j − ω_i (N·m·s).
     """
     import sympy as sp
 
-    epsilon, w_n, w_t = (s.variables[name] for name in ("epsilon", "w_n", "w_t"))
-    pair, viscosity = s.pair, s.parameters["viscosity"]
-    c = make_film_clearance(s)
-    S = s.derive("S", 6 * viscosity * pair.R_j**3 * pair.L / c**2, "film factor 6 mu R_j^3 L/c^2")
+    epsilon, w_n, w_t = (inputs.variables[name] for name in ("epsilon", "w_n", "w_t"))
+    pair, viscosity = inputs.pair, inputs.parameters["viscosity"]
+    c = make_film_clearance(inputs)
+    S = inputs.derive("S", 6 * viscosity * pair.R_j**3 * pair.L / c**2, "film factor 6 mu R_j^3 L/c^2")
     root, W, f = sp.Symbol("root", real=True), sp.Symbol("W", real=True), sp.Symbol("factor", real=True)
     half = sp.Rational(3, 2) * epsilon
     F_r = -S / root**3 * (4 * epsilon * root * W / (2 + epsilon**2) + sp.pi * w_n * f)
-    if s.options["as_printed"]:
+    if inputs.options["as_printed"]:
         F_r = F_r * (1 - 2 * sp.Max(-sp.sign(w_n), 0))
     return {
         "root": sp.sqrt(1 - epsilon**2),
@@ -49,7 +49,7 @@ def build(s: LawInputs) -> dict[str, Any]:
         "factor": 1 + half * w_n / (root * W + half * sp.Abs(w_n) + sp.Float(TINY)),
         "F_r": F_r,
         "F_t": -2 * sp.pi * S * w_t * f / ((2 + epsilon**2) * root),
-        "T0": make_shear_torque(s, c, root),
+        "T0": make_shear_torque(inputs, c, root),
     }
 
 
@@ -76,5 +76,5 @@ LAW = Law(
         SHEAR,
         ANGULAR_VELOCITY,
     ),
-    build=build,
+    build=build_film_forces,
 )

@@ -57,7 +57,7 @@ def register(law: str | os.PathLike[str] | Law) -> Law:
         (law, Origin("", "", "")) if isinstance(law, Law) else _load_law_file(check_path(law, "law"))
     )
     try:
-        _check_declaration(registered_law, origin)
+        _check_law_declaration(registered_law, origin)
     except LawError as error:
         raise LawError(f"{format_law_prefix(registered_law.name, origin)}{error.message}", hint=error.hint) from None
     except Exception as error:  # a field of a type that nobody thought of
@@ -148,8 +148,8 @@ def format_exception(error: BaseException) -> str:
 def _iterate_imported_modules(module: ModuleType, visited: set[ModuleType]) -> Iterator[ModuleType]:
     """Yield the user's modules that a law's file imports, directly or through others.
 
-    Modules of Python, installed ones and gudgeon's are left out. `seen` contains the modules that are skipped, and gets
-    those that were found.
+    Modules of Python, installed ones and gudgeon's are left out. `visited` contains the modules that are skipped, and
+    gets those that were found.
     """
     installed = tuple(sysconfig.get_paths()[name] for name in ("stdlib", "platstdlib", "purelib", "platlib"))
     for value in list(vars(module).values()):
@@ -163,19 +163,21 @@ def _iterate_imported_modules(module: ModuleType, visited: set[ModuleType]) -> I
             yield from _iterate_imported_modules(imported, visited)
 
 
-def _check_declaration(law: Law, origin: Origin) -> None:
+def _check_law_declaration(law: Law, origin: Origin) -> None:
     """Raise LawError for a wrong declaration, or a name that another law has.
 
     A registered law of the same name and origin may be replaced.
     """
     for name in ("name", "title", "source", "validity"):
-        _require(isinstance(getattr(law, name), str), f"its {name} is no text")
+        _require_condition(isinstance(getattr(law, name), str), f"its {name} is no text")
     check_law_name(law.name, "law")
     for law_name in (law.name, *law.also):
         bundled_names = {name for other in find_bundled_laws().values() for name in (other.name, *other.also)}
-        _require(law_name not in bundled_names, f"{law_name} is a law of gudgeon's", "give yours another name")
+        _require_condition(
+            law_name not in bundled_names, f"{law_name} is a law of gudgeon's", "give yours another name"
+        )
         other_user_laws = [other for other in USER_LAWS.values() if other.name != law.name]
-        _require(
+        _require_condition(
             all(law_name not in (other.name, *other.also) for other in other_user_laws),
             f"{law_name} is another registered law's name",
         )
@@ -183,8 +185,8 @@ def _check_declaration(law: Law, origin: Origin) -> None:
     if known_origin is not None and known_origin.file != origin.file:
         origin_text = f"that of {known_origin.typed}" if known_origin.typed else "one made in Python"
         raise LawError(f"another law of this name is registered, {origin_text}", hint="give one of them another name")
-    _require(law.role in RESULTS, f"unknown role {law.role!r}", format_name_hint(str(law.role), RESULTS))
-    _require(
+    _require_condition(law.role in RESULTS, f"unknown role {law.role!r}", format_name_hint(str(law.role), RESULTS))
+    _require_condition(
         callable(law.build), "its build is no function", "expected build(inputs), which returns its forces by name"
     )
     _check_keys_of_law(law)
@@ -192,7 +194,7 @@ def _check_declaration(law: Law, origin: Origin) -> None:
 
 def _check_keys_of_law(law: Law) -> None:
     """Raise LawError for wrong fields, states or options of a law; names must be unique."""
-    _require(
+    _require_condition(
         all(isinstance(field_of_law, Field) for field_of_law in law.fields),
         "a field is none",
         "expected number(…), word(…), flag(…)",
@@ -204,23 +206,27 @@ def _check_keys_of_law(law: Law) -> None:
     ]
     for name in names:
         check_law_name(name, "number or option")
-        _require(name != "law" and names.count(name) == 1, f"{name!r} names two keys")
+        _require_condition(name != "law" and names.count(name) == 1, f"{name!r} names two keys")
     for field_of_law in law.fields:
         is_usable = field_of_law.kind in (NUMBER, WORD, FLAG) and not field_of_law.varies
-        _require(
+        _require_condition(
             is_usable,
             f"{field_of_law.name} is no key of a law",
             "expected number(…) without `varies`, word(…) or flag(…)",
         )
         _check_declared_field(field_of_law, kinds)
-    _require(all(isinstance(state, State) for state in law.states), "a state is none", "expected State(name, meaning)")
-    _require(not law.rigid, "it is rigid", "velocities jump by gudgeon's newton_restitution alone")
-    _require(law.role == "friction" or not law.states, "it has inner states", "only laws of friction have them so far")
+    _require_condition(
+        all(isinstance(state, State) for state in law.states), "a state is none", "expected State(name, meaning)"
+    )
+    _require_condition(not law.rigid, "it is rigid", "velocities jump by gudgeon's newton_restitution alone")
+    _require_condition(
+        law.role == "friction" or not law.states, "it has inner states", "only laws of friction have them so far"
+    )
     option_names = {field_of_law.name for field_of_law in law.options}
-    _require(
+    _require_condition(
         {key for choices in law.also.values() for key in choices} <= option_names, "`also` chooses what is no option"
     )
-    _require(
+    _require_condition(
         {*law.instead} <= option_names and {*law.instead.values()} <= {*kinds}, "`instead` names no key of the law"
     )
 
@@ -231,10 +237,12 @@ def _check_declared_field(declaration: Field, kinds: Mapping[str, str]) -> None:
     `kinds` maps all keys of the law to their kinds.
     """
     for attribute in ("meaning", "symbol", "otherwise"):
-        _require(isinstance(getattr(declaration, attribute), str), f"the {attribute} of {declaration.name} is no text")
+        _require_condition(
+            isinstance(getattr(declaration, attribute), str), f"the {attribute} of {declaration.name} is no text"
+        )
     if declaration.kind != NUMBER:
         allowed_words = declaration.values
-        _require(
+        _require_condition(
             isinstance(allowed_words, tuple)
             and len(allowed_words) > 0
             and all(isinstance(x, (str, bool)) for x in allowed_words),
@@ -242,7 +250,7 @@ def _check_declared_field(declaration: Field, kinds: Mapping[str, str]) -> None:
             "expected word(name, meaning, (words, …), default)",
         )
         is_allowed = declaration.default in allowed_words and isinstance(declaration.default, (str, bool))
-        _require(
+        _require_condition(
             is_allowed,
             f"the default of {declaration.name} is {declaration.default!r}",
             format_name_hint(str(declaration.default), map(str, allowed_words)),
@@ -250,26 +258,28 @@ def _check_declared_field(declaration: Field, kinds: Mapping[str, str]) -> None:
         return
     message = f"the dimension of {declaration.name} is {declaration.dimension!r}"
     hint = "expected one of gudgeon.language.units: FORCE, STIFFNESS, …, dimension(mass=1, time=-2); None is any"
-    _require(declaration.dimension is None or isinstance(declaration.dimension, Dimension), message, hint)
+    _require_condition(declaration.dimension is None or isinstance(declaration.dimension, Dimension), message, hint)
     has_bounds = isinstance(declaration.bounds, tuple) and all(isinstance(bound, Bound) for bound in declaration.bounds)
-    _require(
+    _require_condition(
         has_bounds, f"the bounds of {declaration.name} are none", 'expected bounds=POSITIVE, or (Bound(">=", 1.0), …)'
     )
     default = declaration.default
     expected = "expected a number in SI units, or none: required=True"
-    _require(default is None or _is_number(default), f"the default of {declaration.name} is {default!r}", expected)
+    _require_condition(
+        default is None or _is_number(default), f"the default of {declaration.name} is {default!r}", expected
+    )
     for bound in declaration.bounds:
         limit = bound.limit
         if isinstance(limit, str):
-            _require(limit in kinds, f"a bound of {declaration.name} names no key of the law")
-        _require(
+            _require_condition(limit in kinds, f"a bound of {declaration.name} names no key of the law")
+        _require_condition(
             bound.relation in RELATIONS and (isinstance(limit, str) or _is_number(limit)),
             f"a bound of {declaration.name} is none: {bound.relation!r} {limit!r}",
             f"expected Bound(relation, limit), with {' '.join(RELATIONS)} and a number or a key",
         )
         if _is_number(default) and not isinstance(limit, str):
             is_satisfied = RELATIONS[bound.relation](default, limit)
-            _require(
+            _require_condition(
                 is_satisfied, f"the default of {declaration.name} is {default!r}, its bound {bound.relation} {limit!r}"
             )
 
@@ -284,16 +294,16 @@ def check_law_name(name: Any, kind: str) -> None:
 
     `kind` is its kind in messages.
     """
-    _require(isinstance(name, str), f"the name of a {kind} is no text")
+    _require_condition(isinstance(name, str), f"the name of a {kind} is no text")
     try:
         check_label(name, kind, None)
     except BadNameError as error:
         raise LawError(error.message, hint=error.hint) from None
     is_reserved = "__" in name
-    _require(not is_reserved, f"{name!r} is kept for emitted code", "choose another name")
+    _require_condition(not is_reserved, f"{name!r} is kept for emitted code", "choose another name")
 
 
-def _require(condition: bool, message: str, hint: str = "") -> None:
+def _require_condition(condition: bool, message: str, hint: str = "") -> None:
     """Raise LawError with a message and a hint unless a condition holds."""
     if not condition:
         raise LawError(message, hint=hint)

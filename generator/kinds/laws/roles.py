@@ -28,21 +28,21 @@ MU_S = number(
 )
 
 
-def slip_field(name: str, meaning: str, symbol: str) -> Field:
+def declare_slip_field(name: str, meaning: str, symbol: str) -> Field:
     """Declare a positive slip velocity (m/s) of a law, a required number."""
     return number(name, meaning, VELOCITY, symbol=symbol, required=True, bounds=(Bound(">", 0.0),))
 
 
-def make_odd_function(v_t: Any, forward: Callable[[Any], Any]) -> Any:
-    """Return an odd function of the slip from `forward` of u = max(v_t, 0), which is 0 at 0."""
+def make_odd_function(v_t: Any, positive_branch: Callable[[Any], Any]) -> Any:
+    """Return an odd function of the slip from `positive_branch` of u = max(v_t, 0), which is 0 at 0."""
     import sympy as sp
 
-    return forward(sp.Max(v_t, 0)) - forward(sp.Max(-v_t, 0))
+    return positive_branch(sp.Max(v_t, 0)) - positive_branch(sp.Max(-v_t, 0))
 
 
-def make_friction_force(s: LawInputs, coefficient: Any) -> dict[str, Any]:
+def make_friction_force(inputs: LawInputs, coefficient: Any) -> dict[str, Any]:
     """Return the friction force F_t (N) on the journal along t, from an odd coefficient of the slip."""
-    return {"F_t": -coefficient * s.variables["F_n"]}
+    return {"F_t": -coefficient * inputs.variables["F_n"]}
 
 
 # Where W vanishes so does every numerator: this keeps 0/0 away, in the derivatives (its square) too, and
@@ -75,22 +75,24 @@ CAVITATION = word(
 OIL_FIELDS: tuple[Field, ...] = (VISCOUS, EXTRA_CLEARANCE, SHEAR, ANGULAR_VELOCITY)
 
 
-def make_film_clearance(s: LawInputs) -> Any:
+def make_film_clearance(inputs: LawInputs) -> Any:
     """Return the clearance of the film, c + e_t (m)."""
-    return s.derive("film_clearance", s.pair.c + s.parameters["extra_clearance"], "clearance of the film")
+    return inputs.derive(
+        "film_clearance", inputs.pair.c + inputs.parameters["extra_clearance"], "clearance of the film"
+    )
 
 
-def make_shear_torque(s: LawInputs, c: Any, root: Any) -> Any:
+def make_shear_torque(inputs: LawInputs, film_clearance: Any, eccentricity_root: Any) -> Any:
     """Return the shear torque of a full gap per unit ω_j − ω_i (N·m·s), 0 without the option `shear`.
 
-    c: clearance of the film (m); root: √(1 − ε²). T0 = 2π μ R_j³ L/(c √(1 − ε²))
+    film_clearance: clearance of the film (m); eccentricity_root: √(1 − ε²). T0 = 2π μ R_j³ L/(c √(1 − ε²))
     """
     import sympy as sp
 
-    if not s.options["shear"]:
+    if not inputs.options["shear"]:
         return sp.Integer(0)
-    torque_at_centre = 2 * sp.pi * s.parameters["viscosity"] * s.pair.R_j**3 * s.pair.L / c
-    return s.derive("shear", torque_at_centre, "2 pi mu R_j^3 L/c") / root
+    torque_at_centre = 2 * sp.pi * inputs.parameters["viscosity"] * inputs.pair.R_j**3 * inputs.pair.L / film_clearance
+    return inputs.derive("shear", torque_at_centre, "2 pi mu R_j^3 L/c") / eccentricity_root
 
 
 ROUGHNESS = number(
@@ -103,15 +105,17 @@ ROUGHNESS = number(
 )
 
 
-def make_overlap_fraction(s: LawInputs, first: int, last: int) -> Any:
-    """Return δ's fraction of the way from Λ = `first`, where tips touch, to `last`, where all do; at most 1.
+def make_overlap_fraction(inputs: LawInputs, tip_contact_ratio: int, full_contact_ratio: int) -> Any:
+    """Return the fraction (at most 1) by which δ has closed the gap from first contact of the tips to full contact.
 
-    δ is the penetration, Λ the film thickness ratio. The film's clearance follows from `first`: it becomes the derived
-    constant MEAN_CLEARANCE.
+    δ is the penetration. tip_contact_ratio, full_contact_ratio: film thickness ratios Λ at which the tips touch, and at
+    which no film is left. The film's clearance follows from the first: it becomes the derived constant MEAN_CLEARANCE.
     """
     import sympy as sp
 
-    sigma = s.parameters["roughness"]
-    s.derive(MEAN_CLEARANCE, s.pair.c + first * sigma, "clearance between the mean surfaces")
-    distance = s.derive("overlap", (first - last) * sigma, "from where tips touch to where no film is left")
-    return sp.Min(1, s.variables["delta"] / distance)
+    sigma = inputs.parameters["roughness"]
+    inputs.derive(MEAN_CLEARANCE, inputs.pair.c + tip_contact_ratio * sigma, "clearance between the mean surfaces")
+    distance = inputs.derive(
+        "overlap", (tip_contact_ratio - full_contact_ratio) * sigma, "from where tips touch to where no film is left"
+    )
+    return sp.Min(1, inputs.variables["delta"] / distance)

@@ -11,16 +11,16 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.generator.kinds.laws.roles import MU, MU_S, make_friction_force, slip_field
+from gudgeon.generator.kinds.laws.roles import MU, MU_S, declare_slip_field, make_friction_force
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the friction force F_t (N) on the journal along t; its coefficient falls from mu_s to mu with the slip."""
     import sympy as sp
 
-    mu, mu_s, v_s, v0 = (s.parameters[name] for name in ("mu", "mu_s", "v_s", "v0"))
-    v_t = s.variables["v_t"]
-    return make_friction_force(s, (mu + (mu_s - mu) * sp.exp(-((v_t / v_s) ** 2))) * sp.tanh(v_t / v0))
+    mu, mu_s, v_s, v0 = (inputs.parameters[name] for name in ("mu", "mu_s", "v_s", "v0"))
+    v_t = inputs.variables["v_t"]
+    return make_friction_force(inputs, (mu + (mu_s - mu) * sp.exp(-((v_t / v_s) ** 2))) * sp.tanh(v_t / v0))
 
 
 LAW = Law(
@@ -36,8 +36,8 @@ LAW = Law(
     fields=(
         MU,
         MU_S,
-        slip_field("v_s", "slip at which the excess over kinetic friction has fallen to 1/e", "v_s"),
-        slip_field("v0", "slip at which the factor tanh(v_t/v0) is 0.76", "v_0"),
+        declare_slip_field("v_s", "slip at which the excess over kinetic friction has fallen to 1/e", "v_s"),
+        declare_slip_field("v0", "slip at which the factor tanh(v_t/v0) is 0.76", "v_0"),
     ),
-    build=build,
+    build=build_friction_force,
 )

@@ -11,16 +11,16 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.generator.kinds.laws.roles import MU, make_friction_force, make_odd_function, slip_field
+from gudgeon.generator.kinds.laws.roles import MU, declare_slip_field, make_friction_force, make_odd_function
 
 
-def build(s: LawInputs) -> dict[str, Any]:
+def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the friction force F_t (N) on the journal along t; it rises exponentially up to the slip v_r."""
     import sympy as sp
 
-    v_r = s.parameters["v_r"]
-    regularised_sign = make_odd_function(s.variables["v_t"], lambda u: 1 - sp.exp(-3 * sp.Min(u / v_r, 1)))
-    return make_friction_force(s, s.parameters["mu"] * regularised_sign)
+    v_r = inputs.parameters["v_r"]
+    regularised_sign = make_odd_function(inputs.variables["v_t"], lambda u: 1 - sp.exp(-3 * sp.Min(u / v_r, 1)))
+    return make_friction_force(inputs, inputs.parameters["mu"] * regularised_sign)
 
 
 LAW = Law(
@@ -34,6 +34,6 @@ LAW = Law(
     "(2016) 1785-1801, doi 10.1007/s11071-015-2485-3",
     validity="sliding; below the slip v_r the contact creeps where Coulomb's law would stick; the largest "
     "coefficient of friction is 0.9502 mu",
-    fields=(MU, slip_field("v_r", "slip above which friction no longer rises", "v_r")),
-    build=build,
+    fields=(MU, declare_slip_field("v_r", "slip above which friction no longer rises", "v_r")),
+    build=build_friction_force,
 )
